@@ -1,0 +1,36 @@
+# Two commands: `make paper` runs the main job, `make test` the tests. Both set everything up on a fresh machine that
+# has Python 3.11 or newer with venv, and make.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+OUT ?= paper-out
+
+.PHONY: setup paper test lint lock clean
+
+setup: $(VENV)/.ready
+
+$(VENV)/.ready: requirements.lock pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit("flypend needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	touch $@
+
+paper: setup
+	$(BIN)/flypend paper --out $(OUT)
+
+lint: setup
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+test: lint
+	$(BIN)/pytest -n 2
+
+# Needs uv on the PATH; writes versions and hashes, no registry and no address.
+lock:
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
+	    --custom-compile-command "make lock" --group dev pyproject.toml --upgrade --output-file requirements.lock
+
+clean:
+	rm -rf $(VENV) paper-out .pytest_cache .mypy_cache .ruff_cache

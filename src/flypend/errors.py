@@ -1,0 +1,71 @@
+"""One kind of mistake in input, told in one line: the field, what was expected, what came."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+
+class InputError(ValueError):
+    """Bad input. The message is one line: `field: expected ..., got ...`."""
+
+    def __init__(self, field: str, expected: str, got: object) -> None:
+        self.field, self.expected, self.got = field, expected, got
+        super().__init__(f"{field}: expected {expected}, got {' '.join(str(got).split())}")
+
+
+def array(field: str, value: Any, shape: tuple[int | None, ...]) -> Any:
+    """`value` as a finite float array whose last axes have `shape` (None: any length); batch axes may precede.
+
+    Raises InputError.
+    """
+    wanted = "(" + ", ".join("n" if n is None else str(n) for n in shape) + ")"
+    try:
+        result = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(field, f"numbers of shape {wanted}", repr(value)) from None
+    trailing = result.shape[result.ndim - len(shape) :]
+    if result.ndim < len(shape) or any(n not in (None, m) for n, m in zip(shape, trailing, strict=True)):
+        raise InputError(field, f"numbers of shape {wanted}", f"shape {result.shape}")
+    if not np.all(np.isfinite(result)):
+        raise InputError(field, "finite numbers", f"{np.count_nonzero(~np.isfinite(result))} that are NaN or infinite")
+    return result
+
+
+def number(
+    field: str, value: Any, *, above: float | None = None, at_least: float | None = None, unit: str = ""
+) -> float:
+    """`value` as a finite float inside the bound given. Raises InputError."""
+    bound = f" > {above:g}" if above is not None else f" >= {at_least:g}" if at_least is not None else ""
+    expected = f"a finite number{bound}{' ' + unit if unit else ''}"
+    if isinstance(value, bool | str):
+        raise InputError(field, expected, repr(value))
+    try:
+        result = float(value)
+    except (TypeError, ValueError):
+        raise InputError(field, expected, repr(value)) from None
+    inside = (above is None or result > above) and (at_least is None or result >= at_least)
+    if not (np.isfinite(result) and inside):
+        raise InputError(field, expected, f"{result:g}")
+    return result
+
+
+def one_of(field: str, value: Any, known: Iterable[str]) -> str:
+    """`value` if it is among `known`; else InputError, with the nearest known name."""
+    names = list(known)
+    if value in names:
+        return str(value)
+    near = difflib.get_close_matches(str(value), names, n=1, cutoff=0.4)
+    hint = f" (did you mean {near[0]!r}?)" if near else ""
+    raise InputError(field, "one of " + ", ".join(names), f"{value!r}{hint}")
+
+
+def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """Raise InputError for the first name in `given` that is not `known`."""
+    names = list(known)
+    for name in given:
+        if name not in names:
+            one_of(f"{field}.{name}" if field else name, name, names)

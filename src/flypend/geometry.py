@@ -1,0 +1,194 @@
+"""Geometry of S² and SO(3), written once for NumPy arrays and CasADi expressions.
+
+Conventions
+-----------
+A *vector* is a NumPy array of shape (..., 3) or a CasADi expression of shape (3, 1); a batch of B vectors is
+(B, 3) in both (the batch axis comes in front). A *matrix* is a NumPy array of shape (..., 3, 3) or a single CasADi
+expression of shape (3, 3): CasADi has no third axis, so batches of matrices exist in NumPy only.
+
+S² has no identity and no composition; the only structure used is that of a sphere embedded in R³.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+Vector = Any
+Matrix = Any
+Scalar = Any
+
+E1 = np.array([1.0, 0.0, 0.0])
+E2 = np.array([0.0, 1.0, 0.0])
+E3 = np.array([0.0, 0.0, 1.0])
+
+
+def is_symbolic(value: Any) -> bool:
+    """True if `value` is a CasADi expression (SX, MX or DM) and not a NumPy array."""
+    return isinstance(value, ca.SX | ca.MX | ca.DM)
+
+
+def _components(v: Vector) -> tuple[Any, Any, Any]:
+    """The three components of a vector, each with the batch shape."""
+    if not is_symbolic(v):
+        array = np.asarray(v, dtype=float)
+        return array[..., 0], array[..., 1], array[..., 2]
+    if v.shape == (3, 1):
+        return v[0], v[1], v[2]
+    if v.shape[1] == 3:
+        return v[:, 0], v[:, 1], v[:, 2]
+    raise ValueError(f"expected a CasADi vector of shape (3, 1) or (B, 3), got {v.shape}")
+
+
+def _vector(a: Any, b: Any, c: Any, batched: bool) -> Vector:
+    """Join three components; `batched` chooses (B, 3) instead of (3, 1) for CasADi expressions."""
+    if any(is_symbolic(component) for component in (a, b, c)):
+        return ca.horzcat(a, b, c) if batched else ca.vertcat(a, b, c)
+    return np.stack(np.broadcast_arrays(a, b, c), axis=-1)
+
+
+def _batched(*vectors: Vector) -> bool:
+    return any(is_symbolic(v) and v.shape[1] == 3 for v in vectors)
+
+
+def _sqrt(value: Scalar) -> Scalar:
+    return ca.sqrt(value) if is_symbolic(value) else np.sqrt(value)
+
+
+def dot(a: Vector, b: Vector) -> Scalar:
+    """Inner product ⟨a, b⟩ over the last axis; returns the batch shape (a CasADi scalar or (B, 1) column)."""
+    (a1, a2, a3), (b1, b2, b3) = _components(a), _components(b)
+    return a1 * b1 + a2 * b2 + a3 * b3
+
+
+def norm(a: Vector) -> Scalar:
+    """Euclidean length of `a`; not differentiable at 0 (see `smooth_norm`)."""
+    return _sqrt(dot(a, a))
+
+
+def smooth_norm(a: Vector, floor: float) -> Scalar:
+    """√(|a|² + floor²): the length of `a`, differentiable everywhere for floor > 0 and never below `floor`."""
+    return _sqrt(dot(a, a) + floor**2)
+
+
+def scale(s: Scalar, v: Vector) -> Vector:
+    """Scalar times vector with the batch axis in front: `s` has the batch shape, `v` one axis more."""
+    v1, v2, v3 = _components(v)
+    return _vector(s * v1, s * v2, s * v3, _batched(v))
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Vector product a × b."""
+    (a1, a2, a3), (b1, b2, b3) = _components(a), _components(b)
+    return _vector(a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1, _batched(a, b))
+
+
+def unit(a: Vector) -> Vector:
+    """a / |a|, undefined (NaN) at 0; also the projection of R³ without the origin onto S²."""
+    return scale(1 / norm(a), a)
+
+
+def hat(v: Vector) -> Matrix:
+    """The skew matrix v̂ with v̂ w = v × w, shape (..., 3, 3)."""
+    v1, v2, v3 = _components(v)
+    if is_symbolic(v):
+        if _batched(v):
+            raise ValueError("hat of a CasADi expression takes one vector of shape (3, 1), not a batch")
+        return ca.vertcat(ca.horzcat(0, -v3, v2), ca.horzcat(v3, 0, -v1), ca.horzcat(-v2, v1, 0))
+    zero = np.zeros_like(v1)
+    rows = [[zero, -v3, v2], [v3, zero, -v1], [-v2, v1, zero]]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def vee(m: Matrix) -> Vector:
+    """Inverse of `hat`; of a matrix that is not skew it takes the skew part."""
+    if is_symbolic(m):
+        return ca.vertcat(m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]) / 2
+    m = np.asarray(m, dtype=float)
+    entries = (m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0], m[..., 1, 0] - m[..., 0, 1])
+    return np.stack(entries, axis=-1) / 2
+
+
+def hat_squared(y: Vector, v: Vector) -> Vector:
+    """ŷ² v = y × (y × v), for unit y minus the part of v tangent to S² at y.
+
+    Not written y(y·v) − v: off the sphere that form makes |y| unstable near the inverted pose.
+    """
+    return cross(y, cross(y, v))
+
+
+def tangent_part(y: Vector, v: Vector) -> Vector:
+    """P_y v = −ŷ² v, the part of v tangent to S² at the unit vector y."""
+    return -hat_squared(y, v)
+
+
+def apply(m: Matrix, v: Vector) -> Vector:
+    """Matrix times vector with the batch axis in front."""
+    if is_symbolic(m) or is_symbolic(v):
+        return ca.mtimes(m, v)
+    return np.einsum("...ij,...j->...i", np.asarray(m, dtype=float), np.asarray(v, dtype=float))
+
+
+def transport(phi: Vector, phi_d: Vector, phi_d_dot: Vector) -> Vector:
+    """Transport map τ(φ, φ_d) φ̇_d = (φ_d × φ̇_d) × φ from T_{φ_d}S² to T_φ S² (Lemma 2)."""
+    return cross(cross(phi_d, phi_d_dot), phi)
+
+
+def transport_derivative(phi: Vector, phi_dot: Vector, phi_d: Vector, phi_d_dot: Vector, phi_d_ddot: Vector) -> Vector:
+    """Covariant derivative ∇_φ̇ (τ(φ, φ_d) φ̇_d) along φ(t), φ_d(t): the feedforward of Lemma 2.
+
+    ⟨φ, φ_d × φ̇_d⟩ (φ × φ̇) + (φ_d × φ̈_d) × φ. The paper prints φ̈ in place of φ̈_d.
+    """
+    omega_d = cross(phi_d, phi_d_dot)
+    return scale(dot(phi, omega_d), cross(phi, phi_dot)) + cross(cross(phi_d, phi_d_ddot), phi)
+
+
+def project_tangent(y: Vector, v: Vector) -> Vector:
+    """Orthogonal projection of v onto the plane normal to y (y need not be unit)."""
+    return v - scale(dot(y, v) / dot(y, y), y)
+
+
+def project_rotation(m: Any) -> Any:
+    """The rotation nearest to each matrix of shape (..., 3, 3) in the Frobenius norm (NumPy only).
+
+    Raises `numpy.linalg.LinAlgError` if a matrix holds NaN or infinity.
+    """
+    u, _, vt = np.linalg.svd(np.asarray(m, dtype=float))
+    sign = np.linalg.det(u @ vt)
+    u = np.concatenate([u[..., :2], u[..., 2:] * np.asarray(sign)[..., None, None]], axis=-1)
+    return u @ vt
+
+
+def rotation_defect(m: Any) -> Any:
+    """How far matrices of shape (..., 3, 3) are from SO(3): the Frobenius norm of mᵀm − 1, or 2 for det m < 0."""
+    m = np.asarray(m, dtype=float)
+    defect = np.linalg.norm(np.swapaxes(m, -1, -2) @ m - np.eye(3), axis=(-2, -1))
+    return np.where(np.linalg.det(m) > 0, defect, np.maximum(defect, 2.0))
+
+
+def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
+    """Rotation matrices (..., 3, 3) of quaternions (..., 4) in the order x, y, z, w; they are normalised first."""
+    q = np.asarray(quat_xyzw, dtype=float)
+    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
+    v, w = q[..., :3], q[..., 3, None, None]
+    skew = hat(v)
+    return np.eye(3) + 2 * w * skew + 2 * skew @ skew
+
+
+def random_sphere(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
+    """Unit vectors uniform on S², shape (*size, 3), drawn from the generator `rng`."""
+    return unit(rng.standard_normal((*size, 3)))
+
+
+def random_rotation(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
+    """Rotations uniform on SO(3) (Haar), shape (*size, 3, 3), drawn from the generator `rng`."""
+    return rotation_from_quat_xyzw(rng.standard_normal((*size, 4)))
+
+
+def random_tangent(rng: np.random.Generator, y: Any, max_length: float) -> Any:
+    """Tangent vectors at the unit vectors y (..., 3), uniform in the disc of radius `max_length`."""
+    y = np.asarray(y, dtype=float)
+    direction = unit(project_tangent(y, rng.standard_normal(y.shape)))
+    return scale(max_length * np.sqrt(rng.random(y.shape[:-1])), direction)

@@ -1,0 +1,11 @@
+"""Control laws: each a factory whose keyword arguments are its gains and whose result is a `Law`.
+
+A law of one's own is `Law(name=..., e3=..., gains={...}, control=function)` with
+`function(t, state, vehicle, gains) -> Control` written in CasADi expressions; see `flypend.laws.law`.
+"""
+
+from flypend.laws.corrected import corrected
+from flypend.laws.law import Control, Guard, Law, law_from_dict, law_names
+from flypend.laws.printed import printed
+
+__all__ = ["Control", "Guard", "Law", "corrected", "law_from_dict", "law_names", "printed"]

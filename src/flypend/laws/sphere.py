@@ -1,0 +1,40 @@
+"""Feedback for a simple mechanical system on S²: ∇_φ̇ φ̇ = φ̈ + |φ̇|² φ = −φ̂² u (Lemmas 1 and 2, corrected).
+
+All terms of u are tangent to S², where −φ̂² is the identity, so each function returns the force that acts. Lemma 1 is
+right as printed; Lemma 2 prints e₃ where φ_d is meant and φ̈ where φ̈_d is meant, corrected at the line.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flypend.geometry import dot, hat_squared, scale, transport, transport_derivative
+
+
+def acceleration(phi: Any, phi_dot: Any, u: Any) -> Any:
+    """φ̈ of the system (SMSS2) at `phi` (..., 3), `phi_dot` under the tangent force `u`: φ̈ = u − |φ̇|² φ."""
+    return u - scale(dot(phi_dot, phi_dot), phi)
+
+
+def regulation(phi: Any, phi_dot: Any, target: Any, k_p: Any, k_d: Any) -> Any:
+    """Lemma 1: tangent force −k_p φ̂² target − k_d φ̇ that makes the unit vector `target` asymptotically stable.
+
+    `phi`, `phi_dot`, `target`: (..., 3); `k_p` (1/s²) and `k_d` (1/s) positive.
+    """
+    return -k_p * hat_squared(phi, target) - k_d * phi_dot
+
+
+def velocity_error(phi: Any, phi_dot: Any, phi_d: Any, phi_d_dot: Any) -> Any:
+    """v_e = φ̇ − τ(φ, φ_d) φ̇_d, tangent to S² at `phi`; `phi_dot` and `phi_d_dot` are the rates of `phi`, `phi_d`."""
+    return phi_dot - transport(phi, phi_d, phi_d_dot)
+
+
+def tracking(phi: Any, phi_dot: Any, phi_d: Any, phi_d_dot: Any, phi_d_ddot: Any, k_p: Any, k_d: Any) -> Any:
+    """Lemma 2: tangent force −k_p φ̂² φ_d − k_d v_e + ∇_φ̇(τ φ̇_d) under which φ(t) tracks φ_d(t).
+
+    `phi`, `phi_dot`: (..., 3); `phi_d`, `phi_d_dot`, `phi_d_ddot`: the reference and its derivatives; `k_p` (1/s²) and
+    `k_d` (1/s) positive.
+    """
+    v_e = velocity_error(phi, phi_dot, phi_d, phi_d_dot)
+    feedforward = transport_derivative(phi, phi_dot, phi_d, phi_d_dot, phi_d_ddot)  # (ureqd1) with φ̈_d, not φ̈
+    return -k_p * hat_squared(phi, phi_d) - k_d * v_e + feedforward  # (ureqd1) with φ_d, not e₃

@@ -1,0 +1,49 @@
+"""The physics: a spherical pendulum whose pivot is the centre of mass of a quadrotor, on R³ × SO(3) × S².
+
+Glossary (the paper's letter, the word at the boundary)
+--------------------------------------------------------
+M, m, l     `mass` of the quadrotor, `bob_mass`, `rod_length`; kg, kg, m
+I           `inertia` of the quadrotor about its centre of mass, body frame; kg m²
+x, ẋ        position and velocity of the pivot, world frame; m, m/s
+R           rotation, body to world; z = R e₃ is the thrust axis
+ω           `omega`, angular velocity in the body frame; rad/s
+y, ẏ        unit vector from the pivot to the bob and its rate, world frame; –, 1/s
+f, τ        `thrust` along z, N, and `moment` in the body frame, N m: together the `wrench`
+e₃          third axis of the world, "up" (against gravity) or, as in the paper, "down" (along gravity)
+
+In a frame with e₃ up, f ≥ 0, y = e₃ is the inverted pose and y = −e₃ hangs. In the paper's frame e₃ points along
+gravity, so f ≤ 0 carries the vehicle, y = e₃ hangs, and its moment μ enters as τ = −μ. A rotation by π about e₁ of
+the world and of the body takes one frame to the other (`State.flipped`, `Wrench.flipped`).
+"""
+
+from flypend.model.dynamics import (
+    Rates,
+    bob_position,
+    equations_of_motion,
+    gravity_vector,
+    kinetic_energy,
+    lie_derivative,
+    linear_momentum,
+    potential_energy,
+    rod_tension,
+    total_energy,
+)
+from flypend.model.state import State, Wrench
+from flypend.model.vehicle import Vehicle, vehicle
+
+__all__ = [
+    "Rates",
+    "State",
+    "Vehicle",
+    "Wrench",
+    "bob_position",
+    "equations_of_motion",
+    "gravity_vector",
+    "kinetic_energy",
+    "lie_derivative",
+    "linear_momentum",
+    "potential_energy",
+    "rod_tension",
+    "total_energy",
+    "vehicle",
+]

@@ -1,0 +1,99 @@
+"""Equations of motion, energies and momentum; each formula works on NumPy batches and CasADi symbols.
+
+    M ẍ = M g⃗ + f z + T y,   m (ẍ + l ÿ) = m g⃗ − T y,   Ṙ = R ω̂,   I ω̇ + ω × I ω = τ
+
+are the paper's (xeqn_txt), (ddty_notfin) and (Rfin) with τ = −μ and T the tension of the rod.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from flypend import errors
+from flypend.geometry import E3, apply, cross, dot, hat, hat_squared, is_symbolic, scale
+from flypend.model.state import E3Direction, State, Wrench
+from flypend.model.vehicle import Vehicle
+
+
+class Rates(NamedTuple):
+    """Time derivative of a state, field by field in the order of `State.packed`."""
+
+    x_dot: Any
+    x_ddot: Any
+    R_dot: Any
+    omega_dot: Any
+    y_dot: Any
+    y_ddot: Any
+
+    def packed(self) -> Any:
+        """The rates as one vector (..., 24)."""
+        if is_symbolic(self.y_dot):
+            parts = [ca.vec(part.T) if part.shape == (3, 3) else part for part in self]
+            return ca.vertcat(*parts)
+        batch = self.y_dot.shape[:-1]
+        return np.concatenate([np.reshape(part, (*batch, -1)) for part in self], axis=-1)
+
+
+def gravity_vector(vehicle: Vehicle, e3: E3Direction) -> Any:
+    """Gravity g⃗ in the world frame, m/s²: −g e₃ for `e3` "up", +g e₃ for "down" (the paper's frame)."""
+    return (-vehicle.g if errors.one_of("e3", e3, ("up", "down")) == "up" else vehicle.g) * E3
+
+
+def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Rates:
+    """Rates of `state` of `vehicle` under `wrench`, in the frame whose third axis points `e3` ("up" or "down")."""
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    f, z = wrench.thrust, state.z
+    y_ddot = scale(f / (M * l), hat_squared(state.y, z)) - scale(dot(state.y_dot, state.y_dot), state.y)  # (ddty)
+    x_ddot = gravity_vector(vehicle, e3) + scale(f / (M + m), z) - m * l / (M + m) * y_ddot  # (xeqn_txt)
+    gyroscopic = cross(state.omega, apply(vehicle.I, state.omega))
+    omega_dot = apply(vehicle.I_inv, wrench.moment - gyroscopic)  # (Rfin), τ = −μ
+    return Rates(state.x_dot, x_ddot, state.R @ hat(state.omega), omega_dot, state.y_dot, y_ddot)
+
+
+def lie_derivative(h: Any, state: State, rates: Rates, t: Any = None) -> Any:
+    """Time derivative of the expression `h` along the flow: L(h) = ∂h/∂s · ṡ (+ ∂h/∂t), by CasADi.
+
+    `state` holds the symbols that `h` is written in, `rates` their rates, `t` the symbol of time if `h` names it.
+    """
+    symbols, velocity = state.packed(), rates.packed()
+    if t is not None:
+        symbols, velocity = ca.vertcat(symbols, t), ca.vertcat(velocity, 1)
+    return ca.jtimes(h, symbols, velocity)
+
+
+def bob_position(state: State, vehicle: Vehicle) -> Any:
+    """Position of the bob, p = x + l y, world frame, m."""
+    return state.x + vehicle.l * state.y
+
+
+def kinetic_energy(state: State, vehicle: Vehicle) -> Any:
+    """Kinetic energy of quadrotor and bob, (lq) + (lp), J."""
+    bob_velocity = state.x_dot + vehicle.l * state.y_dot
+    rotation = dot(apply(vehicle.I, state.omega), state.omega)
+    return (vehicle.M * dot(state.x_dot, state.x_dot) + rotation + vehicle.m * dot(bob_velocity, bob_velocity)) / 2
+
+
+def potential_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
+    """Potential energy −M⟨g⃗, x⟩ − m⟨g⃗, x + l y⟩, J; with e₃ "down" it is the paper's (pe)."""
+    moment = vehicle.M * state.x + vehicle.m * bob_position(state, vehicle)
+    gravity = gravity_vector(vehicle, e3)
+    return -sum(gravity[i] * (moment[i] if is_symbolic(moment) else moment[..., i]) for i in range(3))
+
+
+def total_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
+    """Kinetic plus potential energy, J."""
+    return kinetic_energy(state, vehicle) + potential_energy(state, vehicle, e3)
+
+
+def linear_momentum(state: State, vehicle: Vehicle) -> Any:
+    """Linear momentum (M+m) ẋ + m l ẏ of quadrotor and bob, world frame, kg m/s."""
+    return (vehicle.M + vehicle.m) * state.x_dot + vehicle.m * vehicle.l * state.y_dot
+
+
+def rod_tension(state: State, wrench: Wrench, vehicle: Vehicle) -> Any:
+    """Tension T of the rod, N: positive pulls (a cable would do), negative pushes (only a rod can)."""
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    return m / (M + m) * (M * l * dot(state.y_dot, state.y_dot) - wrench.thrust * dot(state.y, state.z))

@@ -1,0 +1,227 @@
+"""State on R³ × SO(3) × S² and wrench, as NumPy arrays (with batch axes in front) or CasADi symbols."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any, Literal, Self
+
+import casadi as ca
+import numpy as np
+
+from flypend import errors, geometry
+
+E3Direction = Literal["up", "down"]
+
+# A rotation by π about e₁, which takes the frame with e₃ up to the one with e₃ down and back.
+FLIP = np.diag([1.0, -1.0, -1.0])
+
+# Input rounded to four decimals (0.7071 for 1/√2) is accepted and projected; anything further off is an error.
+MANIFOLD_TOLERANCE = 1e-4
+
+SHAPES: dict[str, tuple[int, ...]] = {
+    "x": (3,), "x_dot": (3,), "R": (3, 3), "omega": (3,), "y": (3,), "y_dot": (3,)
+}  # fmt: skip
+SIZE = 24
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class State:
+    """State of vehicle and pendulum; every field may carry the same batch axes in front.
+
+    Parameters
+    ----------
+    x, x_dot : (..., 3)
+        Position (m) and velocity (m/s) of the pivot, world frame. Default 0.
+    R : (..., 3, 3)
+        Rotation from body to world. Default the identity.
+    omega : (..., 3)
+        Angular velocity in the body frame, rad/s. Default 0.
+    y, y_dot : (..., 3)
+        Unit vector from the pivot to the bob and its rate (1/s), world frame; y_dot is tangent: y · y_dot = 0.
+        y_dot defaults to 0.
+
+    R, y and y_dot within 1e-4 of the manifold (numbers rounded for print) are projected onto it.
+
+    Raises
+    ------
+    InputError
+        If a shape is wrong, a number is not finite, R is not a rotation, y not a unit vector, or y_dot not tangent.
+    """
+
+    x: Any = (0.0, 0.0, 0.0)
+    x_dot: Any = (0.0, 0.0, 0.0)
+    R: Any = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    omega: Any = (0.0, 0.0, 0.0)
+    y: Any
+    y_dot: Any = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if geometry.is_symbolic(self.y):
+            return
+        values = {name: errors.array(name, getattr(self, name), shape) for name, shape in SHAPES.items()}
+        batch = _batch_shape(values)
+        _check_manifold(values)
+        values["R"] = geometry.project_rotation(values["R"])
+        values["y"] = geometry.unit(values["y"])
+        values["y_dot"] = geometry.project_tangent(values["y"], values["y_dot"])
+        for name, shape in SHAPES.items():
+            frozen = np.array(np.broadcast_to(values[name], batch + shape))
+            frozen.setflags(write=False)
+            object.__setattr__(self, name, frozen)
+
+    @property
+    def z(self) -> Any:
+        """Thrust axis z = R e₃, world frame."""
+        return self.R[:, 2] if geometry.is_symbolic(self.R) else self.R[..., :, 2]
+
+    @property
+    def batch_shape(self) -> tuple[int, ...]:
+        """Shape of the batch axes, () for a single state."""
+        return tuple(self.y.shape[:-1])
+
+    def packed(self) -> Any:
+        """The state as one vector (..., 24): x, x_dot, R by rows, omega, y, y_dot."""
+        if geometry.is_symbolic(self.y):
+            return ca.vertcat(self.x, self.x_dot, ca.vec(self.R.T), self.omega, self.y, self.y_dot)
+        rows = self.R.reshape((*self.batch_shape, 9))
+        return np.concatenate([self.x, self.x_dot, rows, self.omega, self.y, self.y_dot], axis=-1)
+
+    @classmethod
+    def symbolic(cls, packed: Any) -> Self:
+        """The state whose fields are slices of a CasADi vector of length 24 (no checks)."""
+        return cls(
+            x=packed[0:3], x_dot=packed[3:6], R=ca.reshape(packed[6:15], 3, 3).T, omega=packed[15:18],
+            y=packed[18:21], y_dot=packed[21:24],
+        )  # fmt: skip
+
+    @classmethod
+    def from_packed(cls, packed: Any) -> Self:
+        """The state(s) of vectors (..., 24) in the order of `packed`. Raises InputError like the constructor."""
+        return cls(**split(errors.array("packed state", packed, (SIZE,))))
+
+    def flipped(self) -> State:
+        """The same physical state in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""
+        vectors = {name: geometry.apply(FLIP, getattr(self, name)) for name in SHAPES if name != "R"}
+        return State(**vectors, R=FLIP @ self.R @ FLIP)
+
+    def __getitem__(self, index: Any) -> State:
+        """Members of a batch: `index` applies to the batch axes."""
+        if not self.batch_shape:
+            raise IndexError("a single state has no members; only a batch of states can be indexed")
+        return State(**{name: getattr(self, name)[index] for name in SHAPES})
+
+    def __len__(self) -> int:
+        """Length of the first batch axis."""
+        if not self.batch_shape:
+            raise TypeError("a single state has no length")
+        return self.batch_shape[0]
+
+    @classmethod
+    def random(
+        cls,
+        rng: np.random.Generator,
+        size: tuple[int, ...] | int = (),
+        *,
+        max_omega: float = 3.0,
+        max_y_dot: float = 3.0,
+        max_x_dot: float = 2.0,
+    ) -> Self:
+        """Random states at x = 0: y uniform on S², R uniform on SO(3), rates uniform in the disc or ball.
+
+        Parameters
+        ----------
+        rng : numpy.random.Generator
+            Source of randomness; the same generator state gives the same states.
+        size : int or tuple of int
+            Batch shape.
+        max_omega, max_y_dot, max_x_dot : float
+            Radii of the ball of omega (rad/s), the tangent disc of y_dot (1/s) and the ball of x_dot (m/s).
+        """
+        shape = (size,) if isinstance(size, int) else tuple(size)
+        y = geometry.random_sphere(rng, shape)
+        return cls(
+            x=np.zeros((*shape, 3)),
+            x_dot=_in_ball(rng, shape, max_x_dot),
+            R=geometry.random_rotation(rng, shape),
+            omega=_in_ball(rng, shape, max_omega),
+            y=y,
+            y_dot=geometry.random_tangent(rng, y, max_y_dot),
+        )
+
+
+def split(packed: Any) -> dict[str, Any]:
+    """Fields of packed states (..., 24), unchecked: a dict of arrays with the shapes of `State`."""
+    packed = np.asarray(packed)
+    out, start = {}, 0
+    for name, shape in SHAPES.items():
+        width = int(np.prod(shape))
+        out[name] = packed[..., start : start + width].reshape((*packed.shape[:-1], *shape))
+        start += width
+    return out
+
+
+def project(packed: Any) -> tuple[Any, Any]:
+    """Project packed states (..., 24) onto the manifold.
+
+    Returns the projected vectors and the drift (..., 3) before it: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
+    """
+    value = split(packed)
+    drift = np.stack(
+        [
+            np.abs(geometry.norm(value["y"]) - 1),
+            np.abs(geometry.dot(value["y"], value["y_dot"])),
+            geometry.rotation_defect(value["R"]),
+        ],
+        axis=-1,
+    )
+    out = np.array(packed, dtype=float)
+    y = geometry.unit(value["y"])
+    out[..., 6:15] = geometry.project_rotation(value["R"]).reshape((*out.shape[:-1], 9))
+    out[..., 18:21] = y
+    out[..., 21:24] = geometry.project_tangent(y, value["y_dot"])
+    return out, drift
+
+
+@dataclass(frozen=True, eq=False)
+class Wrench:
+    """What the rotors do to the vehicle: `thrust` (N) along z = R e₃ and `moment` (..., 3) in the body frame (N m).
+
+    With e₃ up, thrust ≥ 0; in the paper's frame (e₃ down) the thrust that carries the vehicle is negative.
+    """
+
+    thrust: Any
+    moment: Any
+
+    def flipped(self) -> Wrench:
+        """The same wrench in the frame turned by π about e₁."""
+        return Wrench(-self.thrust, geometry.apply(FLIP, self.moment))
+
+
+def _batch_shape(values: dict[str, Any]) -> tuple[int, ...]:
+    shapes = {name: value.shape[: value.ndim - len(SHAPES[name])] for name, value in values.items()}
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        raise errors.InputError("state", "fields with the same batch axes", shapes) from None
+
+
+def _check_manifold(values: dict[str, Any]) -> None:
+    defect = np.max(geometry.rotation_defect(values["R"]), initial=0.0)
+    if defect > MANIFOLD_TOLERANCE:
+        mirrored = np.any(np.linalg.det(values["R"]) < 0)
+        got = "determinant < 0" if mirrored else f"‖RᵀR − 1‖ = {defect:.3g}"
+        raise errors.InputError("R", "a rotation (RᵀR = 1, det R = 1)", got)
+    length = geometry.norm(values["y"])
+    if np.any(np.abs(length - 1) > MANIFOLD_TOLERANCE):
+        worst = np.ravel(length)[np.argmax(np.abs(np.ravel(length) - 1))]
+        raise errors.InputError("y", "a unit vector", f"|y| = {worst:.6g}")
+    normal = np.abs(geometry.dot(values["y"], values["y_dot"]))
+    if np.any(normal > MANIFOLD_TOLERANCE * (1 + geometry.norm(values["y_dot"]))):
+        raise errors.InputError("y_dot", "a tangent vector (y · y_dot = 0)", f"y · y_dot = {np.max(normal):.3g}")
+
+
+def _in_ball(rng: np.random.Generator, shape: tuple[int, ...], radius: float) -> Any:
+    return geometry.scale(radius * np.cbrt(rng.random(shape)), geometry.random_sphere(rng, shape))
+
+
+assert tuple(field.name for field in fields(State)) == tuple(SHAPES)

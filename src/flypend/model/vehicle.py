@@ -1,0 +1,182 @@
+"""Vehicle: the constants of one machine, loaded from TOML, checked once, and its rotor mixing."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, fields, replace
+from importlib import resources
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.model.state import E3Direction
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Vehicle:
+    """A quadrotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
+
+    Parameters
+    ----------
+    name : str
+        Name for tables and files.
+    mass, bob_mass, rod_length : float
+        M (kg), m (kg), l (m).
+    inertia : (3,) or (3, 3)
+        Principal moments, or the matrix, about the centre of mass in the body frame; kg m².
+    gravity : float
+        g, m/s².
+    rotor_positions : (n, 3)
+        Positions of the n ≥ 4 rotors relative to the centre of mass, body frame; m.
+    rotor_spins : (n,)
+        Sign of the reaction torque of each rotor about the up axis: +1 for one that spins clockwise seen from above.
+    drag_ratio : float
+        c, torque per thrust of a rotor; m.
+    rotor_limits : (2,)
+        Least and largest force of one rotor; N.
+    rotor_lag : float
+        Time constant of a rotor's force; s.
+
+    Raises
+    ------
+    InputError
+        For numbers not finite or out of range, an inertia that is not symmetric positive definite or violates the
+        triangle inequality, spins other than ±1, and rotors that cannot produce every wrench.
+    """
+
+    name: str = "unnamed"
+    mass: float
+    bob_mass: float
+    rod_length: float
+    inertia: Any
+    gravity: float = 9.81
+    rotor_positions: Any
+    rotor_spins: Any
+    drag_ratio: float
+    rotor_limits: Any
+    rotor_lag: float = 0.0
+
+    def __post_init__(self) -> None:
+        def put(name: str, value: Any) -> None:
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+        for name, unit in (("mass", "kg"), ("bob_mass", "kg"), ("rod_length", "m"), ("drag_ratio", "m")):
+            put(name, errors.number(name, getattr(self, name), above=0, unit=unit))
+        put("gravity", errors.number("gravity", self.gravity, at_least=0, unit="m/s²"))
+        put("rotor_lag", errors.number("rotor_lag", self.rotor_lag, at_least=0, unit="s"))
+        put("inertia", _inertia(self.inertia))
+        put("rotor_positions", errors.array("rotor_positions", self.rotor_positions, (None, 3)))
+        put("rotor_spins", errors.array("rotor_spins", self.rotor_spins, (len(self.rotor_positions),)))
+        put("rotor_limits", errors.array("rotor_limits", self.rotor_limits, (2,)))
+        if not np.all(np.abs(self.rotor_spins) == 1):
+            raise InputError("rotor_spins", "each +1 or -1", self.rotor_spins.tolist())
+        if not 0 <= self.rotor_limits[0] < self.rotor_limits[1]:
+            raise InputError("rotor_limits", "0 <= least < largest force in N", self.rotor_limits.tolist())
+        rank = np.linalg.matrix_rank(self.mixing())
+        if rank < 4:
+            raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
+
+    M = property(lambda self: self.mass, doc="Mass of the quadrotor, kg.")
+    m = property(lambda self: self.bob_mass, doc="Mass of the bob, kg.")
+    l = property(lambda self: self.rod_length, doc="Length of the rod, m.")
+    g = property(lambda self: self.gravity, doc="Gravity constant, m/s².")
+    I = property(lambda self: self.inertia, doc="Inertia matrix, body frame, kg m².")
+    I_inv = property(lambda self: np.linalg.inv(self.inertia), doc="Inverse of the inertia matrix.")
+
+    @property
+    def weight(self) -> float:
+        """(M + m) g, the thrust of hover, N."""
+        return (self.mass + self.bob_mass) * self.gravity
+
+    def mixing(self, e3: E3Direction = "up") -> Any:
+        """Matrix (4, n) from rotor forces to (thrust, moment) in the body frame of `e3` ("up" or "down").
+
+        With e₃ down, the thrust row is negative; its negative is the first row of the paper's (transfmu), whose
+        other rows are those of this matrix.
+        """
+        x, y, _ = self.rotor_positions.T
+        up = np.array([np.ones_like(x), y, -x, self.drag_ratio * self.rotor_spins])
+        return up if errors.one_of("e3", e3, ("up", "down")) == "up" else np.diag([-1.0, 1.0, -1.0, -1.0]) @ up
+
+    def unmixing(self, e3: E3Direction = "up") -> Any:
+        """Matrix (n, 4) from (thrust, moment) to rotor forces, least squares in norm for n > 4; `e3` as in `mixing`."""
+        return np.linalg.pinv(self.mixing(e3))
+
+    def replace(self, **changes: Any) -> Self:
+        """A copy with the given fields in `changes` replaced and everything checked again. Raises InputError."""
+        errors.only_known("vehicle", changes, _FIELDS)
+        return replace(self, **changes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields as plain numbers and lists, the content of a vehicle TOML."""
+        return {
+            name: value.tolist() if isinstance(value := getattr(self, name), np.ndarray) else value for name in _FIELDS
+        }
+
+    @classmethod
+    def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
+        """A vehicle from the content `values` of its TOML; messages begin with `field`. Raises InputError."""
+        errors.only_known(field, values, _FIELDS)
+        for name in _REQUIRED:
+            if name not in values:
+                raise InputError(f"{field}.{name}", "a value", "nothing")
+        try:
+            return cls(**values)
+        except InputError as error:
+            raise InputError(f"{field}.{error.field}", error.expected, error.got) from None
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """The vehicle in the TOML file at `path`. Raises InputError, also if the file cannot be read."""
+        return cls.from_dict(read_toml(path))
+
+
+_FIELDS = tuple(field.name for field in fields(Vehicle))
+_REQUIRED = (
+    "mass", "bob_mass", "rod_length", "inertia", "rotor_positions", "rotor_spins", "drag_ratio", "rotor_limits"
+)  # fmt: skip
+
+
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """The content of a TOML file. Raises InputError if it cannot be read or is not TOML."""
+    try:
+        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(str(path), "a readable TOML file", error.strerror or error) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(str(path), "a TOML file", error) from None
+
+
+def vehicle_names() -> list[str]:
+    """Names of the vehicles that come with the package."""
+    folder = resources.files("flypend") / "vehicles"
+    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
+
+
+def vehicle(name: str) -> Vehicle:
+    """The vehicle called `name` that comes with the package. Raises InputError for an unknown name."""
+    errors.one_of("vehicle", name, vehicle_names())
+    with resources.as_file(resources.files("flypend") / "vehicles" / f"{name}.toml") as path:
+        return Vehicle.from_toml(path)
+
+
+def _inertia(value: Any) -> Any:
+    matrix = np.array(value, dtype=object)
+    matrix = (
+        np.diag(errors.array("inertia", value, (3,))) if matrix.ndim == 1 else errors.array("inertia", value, (3, 3))
+    )
+    if matrix.ndim != 2:
+        raise InputError("inertia", "numbers of shape (3,) or (3, 3)", f"shape {matrix.shape}")
+    if not np.allclose(matrix, matrix.T, rtol=0, atol=1e-12 * np.abs(matrix).max()):
+        raise InputError("inertia", "a symmetric matrix", matrix.tolist())
+    a, b, c = np.linalg.eigvalsh(matrix)
+    if a <= 0:
+        raise InputError("inertia", "a positive definite matrix", f"a principal moment of {a:.4g} kg m²")
+    if a + b < c * (1 - 1e-9):
+        raise InputError("inertia", "principal moments within the triangle inequality", f"{a:.4g} + {b:.4g} < {c:.4g}")
+    return matrix

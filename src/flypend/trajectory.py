@@ -1,0 +1,191 @@
+"""A run: times, states, wrench and signals, with what was flown and how it ended; to xarray, to a file and back."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.integrate import Outcome
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.state import SHAPES, E3Direction
+
+if TYPE_CHECKING:
+    import xarray
+
+AXES = ["1", "2", "3"]
+UNITS = {
+    "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
+    "moment": "N m",
+}  # fmt: skip
+DRIFT = ("length of y", "tangency of y_dot", "orthogonality of R")
+_STATE = tuple(SHAPES)
+_ARRAYS = (*_STATE, "thrust", "moment")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trajectory:
+    """One run, sampled at `t`; SI units, world frame with third axis `e3`, omega and moment in the body frame.
+
+    Parameters
+    ----------
+    t : (n,)
+        Times, s.
+    x, x_dot, omega, y, y_dot : (n, 3)
+        Pivot position and velocity, angular velocity, rod direction and its rate.
+    R : (n, 3, 3)
+        Rotation from body to world.
+    thrust, moment : (n,), (n, 3)
+        Wrench that acted; thrust is along z = R e₃, so it is negative where e₃ points down.
+    signals : dict of (n,)
+        What the law lets one see: Lyapunov functions, their rates, errors.
+    drift : (k, 3)
+        Before the projection of each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
+    outcome : Outcome
+        completed, diverged or singular, with time and reason.
+    e3 : "up" or "down"
+        Where the third axis of the frame points.
+    vehicle : Vehicle
+        What was flown.
+    law, gains : str, dict
+        Name and gains of the law that flew it.
+    interpolant : callable, optional
+        Dense output, from times to packed states; not kept in files.
+    """
+
+    t: Any
+    x: Any
+    x_dot: Any
+    R: Any
+    omega: Any
+    y: Any
+    y_dot: Any
+    thrust: Any
+    moment: Any
+    signals: Mapping[str, Any] = field(default_factory=dict)
+    drift: Any
+    outcome: Outcome
+    e3: E3Direction
+    vehicle: Vehicle
+    law: str
+    gains: Mapping[str, Any]
+    interpolant: Callable[[Any], Any] | None = None
+
+    @property
+    def z(self) -> Any:
+        """Thrust axis z = R e₃, (n, 3)."""
+        return self.R[..., :, 2]
+
+    @property
+    def states(self) -> State:
+        """The sampled states as one batch."""
+        return State(**{name: getattr(self, name) for name in _STATE})
+
+    @property
+    def wrench(self) -> Wrench:
+        """The sampled wrenches as one batch."""
+        return Wrench(self.thrust, self.moment)
+
+    def at(self, t: Any) -> State:
+        """State(s) at any time(s) `t` inside the run, from the dense output of the integrator.
+
+        Raises InputError for a time outside the run, and for a run read from a file, which keeps samples only.
+        """
+        if self.interpolant is None:
+            raise errors.InputError("run.at", "a run from simulate (a file keeps the samples only)", "a loaded run")
+        times = errors.array("t", t, ())
+        if np.any(times < 0) or np.any(times > self.outcome.time):
+            raise errors.InputError("t", f"times inside 0 .. {self.outcome.time:g} s", np.asarray(t).tolist())
+        states = State.from_packed(self.interpolant(np.ravel(times)))
+        return states[0] if times.ndim == 0 else states
+
+    def flipped(self) -> Trajectory:
+        """The same run in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""
+        states, wrench = self.states.flipped(), self.wrench.flipped()
+        return replace(
+            self,
+            **{name: getattr(states, name) for name in _STATE},
+            thrust=wrench.thrust,
+            moment=wrench.moment,
+            e3="down" if self.e3 == "up" else "up",
+            interpolant=None,
+        )
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown."""
+        import xarray
+
+        dims = {(): ("t",), (3,): ("t", "axis"), (3, 3): ("t", "row", "column")}
+        variables = {
+            name: (dims[value.shape[1:]], np.array(value), {"units": UNITS.get(name, "")})
+            for name in (*_ARRAYS, *self.signals)
+            for value in [self.signals[name] if name in self.signals else getattr(self, name)]
+        }
+        variables["drift"] = (("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"})
+        coords = {"t": ("t", np.array(self.t), {"units": "s"}), "axis": AXES, "drift_of": list(DRIFT)}
+        attributes = {
+            "e3": self.e3,
+            "law": self.law,
+            "gains": json.dumps(dict(self.gains)),
+            "vehicle": json.dumps(self.vehicle.to_dict()),
+            "outcome": self.outcome.status,
+            "outcome_time": self.outcome.time,
+            "outcome_reason": self.outcome.reason,
+            "signals": json.dumps(list(self.signals)),
+            "frame": f"world with third axis {self.e3}; omega and moment in the body frame",
+        }
+        return xarray.Dataset(variables, coords, attributes)
+
+    def save(self, path: str | Path) -> None:
+        """Write the run to the NetCDF file `path` (.nc), which xarray, MATLAB (ncread) and pandas through xarray open.
+
+        The file appears whole or not at all. Raises InputError if it cannot be written.
+        """
+        path = Path(path)
+        if path.suffix != ".nc":
+            raise errors.InputError("path", "a file name ending in .nc", str(path))
+        dataset = self.to_xarray()
+        try:
+            handle, partial = tempfile.mkstemp(suffix=".nc", prefix=f".{path.stem}.", dir=path.parent)
+        except OSError as error:
+            raise errors.InputError(str(path), "a file that can be written", error.strerror or error) from None
+        os.close(handle)
+        try:
+            dataset.to_netcdf(partial, engine="scipy")
+            Path(partial).replace(path)
+        finally:
+            Path(partial).unlink(missing_ok=True)
+
+
+def load(path: str | Path) -> Trajectory:
+    """Read the run that `Trajectory.save` wrote to `path`. Raises InputError if the file cannot be read as one."""
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="scipy") as opened:
+            data = opened.load()
+    except (OSError, ValueError, TypeError, KeyError) as error:
+        raise errors.InputError(
+            str(path), "a run saved by flypend", getattr(error, "strerror", None) or error
+        ) from None
+    missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome") if name not in data.attrs]
+    if missing:
+        raise errors.InputError(str(path), "a run saved by flypend", f"a file without the attributes {missing}")
+    attributes = data.attrs
+    arrays: dict[str, Any] = {name: data[name].values for name in ("t", *_ARRAYS, "drift")}
+    return Trajectory(
+        **arrays,
+        signals={name: data[name].values for name in json.loads(attributes["signals"])},
+        outcome=Outcome(attributes["outcome"], float(attributes["outcome_time"]), attributes["outcome_reason"]),
+        e3=attributes["e3"],
+        vehicle=Vehicle.from_dict(json.loads(attributes["vehicle"])),
+        law=attributes["law"],
+        gains=json.loads(attributes["gains"]),
+    )

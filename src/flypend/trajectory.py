@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -152,16 +151,15 @@ class Trajectory:
         if path.suffix != ".nc":
             raise errors.InputError("path", "a file name ending in .nc", str(path))
         dataset = self.to_xarray()
-        try:
-            handle, partial = tempfile.mkstemp(suffix=".nc", prefix=f".{path.stem}.", dir=path.parent)
-        except OSError as error:
-            raise errors.InputError(str(path), "a file that can be written", error.strerror or error) from None
-        os.close(handle)
+        partial = path.with_name(f".{path.stem}.{os.getpid()}.partial.nc")
         try:
             dataset.to_netcdf(partial, engine="scipy")
-            Path(partial).replace(path)
+            partial.replace(path)
+        except OSError as error:
+            raise errors.InputError(str(path), "a file that can be written", error.strerror or error) from None
         finally:
-            Path(partial).unlink(missing_ok=True)
+            if path.parent.is_dir():
+                partial.unlink(missing_ok=True)
 
 
 def load(path: str | Path) -> Trajectory:

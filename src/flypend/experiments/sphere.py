@@ -1,0 +1,80 @@
+"""Lemmas 1 and 2 on their own: small simulations of a point on S² under the feedback of `laws.sphere`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from flypend.geometry import cross, dot, hat_squared, scale, unit
+from flypend.laws.sphere import acceleration, regulation, tracking, velocity_error
+
+K_P, K_D = 9.0, 4.2  # 1/s², 1/s: natural frequency 3 rad/s, damping ratio 0.7
+Reference = tuple[Any, Any, Any]
+
+
+def circle(t: float, height: float = 0.6, rate: float = 1.5) -> Reference:
+    """φ_d, φ̇_d and φ̈_d at time `t` of a reference on the circle of the given `height`, at angular `rate` (rad/s)."""
+    radius = np.sqrt(1 - height**2)
+    c, s = np.cos(rate * t), np.sin(rate * t)
+    phi_d = np.array([radius * c, radius * s, height])
+    phi_d_dot = radius * rate * np.array([-s, c, 0.0])
+    return phi_d, phi_d_dot, radius * rate**2 * np.array([-c, -s, 0.0])
+
+
+def fly(force: Callable[[float, Any, Any], Any], start: Any, start_rate: Any, times: Any) -> Any:
+    """Points φ (n, 3) at `times` (n,) of ∇_φ̇ φ̇ = `force`(t, φ, φ̇) from `start`, `start_rate` (3,)."""
+
+    def rates(t: float, s: Any) -> Any:
+        return np.concatenate([s[3:], acceleration(s[:3], s[3:], force(t, s[:3], s[3:]))])
+
+    start = np.concatenate([start, start_rate])
+    solution = solve_ivp(rates, (0, times[-1]), start, "DOP853", times, rtol=1e-10, atol=1e-12)
+    return solution.y[:3].T
+
+
+def regulate(start: Any, start_rate: Any, target: Any, times: Any) -> Any:
+    """Lemma 1: points φ (n, 3) at `times` from `start`, `start_rate` under regulation to `target` (3,)."""
+    return fly(lambda _, phi, phi_dot: regulation(phi, phi_dot, target, K_P, K_D), start, start_rate, times)
+
+
+def track(start: Any, start_rate: Any, reference: Callable[[float], Reference], times: Any) -> Any:
+    """Lemma 2, corrected: points φ (n, 3) at `times` from `start`, `start_rate` tracking `reference`(t)."""
+    return fly(lambda t, phi, phi_dot: tracking(phi, phi_dot, *reference(t), K_P, K_D), start, start_rate, times)
+
+
+def track_as_printed(
+    start: Any, start_rate: Any, reference: Callable[[float], Reference], target: Any, times: Any
+) -> Any:
+    """Lemma 2 with its printed proportional term −k_p φ̂²e₃, `target` being e₃; the feedforward is the true one.
+
+    The other arguments are those of `track`.
+    """
+
+    def force(t: float, phi: Any, phi_dot: Any) -> Any:
+        true = tracking(phi, phi_dot, *reference(t), K_P, K_D)
+        return true - K_P * hat_squared(phi, target - reference(t)[0])
+
+    return fly(force, start, start_rate, times)
+
+
+def printed_feedforward_force(phi: Any, phi_dot: Any, reference: Reference) -> Any:
+    """Force that Lemma 2 implies at `phi`, `phi_dot` if its feedforward holds φ̈, as printed, instead of φ̈_d.
+
+    On S², (φ_d × φ̈) × φ = (φ·φ_d) φ̈ + |φ̇|² φ_d with φ̈ = u − |φ̇|² φ, so that u (1 − φ·φ_d) = the other terms: the force
+    grows without bound where tracking is perfect. `reference` is (φ_d, φ̇_d, φ̈_d), each (3,).
+    """
+    phi_d, phi_d_dot, _ = reference
+    alignment = dot(phi, phi_d)
+    v_e = velocity_error(phi, phi_dot, phi_d, phi_d_dot)
+    other = -K_P * hat_squared(phi, phi_d) - K_D * v_e + dot(phi, cross(phi_d, phi_d_dot)) * cross(phi, phi_dot)
+    other = other + scale(dot(phi_dot, phi_dot), phi_d - alignment * phi)
+    return scale(1 / (1 - alignment), other)
+
+
+def near(phi_d: Any, angle: float) -> Any:
+    """The point at `angle` (rad) from the unit vector `phi_d` (3,), towards e₁."""
+    towards = unit(-hat_squared(phi_d, np.array([1.0, 0.0, 0.0])))
+    return np.cos(angle) * phi_d + np.sin(angle) * towards

@@ -1,0 +1,113 @@
+"""Everything that one run leaves behind: its file, figures, movies, verdicts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from flypend import __version__
+from flypend.experiments.claims import Verdict, theorem_claims
+from flypend.report import text
+from flypend.report.staging import staged
+from flypend.trajectory import Trajectory
+
+VIEWS = ("side", "axis")
+MOVIE_SPEED = 0.25
+Task = Callable[[], Any]
+
+
+def figure_tasks(run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True) -> list[tuple[str, Task]]:
+    """Named tasks that draw the figures of `run` into `folder`, file names beginning with `prefix`."""
+    from flypend import figures  # brings matplotlib, which a run without figures does not wait for
+
+    kinds: list[tuple[str, Callable[[Trajectory], Any]]] = [
+        ("y3-z3", figures.paper_figure),
+        ("full", figures.full_figure),
+    ]
+    if stop_motion:
+        kinds.append(("stop-motion", figures.stop_motion))
+    return [(f"{prefix}{kind}", partial(draw, figure, run, folder / f"{prefix}{kind}.png")) for kind, figure in kinds]
+
+
+def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
+    """Named tasks that write the movies of `run`, from the side and along e₃, into `folder`."""
+    from flypend import animate
+
+    return [
+        (
+            f"{prefix}movie-{view}",
+            partial(animate.movie, run, folder / f"{prefix}movie-{view}.mp4", view=view, speed=MOVIE_SPEED),
+        )
+        for view in VIEWS
+    ]
+
+
+def draw(figure: Callable[[Trajectory], Any], run: Trajectory, path: Path) -> None:
+    """Draw one `figure` of `run` into the file `path`."""
+    from flypend import figures
+
+    figures.save_figure(figure(run), path)
+
+
+def write_flight(
+    run: Trajectory,
+    settings: dict[str, Any],
+    out: str | Path,
+    *,
+    settled: Trajectory | None = None,
+    with_figures: bool = True,
+    with_movies: bool = True,
+    progress: Callable[[Iterable[tuple[str, Task]]], Any] | None = None,
+) -> list[Verdict]:
+    """Write run.nc, figures, movies, report.md and report.json of `run` into the folder `out`, whole or not at all.
+
+    Parameters
+    ----------
+    run : Trajectory
+        The run.
+    settings : dict
+        What was flown, in the form of a run TOML, kept in report.json.
+    out : path
+        The folder; made if it does not exist.
+    settled : Trajectory, optional
+        The same flight over a longer time, on which the limit ẍ → 0 is read; default `run`.
+    with_figures, with_movies : bool
+        Whether to draw and to film.
+    progress : callable, optional
+        Runs an iterable of named tasks and shows how far they are; default runs them in silence.
+
+    Returns
+    -------
+    list of Verdict
+        The claims of Theorem 1 on this run; empty for a law without a Lyapunov function.
+
+    Raises
+    ------
+    InputError
+        If `out` cannot be written.
+    """
+    verdicts = theorem_claims(run, settled) if "V" in run.signals else []
+    with staged(out) as folder:
+        run.save(folder / "run.nc")
+        tasks = figure_tasks(run, folder) if with_figures else []
+        tasks += movie_tasks(run, folder) if with_movies else []
+        if progress is not None:
+            progress(tasks)
+        else:
+            for _, task in tasks:
+                task()
+        key = (run.law, str(settings.get("experiment", "own start")))
+        lines = [f"# A run of {run.law} on {run.vehicle.name}", "", f"Outcome: {run.outcome}.", ""]
+        if verdicts:
+            lines += [
+                "## Claims of Theorem 1",
+                "",
+                text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)}),
+                "",
+            ]
+        (folder / "report.md").write_text("\n".join(lines), encoding="utf-8")
+        content = {"flypend": __version__, "settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
+        text.write_json(folder / "report.json", content)
+    return verdicts

@@ -1,0 +1,109 @@
+"""Verdicts and findings as Markdown, JSON and a table for the terminal."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from rich.box import SIMPLE
+from rich.table import Table
+
+from flypend.experiments.claims import Verdict
+from flypend.experiments.defects import Finding
+
+Column = tuple[str, str]
+
+
+def number(value: float) -> str:
+    """A number for a table: four significant digits, but six near 1, where the difference from 1 is what counts."""
+    return f"{value:.6f}" if 0 < abs(value - 1) < 1e-2 else f"{value:.4g}"
+
+
+def mark(holds: bool) -> str:
+    """The word that stands for a verdict."""
+    return "holds" if holds else "fails"
+
+
+def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
+    """Claims by experiment and law for the terminal: rows are (law, experiment), columns the claims."""
+    table = Table(title="Theorem 1: which claim holds", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
+    first = next(iter(verdicts.values()))
+    table.add_column("law", no_wrap=True)
+    table.add_column("start", no_wrap=True)
+    for verdict in first:
+        table.add_column(verdict.claim, justify="right", no_wrap=True)
+    for (law, name), row in verdicts.items():
+        cells = [f"[{'green' if v.holds else 'red'}]{number(v.value)} {'✓' if v.holds else '✗'}" for v in row]
+        table.add_row(law, name, *cells)
+    table.caption = "each number: " + "; ".join(f"{v.claim}: {_generic(v.measured)} {v.criterion}" for v in first)
+    table.caption_justify = "left"
+    return table
+
+
+def findings_table(findings: Iterable[Finding]) -> Table:
+    """The defects of the paper for the terminal, each with the first numbers of its evidence."""
+    table = Table(title="Defects of the paper, re-derived by this run", title_justify="left", box=SIMPLE)
+    table.add_column("#", justify="right")
+    table.add_column("defect")
+    table.add_column("evidence")
+    table.add_column("shown")
+    for i, finding in enumerate(findings, 1):
+        name, value = next(iter(finding.evidence.items()))
+        table.add_row(str(i), finding.title, f"{name}: {number(value)}", "yes" if finding.shown else "[red]no")
+    return table
+
+
+def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str]) -> str:
+    """Claims by experiment and law as a Markdown table, with how each run ended (`ends`)."""
+    first = next(iter(verdicts.values()))
+    lines = [
+        "| law | experiment | run | " + " | ".join(v.claim for v in first) + " |",
+        "|---|---|---|" + "---|" * len(first),
+        "| *measured* | | | " + " | ".join(_cell(_generic(v.measured)) for v in first) + " |",
+        "| *criterion* | | | " + " | ".join(v.criterion for v in first) + " |",
+    ]
+    for key, row in verdicts.items():
+        cells = " | ".join(f"{number(v.value)} **{mark(v.holds)}**" for v in row)
+        lines.append(f"| {key[0]} | {key[1]} | {_cell(ends[key])} | {cells} |")
+    return "\n".join(lines)
+
+
+def findings_markdown(findings: Iterable[Finding]) -> str:
+    """The defects as Markdown sections: printed, corrected, and the numbers of this run."""
+    sections = []
+    for i, finding in enumerate(findings, 1):
+        rows = "\n".join(f"| {_cell(name)} | {number(value)} |" for name, value in finding.evidence.items())
+        sections.append(
+            f"### {i}. {finding.title}\n\n- printed: {finding.printed}\n- should read: {finding.corrected}\n"
+            f"- shown by this run: {'yes' if finding.shown else 'NO'}\n\n| computed | value |\n|---|---|\n{rows}\n"
+        )
+    return "\n".join(sections)
+
+
+def write_json(path: Path, content: Any) -> None:
+    """Write `content` (records, mappings, numbers) as JSON to `path`; NaN becomes null."""
+    path.write_text(json.dumps(_plain(content), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _plain(content: Any) -> Any:
+    if isinstance(content, Verdict | Finding):
+        return _plain(asdict(content))
+    if isinstance(content, Mapping):
+        return {str(key): _plain(value) for key, value in content.items()}
+    if isinstance(content, list | tuple):
+        return [_plain(value) for value in content]
+    if isinstance(content, float) and not math.isfinite(content):
+        return None
+    return content.item() if hasattr(content, "item") else content
+
+
+def _generic(measured: str) -> str:
+    return measured.split(" at ")[0]
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|")

@@ -1,0 +1,130 @@
+"""What to fly, as data: an experiment of the paper or a TOML file, with overrides, into vehicle, law and start."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.experiments import experiment, experiment_names
+from flypend.laws import Law
+from flypend.laws.law import law_from_dict
+from flypend.model import State, Vehicle, vehicle
+from flypend.model.state import SHAPES
+from flypend.model.vehicle import read_toml
+from flypend.simulate import simulate
+from flypend.trajectory import Trajectory
+
+KEYS = ("vehicle", "law", "start", "duration", "rtol", "experiment")
+
+
+@dataclass(frozen=True)
+class Flight:
+    """One run to make: what flies, under which law, from where, for how many seconds; and the settings that said so."""
+
+    vehicle: Vehicle
+    law: Law
+    start: State
+    duration: float
+    rtol: float
+    settings: dict[str, Any]
+
+    def fly(self, duration: float | None = None) -> Trajectory:
+        """Make the run, over another `duration` (s) if one is given."""
+        return simulate(self.vehicle, self.law, self.start, duration or self.duration, rtol=self.rtol)
+
+
+def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
+    """The flight called `what`: an experiment of the paper by name, or the path of a TOML file.
+
+    `overrides` are texts such as `law.gains.k_d=2`, applied in order; the value is TOML, or else a plain word.
+
+    Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
+    """
+    if what in experiment_names():
+        settings: dict[str, Any] = {"experiment": what}
+    elif what.endswith(".toml") or Path(what).exists():
+        settings = read_toml(what)
+    else:
+        raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
+    for override in overrides:
+        _override(settings, override)
+    return _build(_complete(settings))
+
+
+def _complete(settings: dict[str, Any]) -> dict[str, Any]:
+    """Fill in what `experiment` stands for, and expand the vehicle to a table."""
+    errors.only_known("", settings, KEYS)
+    out = deepcopy(settings)
+    if isinstance(out.get("vehicle"), str):
+        out["vehicle"] = {"base": out["vehicle"]}
+    if "experiment" in out:
+        row = experiment(str(out["experiment"]))
+        start = {name: getattr(row.start, name).tolist() for name in SHAPES}
+        out["start"] = start | _table(out, "start")
+        law = {"name": "corrected"} | _table(out, "law")
+        gains = dict(row.gains) if law["name"] in ("printed", "corrected") else {}
+        out["law"] = law | {"gains": gains | _table(law, "gains")}
+        out["vehicle"] = {"base": row.vehicle.name} | _table(out, "vehicle")
+        out["duration"] = out.get("duration", row.duration)
+    for key in ("vehicle", "law", "start", "duration"):
+        if key not in out:
+            raise InputError(key, "a value (or `experiment`, which brings one)", "nothing")
+    chosen = _table(out, "vehicle")
+    if "base" in chosen:
+        chosen = vehicle(chosen.pop("base")).to_dict() | chosen
+    out["vehicle"] = chosen
+    return out
+
+
+def _table(settings: dict[str, Any], key: str) -> dict[str, Any]:
+    value = settings.get(key, {})
+    if not isinstance(value, dict):
+        raise InputError(key, "a table", repr(value))
+    return dict(value)
+
+
+def _override(settings: dict[str, Any], text: str) -> None:
+    """Apply one `a.b.c=value` to `settings`."""
+    path, equals, value = text.partition("=")
+    keys = [key.strip() for key in path.split(".")]
+    if not equals or not all(keys):
+        raise InputError("--set", "KEY.KEY=VALUE, such as law.gains.k_d=2", repr(text))
+    table = settings
+    for depth, key in enumerate(keys[:-1]):
+        if depth == 0:
+            errors.only_known("", [key], KEYS)
+        if key == "vehicle" and isinstance(table.get(key), str):
+            table[key] = {"base": table[key]}
+        table = table.setdefault(key, {})
+        if not isinstance(table, dict):
+            raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
+    try:
+        table[keys[-1]] = tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        table[keys[-1]] = value.strip()
+
+
+def _build(settings: dict[str, Any]) -> Flight:
+    errors.only_known("", settings, KEYS)
+    start = _table(settings, "start")
+    errors.only_known("start", start, SHAPES)
+    if "y" not in start:
+        raise InputError("start.y", "a unit vector", "nothing")
+    try:
+        state = State(**start)
+    except InputError as error:
+        raise InputError(f"start.{error.field}", error.expected, error.got) from None
+    return Flight(
+        vehicle=Vehicle.from_dict(_table(settings, "vehicle")),
+        law=law_from_dict(_table(settings, "law")),
+        start=state,
+        duration=errors.number("duration", settings["duration"], above=0, unit="s"),
+        rtol=errors.number("rtol", settings.get("rtol", 1e-9), above=0),
+        settings=settings,
+    )

@@ -169,7 +169,7 @@ def rotation_defect(m: Any) -> Any:
 
 
 def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
-    """Rotation matrices (..., 3, 3) of quaternions (..., 4) in the order x, y, z, w; they are normalised first."""
+    """Rotation matrices (..., 3, 3) of the quaternions `quat_xyzw` (..., 4), order x, y, z, w, normalised first."""
     q = np.asarray(quat_xyzw, dtype=float)
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
     v, w = q[..., :3], q[..., 3, None, None]
@@ -188,7 +188,7 @@ def random_rotation(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any
 
 
 def random_tangent(rng: np.random.Generator, y: Any, max_length: float) -> Any:
-    """Tangent vectors at the unit vectors y (..., 3), uniform in the disc of radius `max_length`."""
+    """Tangent vectors at the unit vectors y (..., 3), uniform in the disc of radius `max_length`, drawn from `rng`."""
     y = np.asarray(y, dtype=float)
     direction = unit(project_tangent(y, rng.standard_normal(y.shape)))
     return scale(max_length * np.sqrt(rng.random(y.shape[:-1])), direction)

@@ -6,13 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from flypend import errors
+from flypend import errors, plants
 from flypend.compile import close_loop
-from flypend.compile.closed_loop import as_numpy
+from flypend.compile.numeric import as_numpy
 from flypend.integrate import integrate
 from flypend.laws import Law
 from flypend.model import State, Vehicle
-from flypend.model.state import split
+from flypend.model.state import FLIP_PACKED, split
+from flypend.plants import Plant
+from flypend.plants.flight import fly
 from flypend.trajectory import Trajectory
 
 SAMPLE_PERIOD = 0.01
@@ -24,6 +26,7 @@ def simulate(
     start: State,
     duration: float,
     *,
+    plant: str | Plant = "ideal",
     rtol: float = 1e-9,
     atol: float | None = None,
     times: Any = None,
@@ -40,10 +43,16 @@ def simulate(
         A single state.
     duration : float
         Seconds, > 0.
+    plant : str or Plant
+        "ideal" (continuous time, the wrench acts as commanded), "rotors" (limits, lag and sampling, integrated by the
+        package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011" (thrust and body rates at 50 Hz), or
+        a `Plant`.
     rtol, atol : float
         Tolerances of the adaptive step (DOP853); atol defaults to rtol (state entries are of order one in SI units).
+        Used by the ideal plant; a sampled flight takes steps of 1 ms or less.
     times : (n,) increasing, optional
-        Times to sample, s; default every 0.01 s. A run that ends early is sampled up to its end, which is added.
+        Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends early
+        is sampled up to its end.
 
     Returns
     -------
@@ -56,11 +65,20 @@ def simulate(
         For a batch of states, a duration or tolerance that is not positive, or times outside the run.
     """
     _check(vehicle, law, start)
+    law = law.bound(vehicle)
     duration = errors.number("duration", duration, above=0, unit="s")
     rtol = errors.number("rtol", rtol, above=0)
-    atol = rtol if atol is None else errors.number("atol", atol, above=0)
+    atol = None if atol is None else errors.number("atol", atol, above=0)
     wanted = _sample_times(duration, times)
+    if plant == "ideal":
+        return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted)
+    return _sampled(vehicle, law, start, duration, plants.plant(plant), wanted)
 
+
+def _ideal(
+    vehicle: Vehicle, law: Law, start: State, duration: float, rtol: float, atol: float, wanted: Any
+) -> Trajectory:
+    """The closed loop in continuous time, the wrench acting as commanded."""
     loop = close_loop(vehicle, law)
     outputs = as_numpy(loop.outputs)
     margin, reason = None, ""
@@ -82,14 +100,36 @@ def simulate(
         **split(packed),
         thrust=values[:, 0],
         moment=values[:, 1:4],
+        rotor_forces=values[:, :4] @ vehicle.unmixing(law.e3).T,
         signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)),
         drift=solution.drift,
         outcome=solution.outcome,
         e3=law.e3,
         vehicle=vehicle,
         law=law.name,
-        gains=law.gains,
+        gains=dict(law.gains),
         interpolant=solution,
+    )
+
+
+def _sampled(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant, wanted: Any) -> Trajectory:
+    """A sampled flight; it is recorded at control ticks, of which those nearest to `wanted` are kept."""
+    samples = fly(vehicle, law, start, duration, plant)
+    ticks = np.unique(np.clip(np.rint(wanted * plant.rate).astype(int), 0, len(samples.t) - 1))
+    rotors = samples.rotors[ticks]
+    wrench = rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
+    return Trajectory(
+        t=samples.t[ticks],
+        **split(samples.packed[ticks] * (1.0 if law.e3 == "up" else FLIP_PACKED)),
+        thrust=wrench[:, 0],
+        moment=wrench[:, 1:],
+        rotor_forces=rotors,
+        drift=np.zeros((0, 3)),
+        outcome=samples.outcome,
+        e3=law.e3,
+        vehicle=vehicle,
+        law=law.name,
+        gains=dict(law.gains),
     )
 
 

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 AXES = ["1", "2", "3"]
 UNITS = {
     "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
-    "moment": "N m",
+    "moment": "N m", "rotor_forces": "N",
 }  # fmt: skip
 DRIFT = ("length of y", "tangency of y_dot", "orthogonality of R")
 _STATE = tuple(SHAPES)
-_ARRAYS = (*_STATE, "thrust", "moment")
+_ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,6 +43,8 @@ class Trajectory:
         Rotation from body to world.
     thrust, moment : (n,), (n, 3)
         Wrench that acted; thrust is along z = R e₃, so it is negative where e₃ points down.
+    rotor_forces : (n, k)
+        Forces of the k rotors, N. In the ideal plant, what the wrench would take: they may lie outside the limits.
     signals : dict of (n,)
         What the law lets one see: Lyapunov functions, their rates, errors.
     drift : (k, 3)
@@ -68,6 +70,7 @@ class Trajectory:
     y_dot: Any
     thrust: Any
     moment: Any
+    rotor_forces: Any
     signals: Mapping[str, Any] = field(default_factory=dict)
     drift: Any
     outcome: Outcome
@@ -121,9 +124,13 @@ class Trajectory:
         """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown."""
         import xarray
 
-        dims = {(): ("t",), (3,): ("t", "axis"), (3, 3): ("t", "row", "column")}
+        dims = {0: ("t",), 1: ("t", "axis"), 2: ("t", "row", "column")}
         variables = {
-            name: (dims[value.shape[1:]], np.array(value), {"units": UNITS.get(name, "")})
+            name: (
+                ("t", "rotor") if name == "rotor_forces" else dims[value.ndim - 1],
+                np.array(value),
+                {"units": UNITS.get(name, "")},
+            )
             for name in (*_ARRAYS, *self.signals)
             for value in [self.signals[name] if name in self.signals else getattr(self, name)]
         }

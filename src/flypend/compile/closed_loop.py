@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import casadi as ca
-import numpy as np
 
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, equations_of_motion, lie_derivative
@@ -46,7 +43,7 @@ def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
     signals = {**lyapunov, **control.signals}
 
     outputs = ca.vertcat(control.wrench.thrust, control.wrench.moment, *signals.values())
-    rate_vector, outputs = ca.cse([rates.packed(), outputs])
+    rate_vector, outputs = ca.cse([ca.densify(rates.packed()), ca.densify(outputs)])
     return ClosedLoop(
         vehicle=vehicle,
         law=law,
@@ -54,25 +51,3 @@ def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
         outputs=ca.Function("outputs", [t, packed], [outputs], ["t", "s"], ["outputs"]),
         signal_names=tuple(signals),
     )
-
-
-def as_numpy(function: ca.Function) -> Callable[[float, Any], Any]:
-    """A CasADi function of (t, s) with one dense output as a NumPy callable, without conversion per call."""
-    buffer, trigger = function.buffer()
-    t, s = np.zeros(1), np.zeros(function.size1_in(1))
-    out = np.zeros(function.nnz_out(0))
-    size = function.size1_out(0)
-    rows = np.array(function.sparsity_out(0).row())
-    buffer.set_arg(0, memoryview(t))  # type: ignore[arg-type]
-    buffer.set_arg(1, memoryview(s))  # type: ignore[arg-type]
-    buffer.set_res(0, memoryview(out))  # type: ignore[arg-type]
-
-    def call(time: float, state: Any) -> Any:
-        t[0], s[:] = time, state
-        trigger()
-        result = np.zeros(size)
-        result[rows] = out
-        return result
-
-    call.buffer = buffer  # type: ignore[attr-defined]  # `trigger` points into it: it must live as long
-    return call

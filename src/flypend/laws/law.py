@@ -9,11 +9,13 @@ from dataclasses import dataclass, field
 from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
+import casadi as ca
+
 from flypend import errors
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
 
-BUILT_IN = ("printed", "corrected")
+BUILT_IN = ("printed", "corrected", "inverted")
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,34 @@ class Guard:
     signal: str
     threshold: float
     reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Computer:
+    """What the flight computer does around a law in a sampled flight; in the ideal closed loop it has nothing to do.
+
+    Parameters
+    ----------
+    lead : float
+        Rotors are commanded f̂ + lead (f − f̂), f̂ being their modelled force: a lag of T acts like T/lead. 1 for none.
+    latency : float
+        Delay that is planned for, s: the law sees the state predicted this far ahead over the commands under way.
+    observer : float
+        Bandwidth of the observer of external forces, 1/s; 0 for none. Only for a law with `uses_forces`.
+    force_limit : float
+        Largest estimate of an external force, in weights of the machine.
+    """
+
+    lead: float = 1.0
+    latency: float = 0.0
+    observer: float = 0.0
+    force_limit: float = 0.5
+
+    def __post_init__(self) -> None:
+        errors.number("lead", self.lead, at_least=1)
+        errors.number("latency", self.latency, at_least=0, unit="s")
+        errors.number("observer", self.observer, at_least=0, unit="1/s")
+        errors.number("force_limit", self.force_limit, at_least=0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +74,7 @@ class Control:
     signals: Mapping[str, Any] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Law:
     """A state feedback.
 
@@ -58,23 +88,41 @@ class Law:
         Its numbers and options, as given to its factory.
     control : callable
         `control(t, state, vehicle, gains) -> Control` (or a bare `Wrench`) in CasADi expressions; `gains.k` is gain k.
+        With `uses_forces` it takes a fifth argument, the estimated external forces (on vehicle, on bob), each (3, 1).
     guard : Guard, optional
         Where the law stops being defined.
+    computer : Computer
+        Lead, prediction and observer around the law in a sampled flight.
+    uses_forces : bool
+        Whether the law compensates external forces.
+    reference : callable, optional
+        Position (3, 1) of the pivot that the law holds or follows, as a CasADi function of time; None for none.
+    for_vehicle : callable, optional
+        For a law that takes its gains from the vehicle: the law with the gains for a vehicle.
     """
 
     name: str
     e3: E3Direction
-    control: Callable[[Any, State, Vehicle, Any], Control | Wrench]
+    control: Callable[..., Control | Wrench]
     gains: Mapping[str, Any] = field(default_factory=dict)
     guard: Guard | None = None
+    computer: Computer = field(default_factory=Computer)
+    uses_forces: bool = False
+    reference: Callable[[Any], Any] | None = None
+    for_vehicle: Callable[[Vehicle], Law] | None = None
 
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
 
-    def evaluate(self, t: Any, state: State, vehicle: Vehicle) -> Control:
-        """The control for symbols of time `t` (s) and `state`, for `vehicle`."""
-        control = self.control(t, state, vehicle, SimpleNamespace(**self.gains))
+    def bound(self, vehicle: Vehicle) -> Law:
+        """The law as it flies `vehicle`: itself, or with the gains that it takes from the vehicle."""
+        return self.for_vehicle(vehicle) if self.for_vehicle is not None else self
+
+    def evaluate(self, t: Any, state: State, vehicle: Vehicle, forces: tuple[Any, Any] | None = None) -> Control:
+        """The control for symbols of time `t` (s) and `state`, for `vehicle` under external `forces` (default none)."""
+        known = (forces or (ca.SX.zeros(3), ca.SX.zeros(3)),) if self.uses_forces else ()
+        control = self.control(t, state, vehicle, SimpleNamespace(**self.gains), *known)
         return Control(wrench=control) if isinstance(control, Wrench) else control
 
 
@@ -84,7 +132,7 @@ def law_names() -> list[str]:
 
 
 def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
-    """The law of a TOML table `{name = ..., gains = {...}}`; messages begin with `key`.
+    """The law of a TOML table `values`, {name = ..., gains = {...}}; messages begin with `key`.
 
     Raises InputError for an unknown law or gain (with the nearest known name) and for gains out of range.
     """
@@ -94,7 +142,8 @@ def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
     if not isinstance(gains, Mapping):
         raise errors.InputError(f"{key}.gains", "a table of gains", repr(gains))
     factory = getattr(importlib.import_module(f"flypend.laws.{name}"), name)
-    errors.only_known(f"{key}.gains", gains, inspect.signature(factory).parameters)
+    known = getattr(factory, "known_gains", None) or list(inspect.signature(factory).parameters)
+    errors.only_known(f"{key}.gains", gains, known)
     try:
         law: Law = factory(**gains)
     except errors.InputError as error:

@@ -19,7 +19,7 @@ from flypend.model.vehicle import Vehicle
 
 
 class Rates(NamedTuple):
-    """Time derivative of a state, field by field in the order of `State.packed`."""
+    """Time derivative of a state: x_dot, x_ddot, R_dot, omega_dot, y_dot, y_ddot, in the order of `State.packed`."""
 
     x_dot: Any
     x_ddot: Any
@@ -84,7 +84,7 @@ def potential_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
 
 
 def total_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
-    """Kinetic plus potential energy, J."""
+    """Kinetic plus potential energy, J; `e3` as in `potential_energy`."""
     return kinetic_energy(state, vehicle) + potential_energy(state, vehicle, e3)
 
 

@@ -107,6 +107,16 @@ class Vehicle:
         """Matrix (n, 4) from (thrust, moment) to rotor forces, least squares in norm for n > 4; `e3` as in `mixing`."""
         return np.linalg.pinv(self.mixing(e3))
 
+    def _content(self) -> str:
+        return repr(self.to_dict())
+
+    def __eq__(self, other: object) -> bool:
+        """Whether `other` is a vehicle with the same numbers."""
+        return isinstance(other, Vehicle) and self._content() == other._content()
+
+    def __hash__(self) -> int:
+        return hash(self._content())
+
     def replace(self, **changes: Any) -> Self:
         """A copy with the given fields in `changes` replaced and everything checked again. Raises InputError."""
         errors.only_known("vehicle", changes, _FIELDS)

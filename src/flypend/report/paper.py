@@ -97,7 +97,7 @@ def _judge(runs: Runs) -> Reproduction:
         settled = simulate(row.vehicle, row.law("corrected"), row.start, SETTLED)
         groups: list[tuple[str, Trajectory, Trajectory]] = [
             ("printed", runs.printed[name], runs.printed[name]),
-            ("printed, no beta", runs.without_beta[name], runs.without_beta[name]),
+            ("without beta", runs.without_beta[name], runs.without_beta[name]),
             ("corrected", runs.corrected[name], settled),
         ]
         for law, run, long_run in groups:
@@ -120,8 +120,8 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         "(defect 6) and is flown in both readings. The frame is the paper's: e₃ along gravity.",
         "## Claims of Theorem 1",
         text.verdicts_markdown(result.verdicts, result.ends),
-        "A claim holds on a run only if the run exists to its end. V rises under the corrected law as well: V̇₁ of the "
-        "paper lacks a term (defect 4), and without beta a cross term remains. y → e₃ is the pose that hangs (defect 2).",
+        "A claim holds on a run only if the run exists to its end. V rises under the corrected law as well: the paper "
+        "leaves out a term of V̇₁ (defect 4), and without beta a cross term remains. y = e₃ hangs (defect 2).",
         "## Defects of the paper, re-derived by this run",
         text.findings_markdown(result.findings),
     ]

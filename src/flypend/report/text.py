@@ -19,8 +19,8 @@ Column = tuple[str, str]
 
 
 def number(value: float) -> str:
-    """A number for a table: four significant digits, but six near 1, where the difference from 1 is what counts."""
-    return f"{value:.6f}" if 0 < abs(value - 1) < 1e-2 else f"{value:.4g}"
+    """A number for a table: three significant digits, but five decimals near 1, where the distance to 1 counts."""
+    return f"{value:.5f}" if 0 < abs(value - 1) < 1e-2 else f"{value:.3g}"
 
 
 def mark(holds: bool) -> str:
@@ -39,7 +39,8 @@ def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
     for (law, name), row in verdicts.items():
         cells = [f"[{'green' if v.holds else 'red'}]{number(v.value)} {'✓' if v.holds else '✗'}" for v in row]
         table.add_row(law, name, *cells)
-    table.caption = "each number: " + "; ".join(f"{v.claim}: {_generic(v.measured)} {v.criterion}" for v in first)
+    meaning = "; ".join(f"{v.claim}: {_generic(v.measured)} {v.criterion}" for v in first)
+    table.caption = f"{meaning}. A claim fails as well on a run that does not reach its end."
     table.caption_justify = "left"
     return table
 

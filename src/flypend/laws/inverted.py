@@ -1,0 +1,113 @@
+"""The law that really inverts: throw the bob up, flip the rod under it, balance, and hold or follow a position.
+
+World with e₃ up. The bob p = x + l y is itself a thrust vehicle whose thrust axis is the rod: with F the force on the
+quadrotor, D = F_b/m − F_v/M and F_v, F_b external forces on vehicle and bob,
+
+    p̈ = −g e₃ + F_b/m + a y,          (M+m) a = F·y − M l |ẏ|² − M D·y
+    ÿ + |ẏ|² y = u,                    l u = P_y (D − F/M),             P_y v = −y × (y × v)
+
+so u and a can be chosen freely by F = −M l u + ((M+m) a + M l |ẏ|²) y + M D. The part along y is the one that the
+paper's law lacks. A cascade follows: position → desired rod direction d → F → desired thrust axis z_d → moment.
+
+docs/inverted.md derives it line by line.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import casadi as ca
+
+from flypend import errors
+from flypend.geometry import E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
+from flypend.laws.inverted_gains import BOUNDS, Gains, computer_of, gains_for
+from flypend.laws.law import Control, Law
+from flypend.laws.references import Reference, hover
+from flypend.laws.sphere import velocity_error
+from flypend.laws.throw import bob_reference, coasted, largest_thrust, rod_force
+from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
+
+
+def inverted(reference: Reference | None = None, **gains: float) -> Law:
+    """The inverted law, about a `reference` of the pivot, with the gains of `gains_for` unless given.
+
+    Parameters
+    ----------
+    reference : callable, optional
+        Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
+    **gains : float
+        Any field of `Gains`, in its unit; the others are proposed for the vehicle that flies.
+
+    Raises
+    ------
+    InputError
+        For an unknown gain, one out of range, or bandwidths that are not separated.
+    """
+    errors.only_known("", gains, BOUNDS)
+    given = {name: errors.number(name, value, at_least=BOUNDS[name]) for name, value in gains.items()}
+
+    @cache
+    def for_vehicle(vehicle: Vehicle) -> Law:
+        chosen = Gains(**(vars(gains_for(vehicle)) | given))
+        return _law(chosen, reference or hover())
+
+    return Law(name="inverted", e3="up", gains=given, control=_unbound, for_vehicle=for_vehicle)
+
+
+def _unbound(*_: Any) -> Control:
+    raise TypeError("the inverted law takes its gains from the vehicle: use law.bound(vehicle)")
+
+
+def _law(gains: Gains, reference: Reference) -> Law:
+    def control(t: Any, state: State, vehicle: Vehicle, _: Any, forces: tuple[Any, Any]) -> Control:
+        return inverted_control(t, state, vehicle, gains, reference, forces)
+
+    return Law(
+        name="inverted",
+        e3="up",
+        gains=vars(gains),
+        control=control,
+        computer=computer_of(gains),
+        uses_forces=True,
+        reference=reference,
+    )
+
+
+def inverted_control(
+    t: Any, state: State, vehicle: Vehicle, k: Gains, reference: Reference, forces: tuple[Any, Any]
+) -> Control:
+    """The law for symbols of `t` (s) and `state`.
+
+    `vehicle`, gains `k` and `reference` as in `inverted`; `forces` are the estimated external forces on vehicle and
+    bob, each (3, 1), N.
+    """
+    z, z_dot = state.z, apply(state.R, cross(state.omega, E3))
+    p_ref, v_ref, a_ref, jerk_ref, y_ref = bob_reference(t, reference, vehicle, forces[1])
+    height = state.x[2] - reference(t)[2]
+
+    def force(y: Any, y_dot: Any) -> Any:
+        e, v = state.x + vehicle.l * y - p_ref, state.x_dot + vehicle.l * y_dot - v_ref
+        return rod_force(e, v, a_ref, jerk_ref, y, y_dot, height, forces, vehicle, k)
+
+    # The thrust is for the rod as it is; its axis is for the rod after coasting over the time that turning takes.
+    f = ca.fmin(ca.fmax(dot(force(state.y, state.y_dot), z), 0), largest_thrust(vehicle))
+    wanted = force(*coasted(state.y, state.y_dot, k.coast_time)) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
+    z_d = scale(1 / smooth_norm(wanted, 0.006 * vehicle.weight), wanted)
+
+    rates = equations_of_motion(state, Wrench(f, ca.SX.sym("moment", 3)), vehicle, "up")
+    z_d_dot = lie_derivative(z_d, state, rates, t)
+    v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
+    spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π
+    u_z = k.attitude_bandwidth**2 * spring - 2 * k.attitude_damping * k.attitude_bandwidth * v_e
+
+    # z̈ = −|ż|² z + u_z with R ω̇ = z × u_z across z, the paper's (setmu) solved for ω̇; the yaw rate is damped.
+    turn = apply(state.R.T, cross(z, u_z) + state.omega[2] * z_dot)
+    alpha = ca.vertcat(turn[0], turn[1], -k.yaw_damping * state.omega[2])
+    moment = apply(vehicle.I, alpha) + cross(state.omega, apply(vehicle.I, state.omega))
+    signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(z - z_d)}
+    return Control(wrench=Wrench(f, moment), signals=signals)
+
+
+inverted.gains_for = lambda vehicle: vars(gains_for(vehicle)).copy()  # type: ignore[attr-defined]
+inverted.known_gains = tuple(BOUNDS)  # type: ignore[attr-defined]

@@ -1,0 +1,163 @@
+"""Gains of the inverted law: bandwidths, damping ratios, speeds and times; and what a vehicle suggests for them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from flypend.errors import InputError
+from flypend.laws.law import Computer
+from flypend.model import Vehicle
+
+SEPARATION = 1.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gains:
+    """Gains of the inverted law.
+
+    Parameters
+    ----------
+    position_bandwidth, position_damping : float
+        Horizontal loop of the bob: natural frequency (rad/s) and damping ratio.
+    height_bandwidth, height_damping : float
+        Vertical loop of the bob, likewise.
+    position_reach : float
+        Position errors are softly limited to this length, m.
+    descent_limit : float
+        Largest downward acceleration asked of the bob, m/s²; below g, so that the rod's target never turns over.
+    rod_bandwidth, rod_damping : float
+        Rod on S², rad/s and ratio.
+    attitude_bandwidth, attitude_damping : float
+        Thrust axis on S², rad/s and ratio.
+    rate_feedforward : float
+        Share of the rate of the desired thrust axis that is fed forward.
+    coast_time : float
+        The desired thrust axis is that for the rod this much later, s.
+    throw_speed : float
+        Upward speed of the bob asked for while the rod hangs, m/s.
+    flip_speed, flip_by_rod, flip_by_height, flip_width : float
+        The rod may flip once v + flip_by_height · h + flip_by_rod · y₃ passes flip_speed (m/s), with v (m/s) the
+        upward speed of the bob, h (m) the height of the pivot above its reference, in a band of flip_width (m/s).
+    hanging_share : float
+        Until then the rod is held hanging with this share of its gain.
+    low_below, high_above : float
+        y₃ below which a rod is low and above which it is not at all.
+    yaw_damping : float
+        Decay of the yaw rate, 1/s.
+    thrust_share : float
+        Share of the largest thrust that is used.
+    lead, latency, observer : float
+        Of the flight computer: see `laws.Computer`.
+    """
+
+    position_bandwidth: float
+    position_damping: float
+    height_bandwidth: float
+    height_damping: float
+    position_reach: float
+    descent_limit: float
+    rod_bandwidth: float
+    rod_damping: float
+    attitude_bandwidth: float
+    attitude_damping: float
+    rate_feedforward: float
+    coast_time: float
+    throw_speed: float
+    flip_speed: float
+    flip_by_rod: float
+    flip_by_height: float
+    flip_width: float
+    hanging_share: float
+    low_below: float
+    high_above: float
+    yaw_damping: float
+    thrust_share: float
+    lead: float
+    latency: float
+    observer: float
+
+    def __post_init__(self) -> None:
+        slow, middle, fast = self.position_bandwidth, self.rod_bandwidth, self.attitude_bandwidth
+        if not (SEPARATION * slow <= middle and SEPARATION * middle <= fast):
+            raise InputError(
+                "bandwidths",
+                f"position, rod and attitude each {SEPARATION:g} times the one before",
+                f"{slow:.3g}, {middle:.3g}, {fast:.3g} rad/s",
+            )
+        if not self.low_below < self.high_above < 1:
+            raise InputError("high_above", "low_below < high_above < 1", f"{self.low_below:g}, {self.high_above:g}")
+
+
+# Least value of each gain; those of the flip may have either sign.
+_SIGNED = {"flip_speed", "flip_by_rod", "flip_by_height", "low_below", "high_above"}
+_POSITIVE = {"flip_width", "coast_time", "position_reach"} | {
+    entry.name for entry in fields(Gains) if entry.name.endswith(("_bandwidth", "_damping"))
+}
+BOUNDS: Mapping[str, float | None] = MappingProxyType(
+    {entry.name: None if entry.name in _SIGNED else 1e-9 if entry.name in _POSITIVE else 0.0 for entry in fields(Gains)}
+)
+
+# Pure numbers, found by CMA-ES on the success and the excursion of random starts of hehn2011 (see docs/inverted.md).
+# Times are in √(l/g), speeds in √(g l), lengths in l, the attitude bandwidth in the root of the angular acceleration
+# that the rotors can give.
+NUMBERS: Mapping[str, float] = MappingProxyType(
+    {
+        "position_bandwidth": 0.607, "position_damping": 0.91, "height_bandwidth": 0.62, "height_damping": 0.71,
+        "rod_bandwidth": 1.87, "rod_damping": 0.43, "attitude_bandwidth": 1.48, "attitude_damping": 0.92,
+        "rate_feedforward": 0.71, "coast": 1.1, "latency": 0.4, "lead": 2.1, "throw_speed": 0.74,
+        "flip_speed": 0.25, "flip_by_rod": 0.73, "flip_by_height": 0.40, "flip_width": 0.23, "hanging_share": 0.7,
+        "low_below": 0.5, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9,
+    }
+)  # fmt: skip
+
+
+def gains_for(vehicle: Vehicle) -> Gains:
+    """The gains that the law proposes for `vehicle`, from its rod, its inertia, its rotor limits and their lag."""
+    n = NUMBERS
+    time, speed = np.sqrt(vehicle.l / vehicle.g), np.sqrt(vehicle.g * vehicle.l)
+    attitude = min(n["attitude_bandwidth"] * np.sqrt(angular_authority(vehicle)), 0.9 / max(vehicle.rotor_lag, 1e-3))
+    values: dict[str, Any] = {
+        "position_bandwidth": n["position_bandwidth"] / time,
+        "position_damping": n["position_damping"],
+        "height_bandwidth": n["height_bandwidth"] / time,
+        "height_damping": n["height_damping"],
+        "position_reach": n["position_reach"] * vehicle.l,
+        "descent_limit": n["descent"] * vehicle.g,
+        "rod_bandwidth": n["rod_bandwidth"] / time,
+        "rod_damping": n["rod_damping"],
+        "attitude_bandwidth": attitude,
+        "attitude_damping": n["attitude_damping"],
+        "rate_feedforward": n["rate_feedforward"],
+        "coast_time": n["coast"] / attitude,
+        "throw_speed": n["throw_speed"] * speed,
+        "flip_speed": n["flip_speed"] * speed,
+        "flip_by_rod": n["flip_by_rod"] * speed,
+        "flip_by_height": n["flip_by_height"] / time,
+        "flip_width": n["flip_width"] * speed,
+        "hanging_share": n["hanging_share"],
+        "low_below": n["low_below"],
+        "high_above": n["high_above"],
+        "yaw_damping": 5.0,
+        "thrust_share": 0.993,
+        "lead": n["lead"] if vehicle.rotor_lag > 0 else 1.0,
+        "latency": min(0.02, n["latency"] / attitude),
+        "observer": 1.5,
+    }
+    return Gains(**{name: float(value) for name, value in values.items()})
+
+
+def angular_authority(vehicle: Vehicle) -> float:
+    """Largest angular acceleration, rad/s², of roll or pitch, whichever is less, about hover: arm · range / inertia."""
+    low, high = vehicle.rotor_limits
+    lever = np.abs(vehicle.mixing()[1:3]).sum(axis=1) / 2
+    return float(np.min(lever * (high - low) / np.diag(vehicle.inertia)[:2]))
+
+
+def computer_of(gains: Gains) -> Computer:
+    """The flight computer around the law with these `gains`."""
+    return Computer(lead=gains.lead, latency=gains.latency, observer=gains.observer)

@@ -1,0 +1,52 @@
+"""Reference trajectories of the pivot as symbolic functions of time; their derivatives come from the symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend import errors
+
+Reference = Callable[[Any], Any]
+
+
+def hover(x: Any = (0.0, 0.0, 0.0)) -> Reference:
+    """Stay at the position `x` (3,), m. Raises InputError if it is not three finite numbers."""
+    position = errors.array("reference.x", x, (3,))
+    return lambda t: ca.SX(ca.DM(position)) + 0 * t
+
+
+def line(start: Any = (0.0, 0.0, 0.0), velocity: Any = (1.0, 0.0, 0.0)) -> Reference:
+    """Move from `start` (3,), m, with constant `velocity` (3,), m/s. Raises InputError for anything but finite numbers."""
+    origin, rate = errors.array("reference.start", start, (3,)), errors.array("reference.velocity", velocity, (3,))
+    return lambda t: ca.DM(origin) + ca.DM(rate) * t
+
+
+def circle(radius: float = 0.5, rate: float = 1.0, center: Any = (0.0, 0.0, 0.0)) -> Reference:
+    """A horizontal circle of `radius` (m) about `center` (3,), m, at angular `rate` (rad/s).
+
+    Raises InputError for a radius that is not positive or numbers that are not finite.
+    """
+    r, w = errors.number("reference.radius", radius, above=0, unit="m"), errors.number("reference.rate", rate)
+    middle = errors.array("reference.center", center, (3,))
+    return lambda t: ca.DM(middle) + r * ca.vertcat(ca.cos(w * t), ca.sin(w * t), 0)
+
+
+def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.0)) -> Reference:
+    """A horizontal figure of eight (Gerono), `size` m from `center` (3,) to either end, at angular `rate` (rad/s).
+
+    Raises InputError for a size that is not positive or numbers that are not finite.
+    """
+    a, w = errors.number("reference.size", size, above=0, unit="m"), errors.number("reference.rate", rate)
+    middle = errors.array("reference.center", center, (3,))
+    return lambda t: ca.DM(middle) + a * ca.vertcat(ca.sin(w * t), ca.sin(w * t) * ca.cos(w * t), 0)
+
+
+def sampled(reference: Reference, t: Any) -> Any:
+    """Positions (n, 3) of `reference` at times `t` (n,), s."""
+    time = ca.SX.sym("t")
+    function = ca.Function("reference", [time], [ca.densify(reference(time))])
+    return np.array(function(np.asarray(t, dtype=float)[None, :])).T.copy()

@@ -1,0 +1,158 @@
+"""The outer loops of the inverted law: what the bob should do, what the rod should do, and the force for both."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from flypend.geometry import E3, cross, dot, scale, tangent_part, unit
+from flypend.laws.inverted_gains import Gains
+from flypend.laws.references import Reference
+from flypend.laws.sphere import velocity_error
+from flypend.model import Vehicle
+
+
+def bob_reference(t: Any, reference: Reference, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any, Any, Any]:
+    """Position of the bob, its first three derivatives, and rod direction, for the pivot to be at `reference`(`t`).
+
+    The rod leans along g e₃ − F_b/m + p̈ with p = x_ref + l y, which is solved by two fixed-point steps; each shrinks
+    the error by (rate of the reference)² l/g. `on_bob` is the external force F_b on the bob of `vehicle`, N.
+    """
+    x_ref = reference(t)
+    support = vehicle.g * E3 - on_bob / vehicle.m
+    y = unit(support)
+    for _ in range(2):
+        acceleration = _derivatives(x_ref + vehicle.l * y, t, 2)[-1]
+        y = unit(support + acceleration)
+    position = x_ref + vehicle.l * y
+    return position, *_derivatives(position, t, 3), y
+
+
+def _derivatives(value: Any, t: Any, count: int) -> list[Any]:
+    out = []
+    for _ in range(count):
+        value = ca.jacobian(value, t)
+        out.append(value)
+    return out
+
+
+def bob_acceleration(e: Any, v: Any, y: Any, k: Gains) -> Any:
+    """Acceleration asked of the bob at position error `e` (m), velocity error `v` (m/s) and rod `y`, less gravity.
+
+    A position loop with softly limited error, and a throw: an upward speed asked for while the rod is low.
+    """
+    limited = soft(e, k.position_reach)
+    throw = k.throw_speed * low_rod(y, k)
+    up = -(k.height_bandwidth**2) * limited[2] - 2 * k.height_damping * k.height_bandwidth * (v[2] - throw)
+    vertical = ca.fmax(up, 0) + soft(ca.fmin(up, 0), k.descent_limit)
+    horizontal = -(k.position_bandwidth**2) * limited[:2] - 2 * k.position_damping * k.position_bandwidth * v[:2]
+    return ca.vertcat(horizontal, vertical)
+
+
+def flip_permission(y: Any, height: Any, climb: Any, k: Gains) -> Any:
+    """1 where the bob climbs fast enough (`climb`, m/s), is high enough (`height` of the pivot, m) to flip, else 0.
+
+    Flipping takes thrust away from the bob for a while; the permission comes when it can afford that.
+    """
+    return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / k.flip_width)
+
+
+def low_rod(y: Any, k: Gains) -> Any:
+    """1 while the rod `y` is low, exactly 0 near upright, so that the throw leaves the equilibrium alone."""
+    return smooth_step((k.high_above - y[2]) / (k.high_above - k.low_below))
+
+
+def rod_force(
+    e: Any,
+    v: Any,
+    a_ref: Any,
+    jerk_ref: Any,
+    y: Any,
+    y_dot: Any,
+    height: Any,
+    on: tuple[Any, Any],
+    vehicle: Vehicle,
+    k: Gains,
+) -> Any:
+    """Force on the quadrotor (3, 1), N, that steers rod and bob.
+
+    Parameters
+    ----------
+    e, v : SX (3, 1)
+        Position and velocity error of the bob, m, m/s.
+    a_ref, jerk_ref : SX (3, 1)
+        Acceleration of the bob's reference and its rate.
+    y, y_dot : SX (3, 1)
+        Rod and its rate.
+    height : SX
+        Height of the pivot above its reference, m.
+    on : (SX, SX)
+        External forces on vehicle and bob, N.
+    vehicle, k
+        The vehicle and the gains.
+    """  # fmt: skip
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    on_vehicle, on_bob = on
+    weight = vehicle.g * E3 - on_bob / m
+    A, d, d_dot = _demand(e, v, a_ref, jerk_ref, y, y_dot, weight, k)
+
+    # Rod on S²: Lemma 2 towards d without the acceleration of d, its stiffness turned round until the flip is allowed.
+    omega_d = cross(d, d_dot)
+    v_e = velocity_error(y, y_dot, d, d_dot)
+    share = 1 - low_rod(y, k) * (1 - flip_permission(y, height, v[2], k)) * (1 + k.hanging_share)
+    u = share * k.rod_bandwidth**2 * tangent_part(y, d) - 2 * k.rod_damping * k.rod_bandwidth * v_e
+    u = u + scale(dot(y, omega_d), cross(y, y_dot))
+
+    difference = on_bob / m - on_vehicle / M
+    F = -M * l * u + scale((M + m) * dot(A, y) + M * l * dot(y_dot, y_dot), y) + M * difference
+    return limited_force(F, k.thrust_share * largest_thrust(vehicle))
+
+
+def _demand(
+    e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Gains
+) -> tuple[Any, Any, Any]:
+    """A, its direction d, and ḋ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`.
+
+    The law is a function of errors that are expressions themselves, so the derivative is taken on symbols of its own.
+    """
+    at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
+    demand = weight + at[2] + bob_acceleration(at[0], at[1], at[3], k)
+    direction = unit(demand)
+    rates = ca.vertcat(at[1], scale(dot(demand, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
+    rate = ca.jtimes(direction, ca.vertcat(*at), rates)
+    A, d, d_dot = ca.substitute([demand, direction, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
+    return A, d, d_dot
+
+
+def largest_thrust(vehicle: Vehicle) -> float:
+    """Sum of the largest rotor forces, N."""
+    return float(vehicle.rotor_limits[1] * len(vehicle.rotor_spins))
+
+
+def limited_force(F: Any, limit: Any) -> Any:
+    """F/(1 + (|F|/limit)⁸)^(1/8): a saturation of high order, because a soft one would shift hover."""
+    ratio = dot(F, F) / limit**2
+    return F / ca.sqrt(ca.sqrt(ca.sqrt(1 + ratio**4)))
+
+
+def soft(value: Any, limit: Any) -> Any:
+    """Value/√(1 + |value|²/limit²): `value` for small ones, never longer than `limit`."""
+    return value / ca.sqrt(1 + ca.dot(value, value) / limit**2)
+
+
+def smooth_step(q: Any) -> Any:
+    """0 below q = 0, 1 above q = 1, once continuously differentiable between: exactly constant outside."""
+    q = ca.fmin(ca.fmax(q, 0), 1)
+    return q * q * (3 - 2 * q)
+
+
+def coasted(y: Any, y_dot: Any, time: Any) -> tuple[Any, Any]:
+    """Rod direction and rate after coasting for `time` s: y + time ẏ drawn back to the sphere, and its velocity."""
+    factor = 1 / norm_of_sum(y_dot, time)
+    return scale(factor, y + time * y_dot), scale(factor, y_dot - scale(time * dot(y_dot, y_dot), y))
+
+
+def norm_of_sum(y_dot: Any, time: Any) -> Any:
+    """|y + time ẏ| for tangent ẏ."""
+    return ca.sqrt(1 + time**2 * dot(y_dot, y_dot))

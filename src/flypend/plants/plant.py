@@ -1,0 +1,178 @@
+"""What stands between a law and the world, as data: limits, lag, sampling, delay, noise, mismatch, wind, interface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from types import MappingProxyType
+from typing import Any, Literal
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.model import Vehicle
+
+Engine = Literal["equations", "mujoco"]
+Interface = Literal["wrench", "rates"]
+MISMATCHED = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_lag")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Noise:
+    """Standard deviations of white measurement noise, drawn anew at every control step.
+
+    Parameters
+    ----------
+    x, x_dot : float
+        Position (m) and velocity (m/s).
+    attitude, omega : float
+        Rotation vector (rad) and angular velocity (rad/s).
+    y, y_dot : float
+        Rod direction (rad) and its rate (1/s).
+    """
+
+    x: float = 0.0
+    x_dot: float = 0.0
+    attitude: float = 0.0
+    omega: float = 0.0
+    y: float = 0.0
+    y_dot: float = 0.0
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            errors.number(f"noise.{entry.name}", getattr(self, entry.name), at_least=0)
+
+
+# A motion capture system and a gyroscope: 1 mm, 0.2 degrees, rates differenced and filtered.
+MOTION_CAPTURE = Noise(x=1e-3, x_dot=1e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3, y_dot=3e-2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wind:
+    """Forces on vehicle and bob in the world frame with e₃ up, N.
+
+    Parameters
+    ----------
+    on_vehicle, on_bob : (3,)
+        Constant forces.
+    gust_on_vehicle, gust_on_bob : float
+        Standard deviation per axis of a gust, white noise through a first-order filter.
+    gust_time : float
+        Correlation time of a gust, s.
+    """
+
+    on_vehicle: Any = (0.0, 0.0, 0.0)
+    on_bob: Any = (0.0, 0.0, 0.0)
+    gust_on_vehicle: float = 0.0
+    gust_on_bob: float = 0.0
+    gust_time: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("on_vehicle", "on_bob"):
+            object.__setattr__(self, name, tuple(errors.array(f"wind.{name}", getattr(self, name), (3,)).tolist()))
+        for name in ("gust_on_vehicle", "gust_on_bob"):
+            errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N")
+        errors.number("wind.gust_time", self.gust_time, above=0, unit="s")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plant:
+    """A sampled flight: how the world answers the law. Each departure from the ideal can be set alone.
+
+    Parameters
+    ----------
+    engine : "equations" or "mujoco"
+        Who integrates the motion: the package's equations, or MuJoCo.
+    limits : bool
+        Whether rotor forces are kept within `vehicle.rotor_limits`, roll and pitch before thrust before yaw.
+    lag : float, optional
+        Time constant of the rotors, s; default that of the vehicle; 0 for none.
+    rate : float
+        Control rate, Hz; commands are held between (zero-order hold).
+    delay : float
+        From measurement to command, s.
+    noise : Noise, optional
+        Measurement noise.
+    pivot_offset : (3,)
+        Ball joint relative to the centre of mass, body frame, m. The law does not know of it.
+    mismatch : dict
+        True value over the one that the law knows, for mass, bob_mass, rod_length, inertia, drag_ratio, rotor_lag.
+    wind : Wind, optional
+        External forces.
+    interface : "wrench" or "rates"
+        What the law commands: rotor forces for its wrench, or collective thrust and body rates, which an inner loop
+        on board tracks with gyroscope data.
+    rate_loop_rate, rate_loop_gain : float
+        Frequency (Hz) and proportional gain (1/s) of that inner loop.
+    seed : int
+        Seed of noise and gusts.
+
+    Raises
+    ------
+    InputError
+        For a field out of range.
+    """
+
+    engine: Engine = "equations"
+    limits: bool = True
+    lag: float | None = None
+    rate: float = 500.0
+    delay: float = 0.0
+    noise: Noise | None = None
+    pivot_offset: Any = (0.0, 0.0, 0.0)
+    mismatch: Mapping[str, float] = field(default_factory=dict)
+    wind: Wind | None = None
+    interface: Interface = "wrench"
+    rate_loop_rate: float = 1000.0
+    rate_loop_gain: float = 40.0
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        errors.one_of("plant.engine", self.engine, ("equations", "mujoco"))
+        errors.one_of("plant.interface", self.interface, ("wrench", "rates"))
+        errors.number("plant.rate", self.rate, above=0, unit="Hz")
+        errors.number("plant.delay", self.delay, at_least=0, unit="s")
+        errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, unit="Hz")
+        errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
+        if self.lag is not None:
+            errors.number("plant.lag", self.lag, at_least=0, unit="s")
+        offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
+        object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))
+        errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)
+        for name, factor in self.mismatch.items():
+            errors.number(f"plant.mismatch.{name}", factor, above=0)
+        object.__setattr__(self, "mismatch", MappingProxyType(dict(self.mismatch)))
+
+    def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
+        """The vehicle that flies when the law believes in `vehicle`: `mismatch` and `lag` applied."""
+        changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}
+        if self.lag is not None:
+            changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
+        return vehicle.replace(**changes)
+
+    def replace(self, **changes: Any) -> Plant:
+        """A copy with the given fields in `changes` replaced and everything checked again."""
+        errors.only_known("plant", changes, [entry.name for entry in fields(self)])
+        return replace(self, **changes)
+
+
+ROTORS = Plant()
+PRESETS: Mapping[str, Plant] = MappingProxyType(
+    {
+        "rotors": ROTORS,
+        "mujoco": ROTORS.replace(engine="mujoco"),
+        # Hehn and D'Andrea (2011): commands at 50 Hz, about 30 ms of latency, body rates controlled on board.
+        "hehn2011": ROTORS.replace(interface="rates", rate=50.0, delay=0.03),
+    }
+)
+
+
+def plant(name: str | Plant) -> Plant:
+    """The plant called `name` ("rotors", "mujoco", "hehn2011"), or `name` itself if it is one already.
+
+    Raises InputError for an unknown name.
+    """
+    if isinstance(name, Plant):
+        return name
+    if not isinstance(name, str):
+        raise InputError("plant", "a Plant or one of " + ", ".join(PRESETS), repr(name))
+    return PRESETS[errors.one_of("plant", name, PRESETS)]

@@ -1,25 +1,33 @@
 """flypend models, controls and simulates a spherical pendulum on a quadrotor, on R³ × SO(3) × S²."""
 
 from flypend import laws
+from flypend.ensemble import Ensemble, simulate_ensemble
 from flypend.errors import InputError
 from flypend.integrate import Outcome
-from flypend.laws import Law
+from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
+from flypend.plants import Noise, Plant, Wind
 from flypend.simulate import simulate
 from flypend.trajectory import Trajectory, load
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "Controller",
+    "Ensemble",
     "InputError",
     "Law",
+    "Noise",
     "Outcome",
+    "Plant",
     "State",
     "Trajectory",
     "Vehicle",
+    "Wind",
     "Wrench",
     "laws",
     "load",
     "simulate",
+    "simulate_ensemble",
     "vehicle",
 ]

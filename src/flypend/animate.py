@@ -6,6 +6,8 @@ Everything that does not move is drawn once; a frame restores that background an
 from __future__ import annotations
 
 import itertools
+import re
+import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache, lru_cache
@@ -85,8 +87,8 @@ def movie(
     if gif and fps > 50:
         raise errors.InputError("fps", "at most 50 for a .gif", f"{fps:g}")
     shape = errors.array("size", size, (2,))
-    if np.any(shape < 160) or np.any(shape % 2):
-        raise errors.InputError("size", "two even numbers of pixels, at least 160", tuple(size))
+    if shape.shape != (2,) or np.any(shape < 160) or np.any(shape % 2):
+        raise errors.InputError("size", "two even numbers of pixels, at least 160", size)
     width, height = (int(side) for side in shape)
     hold = 0 if run.outcome.status == "completed" else round(HOLD * fps)
     with whole_file(path, (".mp4", ".gif")) as partial:
@@ -134,14 +136,17 @@ def _write_mp4(path: FilePath, frames: Iterator[Frame], size: tuple[int, int], f
     finally:
         encoder.close()
     # A full disk is noticed by ffmpeg only; it then leaves a file that ends early or has no index.
-    try:
-        reader = imageio_ffmpeg.read_frames(path)
-        seconds = next(reader)["duration"]
-        reader.close()
-    except (OSError, RuntimeError):
-        seconds = 0.0
-    if abs(seconds * fps - count) > 1 + 0.02 * fps:
-        raise OSError(f"{seconds:g} s of a movie of {count / fps:g} s from ffmpeg")
+    if (written := _frames_in(path)) != count:
+        raise OSError(f"{written} of {count} frames from ffmpeg")
+
+
+def _frames_in(path: FilePath) -> int:
+    """Number of frames in the movie at `path`, read but not decoded; 0 for a file that is none."""
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "quiet", "-i", str(path), "-c", "copy"]
+    command += ["-progress", "-", "-f", "null", "-"]
+    report = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=False)  # noqa: S603
+    counts = re.findall(rb"^frame=\s*(\d+)", report.stdout, flags=re.MULTILINE)
+    return int(counts[-1]) if counts and report.returncode == 0 else 0
 
 
 def _send(encoder: Any, frame: Frame | None) -> None:
@@ -159,7 +164,9 @@ def _write_gif(path: FilePath, frames: Iterator[Frame], size: tuple[int, int], f
     rest = (image(frame).quantize(palette=first, dither=Image.Dither.NONE) for frame in frames)
     # A GIF counts hundredths of a second: frames last 3 or 4 of them so that 30 per second come out on average.
     ends = np.round(100 / fps * np.arange(count + 1)).astype(int)
-    first.save(path, save_all=True, append_images=rest, duration=(10 * np.diff(ends)).tolist(), loop=0)
+    durations = (10 * np.diff(ends)).tolist()
+    with path.open("wb") as file:
+        first.save(file, format="GIF", save_all=True, append_images=rest, duration=durations, loop=0)
 
 
 def _stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int, int]) -> Callable[[int, bool], Frame]:
@@ -340,8 +347,7 @@ def _body(ax: Any, shape: Sketch, camera: Camera, rod_length: float) -> Part:
         thrust.set_xy(arrows[i])
         rod.set_data(*rods[i].T)
         bob.set_xy(balls[i])
-        body, pendulum = [rotors, frame, thrust], [rod, bob]
-        return [*pendulum, *body] if behind[i] else [*body, *pendulum]
+        return [rod, bob, rotors, frame, thrust] if behind[i] else [rotors, frame, rod, bob, thrust]
 
     return part
 

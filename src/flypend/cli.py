@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -54,13 +55,8 @@ def paper(
     from flypend.report.paper import reproduce
     from flypend.report.text import findings_table, summary_table
 
-    with _progress() as bar:
-        task = bar.add_task("starting", total=None)
-        result = reproduce(
-            out,
-            quick=quick,
-            progress=lambda what, done, total: bar.update(task, description=what, completed=done, total=total),
-        )
+    with _counter() as tell:
+        result = reproduce(out, quick=quick, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(findings_table(result.findings))
     console.print(
@@ -113,6 +109,107 @@ def run(
     if verdicts:
         console.print(summary_table({(trajectory.law, what): verdicts}))
     console.print(f"Results are in [bold]{out}[/bold].")
+
+
+Laws = Annotated[
+    list[str] | None,
+    typer.Option("--law", help="inverted, lqr, corrected, printed, detuned, or module:name of one's own; repeat it."),
+]
+Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts read with e₃ up.")]
+Runs = Annotated[int, typer.Option("--runs", help="Number of random starts.", min=1)]
+Seed = Annotated[int, typer.Option("--seed", help="Seed of the random starts.", min=0)]
+VehicleName = Annotated[str, typer.Option("--vehicle", help="Name of a vehicle, or a TOML file.")]
+Duration = Annotated[float, typer.Option("--duration", help="Seconds per flight.")]
+
+
+@app.command()
+def compare(
+    law: Laws = None,
+    out: Out = Path("compare-out"),
+    starts: Starts = "random",
+    runs: Runs = 100,
+    seed: Seed = 1,
+    vehicle: VehicleName = "hehn2011",
+    plant: Annotated[str, typer.Option("--plant", help="ideal, rotors, mujoco or hehn2011.")] = "rotors",
+    duration: Duration = 10.0,
+) -> None:
+    """Fly laws, one's own included, from the same starts: one table, one figure.
+
+    Success is to stand inverted within 0.05 and 0.2 m of the reference during the last second.
+    """
+    from flypend.report.staging import check_writable
+    from flypend.report.studies import comparison_table, write_comparison
+    from flypend.studies import compare as fly
+
+    names = law or ["inverted", "lqr", "corrected", "detuned"]
+    laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
+    settings = {**settings, "plant": plant}
+    check_writable(out)
+    with _counter() as tell:
+        result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
+    write_comparison(result, settings, out)
+    console.print(comparison_table(result))
+    console.print(f"Report and figure are in [bold]{out}[/bold].")
+
+
+@app.command()
+def ladder(
+    law: Laws = None,
+    out: Out = Path("ladder-out"),
+    starts: Starts = "random",
+    runs: Runs = 24,
+    seed: Seed = 1,
+    vehicle: VehicleName = "hehn2011",
+    duration: Duration = 10.0,
+    rung: Annotated[list[str] | None, typer.Option("--rung", help="Only this rung; repeat it.")] = None,
+) -> None:
+    """See which step towards reality breaks which law: limits, lag, sampling, delay, noise, mismatch, pivot offset."""
+    from flypend import errors
+    from flypend.report.staging import check_writable
+    from flypend.report.studies import ladder_table, write_ladder
+    from flypend.studies import ladder as climb
+    from flypend.studies.ladder import RUNGS
+
+    laws, batch, machine, settings = _study(law or ["inverted", "lqr"], starts, runs, seed, vehicle, duration)
+    chosen = {errors.one_of("--rung", name, RUNGS): RUNGS[name] for name in rung or RUNGS}
+    check_writable(out)
+    with _counter() as tell:
+        result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
+    write_ladder(result, settings, out)
+    console.print(ladder_table(result))
+    console.print(f"Report and figure are in [bold]{out}[/bold].")
+
+
+def _study(
+    names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
+) -> tuple[list[Any], Any, Any, dict[str, Any]]:
+    """Laws, starts and vehicle of a study, checked, and the settings that say so in its report."""
+    from flypend import errors
+    from flypend.runfile import vehicle_named
+    from flypend.studies import law_named, paper_starts, random_starts
+
+    laws = [law_named(name) for name in names]
+    machine = vehicle_named(vehicle)
+    errors.number("--duration", duration, above=0, unit="s")
+    kind = errors.one_of("--starts", starts, ("random", "paper"))
+    batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
+    settings = {"laws": names, "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
+    return laws, batch, machine, settings | ({"seed": seed} if kind == "random" else {})
+
+
+def _plant(name: str) -> Any:
+    from flypend import errors
+    from flypend.plants import PRESETS
+
+    return errors.one_of("--plant", name, ("ideal", *PRESETS))
+
+
+@contextmanager
+def _counter() -> Iterator[Callable[[str, int, int], None]]:
+    """A progress bar that is told what is done, of how many, under which name."""
+    with _progress() as bar:
+        task = bar.add_task("starting", total=None)
+        yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
 
 
 def _progress() -> Progress:

@@ -274,7 +274,7 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         ax.add_collection(PolyCollection(list(screen(shape.discs[shape.front == front])), **style))
     ax.add_collection(LineCollection(list(screen(shape.arms)), color=INK, linewidth=1.6, zorder=3.1))
     if np.linalg.norm(np.diff(project(camera, shape.thrust), axis=0)) > 0.1 * vehicle.rod_length:  # else only a head
-        _arrow(ax, *screen(shape.thrust), **THRUST, zorder=3.2)
+        _arrow(ax, *screen(shape.thrust), **THRUST, zorder=4.2)
     ax.plot(*screen(shape.rod).T, **ROD, zorder=2 if behind else 4)
     radius = BOB_SHARE * vehicle.rod_length * float(magnification(camera, shape.bob))
     ball = {"facecolor": RED, "edgecolor": INK, "linewidth": 0.7, "zorder": 2.1 if behind else 4.1}

@@ -164,10 +164,10 @@ def whole_file(path: str | Path, suffixes: Sequence[str]) -> Iterator[Path]:
     path = Path(path)
     if path.suffix.lower() not in suffixes:
         raise errors.InputError("path", "a file name ending in " + " or ".join(suffixes), str(path))
-    if path.is_dir():
-        raise errors.InputError(str(path), "a file that can be written", "a folder")
     partial = path.with_name(f".{uuid4().hex}{path.suffix}")
     try:
+        if path.is_dir():
+            raise errors.InputError(str(path), "a file that can be written", "a folder")
         partial.touch(exist_ok=False)
         yield partial
         partial.replace(path)
@@ -281,9 +281,9 @@ def _key(ax: Any, run: Trajectory, view: str, level: float, width: float) -> Non
     drawing.gravity_symbol(ax, view, (0.285 * width, level), 0.028 * width, fontsize=LABEL)
     front = {"color": ORANGE, "markeredgecolor": INK, "markeredgewidth": 0.6, "marker": "o", "markevery": [1]}
     entries = (
-        ("front rotor", {**front, "linestyle": ""}, 0.355),
-        ("thrust", THRUST, 0.55),
-        ("bob since the last picture", TRAIL, 0.67),
+        ("front rotor", {**front, "linestyle": ""}, 0.35),
+        ("thrust", THRUST, 0.53),
+        ("bob since the last picture", TRAIL, 0.665),
     )
     for words, style, start in entries:
         ax.plot([start * width, (start + 0.035) * width], [level, level], **style)
@@ -324,6 +324,9 @@ def _number(ax: Any, points: Any, everything: Any) -> None:
     heights = points[order, 1]
     for i in range(1, len(heights)):
         heights[i] = min(heights[i], heights[i - 1] - gap)
+    heights[-1] = max(heights[-1], (everything[:, 1].min() + everything[:, 1].max() - tall) / 2)
+    for i in range(len(heights) - 1, 0, -1):
+        heights[i - 1] = max(heights[i - 1], heights[i] + gap)
     line = {"arrowstyle": "-", "color": GREY, "linewidth": 0.4, "shrinkA": 1, "shrinkB": 2}
     style = {"fontsize": SMALL - 1, "va": "center", "xycoords": "data", "textcoords": ax.get_yaxis_transform()}
     for i, height in zip(order, heights, strict=True):

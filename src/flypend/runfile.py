@@ -57,6 +57,11 @@ def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
     return _build(_complete(settings))
 
 
+def vehicle_named(name: str) -> Vehicle:
+    """The vehicle called `name`, or in the TOML file at that path. Raises InputError."""
+    return Vehicle.from_toml(name) if name.endswith(".toml") else vehicle(name)
+
+
 def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     """Fill in what `experiment` stands for, and expand the vehicle to a table."""
     errors.only_known("", settings, KEYS)

@@ -10,7 +10,8 @@ from flypend import errors, plants
 from flypend.compile import close_loop
 from flypend.compile.numeric import as_numpy
 from flypend.integrate import integrate
-from flypend.laws import Law
+from flypend.laws import Controller, Law
+from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, split
 from flypend.plants import Plant
@@ -22,7 +23,7 @@ SAMPLE_PERIOD = 0.01
 
 def simulate(
     vehicle: Vehicle,
-    law: Law,
+    law: Law | Controller,
     start: State,
     duration: float,
     *,
@@ -37,22 +38,22 @@ def simulate(
     ----------
     vehicle : Vehicle
         What flies.
-    law : Law
+    law : Law or Controller
         What steers it. Its `e3` is the frame of `start` and of the result.
     start : State
         A single state.
     duration : float
         Seconds, > 0.
     plant : str or Plant
-        "ideal" (continuous time, the wrench acts as commanded), "rotors" (limits, lag and sampling, integrated by the
-        package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011" (thrust and body rates at 50 Hz), or
-        a `Plant`.
+        "ideal" (continuous time, the wrench acts as commanded; a Controller is sampled at its rate), "rotors" (limits,
+        lag and sampling, integrated by the package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011"
+        (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
         Tolerances of the adaptive step (DOP853); atol defaults to rtol (state entries are of order one in SI units).
         Used by the ideal plant; a sampled flight takes steps of 1 ms or less.
     times : (n,) increasing, optional
-        Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends early
-        is sampled up to its end.
+        Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends
+        early is sampled up to its end.
 
     Returns
     -------
@@ -71,7 +72,9 @@ def simulate(
     atol = None if atol is None else errors.number("atol", atol, above=0)
     wanted = _sample_times(duration, times)
     if plant == "ideal":
-        return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted)
+        if isinstance(law, Law):
+            return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted)
+        plant = Plant(limits=False, lag=0.0, rate=law.rate)
     return _sampled(vehicle, law, start, duration, plants.plant(plant), wanted)
 
 
@@ -92,11 +95,11 @@ def _ideal(
         as_numpy(loop.rates), start.packed(), duration, rtol=rtol, atol=atol, margin=margin, margin_reason=reason
     )
     end = solution.outcome.time
-    sampled = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
-    packed = solution(sampled)
-    values = np.stack([outputs(t, s) for t, s in zip(sampled, packed, strict=True)])
+    t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
+    packed = solution(t)
+    values = np.stack([outputs(time, s) for time, s in zip(t, packed, strict=True)])
     return Trajectory(
-        t=sampled,
+        t=t,
         **split(packed),
         thrust=values[:, 0],
         moment=values[:, 1:4],
@@ -108,11 +111,14 @@ def _ideal(
         vehicle=vehicle,
         law=law.name,
         gains=dict(law.gains),
+        x_ref=_reference(law, t),
         interpolant=solution,
     )
 
 
-def _sampled(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant, wanted: Any) -> Trajectory:
+def _sampled(
+    vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant, wanted: Any
+) -> Trajectory:
     """A sampled flight; it is recorded at control ticks, of which those nearest to `wanted` are kept."""
     samples = fly(vehicle, law, start, duration, plant)
     ticks = np.unique(np.clip(np.rint(wanted * plant.rate).astype(int), 0, len(samples.t) - 1))
@@ -130,13 +136,19 @@ def _sampled(vehicle: Vehicle, law: Law, start: State, duration: float, plant: P
         vehicle=vehicle,
         law=law.name,
         gains=dict(law.gains),
+        x_ref=_reference(law, samples.t[ticks]),
     )
 
 
-def _check(vehicle: Vehicle, law: Law, start: State) -> None:
-    for name, value, kind in (("vehicle", vehicle, Vehicle), ("law", law, Law), ("start", start, State)):
+def _reference(law: Law | Controller, times: Any) -> Any:
+    return None if law.reference is None else sampled(law.reference, times)
+
+
+def _check(vehicle: Vehicle, law: Law | Controller, start: State) -> None:
+    kinds = (("vehicle", vehicle, Vehicle), ("law", law, Law | Controller), ("start", start, State))
+    for name, value, kind in kinds:
         if not isinstance(value, kind):
-            raise errors.InputError(name, f"a {kind.__name__}", repr(value))
+            raise errors.InputError(name, f"a {getattr(kind, '__name__', 'Law or Controller')}", repr(value))
     if start.batch_shape:
         raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
 

@@ -14,7 +14,7 @@ import numpy as np
 from flypend import errors
 from flypend.integrate import Outcome
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import SHAPES, E3Direction
+from flypend.model.state import FLIP, SHAPES, E3Direction
 
 if TYPE_CHECKING:
     import xarray
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 AXES = ["1", "2", "3"]
 UNITS = {
     "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
-    "moment": "N m", "rotor_forces": "N",
+    "moment": "N m", "rotor_forces": "N", "x_ref": "m",
 }  # fmt: skip
 DRIFT = ("length of y", "tangency of y_dot", "orthogonality of R")
 _STATE = tuple(SHAPES)
-_ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces")
+_ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces", "x_ref")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -57,6 +57,8 @@ class Trajectory:
         What was flown.
     law, gains : str, dict
         Name and gains of the law that flew it.
+    x_ref : (n, 3), optional
+        Position that the law holds or follows, m; default the origin.
     interpolant : callable, optional
         Dense output, from times to packed states; not kept in files.
     """
@@ -78,7 +80,12 @@ class Trajectory:
     vehicle: Vehicle
     law: str
     gains: Mapping[str, Any]
+    x_ref: Any = None
     interpolant: Callable[[Any], Any] | None = None
+
+    def __post_init__(self) -> None:
+        if self.x_ref is None:
+            object.__setattr__(self, "x_ref", np.zeros((len(self.t), 3)))
 
     @property
     def z(self) -> Any:
@@ -116,6 +123,7 @@ class Trajectory:
             **{name: getattr(states, name) for name in _STATE},
             thrust=wrench.thrust,
             moment=wrench.moment,
+            x_ref=self.x_ref @ FLIP,
             e3="down" if self.e3 == "up" else "up",
             interpolant=None,
         )

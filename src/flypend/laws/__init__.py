@@ -6,7 +6,18 @@ A law of one's own is `Law(name=..., e3=..., gains={...}, control=function)` wit
 
 from flypend.laws.corrected import corrected
 from flypend.laws.inverted import inverted
-from flypend.laws.law import Computer, Control, Guard, Law, law_from_dict, law_names
+from flypend.laws.law import Computer, Control, Controller, Guard, Law, law_from_dict, law_names
 from flypend.laws.printed import printed
 
-__all__ = ["Computer", "Control", "Guard", "Law", "corrected", "inverted", "law_from_dict", "law_names", "printed"]
+__all__ = [
+    "Computer",
+    "Control",
+    "Controller",
+    "Guard",
+    "Law",
+    "corrected",
+    "inverted",
+    "law_from_dict",
+    "law_names",
+    "printed",
+]

@@ -26,7 +26,7 @@ from flypend.laws.law import Control, Law
 from flypend.laws.references import Reference, hover
 from flypend.laws.sphere import velocity_error
 from flypend.laws.throw import bob_reference, coasted, largest_thrust, rod_force
-from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
+from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
 
 def inverted(reference: Reference | None = None, **gains: float) -> Law:
@@ -95,7 +95,8 @@ def inverted_control(
     wanted = force(*coasted(state.y, state.y_dot, k.coast_time)) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
     z_d = scale(1 / smooth_norm(wanted, 0.006 * vehicle.weight), wanted)
 
-    rates = equations_of_motion(state, Wrench(f, ca.SX.sym("moment", 3)), vehicle, "up")
+    wrench = Wrench(f, ca.SX.sym("moment", 3))
+    rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
     z_d_dot = lie_derivative(z_d, state, rates, t)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
     spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π

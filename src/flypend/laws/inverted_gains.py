@@ -107,11 +107,11 @@ BOUNDS: Mapping[str, float | None] = MappingProxyType(
 # that the rotors can give.
 NUMBERS: Mapping[str, float] = MappingProxyType(
     {
-        "position_bandwidth": 0.607, "position_damping": 0.91, "height_bandwidth": 0.62, "height_damping": 0.71,
-        "rod_bandwidth": 1.87, "rod_damping": 0.43, "attitude_bandwidth": 1.48, "attitude_damping": 0.92,
-        "rate_feedforward": 0.71, "coast": 1.1, "latency": 0.4, "lead": 2.1, "throw_speed": 0.74,
-        "flip_speed": 0.25, "flip_by_rod": 0.73, "flip_by_height": 0.40, "flip_width": 0.23, "hanging_share": 0.7,
-        "low_below": 0.5, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9,
+        "position_bandwidth": 0.56, "position_damping": 1.0, "height_bandwidth": 0.74, "height_damping": 0.82,
+        "rod_bandwidth": 1.8, "rod_damping": 0.40, "attitude_bandwidth": 1.4, "attitude_damping": 0.87,
+        "rate_feedforward": 0.64, "coast": 1.2, "latency": 0.46, "lead": 2.1, "throw_speed": 0.90,
+        "flip_speed": 0.51, "flip_by_rod": 0.84, "flip_by_height": 0.46, "flip_width": 0.20, "hanging_share": 0.64,
+        "low_below": 0.80, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9,
     }
 )  # fmt: skip
 
@@ -145,7 +145,7 @@ def gains_for(vehicle: Vehicle) -> Gains:
         "yaw_damping": 5.0,
         "thrust_share": 0.993,
         "lead": n["lead"] if vehicle.rotor_lag > 0 else 1.0,
-        "latency": min(0.02, n["latency"] / attitude),
+        "latency": min(0.024, n["latency"] / attitude),
         "observer": 1.5,
     }
     return Gains(**{name: float(value) for name, value in values.items()})

@@ -126,6 +126,45 @@ class Law:
         return Control(wrench=control) if isinstance(control, Wrench) else control
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Controller:
+    """A state feedback that is any Python callable: not symbolic, so slower, and only ever sampled.
+
+    Parameters
+    ----------
+    name : str
+        Name for tables and files.
+    function : callable
+        `function(t, state) -> Wrench` with t (s) and a `State` as measured, in the frame of `e3`.
+    e3 : "up" or "down"
+        Direction of the world's third axis that the function works in.
+    rate : float
+        Control rate in the ideal plant, Hz; other plants have a rate of their own.
+    reference : callable, optional
+        Position of the pivot that it holds or follows, as a CasADi function of time.
+    gains : dict
+        Numbers to keep with the run.
+    computer : Computer
+        Lead, prediction and observer around it in a sampled flight.
+    """
+
+    name: str
+    function: Callable[[float, State], Wrench]
+    e3: E3Direction = "up"
+    rate: float = 500.0
+    reference: Callable[[Any], Any] | None = None
+    gains: Mapping[str, Any] = field(default_factory=dict)
+    computer: Computer = field(default_factory=Computer)
+
+    def __post_init__(self) -> None:
+        errors.one_of("controller.e3", self.e3, ("up", "down"))
+        errors.number("controller.rate", self.rate, above=0, unit="Hz")
+
+    def bound(self, _: Vehicle) -> Controller:
+        """Itself: a callable does not take gains from the vehicle."""
+        return self
+
+
 def law_names() -> list[str]:
     """Names of the laws that come with the package."""
     return list(BUILT_IN)

@@ -20,7 +20,7 @@ def hover(x: Any = (0.0, 0.0, 0.0)) -> Reference:
 
 
 def line(start: Any = (0.0, 0.0, 0.0), velocity: Any = (1.0, 0.0, 0.0)) -> Reference:
-    """Move from `start` (3,), m, with constant `velocity` (3,), m/s. Raises InputError for anything but finite numbers."""
+    """Move from `start` (3,), m, with constant `velocity` (3,), m/s. Raises InputError for numbers not finite."""
     origin, rate = errors.array("reference.start", start, (3,)), errors.array("reference.velocity", velocity, (3,))
     return lambda t: ca.DM(origin) + ca.DM(rate) * t
 

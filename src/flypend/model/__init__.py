@@ -16,6 +16,7 @@ gravity, so f ≤ 0 carries the vehicle, y = e₃ hangs, and its moment μ enter
 the world and of the body takes one frame to the other (`State.flipped`, `Wrench.flipped`).
 """
 
+from flypend.model.disturbed import disturbed_motion
 from flypend.model.dynamics import (
     Rates,
     bob_position,
@@ -37,6 +38,7 @@ __all__ = [
     "Vehicle",
     "Wrench",
     "bob_position",
+    "disturbed_motion",
     "equations_of_motion",
     "gravity_vector",
     "kinetic_energy",

@@ -9,13 +9,16 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
 from flypend.geometry import apply, cross
 from flypend.model import Vehicle
+from flypend.model.state import SIZE
 from flypend.plants.allocation import allocate
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.plant import Plant
 
 PLANT_STEP = 1e-3  # s, of the Runge-Kutta method: a rotor lags 20 times as long
+MUJOCO_STEP = PLANT_STEP / 2  # s, the longest
 OMEGA = slice(15, 18)
 
 
@@ -49,29 +52,37 @@ class LaggedMujoco:
     def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> None:
         from flypend.plants.mujoco import MujocoEngine
 
-        self._timestep = PLANT_STEP / 2
-        self._engine = MujocoEngine(vehicle, timestep=self._timestep, pivot_offset=pivot_offset)
-        lag = vehicle.rotor_lag
-        self._decay = np.exp(-self._timestep / lag) if lag > 0 else 0.0
-        self._mean = lag / self._timestep * (1 - self._decay)
+        self._engine = MujocoEngine(vehicle, timestep=MUJOCO_STEP, pivot_offset=pivot_offset)
+        self._lag = vehicle.rotor_lag
+        self._lost = False
         self.rotors: Any = np.zeros(len(vehicle.rotor_spins))
 
     @property
     def packed(self) -> Any:
-        """The packed state (24,)."""
-        return self._engine.packed
+        """The packed state (24,); NaN once a force was none, or too large for MuJoCo."""
+        return np.full(SIZE, np.nan) if self._lost else self._engine.packed
 
     def reset(self, packed: Any, rotors: Any) -> None:
         """Set the packed state (24,) and the rotor forces (n,), N."""
         self._engine.reset(packed)
+        self._lost = False
         self.rotors = np.array(rotors)
 
     def step(self, command: Any, duration: float, wind: Any) -> None:
-        """Advance by `duration` (s), rounded to whole time steps, under commanded forces (n,) and `wind` (6,)."""
-        for _ in range(max(1, round(duration / self._timestep))):
+        """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,)."""
+        steps = max(1, int(np.ceil(duration / MUJOCO_STEP - 1e-9)))
+        timestep = duration / steps
+        self._engine.model.opt.timestep = timestep
+        decay = np.exp(-timestep / self._lag) if self._lag > 0 else 0.0
+        mean = self._lag / timestep * (1 - decay)
+        for _ in range(steps):
             behind = self.rotors - command
-            self._engine.step(command + self._mean * behind, force_on_vehicle=wind[:3], force_on_bob=wind[3:])
-            self.rotors = command + self._decay * behind
+            try:
+                self._engine.step(command + mean * behind, force_on_vehicle=wind[:3], force_on_bob=wind[3:])
+            except InputError:
+                self._lost = True
+                return
+            self.rotors = command + decay * behind
 
 
 def make_engine(vehicle: Vehicle, plant: Plant) -> Engine:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import apply, cross
-from flypend.laws.law import Law
+from flypend.laws.law import Controller, Law
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.actuation import Actuation, rotor_forces
@@ -21,7 +22,6 @@ from flypend.plants.plant import Plant
 
 # Longest step of the prediction, s. It is shorter than the dynamics that it predicts and costs a tenth of the plant's.
 TWIN_STEP = 1e-2
-CALM = np.zeros(6)
 
 
 class FlightComputer:
@@ -30,37 +30,38 @@ class FlightComputer:
     It keeps what a flight computer keeps: the modelled rotor forces, the commands under way, the observer's state.
     """
 
-    def __init__(self, law: Law, vehicle: Vehicle, plant: Plant) -> None:
+    def __init__(self, law: Law | Controller, vehicle: Vehicle, plant: Plant) -> None:
         self._plant = plant
         self._latency = law.computer.latency
         self._period = 1 / plant.rate
-        self._command = command_function(law, vehicle, plant.limits, plant.interface, plant.rate_loop_gain)
+        self._command = command_source(law, vehicle, plant)
         self._twin = Actuation(EquationsEngine(vehicle), vehicle, plant, TWIN_STEP)
         self._observer = ForceObserver(vehicle, law.computer)
+        self._forces: Any = np.zeros(6)
         self._rotors: Any = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
         self._current: Any = idle_command(vehicle, plant)
         self._pending: deque[tuple[float, Any]] = deque()
 
     def command(self, t: float, measured: Any) -> Any:
         """The command for the measurement `measured` (24,), e₃ up, taken at time `t` (s)."""
-        forces = self._observer.update(measured, self._rotors, self._period)
+        self._forces = self._observer.update(measured, self._rotors, self._period)
         state, rotors = self._predict(t, measured)
-        command = self._command(t + self._latency, state, rotors, forces)
+        command = self._command(t + self._latency, state, rotors, self._forces)
         self._pending.append((t + self._latency, command))
         return command
 
     def _predict(self, t: float, measured: Any) -> tuple[Any, Any]:
-        """State and rotor forces when the next command is planned to act; moves the rotor model on to `t` + period."""
+        """State and rotor forces when a command given at `t` is planned to act, over the commands under way."""
         twin = self._twin
         twin.engine.reset(measured, self._rotors)
         now, command = t, self._current
         for act, following in self._pending:
             if act > now + 1e-9:
-                twin.advance(command, act - now, CALM)
+                twin.advance(command, act - now, self._forces)
                 now = act
             command = following
         if t + self._latency > now + 1e-9:
-            twin.advance(command, t + self._latency - now, CALM)
+            twin.advance(command, t + self._latency - now, self._forces)
         return twin.engine.packed, twin.engine.rotors
 
     def tick(self, t: float, measured: Any) -> None:
@@ -71,10 +72,10 @@ class FlightComputer:
         while self._pending and self._pending[0][0] < end - 1e-9:
             act, following = self._pending.popleft()
             if act > now + 1e-9:
-                twin.advance(self._current, act - now, CALM)
+                twin.advance(self._current, act - now, self._forces)
                 now = act
             self._current = following
-        twin.advance(self._current, end - now, CALM)
+        twin.advance(self._current, end - now, self._forces)
         self._rotors = twin.engine.rotors
 
 
@@ -83,29 +84,57 @@ def idle_command(vehicle: Vehicle, plant: Plant) -> Any:
     return np.zeros(4) if plant.interface == "rates" else np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
 
 
-@lru_cache(maxsize=64)
-def command_function(law: Law, vehicle: Vehicle, limits: bool, interface: str, rate_gain: float) -> Any:
-    """(t, state (24,), modelled rotor forces (n,), external forces (6,)) → command, for e₃ up whatever the law's frame.
+def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Callable[..., Any]:
+    """(t, state (24,), modelled rotor forces (n,), external forces (6,)) → command, e₃ up whatever the law's frame.
 
     For the interface "wrench" a command is the rotor forces (n,), with the law's lead; for "rates" it is the thrust and
-    the body rates (4,) whose proportional tracking with `rate_gain` (1/s) gives the law's moment at this instant.
+    the body rates (4,) whose proportional tracking on board gives the law's moment at this instant.
     """
-    n = len(vehicle.rotor_spins)
+    setting = (vehicle, plant.limits, plant.interface, plant.rate_loop_gain, law.computer.lead)
+    if isinstance(law, Law):
+        compiled: Callable[..., Any] = _law_command(law, *setting)
+        return compiled
+    finish, sign = _finish_command(*setting), 1.0 if law.e3 == "up" else FLIP_PACKED
+
+    def call(t: float, state: Any, rotors: Any, _: Any) -> Any:
+        wrench = law.function(t, State.from_packed(state * sign))
+        wrench = wrench if law.e3 == "up" else wrench.flipped()
+        return finish(np.append(wrench.thrust, wrench.moment), state, rotors)
+
+    return call
+
+
+@lru_cache(maxsize=64)
+def _law_command(law: Law, vehicle: Vehicle, limits: bool, interface: str, rate_gain: float, lead: float) -> Any:
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
-    rotors, external = ca.SX.sym("r", n), ca.SX.sym("F", 6)
-    own = packed if law.e3 == "up" else packed * FLIP_PACKED
-    wrench: Wrench = law.evaluate(t, State.symbolic(own), vehicle, (external[:3], external[3:])).wrench
+    rotors, external = ca.SX.sym("r", len(vehicle.rotor_spins)), ca.SX.sym("F", 6)
+    wrench: Wrench = law.evaluate(t, State.symbolic(packed), vehicle, (external[:3], external[3:])).wrench
+    stacked = ca.vertcat(wrench.thrust, wrench.moment)
     if law.e3 == "down":
-        wrench = Wrench(-wrench.thrust, wrench.moment * np.array([1.0, -1.0, -1.0]))
+        own = ca.Function("wrench", [t, packed, external], [stacked])
+        stacked = own(t, packed * FLIP_PACKED, external) * np.array([-1.0, 1.0, -1.0, -1.0])
+    command = _finish(stacked, packed, rotors, vehicle, limits, interface, rate_gain, lead)
+    return as_numpy(ca.Function("command", [t, packed, rotors, external], [ca.cse(ca.densify(command))]))
+
+
+@lru_cache(maxsize=64)
+def _finish_command(vehicle: Vehicle, limits: bool, interface: str, rate_gain: float, lead: float) -> Any:
+    wrench, packed = ca.SX.sym("W", 4), ca.SX.sym("s", SIZE)
+    rotors = ca.SX.sym("r", len(vehicle.rotor_spins))
+    command = _finish(wrench, packed, rotors, vehicle, limits, interface, rate_gain, lead)
+    return as_numpy(ca.Function("finish", [wrench, packed, rotors], [ca.densify(command)]))
+
+
+def _finish(
+    wrench: Any, packed: Any, rotors: Any, vehicle: Vehicle, limits: bool, interface: str, rate_gain: float, lead: float
+) -> Any:
+    """The command for a wrench (4,), e₃ up, in CasADi; NaN for a wrench that is none, which limits would hide."""
+    thrust, moment = wrench[0], wrench[1:]
     if interface == "rates":
-        omega = packed[15:18]
-        free = wrench.moment - cross(omega, apply(vehicle.I, omega))
-        rates = omega + apply(vehicle.I_inv, free) / rate_gain
-        command = ca.vertcat(wrench.thrust, rates)
-    else:
-        wanted = rotor_forces(wrench.thrust, wrench.moment, vehicle, limits)
-        command = rotors + law.computer.lead * (wanted - rotors)
-        if limits:
-            command = ca.fmin(ca.fmax(command, vehicle.rotor_limits[0]), vehicle.rotor_limits[1])
-    command = ca.cse(ca.densify(command))
-    return as_numpy(ca.Function("command", [t, packed, rotors, external], [command]))
+        omega = State.symbolic(packed).omega
+        free = moment - cross(omega, apply(vehicle.I, omega))
+        return ca.vertcat(thrust, omega + apply(vehicle.I_inv, free) / rate_gain)
+    command = rotors + lead * (rotor_forces(thrust, moment, vehicle, limits) - rotors)
+    if limits:
+        command = ca.fmin(ca.fmax(command, vehicle.rotor_limits[0]), vehicle.rotor_limits[1])
+    return ca.if_else(ca.norm_1(wrench) < np.inf, command, np.nan)

@@ -10,8 +10,8 @@ import casadi as ca
 import numpy as np
 
 from flypend.model import State, Vehicle, Wrench
+from flypend.model.disturbed import disturbed_motion
 from flypend.model.state import SIZE
-from flypend.plants.disturbed import disturbed_motion
 
 
 class EquationsEngine:

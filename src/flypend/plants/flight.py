@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from flypend.geometry import project_tangent, unit
 from flypend.integrate import MAX_STATE, Outcome
-from flypend.laws.law import Law
+from flypend.laws.law import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, split
 from flypend.plants.actuation import Actuation, make_engine
@@ -29,7 +29,7 @@ class Samples:
     outcome: Outcome
 
 
-def fly(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant) -> Samples:
+def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant) -> Samples:
     """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
 
     Rotors start at their least force. Every quantity is recorded at each control tick.
@@ -50,7 +50,11 @@ def fly(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant)
         for k in range(ticks):
             t, end = k * period, (k + 1) * period
             measured = _measure(engine.packed, plant.noise, rng)
-            queue.append((t + plant.delay, computer.command(t, measured)))
+            command = computer.command(t, measured)
+            if not np.isfinite(np.sum(command)):
+                outcome = Outcome("singular", t, "the law's wrench is not a finite number")
+                break
+            queue.append((t + plant.delay, command))
             computer.tick(t, measured)
             wind = gusts.next()
             while queue and queue[0][0] < end - 1e-9:

@@ -30,12 +30,11 @@ from flypend.model import State, Vehicle
 # 0.04 rad/s in 10 s at rates of 20 rad/s; nothing feels that. At 1e-15 MuJoCo warns of a singular inertia matrix.
 BOB_INERTIA, LEAST_BOB_INERTIA = 4e-12, 1e-14
 
-# MuJoCo takes a rotor force as zero where it is NaN or larger than this (N), and only warns.
+# MuJoCo takes the force of a motor as zero where it is NaN or larger than this (N), and only warns.
 MAX_FORCE = 1e10
 
 _TEMPLATE = """\
-<mujoco model="{name}">
-  <compiler inertiafromgeom="false"/>
+<mujoco model="flypend">
   <option integrator="RK4" timestep="{timestep!r}" gravity="0 0 {gravity!r}">
     <flag constraint="disable" contact="disable" autoreset="disable"/>
   </option>
@@ -91,7 +90,9 @@ def model_xml(vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.
         For a timestep that is not positive or an offset that is not three finite numbers.
     """
     timestep = errors.number("timestep", timestep, above=0, unit="s")
-    offset = errors.array("pivot_offset", pivot_offset, (3,)).reshape(3)
+    offset = errors.array("pivot_offset", pivot_offset, (3,))
+    if offset.ndim != 1:
+        raise InputError("pivot_offset", "numbers of shape (3)", f"shape {offset.shape}")
     places = vehicle.rotor_positions - offset
     torques = vehicle.drag_ratio * vehicle.rotor_spins
     moments, axes = np.linalg.eigh(vehicle.inertia)
@@ -103,7 +104,6 @@ def model_xml(vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.
         for k, place in enumerate(places)
     ]
     return _TEMPLATE.format(
-        name="flypend",
         timestep=timestep,
         gravity=-vehicle.g,
         center=center,
@@ -143,18 +143,22 @@ class MujocoEngine:
     def __init__(self, vehicle: Vehicle, *, timestep: float = 0.5e-3, pivot_offset: Any = (0.0, 0.0, 0.0)) -> None:
         mujoco = _import_mujoco()
         self._mujoco = mujoco
-        self.vehicle, self.timestep = vehicle, float(timestep)
         self.model = mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=timestep, pivot_offset=pivot_offset))
-        self.data = mujoco.MjData(self.model)
-        self._advance = partial(mujoco.mj_step, self.model, self.data)
-        self._update_frames = partial(mujoco.mj_kinematics, self.model, self.data)
+        self.data = data = mujoco.MjData(self.model)
+        self._advance = partial(mujoco.mj_step, self.model, data)
+        self._update_frames = partial(mujoco.mj_kinematics, self.model, data)
         # Views into MuJoCo's memory, bound once: an attribute of `data` costs as much as a product of matrices.
-        body, bob = self.model.body("vehicle").id, self.model.body("bob").id
-        self._qpos, self._qvel, self._forces = self.data.qpos, self.data.qvel, self.data.ctrl
-        self._R, self._R_rod = self.data.xmat[body].reshape(3, 3), self.data.xmat[bob].reshape(3, 3)
-        self._force_on_vehicle = self.data.xfrc_applied[body, :3]
-        self._force_on_bob = self.data.xfrc_applied[bob, :3]
-        self._ones = np.ones(len(self._forces))
+        self._x, self._x_dot = data.qpos[0:3], data.qvel[0:3]
+        self._omega, self._rod_rates = data.qvel[3:6], data.qvel[6:9]
+        self._R, self._R_rod = data.body("vehicle").xmat.reshape(3, 3), data.body("bob").xmat.reshape(3, 3)
+        self._rows, self._y = self._R.reshape(9), self._R_rod[:, 2]
+        self._forces, self._all_external = data.ctrl, data.xfrc_applied.reshape(-1)
+        self._on_vehicle, self._on_bob = (data.body(name).xfrc_applied[:3] for name in ("vehicle", "bob"))
+
+    @property
+    def timestep(self) -> float:
+        """Step of the integrator, s."""
+        return float(self.model.opt.timestep)
 
     def reset(self, packed: Any) -> None:
         """Set the state, at time 0; the rod does not spin about its own axis.
@@ -178,24 +182,21 @@ class MujocoEngine:
         mujoco.mju_mat2Quat(quat_wxyz, state.R.ravel())
         mujoco.mju_quatZ2Vec(rod_wxyz, state.y)
         mujoco.mju_negQuat(inverse, quat_wxyz)
-        data.qpos[0:3], data.qpos[3:7] = state.x, quat_wxyz
+        self._x[:], data.qpos[3:7] = state.x, quat_wxyz
         mujoco.mju_mulQuat(data.qpos[7:11], inverse, rod_wxyz)
         self._update_frames()
         rod_omega = np.cross(state.y, state.y_dot)  # world frame
-        data.qvel[0:3], data.qvel[3:6] = state.x_dot, state.omega
-        data.qvel[6:9] = self._R_rod.T @ (rod_omega - self._R @ state.omega)
+        self._x_dot[:], self._omega[:] = state.x_dot, state.omega
+        self._rod_rates[:] = self._R_rod.T @ (rod_omega - self._R @ state.omega)
 
     @property
     def packed(self) -> Any:
         """The state (24,) in the order of `State.packed`, frame with e₃ up; x and x_dot are those of the pivot."""
         self._update_frames()
-        qvel, R, R_rod = self._qvel, self._R, self._R_rod
-        omega = qvel[3:6]
-        a, b, _ = qvel[6:9] + (R @ omega) @ R_rod  # of the rod, in its frame
-        out = np.empty(24)
-        out[0:3], out[3:6], out[6:15], out[15:18] = self._qpos[0:3], qvel[0:3], R.ravel(), omega
-        out[18:21], out[21:24] = R_rod[:, 2], b * R_rod[:, 0] - a * R_rod[:, 1]  # R_rod ((a, b, c) × e₃)
-        return out
+        R_rod = self._R_rod
+        a, b, _ = self._rod_rates + (self._R @ self._omega) @ R_rod  # angular velocity of the rod, in its frame
+        y_dot = b * R_rod[:, 0] - a * R_rod[:, 1]  # R_rod ((a, b, c) × e₃)
+        return np.concatenate((self._x, self._x_dot, self._rows, self._omega, self._y, y_dot))
 
     def step(
         self,
@@ -216,15 +217,17 @@ class MujocoEngine:
         Raises
         ------
         InputError
-            For the wrong number of rotor forces, or one that is not finite.
+            For the wrong number of rotor forces, or a force that is not finite.
         """
         if len(forces) != len(self._forces):
             raise InputError("forces", f"numbers of shape ({len(self._forces)})", f"shape {np.shape(forces)}")
         self._forces[:] = forces
-        if not abs(self._forces.dot(self._ones)) < MAX_FORCE:  # false for NaN
-            raise InputError("forces", "finite numbers", self._forces.tolist())
-        self._force_on_vehicle[:] = force_on_vehicle
-        self._force_on_bob[:] = force_on_bob
+        self._on_vehicle[:] = force_on_vehicle
+        self._on_bob[:] = force_on_bob
+        size_squared = self._forces.dot(self._forces) + self._all_external.dot(self._all_external)
+        if not size_squared < MAX_FORCE**2:  # true for NaN
+            got = f"{self._forces} on the rotors, {self._on_vehicle} on the vehicle, {self._on_bob} on the bob"
+            raise InputError("forces", "finite numbers", got)
         self._advance()
 
     def energy(self) -> float:

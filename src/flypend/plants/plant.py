@@ -140,7 +140,7 @@ class Plant:
         errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)
         for name, factor in self.mismatch.items():
             errors.number(f"plant.mismatch.{name}", factor, above=0)
-        object.__setattr__(self, "mismatch", MappingProxyType(dict(self.mismatch)))
+        object.__setattr__(self, "mismatch", dict(self.mismatch))
 
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
         """The vehicle that flies when the law believes in `vehicle`: `mismatch` and `lag` applied."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -26,8 +27,10 @@ def staged(out: str | Path) -> Iterator[Path]:
     folder = _open(out)
     try:
         yield folder
-        for source in sorted(path for path in folder.rglob("*") if path.is_file()):
-            target = out / source.relative_to(folder)
+        moves = [(path, out / path.relative_to(folder)) for path in sorted(folder.rglob("*")) if path.is_file()]
+        for _, target in moves:  # before the first file is moved
+            _check_free(target, out)
+        for source, target in moves:
             target.parent.mkdir(parents=True, exist_ok=True)
             source.replace(target)
     except OSError as error:
@@ -38,13 +41,22 @@ def staged(out: str | Path) -> Iterator[Path]:
 
 def _open(out: Path) -> Path:
     """A fresh folder on the file system of `out`: inside it if it exists, else beside it."""
-    if out.exists() and not out.is_dir():
-        raise InputError(str(out), "a folder", "a file")
+    if os.path.lexists(out) and not out.is_dir():
+        raise InputError(str(out), "a folder", "a file" if out.exists() else "a link that leads nowhere")
     try:
         beside = out if out.is_dir() else out.absolute().parent
         return Path(tempfile.mkdtemp(prefix=f".{out.name}-partial-", dir=beside))
     except OSError as error:
         raise _unwritable(out, error) from None
+
+
+def _check_free(target: Path, out: Path) -> None:
+    """Raise InputError if something in `out` stands where the file `target` or one of its folders has to be."""
+    if target.is_dir():
+        raise InputError(str(target), "a file or nothing", "a folder")
+    for folder in target.relative_to(out).parents:
+        if os.path.lexists(out / folder) and not (out / folder).is_dir():
+            raise InputError(str(out / folder), "a folder or nothing", "a file")
 
 
 def _unwritable(out: Path, error: OSError) -> InputError:

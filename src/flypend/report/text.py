@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from rich.box import SIMPLE
+from rich.markup import escape
 from rich.table import Table
 
 from flypend.experiments.claims import Verdict
@@ -30,15 +31,15 @@ def mark(holds: bool) -> str:
 
 def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
     """Claims by experiment and law for the terminal: rows are (law, experiment), columns the claims."""
-    table = Table(title="Theorem 1: which claim holds", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
+    table = Table(title="Theorem 1: which claim holds", title_justify="left", box=SIMPLE, padding=0)  # 80 columns
     first = next(iter(verdicts.values()))
-    table.add_column("law", no_wrap=True)
-    table.add_column("start", no_wrap=True)
+    table.add_column("law", overflow="fold")
+    table.add_column("start", overflow="fold")
     for verdict in first:
         table.add_column(verdict.claim, justify="right", no_wrap=True)
     for (law, name), row in verdicts.items():
         cells = [f"[{'green' if v.holds else 'red'}]{number(v.value)} {'✓' if v.holds else '✗'}" for v in row]
-        table.add_row(law, name, *cells)
+        table.add_row(escape(law), escape(name), *cells)
     meaning = "; ".join(f"{v.claim}: {_generic(v.measured)} {v.criterion}" for v in first)
     table.caption = f"{meaning}. A claim fails as well on a run that does not reach its end."
     table.caption_justify = "left"
@@ -62,14 +63,14 @@ def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mappin
     """Claims by experiment and law as a Markdown table, with how each run ended (`ends`)."""
     first = next(iter(verdicts.values()))
     lines = [
-        "| law | experiment | run | " + " | ".join(v.claim for v in first) + " |",
+        "| law | experiment | run | " + " | ".join(_cell(v.claim) for v in first) + " |",
         "|---|---|---|" + "---|" * len(first),
         "| *measured* | | | " + " | ".join(_cell(_generic(v.measured)) for v in first) + " |",
-        "| *criterion* | | | " + " | ".join(v.criterion for v in first) + " |",
+        "| *criterion* | | | " + " | ".join(_cell(v.criterion) for v in first) + " |",
     ]
     for key, row in verdicts.items():
         cells = " | ".join(f"{number(v.value)} **{mark(v.holds)}**" for v in row)
-        lines.append(f"| {key[0]} | {key[1]} | {_cell(ends[key])} | {cells} |")
+        lines.append(f"| {_cell(key[0])} | {_cell(key[1])} | {_cell(ends[key])} | {cells} |")
     return "\n".join(lines)
 
 
@@ -107,4 +108,4 @@ def _generic(measured: str) -> str:
 
 
 def _cell(text: str) -> str:
-    return text.replace("|", "\\|")
+    return " ".join(text.replace("|", "\\|").split())

@@ -1,0 +1,113 @@
+"""What `flypend compare` and `flypend ladder` leave behind: a table, its numbers, and a figure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from rich.box import SIMPLE
+from rich.table import Table
+
+from flypend import __version__
+from flypend.report.staging import staged
+from flypend.report.text import number, write_json
+from flypend.studies import Comparison, Ladder
+from flypend.studies.compare import summary
+
+COLUMNS = ("success %", "95 % interval", "settling s", "excursion m", "effort", "peak N", "failures by cause")
+
+
+def comparison_cells(row: dict[str, Any]) -> list[str]:
+    """The cells of one law: `row` is a record of `Comparison.rows`."""
+    return [
+        f"{100 * row['success']:.1f} of {row['runs']}",
+        f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f}",
+        f"{number(row['settling_p50'])} / {number(row['settling_p95'])}",
+        f"{number(row['excursion_p50'])} / {number(row['excursion_p95'])}",
+        number(row["effort_p50"]),
+        number(row["peak_force_max"]),
+        ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "none",
+    ]
+
+
+def comparison_table(comparison: Comparison) -> Table:
+    """One row per law for the terminal."""
+    table = Table(title="Same starts, same plant", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
+    table.add_column("law")
+    for name in COLUMNS:
+        table.add_column(name, justify="right")
+    for row in comparison.rows():
+        table.add_row(row["law"], *comparison_cells(row))
+    table.caption = "settling and excursion: median / 95th percentile; effort: RMS rotor force over hover"
+    table.caption_justify = "left"
+    return table
+
+
+def comparison_markdown(comparison: Comparison) -> str:
+    """One row per law as a Markdown table."""
+    lines = ["| law | " + " | ".join(COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
+    lines += [f"| {row['law']} | " + " | ".join(comparison_cells(row)) + " |" for row in comparison.rows()]
+    return "\n".join(lines)
+
+
+def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str | Path) -> None:
+    """Write report.md, report.json (with `settings`) and comparison.png of `comparison` into the folder `out`."""
+    from flypend.figures import save_figure
+    from flypend.studies.pictures import comparison_figure
+
+    with staged(out) as folder:
+        text = f"# Laws compared\n\n{_told(settings)}\n\n{comparison_markdown(comparison)}\n"
+        (folder / "report.md").write_text(text, encoding="utf-8")
+        content = {"flypend": __version__, "settings": settings, "laws": comparison.rows()}
+        write_json(folder / "report.json", content)
+        save_figure(comparison_figure(comparison), folder / "comparison.png")
+
+
+def ladder_rows(ladder: Ladder) -> list[list[str]]:
+    """Cells of the ladder: a row per rung, for each law success and excursion."""
+    rows = []
+    for rung, comparison in ladder.rungs.items():
+        cells = []
+        for ensemble in comparison.ensembles.values():
+            cells.append(f"{100 * ensemble.rate:.1f} %, {number(ensemble.percentile('excursion', 95))} m")
+        rows.append([rung, *cells])
+    return rows
+
+
+def ladder_table(ladder: Ladder) -> Table:
+    """The ladder for the terminal."""
+    laws = list(next(iter(ladder.rungs.values())).ensembles)
+    table = Table(title="Reality ladder: success, 95th percentile of the excursion", title_justify="left", box=SIMPLE)
+    table.add_column("rung")
+    for law in laws:
+        table.add_column(law, justify="right")
+    for row in ladder_rows(ladder):
+        table.add_row(*row)
+    table.caption = "; ".join(f"{law} breaks (< 90 %) on: {', '.join(ladder.broken(law)) or 'none'}" for law in laws)
+    table.caption_justify = "left"
+    return table
+
+
+def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> None:
+    """Write report.md, report.json (with `settings`) and ladder.png of `ladder` into the folder `out`."""
+    from flypend.figures import save_figure
+    from flypend.studies.pictures import ladder_figure
+
+    laws = list(next(iter(ladder.rungs.values())).ensembles)
+    lines = ["| rung | " + " | ".join(laws) + " |", "|---|" + "---|" * len(laws)]
+    lines += ["| " + " | ".join(row) + " |" for row in ladder_rows(ladder)]
+    table = "\n".join(lines)
+    broken = "\n".join(f"- {law}: {', '.join(ladder.broken(law)) or 'none'}" for law in laws)
+    with staged(out) as folder:
+        text = f"# Reality ladder\n\n{_told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
+        (folder / "report.md").write_text(text, encoding="utf-8")
+        content = {
+            rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}
+            for rung, comparison in ladder.rungs.items()
+        }
+        write_json(folder / "report.json", {"flypend": __version__, "settings": settings, "rungs": content})
+        save_figure(ladder_figure(ladder), folder / "ladder.png")
+
+
+def _told(settings: dict[str, Any]) -> str:
+    return "; ".join(f"{name}: {value}" for name, value in settings.items()) + "."

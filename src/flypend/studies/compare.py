@@ -1,0 +1,94 @@
+"""Laws flown from the same starts, in one table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from flypend.ensemble import Ensemble, simulate_ensemble
+from flypend.laws import Controller, Law
+from flypend.model import State, Vehicle
+from flypend.plants import Plant
+
+Progress = Callable[[str, int, int], Any]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Ensembles by the name of their law, flown from the same physical starts."""
+
+    ensembles: dict[str, Ensemble]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """One record per law: success with its Wilson interval, settling, excursion, effort, peak force, causes."""
+        return [{"law": name, **summary(ensemble)} for name, ensemble in self.ensembles.items()]
+
+
+def compare(
+    vehicle: Vehicle,
+    laws: Sequence[Law | Controller],
+    starts: State,
+    duration: float = 10.0,
+    *,
+    plant: str | Plant = "rotors",
+    workers: int | None = None,
+    progress: Progress = lambda *_: None,
+) -> Comparison:
+    """Fly `vehicle` under each of `laws` from the same `starts`.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What flies.
+    laws : sequence of Law or Controller
+        Laws to compare; those with e₃ down fly the same physical starts in their own frame.
+    starts : State
+        A batch of states in the frame with e₃ up.
+    duration, plant, workers
+        As in `simulate_ensemble`.
+    progress : callable
+        Told `(law, done, total)`.
+    """
+    ensembles: dict[str, Ensemble] = {}
+    for law in laws:
+        own = starts if law.e3 == "up" else starts.flipped()
+        ensembles[_free_name(law.name, ensembles)] = simulate_ensemble(
+            vehicle,
+            law,
+            own,
+            duration,
+            plant=plant,
+            workers=workers,
+            progress=partial(progress, law.name),
+        )
+    return Comparison(ensembles)
+
+
+def summary(ensemble: Ensemble) -> dict[str, Any]:
+    """The numbers of one ensemble that tables show."""
+    low, high = ensemble.interval
+    failed = ensemble.cause[ensemble.cause != ""]
+    return {
+        "runs": len(ensemble),
+        "successes": int(ensemble.success.sum()),
+        "success": ensemble.rate,
+        "wilson_low": low,
+        "wilson_high": high,
+        "settling_p50": ensemble.percentile("settling", 50),
+        "settling_p95": ensemble.percentile("settling", 95),
+        "excursion_p50": ensemble.percentile("excursion", 50),
+        "excursion_p95": ensemble.percentile("excursion", 95),
+        "excursion_max": ensemble.percentile("excursion", 100),
+        "effort_p50": ensemble.percentile("effort", 50),
+        "peak_force_max": ensemble.percentile("peak_force", 100),
+        "causes": {str(cause): int((failed == cause).sum()) for cause in sorted(set(failed.tolist()))},
+    }
+
+
+def _free_name(name: str, taken: dict[str, Ensemble]) -> str:
+    out, count = name, 2
+    while out in taken:
+        out, count = f"{name} ({count})", count + 1
+    return out

@@ -1,0 +1,83 @@
+"""The reality ladder: the same starts and laws on plants that come closer to the machine, rung by rung."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from flypend.laws import Controller, Law
+from flypend.model import State, Vehicle
+from flypend.plants import MOTION_CAPTURE, Plant
+from flypend.studies.compare import Comparison, compare
+
+_LIMITS = Plant(lag=0.0)
+_ROTORS = Plant()
+
+# Ideal wrench; then limits alone; lag on top of limits; and every other departure on top of the plant "rotors" (limits,
+# the vehicle's lag, 500 Hz), one at a time, so that the rung that breaks a law is the departure that it names.
+RUNGS: Mapping[str, str | Plant] = {
+    "ideal wrench": "ideal",
+    "limits": _LIMITS,
+    **{f"lag {ms} ms": _ROTORS.replace(lag=ms / 1000) for ms in (10, 20, 30, 40, 50)},
+    **{f"{rate} Hz": _ROTORS.replace(rate=float(rate)) for rate in (200, 100, 50)},
+    **{f"delay {ms} ms": _ROTORS.replace(delay=ms / 1000) for ms in (5, 15, 30)},
+    "noise": _ROTORS.replace(noise=MOTION_CAPTURE),
+    "mass +10 %": _ROTORS.replace(mismatch={"mass": 1.1, "bob_mass": 1.1}),
+    "mass -10 %": _ROTORS.replace(mismatch={"mass": 0.9, "bob_mass": 0.9}),
+    "inertia +10 %": _ROTORS.replace(mismatch={"inertia": 1.1}),
+    "inertia -10 %": _ROTORS.replace(mismatch={"inertia": 0.9}),
+    "pivot offset 5 cm": _ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
+    "MuJoCo": "mujoco",
+}
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """Comparisons by rung, on the same starts."""
+
+    rungs: dict[str, Comparison]
+
+    def broken(self, law: str, below: float = 0.9) -> list[str]:
+        """Rungs on which `law` succeeds in less than the share `below` of its runs."""
+        return [rung for rung, comparison in self.rungs.items() if comparison.ensembles[law].rate < below]
+
+
+def ladder(
+    vehicle: Vehicle,
+    laws: Sequence[Law | Controller],
+    starts: State,
+    duration: float = 10.0,
+    *,
+    rungs: Mapping[str, str | Plant] = RUNGS,
+    workers: int | None = None,
+    progress: Callable[[str, int, int], Any] = lambda *_: None,
+) -> Ladder:
+    """Fly `vehicle` under `laws` from `starts` on every one of `rungs`.
+
+    Parameters
+    ----------
+    vehicle, laws, starts, duration, workers
+        As in `compare`.
+    rungs : dict
+        Plants by the name of the rung.
+    progress : callable
+        Told `(rung and law, done, total)`.
+    """
+    out = {}
+    for rung, plant in rungs.items():
+        out[rung] = compare(
+            vehicle,
+            laws,
+            starts,
+            duration,
+            plant=plant,
+            workers=workers,
+            progress=partial(_told, progress, rung),
+        )
+    return Ladder(out)
+
+
+def _told(progress: Callable[[str, int, int], Any], rung: str, law: str, done: int, total: int) -> None:
+    progress(f"{rung}, {law}", done, total)

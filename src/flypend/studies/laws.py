@@ -1,0 +1,59 @@
+"""Laws by name: those of the package, and one's own as `module:name`."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from flypend.errors import InputError
+from flypend.laws import Controller, Law
+from flypend.laws.law import law_from_dict
+
+# Gains of the inverted law with a slow attitude and no rate of its target: in the table to be seen failing.
+DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
+
+
+def law_named(name: str) -> Law | Controller:
+    """The law called `name`: one of the package, "detuned" (a negative control), or `module:name` of one's own.
+
+    What `module:name` finds may be a Law, a Controller, a function of no arguments that gives one, a symbolic law
+    `f(t, state, vehicle, gains)` (e₃ up, without gains) or a plain controller `f(t, state) -> Wrench` (500 Hz, e₃ up).
+    The current folder is searched as well.
+
+    Raises InputError if there is no such law.
+    """
+    if ":" not in name:
+        if name == "detuned":
+            detuned = law_from_dict({"name": "inverted", "gains": DETUNED})
+            return Law(name="detuned", e3="up", control=detuned.control, for_vehicle=detuned.for_vehicle)
+        return law_from_dict({"name": name}, "--law")
+    module_name, _, attribute = name.partition(":")
+    if str(Path.cwd()) not in sys.path:
+        sys.path.insert(0, str(Path.cwd()))
+    try:
+        found = getattr(importlib.import_module(module_name), attribute)
+    except (ImportError, AttributeError) as error:
+        raise InputError("--law", "module:name that can be imported", f"{name!r} ({error})") from None
+    return _as_law(name, attribute, found)
+
+
+def _as_law(name: str, attribute: str, found: Any) -> Law | Controller:
+    if isinstance(found, Law | Controller):
+        return found
+    expected = "a Law, a Controller, or a function of (), (t, state) or (t, state, vehicle, gains)"
+    if not callable(found):
+        raise InputError("--law", expected, f"{name!r}, {type(found).__name__}")
+    makers: dict[int, Callable[[], Any]] = {
+        0: found,
+        2: lambda: Controller(name=attribute, function=found),
+        4: lambda: Law(name=attribute, e3="up", control=found),
+    }
+    required = [p for p in inspect.signature(found).parameters.values() if p.default is inspect.Parameter.empty]
+    law = makers.get(len(required), lambda: None)()
+    if not isinstance(law, Law | Controller):
+        raise InputError("--law", expected, f"{name!r} with {len(required)} arguments")
+    return law

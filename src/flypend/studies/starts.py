@@ -1,0 +1,21 @@
+"""Batches of starts, in the frame with e₃ up."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from flypend.experiments import experiment, experiment_names
+from flypend.model import State
+from flypend.model.state import SHAPES
+
+
+def random_starts(runs: int, seed: int) -> State:
+    """`runs` random states from `seed`: y on S², R on SO(3), |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0."""
+    return State.random(np.random.default_rng(seed), runs)
+
+
+def paper_starts() -> State:
+    """The five starts of the paper, their numbers read with e₃ up, moved to x = 0."""
+    states = [experiment(name).start for name in experiment_names() if "-" not in name]
+    fields = {name: np.stack([getattr(state, name) for state in states]) for name in SHAPES}
+    return State(**(fields | {"x": np.zeros((len(states), 3))}))

@@ -82,7 +82,6 @@ def movie(
         For an unknown view or suffix, numbers out of range, and a file that cannot be written.
     """
     path, gif = FilePath(path), FilePath(path).suffix.lower() == ".gif"
-    errors.one_of("view", view, drawing.VIEWS)
     times = frame_times(run, speed=speed, fps=fps)
     if gif and fps > 50:
         raise errors.InputError("fps", "at most 50 for a .gif", f"{fps:g}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from typer.exceptions import TyperException
 
@@ -59,9 +61,7 @@ def paper(
         result = reproduce(out, quick=quick, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(findings_table(result.findings))
-    console.print(
-        f"Report, figures{'' if quick else ', movies'} and runs are in [bold]{out}[/bold]; read report.md first."
-    )
+    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {_bold(out)}; read report.md first.")
 
 
 @app.command()
@@ -83,7 +83,8 @@ def run(
 
     A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, gains),
     [bold]start[/bold] (x, x_dot, R, omega, y, y_dot), [bold]duration[/bold] in seconds, and optionally
-    [bold]experiment[/bold], which brings all of them, and [bold]rtol[/bold].
+    [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]experiment[/bold], which brings all but the
+    plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
     """
     from flypend.experiments.claims import SETTLED
     from flypend.report.staging import check_writable
@@ -92,9 +93,10 @@ def run(
     chosen = flight(what, override or ())
     check_writable(out)
     trajectory = chosen.fly()
-    settled = chosen.fly(max(SETTLED, chosen.duration)) if "V" in trajectory.signals else None
+    # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
+    settled = chosen.fly(max(SETTLED, chosen.duration)) if trajectory.law == "corrected" else None
     from flypend.report.flight import write_flight
-    from flypend.report.text import summary_table
+    from flypend.report.text import judgement, summary_table
 
     verdicts = write_flight(
         trajectory,
@@ -105,10 +107,11 @@ def run(
         with_movies=figures and not quick,
         progress=_run_tasks,
     )
-    console.print(f"{trajectory.law} on {trajectory.vehicle.name}: {trajectory.outcome}")
+    console.print(f"{trajectory.law} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False)
+    console.print(f"inverted: {judgement(trajectory)}")
     if verdicts:
         console.print(summary_table({(trajectory.law, what): verdicts}))
-    console.print(f"Results are in [bold]{out}[/bold].")
+    console.print(f"Results are in {_bold(out)}.")
 
 
 Laws = Annotated[
@@ -149,7 +152,7 @@ def compare(
         result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
     write_comparison(result, settings, out)
     console.print(comparison_table(result))
-    console.print(f"Report and figure are in [bold]{out}[/bold].")
+    console.print(f"Report and figure are in {_bold(out)}.")
 
 
 @app.command()
@@ -177,7 +180,7 @@ def ladder(
         result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
     write_ladder(result, settings, out)
     console.print(ladder_table(result))
-    console.print(f"Report and figure are in [bold]{out}[/bold].")
+    console.print(f"Report and figure are in {_bold(out)}.")
 
 
 def _study(
@@ -212,6 +215,10 @@ def _counter() -> Iterator[Callable[[str, int, int], None]]:
         yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
 
 
+def _bold(out: Path) -> str:
+    return f"[bold]{escape(str(out))}[/bold]"
+
+
 def _progress() -> Progress:
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     return Progress(*columns, console=Console(stderr=True), transient=True)
@@ -229,11 +236,13 @@ def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
 
 def main() -> None:
     """Run the command line; bad input prints one line and exits with code 2."""
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as after Ctrl-C
     try:
         code = app(standalone_mode=False)
     except (InputError, TyperException) as error:
         message = error.format_message() if isinstance(error, TyperException) else str(error)
         if message:  # without arguments the help has been printed already
-            Console(stderr=True, soft_wrap=True, highlight=False).print(f"flypend: {message}", markup=False)
+            line = " ".join(f"flypend: {message}".split())
+            Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
         sys.exit(2)
     sys.exit(code or 0)

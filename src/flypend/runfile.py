@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 from collections.abc import Iterable
 from copy import deepcopy
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, fields
 from typing import Any
 
 from flypend import errors
@@ -17,26 +17,28 @@ from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import read_toml
+from flypend.plants import PRESETS, Noise, Plant, Wind, plant
 from flypend.simulate import simulate
 from flypend.trajectory import Trajectory
 
-KEYS = ("vehicle", "law", "start", "duration", "rtol", "experiment")
+KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment")
 
 
 @dataclass(frozen=True)
 class Flight:
-    """One run to make: what flies, under which law, from where, for how many seconds; and the settings that said so."""
+    """One run to make: what flies, under which law, from where, how long, on which plant; and what said so."""
 
     vehicle: Vehicle
     law: Law
     start: State
     duration: float
+    plant: str | Plant
     rtol: float
     settings: dict[str, Any]
 
     def fly(self, duration: float | None = None) -> Trajectory:
         """Make the run, over another `duration` (s) if one is given."""
-        return simulate(self.vehicle, self.law, self.start, duration or self.duration, rtol=self.rtol)
+        return simulate(self.vehicle, self.law, self.start, duration or self.duration, plant=self.plant, rtol=self.rtol)
 
 
 def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
@@ -46,15 +48,41 @@ def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
 
     Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
     """
+    try:
+        settings = _read(what)
+        for override in overrides:
+            _override(settings, override)
+        for key, value in settings.items():
+            _check_plain(key, value)
+        return _build(_complete(settings))
+    except RecursionError:
+        raise InputError("run", "settings nested a few levels deep", "hundreds of levels") from None
+
+
+def _read(what: str) -> dict[str, Any]:
     if what in experiment_names():
-        settings: dict[str, Any] = {"experiment": what}
-    elif what.endswith(".toml") or Path(what).exists():
-        settings = read_toml(what)
-    else:
-        raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
-    for override in overrides:
-        _override(settings, override)
-    return _build(_complete(settings))
+        return {"experiment": what}
+    if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any name at all)
+        return read_toml(what)
+    raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
+
+
+def _check_plain(key: str, value: Any) -> None:
+    """Refuse what TOML can say and no setting is: a date, an integer beyond 64 bits, a list of anything but numbers."""
+    if not key.isprintable():
+        raise InputError("run", "printable keys", repr(key))
+    if isinstance(value, dict):
+        for name, entry in value.items():
+            _check_plain(f"{key}.{name}", entry)
+    elif isinstance(value, list):
+        for entry in value:
+            if isinstance(entry, bool | str | dict):
+                raise InputError(key, "a list of numbers", repr(value))
+            _check_plain(key, entry)
+    elif not isinstance(value, bool | int | float | str):
+        raise InputError(key, "a number, a word, a list or a table", value)
+    elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise InputError(key, "an integer of 64 bits", f"one of {value.bit_length()} bits")
 
 
 def vehicle_named(name: str) -> Vehicle:
@@ -74,7 +102,7 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
         out["start"] = start | _table(out, "start")
         law = {"name": "corrected"} | _table(out, "law")
         gains = dict(row.gains) if law["name"] in ("printed", "corrected") else {}
-        out["law"] = law | {"gains": gains | _table(law, "gains")}
+        out["law"] = law | {"gains": gains | _table(law, "gains", "law.gains")}
         out["vehicle"] = {"base": row.vehicle.name} | _table(out, "vehicle")
         out["duration"] = out.get("duration", row.duration)
     for key in ("vehicle", "law", "start", "duration"):
@@ -87,10 +115,26 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     return out
 
 
-def _table(settings: dict[str, Any], key: str) -> dict[str, Any]:
+def _plant(value: Any) -> str | Plant:
+    """A plant by name, or as a table of its fields on top of `base` (default "rotors"), noise and wind as tables."""
+    if isinstance(value, str):
+        return errors.one_of("plant", value, ("ideal", *PRESETS))
+    if not isinstance(value, dict):
+        raise InputError("plant", "a name or a table", repr(value))
+    given = dict(value)
+    base = plant(given.pop("base", "rotors"))
+    for key, kind in (("noise", Noise), ("wind", Wind)):
+        if key in given:
+            table = _table(given, key)
+            errors.only_known(f"plant.{key}", table, [entry.name for entry in fields(kind)])
+            given[key] = kind(**table)
+    return base.replace(**given)
+
+
+def _table(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
     value = settings.get(key, {})
     if not isinstance(value, dict):
-        raise InputError(key, "a table", repr(value))
+        raise InputError(field or key, "a table", repr(value))
     return dict(value)
 
 
@@ -98,7 +142,7 @@ def _override(settings: dict[str, Any], text: str) -> None:
     """Apply one `a.b.c=value` to `settings`."""
     path, equals, value = text.partition("=")
     keys = [key.strip() for key in path.split(".")]
-    if not equals or not all(keys):
+    if not equals or not all(key and key.isprintable() for key in keys):
         raise InputError("--set", "KEY.KEY=VALUE, such as law.gains.k_d=2", repr(text))
     table = settings
     for depth, key in enumerate(keys[:-1]):
@@ -110,9 +154,10 @@ def _override(settings: dict[str, Any], text: str) -> None:
         if not isinstance(table, dict):
             raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
     try:
-        table[keys[-1]] = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        table[keys[-1]] = value.strip()
+        parsed = tomllib.loads(f"value = {value}")
+    except ValueError:  # not TOML, or an integer of thousands of digits
+        parsed = {}
+    table[keys[-1]] = parsed["value"] if parsed.keys() == {"value"} else value.strip()
 
 
 def _build(settings: dict[str, Any]) -> Flight:
@@ -130,6 +175,7 @@ def _build(settings: dict[str, Any]) -> Flight:
         law=law_from_dict(_table(settings, "law")),
         start=state,
         duration=errors.number("duration", settings["duration"], above=0, unit="s"),
+        plant=_plant(settings.get("plant", "ideal")),
         rtol=errors.number("rtol", settings.get("rtol", 1e-9), above=0),
         settings=settings,
     )

@@ -95,7 +95,7 @@ class Gains:
 
 # Least value of each gain; those of the flip may have either sign.
 _SIGNED = {"flip_speed", "flip_by_rod", "flip_by_height", "low_below", "high_above"}
-_POSITIVE = {"flip_width", "coast_time", "position_reach"} | {
+_POSITIVE = {"flip_width", "coast_time", "position_reach", "descent_limit", "thrust_share"} | {
     entry.name for entry in fields(Gains) if entry.name.endswith(("_bandwidth", "_damping"))
 }
 BOUNDS: Mapping[str, float | None] = MappingProxyType(

@@ -171,20 +171,40 @@ def law_names() -> list[str]:
 
 
 def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
-    """The law of a TOML table `values`, {name = ..., gains = {...}}; messages begin with `key`.
+    """The law of a TOML table `values`, {name, gains = {...}, reference = {...}}; messages begin with `key`.
+
+    A reference has a `shape` (hover, line, circle, lemniscate) and the arguments of that function in `laws.references`.
 
     Raises InputError for an unknown law or gain (with the nearest known name) and for gains out of range.
     """
-    errors.only_known(key, values, ("name", "gains"))
+    errors.only_known(key, values, ("name", "gains", "reference"))
     name = errors.one_of(f"{key}.name", values.get("name"), BUILT_IN)
     gains = values.get("gains", {})
     if not isinstance(gains, Mapping):
         raise errors.InputError(f"{key}.gains", "a table of gains", repr(gains))
     factory = getattr(importlib.import_module(f"flypend.laws.{name}"), name)
-    known = getattr(factory, "known_gains", None) or list(inspect.signature(factory).parameters)
+    parameters = inspect.signature(factory).parameters
+    known = getattr(factory, "known_gains", None) or [parameter for parameter in parameters if parameter != "reference"]
     errors.only_known(f"{key}.gains", gains, known)
+    extra = {}
+    if "reference" in values:
+        if "reference" not in parameters:
+            raise errors.InputError(f"{key}.reference", "nothing: the law has none", repr(values["reference"]))
+        extra["reference"] = _reference(values["reference"], f"{key}.reference")
     try:
-        law: Law = factory(**gains)
+        law: Law = factory(**gains, **extra)
     except errors.InputError as error:
         raise errors.InputError(f"{key}.gains.{error.field}", error.expected, error.got) from None
     return law
+
+
+def _reference(values: Any, key: str) -> Callable[[Any], Any]:
+    references = importlib.import_module("flypend.laws.references")
+    if not isinstance(values, Mapping):
+        raise errors.InputError(key, "a table with a shape", repr(values))
+    arguments = dict(values)
+    shape = errors.one_of(f"{key}.shape", arguments.pop("shape", None), ("hover", "line", "circle", "lemniscate"))
+    factory = getattr(references, shape)
+    errors.only_known(key, arguments, inspect.signature(factory).parameters)
+    made: Callable[[Any], Any] = factory(**arguments)
+    return made

@@ -12,7 +12,6 @@ from flypend.laws.references import Reference
 from flypend.laws.sphere import velocity_error
 from flypend.model import Vehicle
 
-
 # A continuous pull on S² vanishes somewhere opposite to its aim. Not at rest hanging, where people start: the point is
 # moved aside by this angle, rad.
 ANTIPODE_SHIFT = 0.03

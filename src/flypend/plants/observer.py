@@ -23,7 +23,8 @@ class ForceObserver:
     N̂ = L (H − Ĥ), dĤ/dt = known + N̂, so that dN̂/dt = L (N − N̂): first order, exponentially stable, and no derivative
     of a measurement is taken. With the right model the estimate does not depend on what the law does, so law and
     observer are a cascade: what is left of a constant force decays like e^{−Lt}, and the law sees it as a vanishing
-    perturbation. D along the rod does not act on the rod and is taken zero. Estimates are limited in length.
+    perturbation. D along the rod does not act on the rod and is taken zero. Estimates are limited in length. Sampled,
+    `known` is integrated by the trapezoidal rule: with less, every change of thrust would look like a force.
 
     Parameters
     ----------
@@ -36,6 +37,7 @@ class ForceObserver:
     def __init__(self, vehicle: Vehicle, computer: Computer) -> None:
         self._on = computer.observer > 0
         self._momenta: Any = None
+        self._known: Any = None
         self._estimate: Any = np.zeros(6)
         if self._on:
             self._measure, self._update = _observer_functions(vehicle, computer)
@@ -45,8 +47,11 @@ class ForceObserver:
         if not self._on:
             return self._estimate
         if self._momenta is None:
-            self._momenta = self._measure(measured)
-        self._momenta, self._estimate, forces = self._update(measured, rotors, self._momenta, self._estimate, period)
+            self._momenta, self._known = self._measure(measured, rotors)
+            return self._estimate
+        self._momenta, self._known, self._estimate, forces = self._update(
+            measured, rotors, self._momenta, self._known, self._estimate, period
+        )
         return forces
 
 
@@ -54,17 +59,18 @@ class ForceObserver:
 def _observer_functions(vehicle: Vehicle, computer: Computer) -> tuple[Any, Any]:
     M, m, l, L = vehicle.M, vehicle.m, vehicle.l, computer.observer
     packed, rotors = ca.SX.sym("s", SIZE), ca.SX.sym("r", len(vehicle.rotor_spins))
-    believed, estimate, period = ca.SX.sym("P", 6), ca.SX.sym("N", 6), ca.SX.sym("T")
+    believed, before, estimate, period = (*(ca.SX.sym(name, 6) for name in "PKN"), ca.SX.sym("T"))
     s = State.symbolic(packed)
     momenta = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
     f = ca.sum1(rotors)
     known = ca.vertcat(f * s.z - vehicle.weight * E3, -f / (M * l) * cross(s.y, s.z))
-    following = believed + period * (known + estimate)
+    following = believed + period * ((before + known) / 2 + estimate)
     unknown = L * (momenta - following)
     total, difference = unknown[:3], l * cross(unknown[3:], s.y)  # F_v + F_b, and D without its part along the rod
     on_bob = m * M / (M + m) * (difference + total / M)
     limit = computer.force_limit * vehicle.weight
     forces = [force / ca.fmax(1, ca.norm_2(force) / limit) for force in (total - on_bob, on_bob)]
-    outputs = ca.cse([ca.densify(value) for value in (following, unknown, ca.vertcat(*forces))])
-    update = ca.Function("observe", [packed, rotors, believed, estimate, period], outputs)
-    return as_numpy(ca.Function("momenta", [packed], [momenta])), as_numpy(update)
+    outputs = ca.cse([ca.densify(value) for value in (following, known, unknown, ca.vertcat(*forces))])
+    update = ca.Function("observe", [packed, rotors, believed, before, estimate, period], outputs)
+    measure = ca.Function("momenta", [packed, rotors], [ca.densify(momenta), ca.densify(known)])
+    return as_numpy(measure), as_numpy(update)

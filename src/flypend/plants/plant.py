@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from numbers import Integral
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -68,7 +69,7 @@ class Wind:
 
     def __post_init__(self) -> None:
         for name in ("on_vehicle", "on_bob"):
-            object.__setattr__(self, name, tuple(errors.array(f"wind.{name}", getattr(self, name), (3,)).tolist()))
+            object.__setattr__(self, name, _vector(f"wind.{name}", getattr(self, name)))
         for name in ("gust_on_vehicle", "gust_on_bob"):
             errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N")
         errors.number("wind.gust_time", self.gust_time, above=0, unit="s")
@@ -135,8 +136,12 @@ class Plant:
         errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
         if self.lag is not None:
             errors.number("plant.lag", self.lag, at_least=0, unit="s")
-        offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
-        object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))
+        for name, kind in (("limits", bool), ("noise", Noise | None), ("wind", Wind | None), ("mismatch", Mapping)):
+            if not isinstance(value := getattr(self, name), kind):
+                raise InputError(f"plant.{name}", f"a {getattr(kind, '__name__', kind)}", repr(value))
+        if not isinstance(self.seed, Integral) or self.seed < 0:
+            raise InputError("plant.seed", "an integer >= 0", repr(self.seed))
+        object.__setattr__(self, "pivot_offset", _vector("plant.pivot_offset", self.pivot_offset))
         errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)
         for name, factor in self.mismatch.items():
             errors.number(f"plant.mismatch.{name}", factor, above=0)
@@ -153,6 +158,14 @@ class Plant:
         """A copy with the given fields in `changes` replaced and everything checked again."""
         errors.only_known("plant", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
+
+
+def _vector(field: str, value: Any) -> tuple[float, ...]:
+    """`value` as three finite numbers. Raises InputError."""
+    vector = errors.array(field, value, (3,))
+    if vector.ndim != 1:
+        raise InputError(field, "numbers of shape (3)", f"shape {vector.shape}")
+    return tuple(vector.tolist())
 
 
 ROTORS = Plant()

@@ -9,6 +9,7 @@ from typing import Any
 
 from flypend import __version__
 from flypend.experiments.claims import Verdict, theorem_claims
+from flypend.metrics import metrics
 from flypend.report import text
 from flypend.report.staging import staged
 from flypend.trajectory import Trajectory
@@ -33,12 +34,12 @@ def figure_tasks(run: Trajectory, folder: Path, prefix: str = "", stop_motion: b
 
 def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
     """Named tasks that write the movies of `run`, from the side and along e₃, into `folder`."""
-    from flypend import animate
+    from flypend.animate import movie
 
     return [
         (
             f"{prefix}movie-{view}",
-            partial(animate.movie, run, folder / f"{prefix}movie-{view}.mp4", view=view, speed=MOVIE_SPEED),
+            partial(movie, run, folder / f"{prefix}movie-{view}.mp4", view=view, speed=MOVIE_SPEED),
         )
         for view in VIEWS
     ]
@@ -107,7 +108,9 @@ def write_flight(
                 text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)}),
                 "",
             ]
+        lines += [f"Inverted: {text.judgement(run)}", ""]
         (folder / "report.md").write_text("\n".join(lines), encoding="utf-8")
         content = {"flypend": __version__, "settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
+        content["inverted"] = vars(metrics(run))
         text.write_json(folder / "report.json", content)
     return verdicts

@@ -15,6 +15,8 @@ from rich.table import Table
 
 from flypend.experiments.claims import Verdict
 from flypend.experiments.defects import Finding
+from flypend.metrics import metrics
+from flypend.trajectory import Trajectory
 
 Column = tuple[str, str]
 
@@ -22,6 +24,13 @@ Column = tuple[str, str]
 def number(value: float) -> str:
     """A number for a table: three significant digits, but five decimals near 1, where the distance to 1 counts."""
     return f"{value:.5f}" if 0 < abs(value - 1) < 1e-2 else f"{value:.3g}"
+
+
+def judgement(run: Trajectory) -> str:
+    """One line on whether `run` ends inverted at its reference, and what it took."""
+    m = metrics(run)
+    verdict = f"stands after {m.settling:.2f} s" if m.success else f"does not stand ({m.cause})"
+    return f"{verdict}, largest distance {number(m.excursion)} m, largest rotor force {number(m.peak_force)} N"
 
 
 def mark(holds: bool) -> str:

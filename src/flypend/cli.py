@@ -183,6 +183,15 @@ def ladder(
     console.print(f"Report and figure are in {_bold(out)}.")
 
 
+@app.command()
+def circles(law: Laws = None, seed: Seed = 1) -> None:
+    """Hover and two circles in the set-up of Hehn and D'Andrea (2011), beside what they published."""
+    from flypend.report.studies import tracking_table
+    from flypend.studies.hehn import hehn2011
+
+    console.print(tracking_table(hehn2011(tuple(law or ("inverted", "lqr")), seed)))
+
+
 def _study(
     names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
 ) -> tuple[list[Any], Any, Any, dict[str, Any]]:

@@ -115,7 +115,7 @@ def _lost(solver: DOP853, message: str | None, steps: int) -> Outcome | None:
     if not (np.all(np.isfinite(solver.y)) and np.max(np.abs(solver.y)) < MAX_STATE):
         return Outcome("diverged", solver.t_old, f"the state left |s| < {MAX_STATE:g}")
     if steps >= MAX_STEPS:
-        return Outcome("diverged", solver.t, f"{MAX_STEPS} steps were not enough")
+        return Outcome("diverged", solver.t_old, f"{MAX_STEPS} steps were not enough")
     return None
 
 

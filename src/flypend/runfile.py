@@ -170,6 +170,8 @@ def _build(settings: dict[str, Any]) -> Flight:
         state = State(**start)
     except InputError as error:
         raise InputError(f"start.{error.field}", error.expected, error.got) from None
+    if state.batch_shape:
+        raise InputError("start", "a single state", f"a batch of shape {state.batch_shape}")
     return Flight(
         vehicle=Vehicle.from_dict(_table(settings, "vehicle")),
         law=law_from_dict(_table(settings, "law")),

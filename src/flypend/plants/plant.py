@@ -75,6 +75,14 @@ class Wind:
         errors.number("wind.gust_time", self.gust_time, above=0, unit="s")
 
 
+_KINDS: tuple[tuple[str, Any, str], ...] = (
+    ("limits", bool, "true or false"),
+    ("noise", Noise | None, "a Noise or None"),
+    ("wind", Wind | None, "a Wind or None"),
+    ("mismatch", Mapping, "factors by name"),
+)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Plant:
     """A sampled flight: how the world answers the law. Each departure from the ideal can be set alone.
@@ -136,9 +144,9 @@ class Plant:
         errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
         if self.lag is not None:
             errors.number("plant.lag", self.lag, at_least=0, unit="s")
-        for name, kind in (("limits", bool), ("noise", Noise | None), ("wind", Wind | None), ("mismatch", Mapping)):
+        for name, kind, expected in _KINDS:
             if not isinstance(value := getattr(self, name), kind):
-                raise InputError(f"plant.{name}", f"a {getattr(kind, '__name__', kind)}", repr(value))
+                raise InputError(f"plant.{name}", expected, repr(value))
         if not isinstance(self.seed, Integral) or self.seed < 0:
             raise InputError("plant.seed", "an integer >= 0", repr(self.seed))
         object.__setattr__(self, "pivot_offset", _vector("plant.pivot_offset", self.pivot_offset))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -13,32 +14,35 @@ from flypend.report.staging import staged
 from flypend.report.text import number, write_json
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
+from flypend.studies.hehn import Tracking
 
-COLUMNS = ("success %", "95 % interval", "settling s", "excursion m", "effort", "peak N", "failures by cause")
+COLUMNS = ("runs", "success % (95 %)", "settle s", "exc. m", "effort", "peak N", "failed")
 
 
 def comparison_cells(row: dict[str, Any]) -> list[str]:
     """The cells of one law: `row` is a record of `Comparison.rows`."""
     return [
-        f"{100 * row['success']:.1f} of {row['runs']}",
-        f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f}",
-        f"{number(row['settling_p50'])} / {number(row['settling_p95'])}",
-        f"{number(row['excursion_p50'])} / {number(row['excursion_p95'])}",
+        str(row["runs"]),
+        f"{100 * row['success']:.4g} ({100 * row['wilson_low']:.1f}-{100 * row['wilson_high']:.1f})",
+        f"{number(row['settling_p50'])}/{number(row['settling_p95'])}",
+        f"{number(row['excursion_p50'])}/{number(row['excursion_p95'])}",
         number(row["effort_p50"]),
         number(row["peak_force_max"]),
-        ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "none",
+        ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "-",
     ]
 
 
 def comparison_table(comparison: Comparison) -> Table:
     """One row per law for the terminal."""
     table = Table(title="Same starts, same plant", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
-    table.add_column("law")
+    table.add_column("law", no_wrap=True)
     for name in COLUMNS:
-        table.add_column(name, justify="right")
+        table.add_column(name, justify="right", no_wrap=name != "failed")
     for row in comparison.rows():
         table.add_row(row["law"], *comparison_cells(row))
-    table.caption = "settling and excursion: median / 95th percentile; effort: RMS rotor force over hover"
+    table.caption = (
+        "settle, exc. (excursion): median/95th percentile; effort: RMS rotor force over hover; failed: by cause"
+    )
     table.caption_justify = "left"
     return table
 
@@ -107,6 +111,19 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
         }
         write_json(folder / "report.json", {"flypend": __version__, "settings": settings, "rungs": content})
         save_figure(ladder_figure(ladder), folder / "ladder.png")
+
+
+def tracking_table(results: Iterable[Tracking]) -> Table:
+    """Offsets and errors of hover and circles for the terminal."""
+    table = Table(title="Set-up of Hehn and D'Andrea (2011)", title_justify="left", box=SIMPLE)
+    for name in ("case", "law", "stands", "offset m", "RMS error m", "published m"):
+        table.add_column(name, justify="left" if name in ("case", "law") else "right")
+    for r in results:
+        stands = "yes" if r.stood else "[red]no"
+        table.add_row(r.case, r.law, stands, number(r.offset), number(r.error), r.published)
+    table.caption = "50 Hz, 30 ms, noise of a motion capture, 2 % of error in mass and rod; published: their experiment"
+    table.caption_justify = "left"
+    return table
 
 
 def _told(settings: dict[str, Any]) -> str:

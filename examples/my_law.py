@@ -1,0 +1,14 @@
+"""A law of one's own: flypend compare --law examples.my_law:balance --law inverted --runs 20."""
+
+from flypend import Wrench
+from flypend.geometry import E3, cross
+
+
+def balance(t, state, vehicle, gains):
+    """Balance small tilts; it does not swing up. `state` and the result are CasADi expressions, e₃ up, SI units."""
+    p, p_dot = state.x + vehicle.l * (state.y - E3), state.x_dot + vehicle.l * state.y_dot
+    lean = 2.9 * state.y + 0.5 * state.y_dot + 0.28 * p + 0.47 * p_dot
+    z_d = E3 + lean - lean[2] * E3
+    climb = 1 - 0.4 * state.x[2] - 0.5 * state.x_dot[2]
+    error = state.R.T @ cross(state.z, z_d)
+    return Wrench(vehicle.weight * climb, vehicle.I @ (300 * error - 30 * state.omega))

@@ -10,7 +10,7 @@ from matplotlib.textpath import TextPath
 from PIL import Image
 
 import flypend as fp
-from flypend import animate, drawing
+from flypend import animate, drawing, frames, lettering
 from flypend.experiments import experiment
 
 ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces")
@@ -50,7 +50,7 @@ def decode(path):
 
 def pictures(run, times, view="side", size=(640, 640)):
     """Frames (n, height, width, 3) as drawn, before any encoder."""
-    render = animate._stage(run, np.asarray(times), view, 0.25, size)
+    render = frames.stage(run, np.asarray(times), view, 0.25, size)
     return np.stack([np.array(render(i, False))[..., :3] for i in range(len(times))])
 
 
@@ -105,7 +105,7 @@ def test_the_grid_moves_against_the_vehicle():
     for picture in pictures(rising, t):
         left = picture[80:500, 2:20].astype(int)  # beside the drawing, short of the first upright line
         rows.append(np.nonzero(np.all(np.abs(left - 212) < 25, axis=(1, 2)))[0])
-    metre = 640 * 0.665 / (2 * animate.ZOOM * drawing.reach(rising.vehicle))
+    metre = 640 * 0.665 / (2 * frames.ZOOM * drawing.reach(rising.vehicle))
     moved = rows[1].mean() - rows[0].mean() if len(rows[0]) == len(rows[1]) else np.nan
     assert moved == pytest.approx(0.1 * metre * np.cos(drawing.ELEVATION), abs=1.0)
 
@@ -121,7 +121,7 @@ def test_the_cursor_runs_with_time(run):
 
 def test_frames_do_not_depend_on_those_before(run):
     times = run.t[::100]
-    render = animate._stage(run, times, "side", 0.25, (320, 320))
+    render = frames.stage(run, times, "side", 0.25, (320, 320))
     forwards = [np.array(render(i, False)) for i in range(len(times))]
     for i in reversed(range(len(times))):
         np.testing.assert_array_equal(np.array(render(i, False)), forwards[i])
@@ -129,7 +129,7 @@ def test_frames_do_not_depend_on_those_before(run):
 
 @pytest.mark.parametrize("words", ["height −12.3 m, speed 4.5 m/s", "0.25 s"])
 def test_words_are_laid_out_as_matplotlib_does(words):
-    vertices, codes, width = animate._outline(words)
+    vertices, codes, width = lettering.outline(words)
     whole = TextPath((0, 0), words, size=1)
     np.testing.assert_array_equal(codes, whole.codes)
     np.testing.assert_allclose(vertices, whole.vertices, atol=0.02)  # font units; kerning is left out

@@ -141,6 +141,11 @@ def test_a_claim_fails_on_a_run_that_does_not_reach_its_end_whatever_its_value(s
     assert [v.value for v in theorem_claims(made(status=status))] == [v.value for v in theorem_claims(made())]
 
 
+def test_numbers_without_bound_meet_no_criterion_and_warn_of_nothing():
+    verdicts = theorem_claims(made(y3=(1, np.nan), z3=np.nan, v=(np.inf, np.inf), f=-np.inf))
+    assert [verdict.holds for verdict in verdicts] == [False] * len(ALL)
+
+
 @pytest.mark.parametrize(
     ("claim", "good", "bad"),
     [

@@ -11,7 +11,7 @@ import pytest
 from matplotlib.patches import Circle
 
 import flypend as fp
-from flypend import drawing, figures, geometry
+from flypend import drawing, figures, geometry, page
 from flypend.experiments import experiment
 from flypend.model import gravity_vector
 
@@ -278,7 +278,7 @@ def test_stop_motion_of_a_run_that_ended_early(singular):
 
 @pytest.mark.parametrize("view", drawing.VIEWS)
 def test_the_symbol_of_gravity(run, view):
-    ax = figures._new_figure(3, 3).subplots()
+    ax = page.new_figure(3, 3).subplots()
     drawing.gravity_symbol(ax, view, (0.0, 0.0), 1.0, fontsize=8)
     assert [text.get_text() for text in ax.texts if text.get_text()] == ["g"]
     arrows = [text for text in ax.texts if not text.get_text()]

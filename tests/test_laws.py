@@ -370,7 +370,7 @@ def test_a_law_from_a_table():
         ({}, r"^law\.name: expected one of printed, corrected.*, got None"),
         (
             {"name": "corrected", "gain": {}},
-            r"^law\.gain: expected one of name, gains, got 'gain' \(did you mean 'gain",
+            r"^law\.gain: expected one of name, gains.*, got 'gain' \(did you mean 'gain",
         ),
         ({"name": "corrected", "gains": {"kd": 1}}, r"^law\.gains\.kd: expected one of .*did you mean 'k_d'"),
         ({"name": "corrected", "gains": {"k_d": -1}}, r"^law\.gains\.k_d: expected a finite number > 0 1/s, got -1$"),

@@ -444,6 +444,33 @@ def test_any_file_at_all_gives_a_flight_or_one_line(tmp_path, content):
     flies_or_is_refused(str(path))
 
 
+reals = st.floats() | st.integers(-(2**63), 2**63 - 1) | st.floats(0.01, 10)
+
+
+def lists(n, entries=reals):
+    return st.lists(entries, min_size=n, max_size=n)
+
+
+machines = {
+    **dict.fromkeys(("mass", "bob_mass", "rod_length", "gravity", "drag_ratio", "rotor_lag"), reals),
+    "inertia": lists(3) | lists(3, lists(3)),
+    "rotor_positions": lists(4, lists(3)),
+    "rotor_spins": lists(4) | lists(4, st.sampled_from([1, -1])),
+    "rotor_limits": lists(2),
+}
+starts = {name: lists(3, lists(3)) if name == "R" else lists(3) for name in SHAPES}
+gains = dict.fromkeys(("k_d", "k_1", "k_2", "speed_floor", "beta_floor", "yaw_damping"), reals)
+
+
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(*(st.fixed_dictionaries({}, optional=optional) for optional in (machines, starts, gains)))
+@example({}, {"y": [0.0, 0.0, 1e200]}, {})
+@example({}, {"R": [[1e200, 1e200, 0.0], [1e200, -1e200, 0.0], [0.0, 0.0, 1.0]]}, {})
+def test_any_numbers_give_a_flight_or_one_line(tmp_path, machine, start, gains):
+    lines = (f"{name} = {toml(table)}\n" for name, table in (("vehicle", machine), ("start", start)))
+    flies_or_is_refused(written(tmp_path, f"experiment = 1\n{''.join(lines)}law = {toml({'gains': gains})}\n"))
+
+
 positive = st.floats(1e-3, 1e3)
 
 

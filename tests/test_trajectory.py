@@ -150,7 +150,7 @@ def test_a_law_written_in_either_frame_flies_the_same_run():
 def test_only_a_run_from_simulate_has_dense_output(run, tmp_path):
     run.save(tmp_path / "run.nc")
     for other in (fp.load(tmp_path / "run.nc"), run.flipped()):
-        with pytest.raises(fp.InputError, match=r"^run\.at: expected a run from simulate"):
+        with pytest.raises(fp.InputError, match=r"^run\.at: expected a run of the ideal plant"):
             other.at(0.5)
 
 

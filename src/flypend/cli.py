@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -55,12 +56,13 @@ def paper(
     Writes figures, stop-motion, movies, every run as NetCDF, report.md and report.json.
     """
     from flypend.report.paper import reproduce
-    from flypend.report.text import findings_table, summary_table
+    from flypend.report.text import findings_table, judgement, summary_table
 
     with _counter() as tell:
         result = reproduce(out, quick=quick, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(findings_table(result.findings))
+    console.print(f"The promise kept by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
     console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {_bold(out)}; read report.md first.")
 
 
@@ -230,7 +232,8 @@ def _bold(out: Path) -> str:
 
 def _progress() -> Progress:
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=Console(stderr=True), transient=True)
+    on = Console(stderr=True)
+    return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
@@ -246,6 +249,9 @@ def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
 def main() -> None:
     """Run the command line; bad input prints one line and exits with code 2."""
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as after Ctrl-C
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # where the encoding of the terminal lacks ✓ or ẍ
     try:
         code = app(standalone_mode=False)
     except (InputError, TyperException) as error:

@@ -22,7 +22,8 @@ class Metrics:
     Parameters
     ----------
     success : bool
-        Rod and thrust axis within 0.05 of upright (and of the lean that a moving reference takes) and the pivot within 0.2 m of its reference for the last second.
+        Rod and thrust axis within 0.05 of upright (more by the lean that a moving reference takes) and the pivot within
+        0.2 m of its reference, for the last second.
     settling : float
         Time after which all that holds to the end, s; NaN if it does not.
     excursion : float

@@ -9,6 +9,8 @@ from copy import deepcopy
 from dataclasses import dataclass, fields
 from typing import Any
 
+import numpy as np
+
 from flypend import errors
 from flypend.errors import InputError
 from flypend.experiments import experiment, experiment_names
@@ -54,7 +56,8 @@ def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
             _override(settings, override)
         for key, value in settings.items():
             _check_plain(key, value)
-        return _build(_complete(settings))
+        with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
+            return _build(_complete(settings))
     except RecursionError:
         raise InputError("run", "settings nested a few levels deep", "hundreds of levels") from None
 

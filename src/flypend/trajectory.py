@@ -105,10 +105,11 @@ class Trajectory:
     def at(self, t: Any) -> State:
         """State(s) at any time(s) `t` inside the run, from the dense output of the integrator.
 
-        Raises InputError for a time outside the run, and for a run read from a file, which keeps samples only.
+        Raises InputError for a time outside the run, and for a sampled flight or a run read from a file, which keep
+        samples only.
         """
         if self.interpolant is None:
-            raise errors.InputError("run.at", "a run from simulate (a file keeps the samples only)", "a loaded run")
+            raise errors.InputError("run.at", "a run of the ideal plant, not read from a file", "samples only")
         times = errors.array("t", t, ())
         if np.any(times < 0) or np.any(times > self.outcome.time):
             raise errors.InputError("t", f"times inside 0 .. {self.outcome.time:g} s", np.asarray(t).tolist())

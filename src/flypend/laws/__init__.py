@@ -7,6 +7,7 @@ A law of one's own is `Law(name=..., e3=..., gains={...}, control=function)` wit
 from flypend.laws.corrected import corrected
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Computer, Control, Controller, Guard, Law, law_from_dict, law_names
+from flypend.laws.lqr import lqr
 from flypend.laws.printed import printed
 
 __all__ = [
@@ -19,5 +20,6 @@ __all__ = [
     "inverted",
     "law_from_dict",
     "law_names",
+    "lqr",
     "printed",
 ]

@@ -49,8 +49,7 @@ def inverted(reference: Reference | None = None, **gains: float) -> Law:
 
     @cache
     def for_vehicle(vehicle: Vehicle) -> Law:
-        chosen = Gains(**(vars(gains_for(vehicle)) | given))
-        return _law(chosen, reference or hover())
+        return _law(gains_for(vehicle, **given), reference or hover())
 
     return Law(name="inverted", e3="up", gains=given, control=_unbound, for_vehicle=for_vehicle)
 

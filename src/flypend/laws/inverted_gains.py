@@ -13,7 +13,7 @@ from flypend.errors import InputError
 from flypend.laws.law import Computer
 from flypend.model import Vehicle
 
-SEPARATION = 1.5
+SEPARATION, LEAST_RATIO = 1.5, 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,11 +116,18 @@ NUMBERS: Mapping[str, float] = MappingProxyType(
 )  # fmt: skip
 
 
-def gains_for(vehicle: Vehicle) -> Gains:
-    """The gains that the law proposes for `vehicle`, from its rod, its inertia, its rotor limits and their lag."""
+def gains_for(vehicle: Vehicle, **given: float) -> Gains:
+    """The gains that the law proposes for `vehicle`, from its rod, its inertia, its rotor limits and their lag.
+
+    Fields `given` replace proposals. Raises InputError for bandwidths that are not separated.
+    """
     n = NUMBERS
     time, speed = np.sqrt(vehicle.l / vehicle.g), np.sqrt(vehicle.g * vehicle.l)
-    attitude = min(n["attitude_bandwidth"] * np.sqrt(angular_authority(vehicle)), 0.9 / max(vehicle.rotor_lag, 1e-3))
+    # A vehicle too slow to turn for its rod is given the bandwidth that balancing takes: near upright small moments do.
+    attitude = max(
+        n["attitude_bandwidth"] * np.sqrt(angular_authority(vehicle)), LEAST_RATIO * n["rod_bandwidth"] / time
+    )
+    attitude = min(attitude, 0.9 / max(vehicle.rotor_lag, 1e-3))
     values: dict[str, Any] = {
         "position_bandwidth": n["position_bandwidth"] / time,
         "position_damping": n["position_damping"],
@@ -148,7 +155,7 @@ def gains_for(vehicle: Vehicle) -> Gains:
         "latency": min(0.024, n["latency"] / attitude),
         "observer": 1.5,
     }
-    return Gains(**{name: float(value) for name, value in values.items()})
+    return Gains(**({name: float(value) for name, value in values.items()} | given))
 
 
 def angular_authority(vehicle: Vehicle) -> float:

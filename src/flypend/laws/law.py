@@ -15,7 +15,7 @@ from flypend import errors
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
 
-BUILT_IN = ("printed", "corrected", "inverted")
+BUILT_IN = ("printed", "corrected", "inverted", "lqr")
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,7 @@ class Linearisation:
 
     @property
     def symmetries(self) -> tuple[str, ...]:
-        """Coordinates among `SYMMETRIES` that the rates do not depend on: each brings an eigenvalue 0, which is meant."""
+        """Coordinates among `SYMMETRIES` that no rate depends on: each brings one eigenvalue 0, as it should."""
         return tuple(name for name in SYMMETRIES if name in self.coordinates and self._is_free((name,)))
 
     @property
@@ -129,14 +129,16 @@ def linearise(law: Law, vehicle: Vehicle, at: State | None = None) -> Linearisat
     InputError
         If there is no equilibrium near `at`, the law is not defined there, or its reference moves.
     """
+    if not isinstance(law, Law):
+        raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
     law = law.bound(vehicle)
     rates = _closed_loop(law, vehicle)
     state = _upright(law) if at is None else _single(at)
     for _ in range(_NEWTON_STEPS):
         velocity, A = _on_tangent_space(rates, state)
         step = np.linalg.lstsq(A, -velocity, rcond=1e-10)[0]
-        if np.max(np.abs(step)) < 1e-12 or np.max(np.abs(step[12:14])) > 1:
-            break
+        if not 1e-12 < np.linalg.norm(step) < 1:
+            break  # arrived, or led away
         state = retract(state, step)
     velocity, A = _on_tangent_space(rates, state)
     _check_rest(velocity, A)

@@ -13,6 +13,9 @@ from flypend import __version__
 from flypend.experiments import experiment, experiment_names
 from flypend.experiments.claims import SETTLED, Verdict, theorem_claims
 from flypend.experiments.defects import Finding, Runs, findings, fly_all
+from flypend.laws import inverted
+from flypend.metrics import metrics
+from flypend.model import State, vehicle
 from flypend.report import text
 from flypend.report.flight import Task, figure_tasks, movie_tasks
 from flypend.report.staging import staged
@@ -27,11 +30,22 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True)
 class Reproduction:
-    """Result of a reproduction: verdicts and how the run ended, by (law, experiment), and the defects of the paper."""
+    """Result of a reproduction.
+
+    Parameters
+    ----------
+    verdicts, ends : dict
+        Verdicts on the claims, and how the run ended, by (law, experiment).
+    findings : list of Finding
+        The defects of the paper.
+    swing_up : Trajectory
+        What the paper promises, flown by the inverted law: from hanging at rest, under real rotors.
+    """
 
     verdicts: dict[Column, list[Verdict]]
     ends: dict[Column, str]
     findings: list[Finding]
+    swing_up: Trajectory
 
 
 def reproduce(out: str | Path, *, quick: bool = False, progress: Progress = lambda *_: None) -> Reproduction:
@@ -58,11 +72,15 @@ def reproduce(out: str | Path, *, quick: bool = False, progress: Progress = lamb
         total = 4 * len(experiment_names())
         flown = iter(range(total))
         runs = fly_all(lambda what: progress(f"flying {what}", next(flown), total))
-        tasks = _pictures(runs, folder, quick)
+        swing_up = simulate(vehicle("hehn2011"), inverted(), State(y=(0.0, 0.0, -1.0)), 6.0, plant="rotors")
+        tasks = _pictures(runs, folder, quick) + figure_tasks(swing_up, folder / "figures", "swing-up-")
+        if not quick:
+            tasks = movie_tasks(swing_up, folder / "movies", "swing-up-")[:1] + tasks
         with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
             pending = [(name, _submit(pool, task)) for name, task in tasks]
-            result = _judge(runs)
+            result = _judge(runs, swing_up)
             _save_runs(runs, folder / "runs")
+            swing_up.save(folder / "runs" / "inverted-swing-up.nc")
             _write_reports(result, folder)
             for done, (name, future) in enumerate(pending):
                 progress(f"drawing {name}", total + done, total + len(pending))
@@ -89,7 +107,7 @@ def _submit(pool: Executor, task: Task) -> Future[object]:
     return pool.submit(task)
 
 
-def _judge(runs: Runs) -> Reproduction:
+def _judge(runs: Runs, swing_up: Trajectory) -> Reproduction:
     verdicts: dict[Column, list[Verdict]] = {}
     ends: dict[Column, str] = {}
     for name in experiment_names():
@@ -103,7 +121,7 @@ def _judge(runs: Runs) -> Reproduction:
         for law, run, long_run in groups:
             verdicts[law, name] = theorem_claims(run, long_run)
             ends[law, name] = f"{run.outcome.status} at {run.outcome.time:.4g} s"
-    return Reproduction(verdicts, ends, findings(runs))
+    return Reproduction(verdicts, ends, findings(runs), swing_up)
 
 
 def _save_runs(runs: Runs, folder: Path) -> None:
@@ -122,6 +140,9 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         text.verdicts_markdown(result.verdicts, result.ends),
         "A claim holds on a run only if the run exists to its end. V rises under the corrected law as well: the paper "
         "leaves out a term of V̇₁ (defect 4), and without beta a cross term remains. y = e₃ hangs (defect 2).",
+        "## The promise kept by another law",
+        f"The inverted law on {result.swing_up.vehicle.name}, from hanging at rest, rotors with limits and lag: "
+        f"{text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png).",
         "## Defects of the paper, re-derived by this run",
         text.findings_markdown(result.findings),
     ]
@@ -130,4 +151,12 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         {"law": law, "experiment": name, "run": result.ends[law, name], "claims": row}
         for (law, name), row in result.verdicts.items()
     ]
-    text.write_json(folder / "report.json", {"flypend": __version__, "claims": claims, "defects": result.findings})
+    text.write_json(
+        folder / "report.json",
+        {
+            "flypend": __version__,
+            "claims": claims,
+            "defects": result.findings,
+            "swing_up": vars(metrics(result.swing_up)),
+        },
+    )

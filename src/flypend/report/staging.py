@@ -34,6 +34,9 @@ def staged(out: str | Path) -> Iterator[Path]:
             target.parent.mkdir(parents=True, exist_ok=True)
             source.replace(target)
     except OSError as error:
+        where = error.filename
+        if isinstance(where, str | Path) and not any(Path(where).is_relative_to(place) for place in (folder, out)):
+            raise  # something else is missing, such as a program
         raise _unwritable(out, error) from None
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -17,7 +17,13 @@ Progress = Callable[[str, int, int], Any]
 
 @dataclass(frozen=True)
 class Comparison:
-    """Ensembles by the name of their law, flown from the same physical starts."""
+    """Laws flown from the same physical starts.
+
+    Parameters
+    ----------
+    ensembles : dict of Ensemble
+        By the name of the law; a second law of one name is called "name (2)".
+    """
 
     ensembles: dict[str, Ensemble]
 

@@ -35,7 +35,13 @@ RUNGS: Mapping[str, str | Plant] = {
 
 @dataclass(frozen=True)
 class Ladder:
-    """Comparisons by rung, on the same starts."""
+    """Laws compared on one plant after another, from the same starts.
+
+    Parameters
+    ----------
+    rungs : dict of Comparison
+        By the name of the rung.
+    """
 
     rungs: dict[str, Comparison]
 

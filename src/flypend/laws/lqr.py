@@ -1,0 +1,182 @@
+"""The linear-quadratic regulator about inverted hover: the baseline, after Hehn and D'Andrea (2011), on the full model.
+
+Hehn and D'Andrea regulate position, rod and body rates of a linear model about hover; here the wrench is the input and
+the model is the linearisation on the tangent space of R³ × SO(3) × S² (`flypend.laws.linearise`),
+
+    ξ̇ = A ξ + B (δf, δτ),    wrench = wrench_ref − K ξ,    K = R⁻¹ Bᵀ P,    Aᵀ P + P A − P B R⁻¹ Bᵀ P + Q = 0,
+
+with Q and R the inverse squares of the largest acceptable deviations (Bryson's rule). Nothing makes it work far from
+hover: that is what it is here to show.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from scipy.linalg import solve_continuous_are
+
+from flypend import errors
+from flypend.geometry import E3, apply, cross, dot, norm, scale
+from flypend.laws.law import Control, Law
+from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
+from flypend.laws.references import Reference, hover
+from flypend.laws.throw import bob_reference
+from flypend.model import State, Vehicle, Wrench
+
+# (1 + cos θ)/2 in the size of an error never counts as less than this: it has a direction up to the antipode only.
+ANTIPODE_FLOOR = 0.014
+
+
+def lqr(
+    *,
+    position_error: float = 1.0,
+    velocity_error: float = 10.0,
+    attitude_error: float = 0.8,
+    rate_error: float = 0.6,
+    rod_error: float = 0.06,
+    rod_rate_error: float = 0.6,
+    thrust_deviation: float = 0.2,
+    moment_deviation: float = 0.12,
+    reference: Reference | None = None,
+) -> Law:
+    """The linear-quadratic regulator whose weights are the inverse squares of these largest acceptable deviations.
+
+    Only their ratios matter. The errors ξ of a state far from hover are those of `errors_of`.
+
+    Parameters
+    ----------
+    position_error, velocity_error : float
+        Of the pivot along each axis, m and m/s.
+    attitude_error, rate_error : float
+        Of the thrust axis, rad, and of the angular velocity, rad/s. The heading is not regulated, only its rate.
+    rod_error, rod_rate_error : float
+        Of the rod, rad and rad/s.
+    thrust_deviation : float
+        From the weight, in weights.
+    moment_deviation : float
+        Of roll and pitch, in weights times the distance of the rotors; of yaw, in weights times the drag ratio.
+    reference : callable, optional
+        Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
+
+    Raises
+    ------
+    InputError
+        For a deviation that is not positive.
+    """
+    given = {
+        "position_error": errors.number("position_error", position_error, above=0, unit="m"),
+        "velocity_error": errors.number("velocity_error", velocity_error, above=0, unit="m/s"),
+        "attitude_error": errors.number("attitude_error", attitude_error, above=0, unit="rad"),
+        "rate_error": errors.number("rate_error", rate_error, above=0, unit="rad/s"),
+        "rod_error": errors.number("rod_error", rod_error, above=0, unit="rad"),
+        "rod_rate_error": errors.number("rod_rate_error", rod_rate_error, above=0, unit="rad/s"),
+        "thrust_deviation": errors.number("thrust_deviation", thrust_deviation, above=0, unit="weights"),
+        "moment_deviation": errors.number("moment_deviation", moment_deviation, above=0, unit="weights × arm"),
+    }
+    followed = reference or hover()
+
+    @cache
+    def for_vehicle(vehicle: Vehicle) -> Law:
+        K = gain_matrix(vehicle, given)
+
+        def control(t: Any, state: State, vehicle: Vehicle, _: Any) -> Control:
+            return lqr_control(t, state, vehicle, K, followed)
+
+        return Law(name="lqr", e3="up", gains=given, control=control, reference=followed)
+
+    return Law(name="lqr", e3="up", gains=given, control=_unbound, reference=followed, for_vehicle=for_vehicle)
+
+
+def _unbound(*_: Any) -> Control:
+    raise TypeError("the regulator solves its Riccati equation for a vehicle: use law.bound(vehicle)")
+
+
+def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
+    """K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its column of the heading is zero."""
+    A, B = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
+    Q, R = weights(vehicle, deviations)
+    keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
+    A, B = A[np.ix_(keep, keep)], B[keep]
+    P = solve_continuous_are(A, B, Q[np.ix_(keep, keep)], R)
+    K = np.zeros((4, len(COORDINATES)))
+    K[:, keep] = np.linalg.solve(R, B.T @ P)
+    return K
+
+
+def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
+    """Q (16, 16) and R (4, 4) of `vehicle` for the `deviations` of `lqr`, by Bryson's rule."""
+    d = deviations
+    state = [
+        *[d["position_error"]] * 3, *[d["velocity_error"]] * 3, *[d["attitude_error"]] * 3, *[d["rate_error"]] * 3,
+        *[d["rod_error"]] * 2, *[d["rod_rate_error"]] * 2,
+    ]  # fmt: skip
+    arm = np.sqrt(np.mean(np.sum(vehicle.rotor_positions[:, :2] ** 2, axis=1)))
+    levers = np.array([arm, arm, vehicle.drag_ratio])
+    wrench = vehicle.weight * np.array([d["thrust_deviation"], *d["moment_deviation"] * levers])
+    return np.diag(1 / np.array(state) ** 2), np.diag(1 / wrench**2)
+
+
+def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, reference: Reference) -> Control:
+    """The law with the gain matrix `K` (4, 16), for symbols of `t` (s) and `state` of `vehicle`, along `reference`.
+
+    The reference wrench is the one that carries rod and vehicle along the reference; for hover it is the weight.
+    """
+    I = vehicle.I
+    x_ref, v_ref, y_ref, z_ref, f_ref = flat_reference(t, reference, vehicle)
+    y_ref_dot = ca.jacobian(y_ref, t)
+    turn = cross(z_ref, ca.jacobian(z_ref, t))  # angular velocity of z_ref, world frame
+    omega_ref, alpha_ref = apply(state.R.T, turn), apply(state.R.T, ca.jacobian(turn, t))
+
+    xi = errors_of(state, x_ref, v_ref, z_ref, omega_ref, y_ref, y_ref_dot)
+    change = ca.mtimes(ca.DM(K), xi)
+    thrust = ca.fmax(f_ref - change[0], 0)
+    moment = apply(I, alpha_ref) - change[1:]
+    return Control(
+        wrench=Wrench(thrust, moment),
+        signals={"rod_error": norm(state.y - y_ref), "axis_error": norm(state.z - z_ref)},
+    )
+
+
+def errors_of(state: State, x_ref: Any, v_ref: Any, z_ref: Any, omega_ref: Any, y_ref: Any, y_ref_dot: Any) -> Any:
+    """ξ (16, 1) of a `state` anywhere, about a reference near inverted hover; smooth, and blind to the heading.
+
+    With h(e) the first two components of Rᵀ(e₁, e₂, 0), the part of e in the plane as the body sees it,
+
+        ξ_x = (h(e), e₃), e = x − x_ref,      ξ_y = s(y, y_ref) h(y − y_ref),
+        ξ_θ = s(z, z_ref) (Rᵀz_ref × e₃),     s(a, b) = √((1 + ε)/((1 + a·b)/2 + ε)),
+
+    ξ_ẋ as ξ_x, ξ_ẏ = h(ẏ − ẏ_ref), ξ_ω = ω − ω_ref. To first order at heading 0 they are the coordinates of
+    `flypend.laws.linearise`. |ξ_θ| and |ξ_y| are 2 sin(θ/2) of the angle θ: they grow up to the antipode, near which,
+    having no direction there, ε takes them to zero. All references are (3, 1), `omega_ref` in
+    the body frame: position, velocity `v_ref`, thrust axis and its rate, rod `y_ref` and its rate `y_ref_dot`.
+    """
+    down = state.R.T
+
+    def seen(e: Any) -> Any:
+        return apply(down, ca.vertcat(e[0], e[1], 0))[:2]
+
+    e, v = state.x - x_ref, state.x_dot - v_ref
+    tilt = _size(state.z, z_ref) * cross(apply(down, z_ref), E3)
+    rod = _size(state.y, y_ref) * seen(state.y - y_ref)
+    rates = ca.vertcat(state.omega - omega_ref, rod, seen(state.y_dot - y_ref_dot))
+    return ca.vertcat(seen(e), e[2], seen(v), v[2], tilt, rates)
+
+
+def _size(a: Any, b: Any) -> Any:
+    return ca.sqrt((1 + ANTIPODE_FLOOR) / ((1 + dot(a, b)) / 2 + ANTIPODE_FLOOR))
+
+
+def flat_reference(t: Any, reference: Reference, vehicle: Vehicle) -> tuple[Any, Any, Any, Any, Any]:
+    """Position and velocity of the pivot, rod, thrust axis and thrust with which `vehicle` follows `reference`(`t`).
+
+    The force on both bodies together is F = M (ẍ + g e₃) + m (p̈ + g e₃) with p = x + l y the bob.
+    """
+    _, _, p_ddot, _, y_ref = bob_reference(t, reference, vehicle, ca.SX.zeros(3))
+    x_ref = reference(t)
+    v_ref = ca.jacobian(x_ref, t)
+    F = vehicle.M * ca.jacobian(v_ref, t) + vehicle.m * p_ddot + vehicle.weight * E3
+    f_ref = norm(F)
+    return x_ref, v_ref, y_ref, scale(1 / f_ref, F), f_ref

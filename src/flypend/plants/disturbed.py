@@ -1,1 +1,0 @@
-from flypend.model.disturbed import disturbed_motion  # noqa: F401

@@ -193,8 +193,10 @@ def test_the_priority_is_felt():
 @pytest.mark.parametrize(
     "vehicle",
     [
-        # A rotor further out gives its moment with less force, and shares thrust less.
-        PLUS.replace(rotor_positions=[[0.25, 0, 0], [0, -0.17, 0], [-0.17, 0, 0], [0, 0.17, 0]]),
+        # A centre of mass beside the middle: thrust is not shared equally, yaw is.
+        PLUS.replace(rotor_positions=PLUS.rotor_positions + np.array([0.03, 0, 0])),
+        # A kite about its centre of mass: yaw is not shared equally, thrust is.
+        PLUS.replace(rotor_positions=[[0.2, 0, 0], [-0.05, -0.17, 0], [-0.1, 0, 0], [-0.05, 0.17, 0]]),
         # Three rotors of one spin.
         _with_rotors([0, 0.5, 2.2, 3.8, 5]),
     ],

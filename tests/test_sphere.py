@@ -173,6 +173,6 @@ def test_lemma_2_with_the_own_acceleration_as_printed_has_no_solution_on_the_ref
     # φ̈ stands on both sides: φ̈ − (φ_d × φ̈) × φ = ... For φ = φ_d the left side is zero for every tangent φ̈: what is
     # to be solved is singular exactly where the law should hold the system.
     phi_d = reference(1.0)[0]
-    matrix = np.eye(3) - np.stack([np.cross(np.cross(phi_d, e), phi_d) for e in np.eye(3)], axis=1)
+    matrix = np.eye(3) - np.stack([geo.transport(phi_d, phi_d, e) for e in np.eye(3)], axis=1)
     plane = np.linalg.svd(phi_d[None])[2][1:]
     np.testing.assert_allclose(plane @ matrix @ plane.T, 0, rtol=0, atol=1e-15)

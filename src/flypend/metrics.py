@@ -35,7 +35,8 @@ class Metrics:
     end : float
         When the flight ended, s.
     cause : str
-        Of a failure: "diverged", "rod", "axis", "position", whichever was out of tolerance last, in that order.
+        Of a failure: "diverged" or "singular", else what was out of tolerance during the last second: the first of
+        "rod", "axis", "position". Empty for a success.
     """
 
     success: bool
@@ -75,14 +76,16 @@ def metrics(run: Trajectory) -> Metrics:
 
 
 def _lean(run: Trajectory) -> Any:
-    """How far rod and axis have to lean for the reference to be followed, |ẍ_ref|/g and a fifth more; 0 in hover.
+    """How far one leans who follows the reference: |d − e₃|, d being the direction of ẍ_ref + g e₃; 0 in hover.
 
-    The fifth is for the bob, which moves on a larger circle than the pivot.
+    On a circle rod and axis lean a little less, since the bob goes round on a smaller one than the pivot. No level
+    reference allows as much as √2, so a rod that hangs is never let pass.
     """
     if len(run.t) < 3 or not np.any(run.x_ref != run.x_ref[0]):
         return 0.0
-    acceleration = np.gradient(np.gradient(run.x_ref, run.t, axis=0), run.t, axis=0)
-    return 1.2 * norm(acceleration) / max(run.vehicle.g, 1e-9)
+    velocity = np.gradient(run.x_ref, run.t, axis=0, edge_order=2)
+    a_1, a_2, a_3 = np.gradient(velocity, run.t, axis=0, edge_order=2).T
+    return 2 * np.sin(np.arctan2(np.hypot(a_1, a_2), run.vehicle.g + a_3) / 2)
 
 
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:

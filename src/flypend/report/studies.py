@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from rich.box import SIMPLE
+from rich.markup import escape
 from rich.table import Table
 
 from flypend import __version__
 from flypend.report.staging import staged
-from flypend.report.text import number, write_json
+from flypend.report.text import write_json
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
 from flypend.studies.hehn import Tracking
@@ -24,10 +26,10 @@ def comparison_cells(row: dict[str, Any]) -> list[str]:
     return [
         str(row["runs"]),
         f"{100 * row['success']:.4g} ({100 * row['wilson_low']:.1f}-{100 * row['wilson_high']:.1f})",
-        f"{number(row['settling_p50'])}/{number(row['settling_p95'])}",
-        f"{number(row['excursion_p50'])}/{number(row['excursion_p95'])}",
-        number(row["effort_p50"]),
-        number(row["peak_force_max"]),
+        f"{_short(row['settling_p50'])}/{_short(row['settling_p95'])}",
+        f"{_short(row['excursion_p50'])}/{_short(row['excursion_p95'])}",
+        _short(row["effort_p50"]),
+        _short(row["peak_force_max"]),
         ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "-",
     ]
 
@@ -35,13 +37,17 @@ def comparison_cells(row: dict[str, Any]) -> list[str]:
 def comparison_table(comparison: Comparison) -> Table:
     """One row per law for the terminal."""
     table = Table(title="Same starts, same plant", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
-    table.add_column("law", no_wrap=True)
-    for name in COLUMNS:
-        table.add_column(name, justify="right", no_wrap=name != "failed")
+    table.add_column("law", overflow="fold")
+    for name in COLUMNS[:-1]:
+        table.add_column(name, justify="right", no_wrap=True)
+    failed = []
     for row in comparison.rows():
-        table.add_row(row["law"], *comparison_cells(row))
-    table.caption = (
-        "settle, exc. (excursion): median/95th percentile; effort: RMS rotor force over hover; failed: by cause"
+        *cells, causes = comparison_cells(row)
+        table.add_row(escape(row["law"]), *cells)
+        failed += [f"{row['law']}: {causes}"] if row["causes"] else []
+    table.caption = escape(
+        f"settle, exc. (excursion): median/95th percentile; effort: RMS rotor force over hover; peak: of one rotor\n"
+        f"failed: {'; '.join(failed) or 'none'}"
     )
     table.caption_justify = "left"
     return table
@@ -50,7 +56,7 @@ def comparison_table(comparison: Comparison) -> Table:
 def comparison_markdown(comparison: Comparison) -> str:
     """One row per law as a Markdown table."""
     lines = ["| law | " + " | ".join(COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
-    lines += [f"| {row['law']} | " + " | ".join(comparison_cells(row)) + " |" for row in comparison.rows()]
+    lines += [f"| {_barred(row['law'])} | " + " | ".join(comparison_cells(row)) + " |" for row in comparison.rows()]
     return "\n".join(lines)
 
 
@@ -73,7 +79,7 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
     for rung, comparison in ladder.rungs.items():
         cells = []
         for ensemble in comparison.ensembles.values():
-            cells.append(f"{100 * ensemble.rate:.1f} %, {number(ensemble.percentile('excursion', 95))} m")
+            cells.append(f"{100 * ensemble.rate:.1f} %, {_short(ensemble.percentile('excursion', 95))} m")
         rows.append([rung, *cells])
     return rows
 
@@ -81,13 +87,14 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
 def ladder_table(ladder: Ladder) -> Table:
     """The ladder for the terminal."""
     laws = list(next(iter(ladder.rungs.values())).ensembles)
-    table = Table(title="Reality ladder: success, 95th percentile of the excursion", title_justify="left", box=SIMPLE)
+    title = "Reality ladder: success, 95th percentile of the excursion"
+    table = Table(title=title, title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
     table.add_column("rung")
     for law in laws:
-        table.add_column(law, justify="right")
+        table.add_column(escape(law), justify="right", overflow="fold")
     for row in ladder_rows(ladder):
         table.add_row(*row)
-    table.caption = "; ".join(f"{law} breaks (< 90 %) on: {', '.join(ladder.broken(law)) or 'none'}" for law in laws)
+    table.caption = escape("; ".join(f"{law} breaks (< 90 %) on: {_broken(ladder, law)}" for law in laws))
     table.caption_justify = "left"
     return table
 
@@ -98,10 +105,10 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     from flypend.studies.pictures import ladder_figure
 
     laws = list(next(iter(ladder.rungs.values())).ensembles)
-    lines = ["| rung | " + " | ".join(laws) + " |", "|---|" + "---|" * len(laws)]
+    lines = ["| rung | " + " | ".join(_barred(law) for law in laws) + " |", "|---|" + "---|" * len(laws)]
     lines += ["| " + " | ".join(row) + " |" for row in ladder_rows(ladder)]
     table = "\n".join(lines)
-    broken = "\n".join(f"- {law}: {', '.join(ladder.broken(law)) or 'none'}" for law in laws)
+    broken = "\n".join(f"- {law}: {_broken(ladder, law)}" for law in laws)
     with staged(out) as folder:
         text = f"# Reality ladder\n\n{_told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
         (folder / "report.md").write_text(text, encoding="utf-8")
@@ -115,15 +122,30 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
 
 def tracking_table(results: Iterable[Tracking]) -> Table:
     """Offsets and errors of hover and circles for the terminal."""
-    table = Table(title="Set-up of Hehn and D'Andrea (2011)", title_justify="left", box=SIMPLE)
+    table = Table(title="Set-up of Hehn and D'Andrea (2011)", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
     for name in ("case", "law", "stands", "offset m", "RMS error m", "published m"):
         table.add_column(name, justify="left" if name in ("case", "law") else "right")
     for r in results:
         stands = "yes" if r.stood else "[red]no"
-        table.add_row(r.case, r.law, stands, number(r.offset), number(r.error), r.published)
+        table.add_row(r.case, r.law, stands, _short(r.offset), _short(r.error), r.published)
     table.caption = "50 Hz, 30 ms, noise of a motion capture, 2 % of error in mass and rod; published: their experiment"
     table.caption_justify = "left"
     return table
+
+
+def _broken(ladder: Ladder, law: str) -> str:
+    broken = ladder.broken(law)
+    return "all" if len(broken) == len(ladder.rungs) else ", ".join(broken) or "none"
+
+
+def _short(value: float) -> str:
+    """Three digits, thousands written out, and a dash for NaN: a quantile of nothing."""
+    return "-" if math.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def _barred(name: str) -> str:
+    """A name as a cell of a Markdown table."""
+    return name.replace("|", "\\|")
 
 
 def _told(settings: dict[str, Any]) -> str:

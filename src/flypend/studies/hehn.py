@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from flypend.errors import InputError
+from flypend.errors import InputError, one_of
 from flypend.geometry import norm
 from flypend.laws import Law, references
-from flypend.laws.law import law_from_dict
+from flypend.laws.law import law_from_dict, law_names
 from flypend.model import State, vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, Plant
 from flypend.simulate import simulate
@@ -33,7 +33,10 @@ DURATION, JUDGED = 20.0, 10.0
 
 @dataclass(frozen=True)
 class Tracking:
-    """One law on one case: whether it stood, mean offset and RMS error of the pivot over the last ten seconds, m."""
+    """One law on one case: whether it stood, mean offset and RMS error of the pivot over the last ten seconds, m.
+
+    Offset and error of a run that diverged are NaN.
+    """
 
     law: str
     case: str
@@ -67,14 +70,15 @@ def _fly(name: str, case: str, reference: Callable[[Any], Any], seed: int) -> Tr
     start = references.sampled(reference, np.array([0.0, 1e-3]))
     state = State(x=start[0], x_dot=(start[1] - start[0]) / 1e-3, y=(0.0, 0.0, 1.0))
     run = simulate(machine, law, state, DURATION, plant=PLANT.replace(seed=seed))
+    completed = run.outcome.status == "completed"
     judged = run.t >= DURATION - JUDGED
     difference = (run.x - run.x_ref)[judged]
     return Tracking(
         law=name,
         case=case,
-        stood=bool(run.outcome.status == "completed" and np.all(run.y[judged, 2] > 0.9)),
-        offset=float(norm(difference.mean(axis=0))),
-        error=float(np.sqrt(np.mean(norm(difference) ** 2))),
+        stood=bool(completed and np.all(run.y[judged, 2] > 0.9)),
+        offset=float(norm(difference.mean(axis=0))) if completed else np.nan,
+        error=float(np.sqrt(np.mean(norm(difference) ** 2))) if completed else np.nan,
         published=PUBLISHED.get(case, "–"),
     )
 
@@ -82,7 +86,7 @@ def _fly(name: str, case: str, reference: Callable[[Any], Any], seed: int) -> Tr
 def _law(name: str, reference: Callable[[Any], Any]) -> Law:
     from flypend import laws
 
-    law = law_from_dict({"name": name})
+    law = law_from_dict({"name": one_of("--law", name, law_names())})
     factory = getattr(laws, name)
     if law.e3 != "up" or "reference" not in factory.__code__.co_varnames:
         raise InputError("--law", "a law that follows a reference", repr(name))

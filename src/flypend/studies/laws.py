@@ -9,9 +9,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from flypend.errors import InputError
+from flypend.errors import InputError, one_of
 from flypend.laws import Controller, Law
-from flypend.laws.law import law_from_dict
+from flypend.laws.law import law_from_dict, law_names
 
 # Gains of the inverted law with a slow attitude and no rate of its target: in the table to be seen failing.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -27,11 +27,13 @@ def law_named(name: str) -> Law | Controller:
     Raises InputError if there is no such law.
     """
     if ":" not in name:
-        if name == "detuned":
+        if one_of("--law", name, (*law_names(), "detuned")) == "detuned":
             detuned = law_from_dict({"name": "inverted", "gains": DETUNED})
             return Law(name="detuned", e3="up", control=detuned.control, for_vehicle=detuned.for_vehicle)
-        return law_from_dict({"name": name}, "--law")
+        return law_from_dict({"name": name})
     module_name, _, attribute = name.partition(":")
+    if not all(part.isidentifier() for part in (*module_name.split("."), attribute)):
+        raise InputError("--law", "module:name that can be imported", repr(name))
     if str(Path.cwd()) not in sys.path:
         sys.path.insert(0, str(Path.cwd()))
     try:
@@ -52,8 +54,18 @@ def _as_law(name: str, attribute: str, found: Any) -> Law | Controller:
         2: lambda: Controller(name=attribute, function=found),
         4: lambda: Law(name=attribute, e3="up", control=found),
     }
-    required = [p for p in inspect.signature(found).parameters.values() if p.default is inspect.Parameter.empty]
-    law = makers.get(len(required), lambda: None)()
+    required = _required(found)
+    law = makers.get(required, lambda: None)()
     if not isinstance(law, Law | Controller):
-        raise InputError("--law", expected, f"{name!r} with {len(required)} arguments")
+        raise InputError("--law", expected, f"{name!r}, which is none")
     return law
+
+
+def _required(function: Any) -> int:
+    """Number of arguments that `function` cannot be called without; -1 if it does not say."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):  # some that are written in C
+        return -1
+    several = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    return sum(p.default is inspect.Parameter.empty and p.kind not in several for p in parameters)

@@ -368,14 +368,12 @@ def test_wrong_shapes_are_refused():
         geo.cross(np.ones((2, 3)), np.ones((4, 3)))
 
 
-@pytest.mark.xfail(strict=True, reason="bug: _components takes the first three of any number of NumPy components")
 @pytest.mark.parametrize("length", [2, 4])
 def test_a_numpy_vector_has_three_components(length):
     with pytest.raises(ValueError, match=r"3"):
         geo.dot(np.ones(length), np.ones(length))
 
 
-@pytest.mark.xfail(strict=True, reason="bug: apply multiplies a CasADi batch of three vectors as if it were a matrix")
 def test_one_casadi_matrix_applies_to_each_vector_of_a_batch():
     m, v = ca.SX.sym("m", 3, 3), ca.SX.sym("v", 3, 3)
     matrix, vectors_ = _arguments("m", ())[0], _arguments("v", (3,))[0]
@@ -383,7 +381,6 @@ def test_one_casadi_matrix_applies_to_each_vector_of_a_batch():
     close(got, geo.apply(matrix, vectors_))
 
 
-@pytest.mark.xfail(strict=True, reason="bug: a NumPy batch and a CasADi column are joined to one long column")
 def test_a_numpy_batch_and_a_casadi_column_make_a_casadi_batch_or_an_error():
     try:
         shape = geo.cross(ca.SX.sym("a", 3), np.ones((5, 3))).shape

@@ -157,8 +157,8 @@ def test_it_follows_a_circle_with_the_feedforward():
     offset = fp.Law(
         name="naive",
         e3="up",
-        control=lambda t, state, vehicle, k: (
-            naive.bound(vehicle).evaluate(t, _relative(state, law.reference(t)), vehicle)
+        control=lambda t, state, vehicle, k: naive.bound(vehicle).evaluate(
+            t, _relative(state, law.reference(t)), vehicle
         ),
         reference=law.reference,
     )
@@ -167,9 +167,7 @@ def test_it_follows_a_circle_with_the_feedforward():
 
 
 def _relative(state, x_ref):
-    return fp.State(
-        x=state.x - x_ref, x_dot=state.x_dot, R=state.R, omega=state.omega, y=state.y, y_dot=state.y_dot
-    )
+    return fp.State(x=state.x - x_ref, x_dot=state.x_dot, R=state.R, omega=state.omega, y=state.y, y_dot=state.y_dot)
 
 
 # Input -----------------------------------------------------------------------------------------------------------
@@ -200,5 +198,5 @@ def test_the_law_is_known_by_name_with_its_gains_and_a_reference():
 
 
 def test_an_unbound_regulator_says_so():
-    with pytest.raises(TypeError, match="law.bound"):
+    with pytest.raises(TypeError, match=r"law\.bound"):
         fp.laws.lqr().evaluate(0.0, UPRIGHT, HEHN)

@@ -318,7 +318,6 @@ def _broken_json(data):
     return data
 
 
-@pytest.mark.xfail(strict=True, raises=(KeyError, ValueError), reason="bug: load lets KeyError and JSON errors through")
 @pytest.mark.parametrize("damage", [_without_variable, _without_attribute, _without_outcome_time, _broken_json])
 def test_a_run_with_a_part_missing_is_one_clear_line(run, tmp_path, damage):
     path = tmp_path / "run.nc"
@@ -330,7 +329,6 @@ def test_a_run_with_a_part_missing_is_one_clear_line(run, tmp_path, damage):
         return
 
 
-@pytest.mark.xfail(strict=True, raises=IndexError, reason="bug: load lets IndexError of a damaged file through")
 def test_a_truncated_file_is_one_clear_line(run, tmp_path):
     run.save(tmp_path / "whole.nc")
     content = (tmp_path / "whole.nc").read_bytes()

@@ -17,8 +17,8 @@ class InputError(ValueError):
         super().__init__(f"{field}: expected {expected}, got {' '.join(str(got).split())}")
 
 
-def array(field: str, value: Any, shape: tuple[int | None, ...]) -> Any:
-    """`value` as a finite float array whose last axes have `shape` (None: any length); batch axes may precede.
+def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool = False) -> Any:
+    """`value` as a finite float array of `shape` (None: any length); with `batch`, further axes may precede.
 
     Raises InputError.
     """
@@ -28,7 +28,11 @@ def array(field: str, value: Any, shape: tuple[int | None, ...]) -> Any:
     except (TypeError, ValueError):
         raise InputError(field, f"numbers of shape {wanted}", repr(value)) from None
     trailing = result.shape[result.ndim - len(shape) :]
-    if result.ndim < len(shape) or any(n not in (None, m) for n, m in zip(shape, trailing, strict=True)):
+    if (
+        result.ndim < len(shape)
+        or (result.ndim > len(shape) and not batch)
+        or any(n not in (None, m) for n, m in zip(shape, trailing, strict=True))
+    ):
         raise InputError(field, f"numbers of shape {wanted}", f"shape {result.shape}")
     if not np.all(np.isfinite(result)):
         raise InputError(field, "finite numbers", f"{np.count_nonzero(~np.isfinite(result))} that are NaN or infinite")

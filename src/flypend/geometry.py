@@ -34,6 +34,8 @@ def _components(v: Vector) -> tuple[Any, Any, Any]:
     """The three components of a vector, each with the batch shape."""
     if not is_symbolic(v):
         array = np.asarray(v, dtype=float)
+        if array.shape[-1:] != (3,):
+            raise ValueError(f"expected a vector of shape (..., 3), got {array.shape}")
         return array[..., 0], array[..., 1], array[..., 2]
     if v.shape == (3, 1):
         return v[0], v[1], v[2]
@@ -50,7 +52,11 @@ def _vector(a: Any, b: Any, c: Any, batched: bool) -> Vector:
 
 
 def _batched(*vectors: Vector) -> bool:
-    return any(is_symbolic(v) and v.shape[1] == 3 for v in vectors)
+    """Whether the result of CasADi vectors is a batch; NumPy batches mix with them only as constants of shape (3,)."""
+    symbolic = [v for v in vectors if is_symbolic(v)]
+    if symbolic and any(np.ndim(v) > 1 for v in vectors if not is_symbolic(v)):
+        raise ValueError("a NumPy batch does not mix with a CasADi expression; give it as a CasADi batch (B, 3)")
+    return any(v.shape[1] == 3 for v in symbolic)
 
 
 def _sqrt(value: Scalar) -> Scalar:
@@ -127,7 +133,7 @@ def tangent_part(y: Vector, v: Vector) -> Vector:
 def apply(m: Matrix, v: Vector) -> Vector:
     """Matrix times vector with the batch axis in front."""
     if is_symbolic(m) or is_symbolic(v):
-        return ca.mtimes(m, v)
+        return ca.mtimes(m, v.T).T if is_symbolic(v) and v.shape[1] == 3 else ca.mtimes(m, v)
     return np.einsum("...ij,...j->...i", np.asarray(m, dtype=float), np.asarray(v, dtype=float))
 
 

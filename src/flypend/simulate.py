@@ -19,6 +19,7 @@ from flypend.plants.flight import fly
 from flypend.trajectory import Trajectory
 
 SAMPLE_PERIOD = 0.01
+LEAST_RTOL = 100 * float(np.finfo(float).eps)
 
 
 def simulate(
@@ -69,6 +70,8 @@ def simulate(
     law = law.bound(vehicle)
     duration = errors.number("duration", duration, above=0, unit="s")
     rtol = errors.number("rtol", rtol, above=0)
+    if rtol < LEAST_RTOL:
+        raise errors.InputError("rtol", f"at least {LEAST_RTOL:g}, a hundred roundoffs", f"{rtol:g}")
     atol = None if atol is None else errors.number("atol", atol, above=0)
     wanted = _sample_times(duration, times)
     if plant == "ideal":
@@ -86,6 +89,7 @@ def _ideal(
     outputs = as_numpy(loop.outputs)
     margin, reason = None, ""
     if law.guard is not None:
+        errors.one_of("law.guard", law.guard.signal, loop.signal_names)
         row, threshold, reason = 4 + loop.signal_names.index(law.guard.signal), law.guard.threshold, law.guard.reason
 
         def margin(t: float, s: Any) -> float:
@@ -157,7 +161,7 @@ def _sample_times(duration: float, times: Any) -> Any:
     if times is None:
         return np.linspace(0.0, duration, max(2, round(duration / SAMPLE_PERIOD) + 1))
     wanted = errors.array("times", times, (None,))
-    if wanted.ndim != 1 or not len(wanted) or np.any(np.diff(wanted) <= 0):
+    if not len(wanted) or np.any(np.diff(wanted) <= 0):
         raise errors.InputError("times", "increasing times of shape (n,)", f"shape {wanted.shape}, or not increasing")
     if wanted[0] < 0 or wanted[-1] > duration:
         raise errors.InputError("times", f"times inside 0 .. {duration:g} s", f"{wanted[0]:g} .. {wanted[-1]:g} s")

@@ -110,7 +110,7 @@ class Trajectory:
         """
         if self.interpolant is None:
             raise errors.InputError("run.at", "a run of the ideal plant, not read from a file", "samples only")
-        times = errors.array("t", t, ())
+        times = errors.array("t", t, (), batch=True)
         if np.any(times < 0) or np.any(times > self.outcome.time):
             raise errors.InputError("t", f"times inside 0 .. {self.outcome.time:g} s", np.asarray(t).tolist())
         states = State.from_packed(self.interpolant(np.ravel(times)))
@@ -184,15 +184,18 @@ def load(path: str | Path) -> Trajectory:
 
     try:
         with xarray.open_dataset(path, engine="scipy") as opened:
-            data = opened.load()
-    except (OSError, ValueError, TypeError, KeyError) as error:
-        raise errors.InputError(
-            str(path), "a run saved by flypend", getattr(error, "strerror", None) or error
-        ) from None
-    missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome") if name not in data.attrs]
-    if missing:
-        raise errors.InputError(str(path), "a run saved by flypend", f"a file without the attributes {missing}")
+            return _from_dataset(opened.load())
+    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
+        # What xarray and SciPy raise for a file that is no NetCDF, is cut short, or lacks a part.
+        told = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
+        raise errors.InputError(str(path), "a run saved by flypend", told) from None
+
+
+def _from_dataset(data: xarray.Dataset) -> Trajectory:
     attributes = data.attrs
+    missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
+    if missing:
+        raise ValueError(f"a file without the attributes {missing}")
     arrays: dict[str, Any] = {name: data[name].values for name in ("t", *_ARRAYS, "drift")}
     return Trajectory(
         **arrays,

@@ -76,10 +76,11 @@ def theorem_1(
         u_fb = u_fb - hat_squared(z, beta)  # (ufb)
 
     # (setmu): {I⁻¹mu}^ e₃ = (ω̂² + {I⁻¹(Iω × ω)}^) e₃ + Rᵀ(|ż|² z − u_fb) =: b, that is a × e₃ = b for a = I⁻¹mu.
-    free = apply(vehicle.I_inv, cross(apply(vehicle.I, omega), omega))
+    body = vehicle.seen("down")
+    free = apply(body.I_inv, cross(apply(body.I, omega), omega))
     b = hat_squared(omega, E3) + cross(free, E3) + apply(state.R.T, scale(dot(z_dot, z_dot), z) - u_fb)
     a = ca.vertcat(-b[1], b[0], yaw_damping * omega[2])  # e₃ × b, and the component that (setmu) leaves free
-    mu = apply(vehicle.I, a)
+    mu = apply(body.I, a)
 
     v_1 = k_p * (1 - dot(y, E3)) + dot(y_dot, y_dot) / 2
     v_2 = k_1 * (1 - dot(z, z_d)) + dot(v_e, v_e) / 2

@@ -60,6 +60,7 @@ def disturbed_motion(
     Rates
         Of the state, `x_ddot` being the acceleration of the pivot.
     """
+    vehicle = vehicle.seen(e3)
     M, m, l, I = vehicle.M, vehicle.m, vehicle.l, vehicle.I
     R, omega, y, o = state.R, state.omega, state.y, pivot_offset
     F_b = scale(1.0, force_on_bob)

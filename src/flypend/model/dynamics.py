@@ -45,7 +45,7 @@ def gravity_vector(vehicle: Vehicle, e3: E3Direction) -> Any:
 def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Rates:
     """Rates of `state` of `vehicle` under `wrench`, in the frame whose third axis points `e3` ("up" or "down")."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
-    f, z = wrench.thrust, state.z
+    vehicle, f, z = vehicle.seen(e3), wrench.thrust, state.z
     y_ddot = scale(f / (M * l), hat_squared(state.y, z)) - scale(dot(state.y_dot, state.y_dot), state.y)  # (ddty)
     x_ddot = gravity_vector(vehicle, e3) + scale(f / (M + m), z) - m * l / (M + m) * y_ddot  # (xeqn_txt)
     gyroscopic = cross(state.omega, apply(vehicle.I, state.omega))
@@ -70,7 +70,7 @@ def bob_position(state: State, vehicle: Vehicle) -> Any:
 
 
 def kinetic_energy(state: State, vehicle: Vehicle) -> Any:
-    """Kinetic energy of quadrotor and bob, (lq) + (lp), J."""
+    """Kinetic energy of quadrotor and bob, (lq) + (lp), J; omega in the body frame that the inertia is given in."""
     bob_velocity = state.x_dot + vehicle.l * state.y_dot
     rotation = dot(apply(vehicle.I, state.omega), state.omega)
     return (vehicle.M * dot(state.x_dot, state.x_dot) + rotation + vehicle.m * dot(bob_velocity, bob_velocity)) / 2
@@ -85,7 +85,7 @@ def potential_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
 
 def total_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
     """Kinetic plus potential energy, J; `e3` as in `potential_energy`."""
-    return kinetic_energy(state, vehicle) + potential_energy(state, vehicle, e3)
+    return kinetic_energy(state, vehicle.seen(e3)) + potential_energy(state, vehicle, e3)
 
 
 def linear_momentum(state: State, vehicle: Vehicle) -> Any:

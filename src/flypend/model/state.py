@@ -62,7 +62,7 @@ class State:
     def __post_init__(self) -> None:
         if geometry.is_symbolic(self.y):
             return
-        values = {name: errors.array(name, getattr(self, name), shape) for name, shape in SHAPES.items()}
+        values = {name: errors.array(name, getattr(self, name), shape, batch=True) for name, shape in SHAPES.items()}
         batch = _batch_shape(values)
         _check_manifold(values)
         values["R"] = geometry.project_rotation(values["R"])
@@ -101,7 +101,7 @@ class State:
     @classmethod
     def from_packed(cls, packed: Any) -> Self:
         """The state(s) of vectors (..., 24) in the order of `packed`. Raises InputError like the constructor."""
-        return cls(**split(errors.array("packed state", packed, (SIZE,))))
+        return cls(**split(errors.array("packed state", packed, (SIZE,), batch=True)))
 
     def flipped(self) -> State:
         """The same physical state in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""

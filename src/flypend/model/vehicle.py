@@ -12,7 +12,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.model.state import E3Direction
+from flypend.model.state import FLIP, E3Direction
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,6 +87,13 @@ class Vehicle:
     g = property(lambda self: self.gravity, doc="Gravity constant, m/s².")
     I = property(lambda self: self.inertia, doc="Inertia matrix, body frame, kg m².")
     I_inv = property(lambda self: np.linalg.inv(self.inertia), doc="Inverse of the inertia matrix.")
+
+    def seen(self, e3: E3Direction) -> Vehicle:
+        """The vehicle in the body frame of `e3` ("up" or "down"): products of inertia change sign with the axes."""
+        turned = FLIP @ self.inertia @ FLIP
+        if errors.one_of("e3", e3, ("up", "down")) == "up" or np.array_equal(turned, self.inertia):
+            return self
+        return replace(self, inertia=turned)
 
     @property
     def weight(self) -> float:
@@ -180,8 +187,6 @@ def _inertia(value: Any) -> Any:
     matrix = (
         np.diag(errors.array("inertia", value, (3,))) if matrix.ndim == 1 else errors.array("inertia", value, (3, 3))
     )
-    if matrix.ndim != 2:
-        raise InputError("inertia", "numbers of shape (3,) or (3, 3)", f"shape {matrix.shape}")
     if not np.allclose(matrix, matrix.T, rtol=0, atol=1e-12 * np.abs(matrix).max()):
         raise InputError("inertia", "a symmetric matrix", matrix.tolist())
     a, b, c = np.linalg.eigvalsh(matrix)

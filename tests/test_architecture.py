@@ -174,12 +174,20 @@ def _plain(docstring):
     return unicodedata.normalize("NFKC", text)
 
 
+def _where_parameters_stand(docstring):
+    """The entries of the section Parameters of a docstring that has one; else the whole docstring."""
+    section = re.search(r"^Parameters\n-+\n(.*?)(?=\n\w[^\n]*\n-{3,}\n|\Z)", docstring, re.DOTALL | re.MULTILINE)
+    if not section:
+        return docstring
+    return "\n".join(line for line in section[1].splitlines() if not line.startswith(" "))
+
+
 def _undocumented(name, thing, *, holder=""):
     """Complaints about a function or class: no docstring, or parameters whose names its docstring does not mention."""
     docstring = inspect.getdoc(thing)
     if not docstring or (dataclasses.is_dataclass(thing) and docstring.startswith(f"{thing.__name__}(")):
         return [f"{name} has no docstring"]
-    words = set(re.findall(r"\w+", _plain(docstring)))
+    words = set(re.findall(r"\w+", _plain(_where_parameters_stand(docstring))))
     missing = []
     for parameter in inspect.signature(thing).parameters.values():
         of_record = any(
@@ -264,6 +272,21 @@ def test_an_undocumented_argument_is_found():
     def partly(phi_d_dot, e3, y_dot, speed, state: "State", vehicle):  # noqa: F821
         """φ̇_d and ẏ with e₃ up; speedy."""
 
+    def listed(depth, width):
+        """Depth and width.
+
+        Parameters
+        ----------
+        depth : float
+            Not the width.
+
+        Raises
+        ------
+        InputError
+            For a width that is negative.
+        """
+
+    assert _complaints("listed", listed) == ["listed does not document width"]
     assert _complaints("Bare", Bare) == ["Bare has no docstring"]
     assert _complaints("Poor", Poor) == [
         "Poor does not document width",

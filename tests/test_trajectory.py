@@ -334,3 +334,20 @@ def test_a_truncated_file_is_one_clear_line(run, tmp_path):
         path.write_bytes(content[:length])
         with _refused(path):
             fp.load(path)
+
+
+def test_a_file_with_a_byte_changed_is_a_run_or_one_clear_line(run, tmp_path):
+    run.save(tmp_path / "whole.nc")
+    content = (tmp_path / "whole.nc").read_bytes()
+    path = tmp_path / "run.nc"
+    rng = np.random.default_rng(0)
+    refused = 0
+    for place in rng.integers(0, 4000, 300):  # the header: names, sizes, attributes
+        path.write_bytes(content[:place] + rng.bytes(1) + content[place + 1 :])
+        try:
+            fp.load(path)
+        except fp.InputError as error:
+            assert str(error).startswith(f"{path}: expected a run saved by flypend, got ")  # noqa: PT017
+            assert "\n" not in str(error)  # noqa: PT017
+            refused += 1
+    assert 0 < refused < 300

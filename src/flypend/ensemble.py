@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copyreg
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
@@ -19,6 +20,9 @@ from flypend.simulate import simulate
 
 # Runs per task: a task compiles the law once, which costs a fraction of one run.
 CHUNK = 8
+
+# What another process refuses comes back as the three fields of an InputError; by itself it is pickled by its message.
+copyreg.pickle(errors.InputError, lambda error: (errors.InputError, (error.field, error.expected, str(error.got))))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -126,12 +130,6 @@ def _run_all(
     def chunk(indices: range) -> list[tuple[Metrics, Any]]:
         return [one(index) for index in indices]
 
-    def sent(indices: range) -> Any:  # an InputError cannot be pickled, its fields can
-        try:
-            return chunk(indices)
-        except errors.InputError as error:
-            return error.field, error.expected, str(error.got)
-
     def one(index: int) -> tuple[Metrics, Any]:
         seeded = plant.replace(seed=plant.seed + index) if isinstance(plant, Plant) else plant
         run = simulate(vehicle, bound, starts[index], duration, plant=seeded, rtol=rtol)
@@ -141,11 +139,9 @@ def _run_all(
     if count == 1 or len(chunks) == 1:
         results: Any = (chunk(indices) for indices in chunks)
     else:
-        results = Parallel(n_jobs=count, return_as="generator")(delayed(sent)(indices) for indices in chunks)
+        results = Parallel(n_jobs=count, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
     done = 0
     for part in results:
-        if isinstance(part, tuple):
-            raise errors.InputError(*part)
         done += len(part)
         progress(done, len(starts))
         yield from part

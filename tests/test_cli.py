@@ -478,7 +478,10 @@ def test_a_run_file_that_cannot_be_saved_is_one_line_and_leaves_nothing_new(call
 @pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 143)])
 def test_an_interrupted_run_leaves_nothing_new(old, name, code):
     before = content(old)
-    command = [sys.executable, "-m", "flypend", "run", "4", "--out", "out"]
+    # A test run started in the background hands SIGINT down as ignored; a person's shell does not.
+    default = "import signal, runpy; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    program = default + "runpy.run_module('flypend', run_name='__main__')"
+    command = [sys.executable, "-c", program, "run", "4", "--out", "out"]
     with subprocess.Popen(
         command, cwd=old, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     ) as process:

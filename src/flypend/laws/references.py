@@ -15,13 +15,13 @@ Reference = Callable[[Any], Any]
 
 def hover(x: Any = (0.0, 0.0, 0.0)) -> Reference:
     """Stay at the position `x` (3,), m. Raises InputError if it is not three finite numbers."""
-    position = _vector("reference.x", x)
+    position = errors.array("reference.x", x, (3,))
     return lambda t: ca.SX(ca.DM(position)) + 0 * t
 
 
 def line(start: Any = (0.0, 0.0, 0.0), velocity: Any = (1.0, 0.0, 0.0)) -> Reference:
     """Move from `start` (3,), m, with constant `velocity` (3,), m/s. Raises InputError for numbers not finite."""
-    origin, rate = _vector("reference.start", start), _vector("reference.velocity", velocity)
+    origin, rate = errors.array("reference.start", start, (3,)), errors.array("reference.velocity", velocity, (3,))
     return lambda t: ca.DM(origin) + ca.DM(rate) * t
 
 
@@ -31,7 +31,7 @@ def circle(radius: float = 0.5, rate: float = 1.0, center: Any = (0.0, 0.0, 0.0)
     Raises InputError for a radius that is not positive or numbers that are not finite.
     """
     r, w = errors.number("reference.radius", radius, above=0, unit="m"), errors.number("reference.rate", rate)
-    middle = _vector("reference.center", center)
+    middle = errors.array("reference.center", center, (3,))
     return lambda t: ca.DM(middle) + r * ca.vertcat(ca.cos(w * t), ca.sin(w * t), 0)
 
 
@@ -41,7 +41,7 @@ def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.
     Raises InputError for a size that is not positive or numbers that are not finite.
     """
     a, w = errors.number("reference.size", size, above=0, unit="m"), errors.number("reference.rate", rate)
-    middle = _vector("reference.center", center)
+    middle = errors.array("reference.center", center, (3,))
     return lambda t: ca.DM(middle) + a * ca.vertcat(ca.sin(w * t), ca.sin(w * t) * ca.cos(w * t), 0)
 
 
@@ -50,11 +50,3 @@ def sampled(reference: Reference, t: Any) -> Any:
     time = ca.SX.sym("t")
     function = ca.Function("reference", [time], [ca.densify(reference(time))])
     return np.array(function(np.asarray(t, dtype=float)[None, :])).T.copy()
-
-
-def _vector(field: str, value: Any) -> Any:
-    """`value` as three finite numbers. Raises InputError."""
-    vector = errors.array(field, value, (3,))
-    if vector.ndim != 1:
-        raise errors.InputError(field, "numbers of shape (3)", f"shape {vector.shape}")
-    return vector

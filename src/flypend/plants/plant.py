@@ -69,7 +69,7 @@ class Wind:
 
     def __post_init__(self) -> None:
         for name in ("on_vehicle", "on_bob"):
-            object.__setattr__(self, name, _vector(f"wind.{name}", getattr(self, name)))
+            object.__setattr__(self, name, tuple(errors.array(f"wind.{name}", getattr(self, name), (3,)).tolist()))
         for name in ("gust_on_vehicle", "gust_on_bob"):
             errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N")
         errors.number("wind.gust_time", self.gust_time, above=0, unit="s")
@@ -149,7 +149,8 @@ class Plant:
                 raise InputError(f"plant.{name}", expected, repr(value))
         if not isinstance(self.seed, Integral) or self.seed < 0:
             raise InputError("plant.seed", "an integer >= 0", repr(self.seed))
-        object.__setattr__(self, "pivot_offset", _vector("plant.pivot_offset", self.pivot_offset))
+        offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
+        object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))
         errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)
         for name, factor in self.mismatch.items():
             errors.number(f"plant.mismatch.{name}", factor, above=0)
@@ -166,14 +167,6 @@ class Plant:
         """A copy with the given fields in `changes` replaced and everything checked again."""
         errors.only_known("plant", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
-
-
-def _vector(field: str, value: Any) -> tuple[float, ...]:
-    """`value` as three finite numbers. Raises InputError."""
-    vector = errors.array(field, value, (3,))
-    if vector.ndim != 1:
-        raise InputError(field, "numbers of shape (3)", f"shape {vector.shape}")
-    return tuple(vector.tolist())
 
 
 ROTORS = Plant()

@@ -8,6 +8,7 @@ import flypend as fp
 from flypend import geometry as geo
 from flypend.laws import Computer
 from flypend.plants import MOTION_CAPTURE, Plant, Wind, flight
+from flypend.plants.computer import usable_lead
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.observer import ForceObserver
 
@@ -310,3 +311,14 @@ def test_noise_is_not_taken_for_a_force(log):
     fly(fp.laws.inverted(), UPRIGHT, 3.0, Plant(noise=MOTION_CAPTURE))
     forces = np.array(log.forces)[500:]
     assert np.std(forces[:, :3] + forces[:, 3:]) < 5 * BANDWIDTH * (M + m) * MOTION_CAPTURE.x_dot
+
+
+# At 50 Hz a lead of 2.1 overshoots between two commands (lag 20 ms), and the thrust axis swings by 0.06 for ever.
+def test_the_lead_does_not_overshoot_within_a_period():
+    vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
+    slow, fast = Plant(rate=50.0), Plant(rate=500.0)
+    bound = law.bound(vehicle)
+    assert usable_lead(bound, vehicle, fast) == bound.computer.lead
+    assert usable_lead(bound, vehicle, slow) * (1 - np.exp(-0.02 / 0.02)) == pytest.approx(1, abs=1e-12)
+    run = fp.simulate(vehicle, law, fp.State(y=(0, np.sin(0.1), np.cos(0.1))), 6.0, plant=slow)
+    assert np.max(np.abs(run.z[-100:] - [0, 0, 1])) < 1e-3

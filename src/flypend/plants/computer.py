@@ -90,7 +90,7 @@ def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Cal
     For the interface "wrench" a command is the rotor forces (n,), with the law's lead; for "rates" it is the thrust and
     the body rates (4,) whose proportional tracking on board gives the law's moment at this instant.
     """
-    setting = (vehicle, plant.limits, plant.interface, plant.rate_loop_gain, law.computer.lead)
+    setting = (vehicle, plant.limits, plant.interface, plant.rate_loop_gain, usable_lead(law, vehicle, plant))
     if isinstance(law, Law):
         compiled: Callable[..., Any] = _law_command(law, *setting)
         return compiled
@@ -102,6 +102,15 @@ def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Cal
         return finish(np.append(wrench.thrust, wrench.moment), state, rotors)
 
     return call
+
+
+def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
+    """The lead of `law`, at most what brings a rotor of `vehicle` to its force in one period of `plant`.
+
+    More would make it overshoot between two commands: with a lag of T and a period of h, 1/(1 − e^{−h/T}).
+    """
+    lag = max(vehicle.rotor_lag, 1e-9)
+    return float(min(law.computer.lead, 1 / -np.expm1(-1 / (plant.rate * lag))))
 
 
 @lru_cache(maxsize=64)

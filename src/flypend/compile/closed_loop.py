@@ -1,14 +1,44 @@
-"""The closed loop of a vehicle and a law as one CasADi program, from which everything that runs is made."""
+"""The closed loop of a vehicle and a law in symbols, from which everything that runs is made."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 
+from flypend import errors
 from flypend.laws.law import Law
-from flypend.model import State, Vehicle, equations_of_motion, lie_derivative
+from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
 from flypend.model.state import SIZE
+
+
+@dataclass(frozen=True)
+class SymbolicLoop:
+    """Closed loop in CasADi expressions.
+
+    Parameters
+    ----------
+    t, s, p : SX
+        Symbols: time, packed state (24, 1), and the gains that may vary from run to run, in the order of `parameters`.
+    rates : SX (24, 1)
+        Rates of the state.
+    wrench : Wrench
+        What the law commands.
+    signals : dict of SX
+        What the law lets one see; its Lyapunov functions are summed to V, and their rates along the loop are added.
+    parameters : tuple of str
+        Names of the gains in `p`.
+    """
+
+    t: Any
+    s: Any
+    p: Any
+    rates: Any
+    wrench: Wrench
+    signals: dict[str, Any]
+    parameters: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -26,28 +56,39 @@ class ClosedLoop:
     signal_names: tuple[str, ...]
 
 
-def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
-    """Write the closed loop of `vehicle` under `law` in symbols and compile it to CasADi functions.
+def symbolic_loop(vehicle: Vehicle, law: Law, parameters: Sequence[str] = ()) -> SymbolicLoop:
+    """Write the closed loop of `vehicle` under `law` in symbols, the gains named in `parameters` as symbols too.
 
-    The law's Lyapunov functions are summed to V, and their rates along the closed loop are added as signals.
+    Raises InputError for a parameter that is not a number of the law, or that its equations do not contain (a weight
+    from which a gain matrix was computed beforehand, say).
     """
-    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
-    state = State.symbolic(packed)
-    control = law.evaluate(t, state, vehicle)
+    errors.only_known("law.gains", dict.fromkeys(parameters), law.numbers)
+    t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
+    state = State.symbolic(s)
+    control = law.evaluate(t, state, vehicle, gains={name: p[i] for i, name in enumerate(parameters)})
     rates = equations_of_motion(state, control.wrench, vehicle, law.e3)
+    for i, name in enumerate(parameters):
+        wrench = ca.vertcat(control.wrench.thrust, control.wrench.moment)
+        if not ca.depends_on(wrench, p[i]):
+            raise errors.InputError(f"law.gains.{name}", f"a gain in the equations of {law.name}", "one outside them")
 
     lyapunov = dict(control.lyapunov)
     if lyapunov:
         lyapunov["V"] = sum(lyapunov.values())
     lyapunov |= {f"{name}_rate": lie_derivative(value, state, rates, t) for name, value in lyapunov.items()}
     signals = {**lyapunov, **control.signals}
+    return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, tuple(parameters))
 
-    outputs = ca.vertcat(control.wrench.thrust, control.wrench.moment, *signals.values())
-    rate_vector, outputs = ca.cse([ca.densify(rates.packed()), ca.densify(outputs)])
+
+def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
+    """Write the closed loop of `vehicle` under `law` in symbols and compile it to CasADi functions."""
+    loop = symbolic_loop(vehicle, law)
+    outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())
+    rates, outputs = ca.cse([loop.rates, ca.densify(outputs)])
     return ClosedLoop(
         vehicle=vehicle,
         law=law,
-        rates=ca.Function("rates", [t, packed], [rate_vector], ["t", "s"], ["s_dot"]),
-        outputs=ca.Function("outputs", [t, packed], [outputs], ["t", "s"], ["outputs"]),
-        signal_names=tuple(signals),
+        rates=ca.Function("rates", [loop.t, loop.s], [rates], ["t", "s"], ["s_dot"]),
+        outputs=ca.Function("outputs", [loop.t, loop.s], [outputs], ["t", "s"], ["outputs"]),
+        signal_names=tuple(loop.signals),
     )

@@ -59,8 +59,8 @@ def _unbound(*_: Any) -> Control:
 
 
 def _law(gains: Gains, reference: Reference) -> Law:
-    def control(t: Any, state: State, vehicle: Vehicle, _: Any, forces: tuple[Any, Any]) -> Control:
-        return inverted_control(t, state, vehicle, gains, reference, forces)
+    def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
+        return inverted_control(t, state, vehicle, k, reference, forces)
 
     return Law(
         name="inverted",

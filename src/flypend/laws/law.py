@@ -119,10 +119,25 @@ class Law:
         """The law as it flies `vehicle`: itself, or with the gains that it takes from the vehicle."""
         return self.for_vehicle(vehicle) if self.for_vehicle is not None else self
 
-    def evaluate(self, t: Any, state: State, vehicle: Vehicle, forces: tuple[Any, Any] | None = None) -> Control:
-        """The control for symbols of time `t` (s) and `state`, for `vehicle` under external `forces` (default none)."""
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Those of its gains that are real numbers, in their order: what may vary from run to run in one program."""
+        return {name: float(value) for name, value in self.gains.items() if type(value) in (float, int)}
+
+    def evaluate(
+        self,
+        t: Any,
+        state: State,
+        vehicle: Vehicle,
+        forces: tuple[Any, Any] | None = None,
+        gains: Mapping[str, Any] | None = None,
+    ) -> Control:
+        """The control for symbols of time `t` (s) and `state`, for `vehicle` under external `forces` (default none).
+
+        `gains` are symbols that stand for some of the law's numbers.
+        """
         known = (forces or (ca.SX.zeros(3), ca.SX.zeros(3)),) if self.uses_forces else ()
-        control = self.control(t, state, vehicle, SimpleNamespace(**self.gains), *known)
+        control = self.control(t, state, vehicle, SimpleNamespace(**{**self.gains, **(gains or {})}), *known)
         return Control(wrench=control) if isinstance(control, Wrench) else control
 
 

@@ -1,0 +1,273 @@
+"""A CasADi function as a scalar program: a list of operations, each value written once, from which all code is made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from flypend.errors import InputError
+
+
+class Operation(NamedTuple):
+    """One value: `name` of the operation, the numbers of the values it takes, and for a constant its `value`."""
+
+    name: str
+    arguments: tuple[int, ...] = ()
+    value: float = 0.0
+
+
+@dataclass(frozen=True)
+class Program:
+    """Straight-line code.
+
+    Parameters
+    ----------
+    name : str
+        Name of the function.
+    inputs : tuple of int
+        Length of each input vector.
+    operations : tuple of Operation
+        Value i is what operation i gives; arguments stand before it. An "input" takes (which vector, which entry).
+    outputs : tuple of tuple of int
+        For each output vector the numbers of its values.
+    """
+
+    name: str
+    inputs: tuple[int, ...]
+    operations: tuple[Operation, ...]
+    outputs: tuple[tuple[int, ...], ...]
+
+    def counts(self) -> dict[str, int]:
+        """Number of operations of each kind that cost time: inputs and constants are left out."""
+        found: dict[str, int] = {}
+        for operation in self.operations:
+            if operation.name not in ("input", "constant"):
+                found[operation.name] = found.get(operation.name, 0) + 1
+        return dict(sorted(found.items(), key=lambda entry: -entry[1]))
+
+
+# Functions of one argument that code generators take from the C library.
+LIBRARY: dict[str, Callable[[float], float]] = {
+    "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan,
+    "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh, "asinh": math.asinh, "acosh": math.acosh,
+    "atanh": math.atanh, "exp": math.exp, "log": math.log, "floor": math.floor, "ceil": math.ceil, "erf": math.erf,
+}  # fmt: skip
+LIBRARY_2: dict[str, Callable[[float, float], float]] = {
+    "pow": math.pow, "atan2": math.atan2, "fmod": math.fmod, "hypot": math.hypot
+}  # fmt: skip
+
+_FOLD: dict[str, Callable[..., float]] = {
+    "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
+    "neg": lambda a: -a, "sqrt": math.sqrt, "fabs": math.fabs, "fmin": min, "fmax": max,
+    "sign": lambda a: float((a > 0) - (a < 0)), "lt": lambda a, b: float(a < b), "le": lambda a, b: float(a <= b),
+    "eq": lambda a, b: float(a == b), "ne": lambda a, b: float(a != b), "not": lambda a: float(a == 0),
+    "and": lambda a, b: float(a != 0 and b != 0), "or": lambda a, b: float(a != 0 or b != 0),
+    "select": lambda c, a: a if c != 0 else 0.0, **LIBRARY, **LIBRARY_2,
+}  # fmt: skip
+_COMMUTATIVE = {"add", "mul", "fmin", "fmax", "eq", "ne", "and", "or"}
+_CASADI = {
+    ca.OP_ADD: "add", ca.OP_SUB: "sub", ca.OP_MUL: "mul", ca.OP_DIV: "div", ca.OP_NEG: "neg", ca.OP_SQRT: "sqrt",
+    ca.OP_FABS: "fabs", ca.OP_FMIN: "fmin", ca.OP_FMAX: "fmax", ca.OP_SIGN: "sign", ca.OP_LT: "lt", ca.OP_LE: "le",
+    ca.OP_EQ: "eq", ca.OP_NE: "ne", ca.OP_NOT: "not", ca.OP_AND: "and", ca.OP_OR: "or", ca.OP_IF_ELSE_ZERO: "select",
+    ca.OP_SIN: "sin", ca.OP_COS: "cos", ca.OP_TAN: "tan", ca.OP_ASIN: "asin", ca.OP_ACOS: "acos", ca.OP_ATAN: "atan",
+    ca.OP_SINH: "sinh", ca.OP_COSH: "cosh", ca.OP_TANH: "tanh", ca.OP_ASINH: "asinh", ca.OP_ACOSH: "acosh",
+    ca.OP_ATANH: "atanh", ca.OP_EXP: "exp", ca.OP_LOG: "log", ca.OP_FLOOR: "floor", ca.OP_CEIL: "ceil",
+    ca.OP_ERF: "erf", ca.OP_POW: "pow", ca.OP_CONSTPOW: "pow", ca.OP_ATAN2: "atan2", ca.OP_FMOD: "fmod",
+    ca.OP_HYPOT: "hypot",
+}  # fmt: skip
+
+
+def lower(function: ca.Function) -> Program:
+    """The scalar program of a CasADi `function` with dense vector inputs and outputs.
+
+    Equal values are computed once, constants are folded, divisions by one value share its reciprocal, and what no
+    output needs is left out. Raises InputError for an operation that no code generator knows.
+    """
+    expanded = function.expand() if not function.is_a("SXFunction") else function
+    for i in range(expanded.n_out()):
+        if expanded.nnz_out(i) != expanded.numel_out(i):
+            raise ValueError(f"output {i} of {function.name()} is sparse; densify it")
+    build = _Builder()
+    outputs = _walk(expanded, build)
+    inputs = tuple(expanded.nnz_in(i) for i in range(expanded.n_in()))
+    return _divided(_needed(Program(function.name(), inputs, tuple(build.operations), outputs)))
+
+
+def _walk(function: ca.Function, build: _Builder) -> tuple[tuple[int, ...], ...]:
+    """Send every instruction of `function` through `build`; the numbers of the values of each output."""
+    work: dict[int, int] = {}
+    outputs = [[0] * function.nnz_out(i) for i in range(function.n_out())]
+    for i in range(function.n_instructions()):
+        code = function.instruction_id(i)
+        taken, given = function.instruction_input(i), function.instruction_output(i)
+        if code == ca.OP_INPUT:
+            work[given[0]] = build.input(taken[0], taken[1])
+        elif code == ca.OP_OUTPUT:
+            outputs[given[0]][given[1]] = work[taken[0]]
+        elif code == ca.OP_CONST:
+            work[given[0]] = build.constant(float(function.instruction_constant(i)))
+        else:
+            work[given[0]] = build.casadi(code, [work[slot] for slot in taken])
+    return tuple(tuple(numbers) for numbers in outputs)
+
+
+class _Builder:
+    """Collects operations; gives an equal operation the number that it has already."""
+
+    def __init__(self) -> None:
+        self.operations: list[Operation] = []
+        self._known: dict[Any, int] = {}
+
+    def input(self, vector: int, entry: int) -> int:
+        return self._put(Operation("input", (vector, entry)))
+
+    def constant(self, value: float) -> int:
+        return self._put(Operation("constant", (), value))
+
+    def casadi(self, code: int, arguments: list[int]) -> int:
+        """The value of a CasADi operation `code`, in terms of fewer kinds of operations."""
+        a = arguments[0]
+        if code == ca.OP_ASSIGN:
+            return a
+        if code == ca.OP_TWICE:
+            return self.do("add", a, a)
+        if code == ca.OP_SQ:
+            return self.do("mul", a, a)
+        if code == ca.OP_INV:
+            return self.do("div", self.constant(1.0), a)
+        if code not in _CASADI:
+            raise InputError("law", "operations that can be compiled", f"CasADi operation {code}")
+        name = _CASADI[code]
+        power = self._value(arguments[1]) if name == "pow" else None
+        if power is not None and power == round(power) and abs(power) <= 16:
+            return self._integer_power(a, int(power))
+        return self.do(name, *arguments)
+
+    def _integer_power(self, base: int, power: int) -> int:
+        if power < 0:
+            return self.do("div", self.constant(1.0), self._integer_power(base, -power))
+        if power == 0:
+            return self.constant(1.0)
+        half = self._integer_power(base, power // 2) if power > 1 else base
+        squared = self.do("mul", half, half) if power > 1 else base
+        return self.do("mul", squared, base) if power > 1 and power % 2 else squared
+
+    def do(self, name: str, *arguments: int) -> int:
+        """The value of operation `name`, simplified."""
+        values = [self._value(number) for number in arguments]
+        if all(value is not None for value in values):
+            folded = _folded(name, values)
+            if folded is not None:
+                return self.constant(folded)
+        simple = self._simplified(name, arguments, values)
+        if simple is not None:
+            return simple
+        if name == "div" and values[0] != 1.0:  # by a reciprocal that others may share; see `_divided`
+            return self.do("mul", arguments[0], self.do("div", self.constant(1.0), arguments[1]))
+        return self._put(Operation(name, tuple(sorted(arguments)) if name in _COMMUTATIVE else arguments))
+
+    def _simplified(self, name: str, arguments: tuple[int, ...], values: list[float | None]) -> int | None:
+        """Neutral and absorbing elements, and signs moved into sums; None where nothing is simpler."""
+        a, b = arguments[0], arguments[-1]
+        first, second = values[0], values[-1]
+        if name == "add":
+            if 0.0 in (first, second):
+                return b if first == 0.0 else a
+            if (inner := self._negated(b)) is not None:
+                return self.do("sub", a, inner)
+            if (inner := self._negated(a)) is not None:
+                return self.do("sub", b, inner)
+        elif name == "sub":
+            if second == 0.0:
+                return a
+            if first == 0.0:
+                return self.do("neg", b)
+            if (inner := self._negated(b)) is not None:
+                return self.do("add", a, inner)
+        elif name == "mul":
+            return self._product(a, b, first, second)
+        elif name == "div" and second is not None and second != 0.0:
+            return self.do("mul", a, self.constant(1.0 / second))
+        elif name == "neg":
+            return self._negated(a)
+        return None
+
+    def _product(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
+        for other, value in ((b, first), (a, second)):
+            if value == 0.0:
+                return self.constant(0.0)
+            if value == 1.0:
+                return other
+            if value == -1.0:
+                return self.do("neg", other)
+        return None
+
+    def _negated(self, number: int) -> int | None:
+        operation = self.operations[number]
+        return operation.arguments[0] if operation.name == "neg" else None
+
+    def _value(self, number: int) -> float | None:
+        operation = self.operations[number]
+        return operation.value if operation.name == "constant" else None
+
+    def _put(self, operation: Operation) -> int:
+        known = (operation.name, operation.arguments, operation.value.hex())
+        if known not in self._known:
+            self._known[known] = len(self.operations)
+            self.operations.append(operation)
+        return self._known[known]
+
+
+def _folded(name: str, values: Sequence[float | None]) -> float | None:
+    """The constant that operation `name` gives for constants; None where it has none (a division by zero)."""
+    try:
+        return float(_FOLD[name](*values))
+    except (ArithmeticError, ValueError):
+        return None
+
+
+def _needed(program: Program) -> Program:
+    """`program` without the operations that no output depends on."""
+    used = {number for vector in program.outputs for number in vector}
+    for number in range(len(program.operations) - 1, -1, -1):
+        operation = program.operations[number]
+        if number in used and operation.name != "input":
+            used.update(operation.arguments)
+    kept = sorted(used)
+    renamed = {number: place for place, number in enumerate(kept)}
+    operations = tuple(
+        operation
+        if operation.name == "input"
+        else operation._replace(arguments=tuple(renamed[number] for number in operation.arguments))
+        for operation in (program.operations[number] for number in kept)
+    )
+    outputs = tuple(tuple(renamed[number] for number in vector) for vector in program.outputs)
+    return Program(program.name, program.inputs, operations, outputs)
+
+
+def _divided(program: Program) -> Program:
+    """`program` with a product by a reciprocal that nothing else uses written as one division again."""
+    operations = list(program.operations)
+    uses = [0] * len(operations)
+    for operation in operations:
+        if operation.name != "input":
+            for number in operation.arguments:
+                uses[number] += 1
+    for number in (number for vector in program.outputs for number in vector):
+        uses[number] += 1
+    for place, operation in enumerate(operations):
+        if operation.name == "mul":
+            for numerator, reciprocal in (operation.arguments, operation.arguments[::-1]):
+                inverse = operations[reciprocal]
+                if inverse.name == "div" and uses[reciprocal] == 1 and _is_one(operations[inverse.arguments[0]]):
+                    operations[place] = Operation("div", (numerator, inverse.arguments[1]))
+                    break
+    return _needed(Program(program.name, program.inputs, tuple(operations), program.outputs))
+
+
+def _is_one(operation: Operation) -> bool:
+    return operation.name == "constant" and operation.value == 1.0

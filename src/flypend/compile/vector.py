@@ -1,0 +1,315 @@
+"""LLVM code on vectors of lanes: arithmetic that reads as such, loops, and scalar programs as functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from llvmlite import ir
+
+from flypend.compile.program import LIBRARY, LIBRARY_2, Program
+
+I1, I64, POINTER, VOID = ir.IntType(1), ir.IntType(64), ir.PointerType(), ir.VoidType()
+# a·b + c may become one fused operation: more exact, and the same in every lane of a kernel.
+FLAGS = ("contract",)
+
+
+class Lanes:
+    """Type and width of the vectors of one module: `width` lanes of `precision` "double" or "float"."""
+
+    def __init__(self, module: ir.Module, width: int, precision: str = "double") -> None:
+        self.module = module
+        self.width = width
+        self.precision = precision
+        self.scalar = ir.DoubleType() if precision == "double" else ir.FloatType()
+        self.vector = ir.VectorType(self.scalar, width)
+        self.mask = ir.VectorType(I1, width)
+        self.size = (8 if precision == "double" else 4) * width
+
+    def constant(self, value: float) -> ir.Value:
+        """`value` in every lane."""
+        return ir.Constant(self.vector, [ir.Constant(self.scalar, value)] * self.width)
+
+    def array(self, length: int) -> ir.Type:
+        """Memory of `length` vectors."""
+        return ir.ArrayType(self.vector, max(1, length))
+
+    def intrinsic(self, name: str, arguments: int = 1) -> ir.Function:
+        """LLVM's own function called `name` on vectors."""
+        bits = 64 if self.precision == "double" else 32
+        return self._declared(
+            f"llvm.{name}.v{self.width}f{bits}", ir.FunctionType(self.vector, [self.vector] * arguments)
+        )
+
+    def library(self, name: str, arguments: int) -> ir.Function:
+        """The function of the C library called `name`, on scalars."""
+        suffix = "" if self.precision == "double" else "f"
+        return self._declared(name + suffix, ir.FunctionType(self.scalar, [self.scalar] * arguments))
+
+    def _declared(self, name: str, kind: ir.FunctionType) -> ir.Function:
+        known = self.module.globals.get(name)
+        return known if known is not None else ir.Function(self.module, kind, name)
+
+    def function(self, name: str, pointers: int) -> tuple[ir.Function, Code]:
+        """A new function of this module that takes `pointers`, and code at its beginning."""
+        function = ir.Function(self.module, ir.FunctionType(VOID, [POINTER] * pointers), name)
+        function.linkage = "internal"
+        function.attributes.add("noinline")
+        return function, Code(self, ir.IRBuilder(function.append_basic_block()))
+
+
+class Code:
+    """Code under construction in one function."""
+
+    def __init__(self, lanes: Lanes, builder: ir.IRBuilder) -> None:
+        self.lanes = lanes
+        self.builder = builder
+
+    # Memory -------------------------------------------------------------------------------------------------------
+
+    def reserve(self, length: int, kind: ir.Type | None = None) -> ir.Value:
+        """Memory for `length` vectors (of `kind`), on the stack."""
+        kind = kind or self.lanes.vector
+        with self.builder.goto_entry_block():
+            memory = self.builder.alloca(ir.ArrayType(kind, max(1, length)))
+            memory.align = 64
+            memory.type = POINTER  # llvmlite would insist on the type of what was allocated
+        return memory
+
+    def vector_at(self, memory: ir.Value, index: int | ir.Value, kind: ir.Type | None = None) -> ir.Value:
+        """Address of vector `index` of `memory`."""
+        index = ir.Constant(I64, index) if isinstance(index, int) else index
+        return self.builder.gep(memory, [index], source_etype=kind or self.lanes.vector)
+
+    def load(self, memory: ir.Value, index: int | ir.Value = 0) -> Value:
+        """Vector `index` of `memory`."""
+        loaded = self.builder.load(self.vector_at(memory, index), typ=self.lanes.vector)
+        loaded.align = self.lanes.size
+        return Value(self, loaded)
+
+    def store(self, value: Value | float, memory: ir.Value, index: int | ir.Value = 0) -> None:
+        """Put `value` into vector `index` of `memory`."""
+        self.builder.store(self.value(value).raw, self.vector_at(memory, index)).align = self.lanes.size
+
+    def scalar_at(self, memory: ir.Value, index: ir.Value, kind: ir.Type | None = None) -> ir.Value:
+        """Address of scalar `index` (an i64) of `memory`."""
+        return self.builder.gep(memory, [index], source_etype=kind or self.lanes.scalar)
+
+    def scalar(self, memory: ir.Value, index: ir.Value, kind: ir.Type | None = None) -> ir.Value:
+        """Scalar `index` of `memory`."""
+        return self.builder.load(self.scalar_at(memory, index, kind), typ=kind or self.lanes.scalar)
+
+    def put(self, value: ir.Value, memory: ir.Value, index: ir.Value) -> None:
+        """Put the scalar `value` into place `index` of `memory`."""
+        self.builder.store(value, self.scalar_at(memory, index, value.type))
+
+    # Values -------------------------------------------------------------------------------------------------------
+
+    def value(self, value: Value | float | ir.Value) -> Value:
+        """`value` in every lane; a scalar of LLVM is repeated."""
+        if isinstance(value, Value):
+            return value
+        if isinstance(value, (int, float)):
+            return Value(self, self.lanes.constant(float(value)))
+        single = self.builder.insert_element(
+            ir.Constant(self.lanes.vector, ir.Undefined), value, ir.Constant(ir.IntType(32), 0)
+        )
+        zeros = ir.Constant(ir.VectorType(ir.IntType(32), self.lanes.width), [0] * self.lanes.width)
+        return Value(self, self.builder.shuffle_vector(single, ir.Constant(self.lanes.vector, ir.Undefined), zeros))
+
+    def select(self, mask: Value, yes: Value | float, no: Value | float) -> Value:
+        """`yes` where `mask`, else `no`."""
+        return Value(self, self.builder.select(mask.raw, self.value(yes).raw, self.value(no).raw))
+
+    def least(self, a: Value | float, b: Value | float) -> Value:
+        """The lesser, lane by lane; `b` where one is NaN."""
+        return self.select(self.value(a) < b, a, b)
+
+    def most(self, a: Value | float, b: Value | float) -> Value:
+        """The greater, lane by lane; `b` where one is NaN."""
+        return self.select(self.value(a) > b, a, b)
+
+    def any(self, mask: Value) -> ir.Value:
+        """Whether `mask` is true in any lane, one bit."""
+        bits = ir.IntType(self.lanes.width)
+        return self.builder.icmp_unsigned("!=", self.builder.bitcast(mask.raw, bits), ir.Constant(bits, 0))
+
+    def sqrt(self, value: Value) -> Value:
+        """Square root."""
+        return Value(self, self.builder.call(self.lanes.intrinsic("sqrt"), [value.raw]))
+
+    def fabs(self, value: Value) -> Value:
+        """Absolute value."""
+        return Value(self, self.builder.call(self.lanes.intrinsic("fabs"), [value.raw]))
+
+    def library(self, name: str, *values: Value) -> Value:
+        """The C library's function `name`, lane by lane."""
+        function = self.lanes.library(name, len(values))
+        result = ir.Constant(self.lanes.vector, ir.Undefined)
+        for lane in range(self.lanes.width):
+            place = ir.Constant(ir.IntType(32), lane)
+            scalars = [self.builder.extract_element(value.raw, place) for value in values]
+            result = self.builder.insert_element(result, self.builder.call(function, scalars), place)
+        return Value(self, result)
+
+    # Control ------------------------------------------------------------------------------------------------------
+
+    @contextmanager
+    def when(self, bit: ir.Value) -> Iterator[None]:
+        """Code that runs if `bit` is set."""
+        with self.builder.if_then(bit):
+            yield
+
+    @contextmanager
+    def count(self, number: int | ir.Value) -> Iterator[ir.Value]:
+        """Code that runs `number` times; gives the i64 that counts from 0."""
+        limit = ir.Constant(I64, number) if isinstance(number, int) else number
+        counter = self.reserve(1, I64)
+        self.builder.store(ir.Constant(I64, 0), counter)
+        with self.loop(lambda: self.builder.icmp_signed("<", self.builder.load(counter, typ=I64), limit)):
+            index = self.builder.load(counter, typ=I64)
+            yield index
+            self.builder.store(self.builder.add(index, ir.Constant(I64, 1)), counter)
+
+    @contextmanager
+    def loop(self, condition: Callable[[], ir.Value]) -> Iterator[None]:
+        """Code that runs while `condition()`, which emits a bit, holds."""
+        head, body, after = (self.builder.append_basic_block(name) for name in ("while", "do", "after"))
+        self.builder.branch(head)
+        self.builder.position_at_end(head)
+        self.builder.cbranch(condition(), body, after)
+        self.builder.position_at_end(body)
+        yield
+        self.builder.branch(head)
+        self.builder.position_at_end(after)
+
+    def call(self, function: ir.Function, *arguments: ir.Value) -> None:
+        """Call `function` of this module."""
+        self.builder.call(function, arguments)
+
+
+class Value:
+    """A vector with one number per lane (or a mask) that code computes; arithmetic emits instructions."""
+
+    def __init__(self, code: Code, raw: ir.Value) -> None:
+        self.code = code
+        self.raw = raw
+
+    def _float(self, name: str, other: Value | float, swapped: bool = False) -> Value:
+        pair = [self.raw, self.code.value(other).raw]
+        return Value(self.code, getattr(self.code.builder, name)(*(pair[::-1] if swapped else pair), flags=FLAGS))
+
+    def __add__(self, other: Value | float) -> Value:
+        return self._float("fadd", other)
+
+    def __radd__(self, other: float) -> Value:
+        return self._float("fadd", other, swapped=True)
+
+    def __sub__(self, other: Value | float) -> Value:
+        return self._float("fsub", other)
+
+    def __rsub__(self, other: float) -> Value:
+        return self._float("fsub", other, swapped=True)
+
+    def __mul__(self, other: Value | float) -> Value:
+        return self._float("fmul", other)
+
+    def __rmul__(self, other: float) -> Value:
+        return self._float("fmul", other, swapped=True)
+
+    def __truediv__(self, other: Value | float) -> Value:
+        return self._float("fdiv", other)
+
+    def __rtruediv__(self, other: float) -> Value:
+        return self._float("fdiv", other, swapped=True)
+
+    def __neg__(self) -> Value:
+        return Value(self.code, self.code.builder.fneg(self.raw))
+
+    def compare(self, sign: str, other: Value | float) -> Value:
+        """A mask: "<", "<=", ">", ">=", "==" are false for NaN, "!=" is true."""
+        method = self.code.builder.fcmp_unordered if sign == "!=" else self.code.builder.fcmp_ordered
+        return Value(self.code, method(sign, self.raw, self.code.value(other).raw))
+
+    def __lt__(self, other: Value | float) -> Value:
+        return self.compare("<", other)
+
+    def __le__(self, other: Value | float) -> Value:
+        return self.compare("<=", other)
+
+    def __gt__(self, other: Value | float) -> Value:
+        return self.compare(">", other)
+
+    def __ge__(self, other: Value | float) -> Value:
+        return self.compare(">=", other)
+
+    def __and__(self, other: Value) -> Value:
+        return Value(self.code, self.code.builder.and_(self.raw, other.raw))
+
+    def __or__(self, other: Value) -> Value:
+        return Value(self.code, self.code.builder.or_(self.raw, other.raw))
+
+    def __invert__(self) -> Value:
+        return Value(self.code, self.code.builder.not_(self.raw))
+
+
+def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]]) -> list[list[Value]]:
+    """Emit `program`, entry i of input vector j being `inputs[j](i)`; the values of each output vector."""
+    values: list[Value] = []
+    for operation in program.operations:
+        if operation.name == "input":
+            values.append(inputs[operation.arguments[0]](operation.arguments[1]))
+        elif operation.name == "constant":
+            values.append(code.value(operation.value))
+        else:
+            values.append(_operation(code, operation.name, [values[number] for number in operation.arguments]))
+    return [[values[number] for number in vector] for vector in program.outputs]
+
+
+def _operation(code: Code, name: str, values: list[Value]) -> Value:
+    if name in _ARITHMETIC:
+        return _ARITHMETIC[name](*values)
+    if name in _COMPARISONS:
+        return code.select(values[0].compare(_COMPARISONS[name], values[1]), 1.0, 0.0)
+    if name in LIBRARY or name in LIBRARY_2:
+        return code.library(name, *values)
+    a, b = values[0], values[-1]
+    if name == "fmin":
+        return code.least(a, b)
+    if name == "fmax":
+        return code.most(a, b)
+    if name == "sqrt":
+        return code.sqrt(a)
+    if name == "fabs":
+        return code.fabs(a)
+    if name == "sign":
+        return code.select(a > 0.0, 1.0, code.select(a < 0.0, -1.0, 0.0))
+    if name == "select":
+        return code.select(a.compare("!=", 0.0), b, 0.0)
+    if name == "not":
+        return code.select(a.compare("==", 0.0), 1.0, 0.0)
+    first, second = a.compare("!=", 0.0), b.compare("!=", 0.0)
+    return code.select(first & second if name == "and" else first | second, 1.0, 0.0)
+
+
+_ARITHMETIC: dict[str, Callable[..., Value]] = {
+    "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
+    "neg": lambda a: -a,
+}  # fmt: skip
+_COMPARISONS = {"lt": "<", "le": "<=", "eq": "==", "ne": "!="}
+
+
+def define(lanes: Lanes, program: Program) -> ir.Function:
+    """`program` as a function of the module: one pointer to vectors per input, then one per output.
+
+    All inputs are read before any output is written, so that an output may take the place of an input.
+    """
+    function, code = lanes.function(program.name, len(program.inputs) + len(program.outputs))
+    sources, targets = function.args[: len(program.inputs)], function.args[len(program.inputs) :]
+    results = emit(code, program, [lambda i, source=source: code.load(source, i) for source in sources])
+    for target, values in zip(targets, results, strict=True):
+        for i, value in enumerate(values):
+            code.store(value, target, i)
+    code.builder.ret_void()
+    return function

@@ -32,6 +32,8 @@ ORDER = [
     "compile",
     "integrate",
     "plants",
+    "criterion",
+    "kernels",
     "trajectory",
     "simulate",
     "metrics",

@@ -153,7 +153,8 @@ class _Kernel:
         h = code.load(self.h)
         new = h <= 0.0
         with code.when(code.any(new)):
-            code.store(0.0, size), code.store(0.0, rate)
+            code.store(0.0, size)
+            code.store(0.0, rate)
             with code.count(n) as i:
                 value, slope = code.load(self.S, i), code.load(self.K, i)
                 scale = self.atol + self.rtol * code.fabs(value)

@@ -27,6 +27,8 @@ from flypend.model.state import project_symbolic
 
 LANES = {"double": 8, "float": 16}
 MAX_STEPS = 1_000_000
+# From this tolerance on the method of order 5 is the faster one.
+LOOSE = 1e-6
 PIECE = 1024
 
 
@@ -172,6 +174,11 @@ def ideal_kernel(
         for name in ARGUMENTS
     ]
     return IdealKernel(vehicle, law, criterion, parameters, machine.function("kernel", kinds))
+
+
+def method_for(rtol: float) -> str:
+    """The faster Runge-Kutta method for a tolerance `rtol`."""
+    return "dp5" if rtol >= LOOSE else "dop853"
 
 
 def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:

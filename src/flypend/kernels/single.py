@@ -12,7 +12,7 @@ from flypend.kernels.ideal import IdealKernel
 from flypend.kernels.sampled import sampled_kernel
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE
+from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.flight import LEFT, NOT_FINITE, Samples
 from flypend.plants.plant import Plant
 
@@ -67,4 +67,5 @@ def flown_by_kernel(vehicle: Vehicle, law: Law, start: State, duration: float, p
         outcome = Outcome("singular" if singular else "diverged", end, NOT_FINITE if singular else LEFT)
     t, samples = ticks / plant.rate, flown.samples[0]
     kept = t <= end + 1e-9
-    return Samples(t[kept], samples[kept, :SIZE], samples[kept, SIZE:], outcome)
+    packed = samples[kept, :SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    return Samples(t[kept], packed, samples[kept, SIZE:], outcome)

@@ -163,7 +163,7 @@ def simulate_ensemble(
         )  # fmt: skip
         return _ensemble(flown, starts, vehicle, bound, criterion)
     rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
-    chosen = method or method_for(rtol)
+    chosen = method or method_for(rtol, bound)
     kernel = ideal_kernel(vehicle, bound, criterion, names, method=chosen, precision=precision)
     kept = None if times is None else errors.array("times", times, (None,))
     flown = kernel.fly(

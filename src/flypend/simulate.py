@@ -120,7 +120,9 @@ def _ideal(
 
 
 def _by_kernel(loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, _: Any) -> tuple[Solution, Any]:
-    solution = Solution(ideal_kernel(loop.vehicle, loop.law, method=method_for(rtol)), start, duration, rtol, atol)
+    solution = Solution(
+        ideal_kernel(loop.vehicle, loop.law, method=method_for(rtol, loop.law)), start, duration, rtol, atol
+    )
     return solution, solution.drift
 
 

@@ -53,7 +53,8 @@ def simulate(
         lag and sampling, integrated by the package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011"
         (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
-        Tolerances of the adaptive step (DOP853, or DP5 from 1e-6 on); atol defaults to rtol (state entries are of order one in SI units).
+        Tolerances of the adaptive step (DOP853; from 1e-6 on DP5, which is faster there); atol defaults to rtol, since
+        state entries are of order one in SI units.
         Used by the ideal plant; a sampled flight takes steps of 1 ms or less.
     times : (n,) increasing, optional
         Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends

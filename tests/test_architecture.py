@@ -29,6 +29,7 @@ ORDER = [
     "geometry",
     "model",
     "laws",
+    "outcome",
     "compile",
     "integrate",
     "plants",

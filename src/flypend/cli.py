@@ -162,7 +162,7 @@ def ladder(
     law: Laws = None,
     out: Out = Path("ladder-out"),
     starts: Starts = "random",
-    runs: Runs = 24,
+    runs: Runs = 100,
     seed: Seed = 1,
     vehicle: VehicleName = "hehn2011",
     duration: Duration = 10.0,

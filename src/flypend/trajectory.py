@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flypend import errors
-from flypend.integrate import Outcome
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP, SHAPES, E3Direction
+from flypend.outcome import Outcome
 
 if TYPE_CHECKING:
     import xarray

@@ -109,8 +109,10 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     lines += ["| " + " | ".join(row) + " |" for row in ladder_rows(ladder)]
     table = "\n".join(lines)
     broken = "\n".join(f"- {law}: {_broken(ladder, law)}" for law in laws)
+    failures = "\n".join(_failures(ladder)) or "none"
     with staged(out) as folder:
         text = f"# Reality ladder\n\n{_told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
+        text += f"\nFailures by cause (what was out of tolerance in the last second):\n\n{failures}\n"
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {
             rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}
@@ -131,6 +133,17 @@ def tracking_table(results: Iterable[Tracking]) -> Table:
     table.caption = "50 Hz, 30 ms, noise of a motion capture, 2 % of error in mass and rod; published: their experiment"
     table.caption_justify = "left"
     return table
+
+
+def _failures(ladder: Ladder) -> list[str]:
+    """One line per rung and law with failures: how many of each cause."""
+    lines = []
+    for rung, comparison in ladder.rungs.items():
+        for law, ensemble in comparison.ensembles.items():
+            causes = summary(ensemble)["causes"]
+            told = ", ".join(f"{cause} {count}" for cause, count in causes.items())
+            lines += [f"- {rung}, {law}: {told} (of {len(ensemble)})"] if causes else []
+    return lines
 
 
 def _broken(ladder: Ladder, law: str) -> str:

@@ -35,7 +35,7 @@ def comparison_figure(comparison: Comparison) -> Figure:
 
 
 def ladder_figure(ladder: Ladder) -> Figure:
-    """Success rate with its Wilson interval, and excursion, on each rung of `ladder`, one series per law."""
+    """Success rate with its Wilson interval (95 %), and 95th percentile of the excursion, on each rung of `ladder`."""
     rungs = list(ladder.rungs)
     figure = Figure(figsize=(7.2, 4.6), layout="constrained")
     axes = figure.subplots(2, 1, sharex=True)
@@ -49,8 +49,8 @@ def ladder_figure(ladder: Ladder) -> Figure:
         axes[0].errorbar(place, rates, spread, ls="none", capsize=2, label=law, **style)
         excursion = [ensemble.percentile("excursion", 95) for ensemble in series]
         axes[1].plot(place, excursion, ls="none", **style)
-    axes[0].set(ylabel="success %, 95 % interval", ylim=(-4, 104))
-    axes[1].set(ylabel="excursion m, 95th percentile", yscale="log")
+    axes[0].set(ylabel="success, %", ylim=(-4, 104))
+    axes[1].set(ylabel="excursion (95 %), m", yscale="log")
     axes[1].set_xticks(range(len(rungs)), rungs, rotation=55, ha="right", fontsize=8)
     axes[0].legend(fontsize=8, frameon=False, ncols=len(laws), loc="lower left", bbox_to_anchor=(0, 1))
     for axis in axes:

@@ -26,6 +26,7 @@ SOURCE = Path(flypend.__file__).parent
 ORDER = [
     "errors",
     "files",
+    "palette",
     "geometry",
     "model",
     "laws",
@@ -34,6 +35,8 @@ ORDER = [
     "plants",
     "criterion",
     "kernels",
+    "sketch",
+    "replay",
     "trajectory",
     "simulate",
     "metrics",

@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend import geometry
-from flypend.drawing import BLUE, GREEN, GREY, INK, RED
 from flypend.files import save_figure
 from flypend.page import COLUMN, LABEL, PAGE, SMALL, decimals, new_figure, title
+from flypend.palette import BLUE, GREEN, GREY, INK, RED
 from flypend.stop_motion import snapshot_times, stop_motion
 from flypend.trajectory import Trajectory
 

@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 
 from flypend import drawing, errors, geometry
 from flypend.camera import project
-from flypend.drawing import GREY, INK, ORANGE, RED, THRUST, TRAIL
+from flypend.drawing import THRUST, TRAIL
 from flypend.page import LABEL, PAGE, SMALL, decimals, new_figure, title
+from flypend.palette import GREY, INK, ORANGE, RED
 from flypend.trajectory import Trajectory
 
 PICTURES = 5.2  # width of the stop-motion pictures on the page, in

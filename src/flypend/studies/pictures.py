@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from flypend.palette import SERIES
 from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
 
-# Okabe and Ito: distinct to every kind of colour vision.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MARKERS = "osD^vPX"
 
 
@@ -24,7 +23,7 @@ def comparison_figure(comparison: Comparison) -> Figure:
         for axis, field in zip(axes, ("settling", "excursion"), strict=True):
             values = np.sort(np.where(ensemble.success, getattr(ensemble, field), np.inf))
             share = 100 * np.arange(1, len(values) + 1) / len(values)
-            axis.step(values, share, where="post", color=COLOURS[i % len(COLOURS)], label=label, ls=_dash(i))
+            axis.step(values, share, where="post", color=SERIES[i % len(SERIES)], label=label, ls=_dash(i))
     axes[0].set(xlabel="time s", ylabel="runs settled by then, %", ylim=(0, 102))
     axes[1].set(xlabel="largest distance from the reference m", ylabel="runs settled within, %")
     axes[0].legend(fontsize=8, loc="lower right", frameon=False)
@@ -45,7 +44,7 @@ def ladder_figure(ladder: Ladder) -> Figure:
         place = np.arange(len(rungs)) + 0.12 * (i - (len(laws) - 1) / 2)
         rates = 100 * np.array([ensemble.rate for ensemble in series])
         spread = np.abs(100 * np.array([ensemble.interval for ensemble in series]).T - rates)
-        style: dict[str, Any] = {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)], "ms": 4}
+        style: dict[str, Any] = {"color": SERIES[i % len(SERIES)], "marker": MARKERS[i % len(MARKERS)], "ms": 4}
         axes[0].errorbar(place, rates, spread, ls="none", capsize=2, label=law, **style)
         excursion = [ensemble.percentile("excursion", 95) for ensemble in series]
         axes[1].plot(place, excursion, ls="none", **style)

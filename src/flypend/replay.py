@@ -30,7 +30,7 @@ LARGEST = float(np.finfo(np.float32).max)
 Run = Any  # a flypend.Trajectory, whose module imports this one
 
 # A page that may run what is in it and fetch nothing.
-POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'"
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 
 PAGE = """<!doctype html>
 <html lang="en">
@@ -112,13 +112,18 @@ def pack(run: Run, most: int = MOST) -> dict[str, Any]:
         "x_ref": np.stack([np.interp(t, run.t, along) for along in np.asarray(run.x_ref).T], axis=-1),
     }
     vehicle, outcome = run.vehicle, run.outcome
-    gains = [f"{name} {value:g}" for name, value in run.gains.items() if isinstance(value, int | float)]
+    gains = [f"{name} = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
     return {
         "title": f"{run.law} law",
-        "detail": ", ".join(gains) if len(gains) <= 6 else "",
+        "detail": ", ".join(gains),
         "law": run.law,
         "e3": run.e3,
-        "outcome": {"status": outcome.status, "time": outcome.time, "text": str(outcome)},
+        "outcome": {
+            "status": outcome.status,
+            "time": outcome.time,
+            "text": f"{outcome.status} at {outcome.time:.4g} s",
+            "reason": outcome.reason,
+        },
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
         "vehicle": {
             "name": vehicle.name,
@@ -136,7 +141,7 @@ def pack(run: Run, most: int = MOST) -> dict[str, Any]:
 def _title(runs: Sequence[Run]) -> str:
     laws = list(dict.fromkeys(run.law for run in runs))
     vehicles = list(dict.fromkeys(run.vehicle.name for run in runs))
-    return f"{' and '.join(laws)} on {' and '.join(vehicles)}"
+    return f"{' and '.join(laws)} law{'s' if len(laws) > 1 else ''} on {' and '.join(vehicles)}"
 
 
 def _upright(states: State, e3: E3Direction) -> State:

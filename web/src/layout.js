@@ -10,16 +10,14 @@ export function frame(css, title) {
   const main = document.createElement("main");
   main.innerHTML = `
     <header><h1></h1><div class="legend"></div></header>
-    <section class="scene" aria-label="Flight"><canvas class="picture"></canvas><div class="compasses"></div>
-      <p class="scale"></p><p class="note"></p></section>
+    <section class="scene" aria-label="Flight"><canvas class="picture"></canvas><p class="note"></p></section>
     <section class="plots" aria-label="Plots"></section>
     <footer><div class="player"></div><div class="choices"></div></footer>`;
   document.body.append(main);
   const find = (selector) => main.querySelector(selector);
   find("h1").textContent = title;
   return {
-    legend: find(".legend"), scene: find(".scene"), canvas: find(".picture"), compasses: find(".compasses"),
-    scale: find(".scale"), note: find(".note"), plots: find(".plots"), player: find(".player"), choices: find(".choices"),
+    legend: find(".legend"), scene: find(".scene"), canvas: find(".picture"), note: find(".note"), plots: find(".plots"), player: find(".player"), choices: find(".choices"),
   };
 }
 
@@ -28,13 +26,15 @@ export function legend(parent, flights) {
   flights.forEach((flight, i) => {
     const entry = document.createElement("p");
     entry.innerHTML = `<svg width="30" height="10" aria-hidden="true"><line x1="1" x2="29" y1="5" y2="5"/></svg>
-      <strong></strong> <span class="detail"></span> <em></em>`;
+      <strong></strong> <span class="detail"></span> &ensp;<em></em>`;
     const find = (selector) => entry.querySelector(selector);
     find("line").setAttribute("stroke-dasharray", DASHES[i].join(" "));
-    if (i) entry.className = "ghost";
+    entry.className = flights.length === 1 ? "only" : i ? "ghost" : "";
     find("strong").textContent = flight.title;
     find(".detail").textContent = flight.detail;
-    find("em").textContent = flight.outcome.status === "completed" ? "" : flight.outcome.text;
+    find("em").textContent = flight.outcome.text;
+    find("em").title = flight.outcome.reason;
+    find("em").className = flight.outcome.status;
     parent.append(entry);
   });
 }

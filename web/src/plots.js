@@ -18,14 +18,14 @@ export class Plot {
       <div class="area"><canvas></canvas><i class="cursor"></i></div>`;
     parent.append(this.root);
     const find = (selector) => this.root.querySelector(selector);
-    find(".what").textContent = options.title;
+    find(".what").textContent = options.unit ? `${options.title} (${options.unit})` : options.title;
     this.area = find(".area");
     this.canvas = find("canvas");
     this.cursor = find(".cursor");
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", `${options.title} over time`);
     this.readings = options.lines.filter((line) => line.label).map((line) => this.#reading(find(".values"), line));
-    this.span = options.range ?? range(options.lines, options.levels ?? []);
+    [this.span, this.peak] = options.range ? [options.range, null] : range(options.lines, this.levels);
     this.#listen(seek);
   }
 
@@ -71,6 +71,7 @@ export class Plot {
     context.clip();
     for (const line of this.lines) curve(context, place, line, colours);
     context.restore();
+    this.#words(context, place, colours);
   }
 
   #axes(context, place, colours) {
@@ -99,15 +100,20 @@ export class Plot {
       context.textAlign = last ? "right" : "center";
       context.fillText(last ? `${words(value)} s` : words(value), last ? width - 2 : place.x(value), height - 5);
     }
-    for (const [value, word] of this.levels) {
-      line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.muted, [2, 3]);
-      context.textAlign = "left";
-      context.fillText(word, LEFT + 5, place.y(value) - 5);
-    }
-    for (const [value, word] of this.names) {
-      context.textAlign = "right";
-      context.fillText(word, width - RIGHT - 4, place.y(value) + (value > (low + high) / 2 ? 14 : -6));
-    }
+    for (const [value] of this.levels) line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.muted, [2, 3]);
+  }
+
+  /** Words at the right edge, over the curves and with a rim that keeps them legible. */
+  #words(context, place, colours) {
+    const { width, span: [low, high] } = this;
+    Object.assign(context, { textAlign: "right", textBaseline: "alphabetic", lineWidth: 4, strokeStyle: colours.paper, fillStyle: colours.muted });
+    const write = (word, y) => {
+      context.strokeText(word, width - RIGHT - 4, y);
+      context.fillText(word, width - RIGHT - 4, y);
+    };
+    for (const [value, word] of this.levels) write(word, place.y(value) - 6);
+    if (this.peak) write(`off the scale: ${this.peak.toPrecision(2)} ${this.unit}`, TOP + 12);
+    for (const [value, word] of this.names) write(word, place.y(value) + (value > (low + high) / 2 ? 15 : -7));
   }
 
   /** Put the cursor to the time `t` and write the values there. */
@@ -115,7 +121,7 @@ export class Plot {
     const share = (clamp(t, this.start, this.end) - this.start) / (this.end - this.start || 1);
     this.cursor.style.transform = `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`;
     for (const { line, output } of this.readings) {
-      output.textContent = `${reading(valueAt(line, t))}${this.unit ? ` ${this.unit}` : ""}`;
+      output.textContent = reading(valueAt(line, t));
     }
   }
 }
@@ -137,7 +143,7 @@ function valueAt({ t, values }, time) {
   return mix(values[i], values[j], share);
 }
 
-/** Low and high of what is drawn; a spike, in which a singular law ends, does not flatten the rest. */
+/** Low and high of what is drawn, and the height of a spike, in which a singular law ends, that is cut off. */
 function range(lines, levels) {
   const sizes = lines.flatMap((line) => Array.from(line.values, Math.abs)).sort((a, b) => a - b);
   const usual = sizes[Math.floor(0.95 * (sizes.length - 1))], peak = sizes[sizes.length - 1];
@@ -151,7 +157,7 @@ function range(lines, levels) {
   levels.forEach(([value]) => include(value));
   include(0);
   const room = 0.06 * (high - low) || 1;
-  return [low < 0 ? low - room : low, high + room];
+  return [[low < 0 ? low - room : low, high + room], Number.isFinite(limit) ? peak : null];
 }
 
 function ticks(low, high, count) {

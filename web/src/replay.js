@@ -5,6 +5,7 @@
 // frames() with the number of frames drawn and the milliseconds that the last sixty took to draw.
 
 import css from "./replay.css";
+import { Captions } from "./captions.js";
 import { Clock } from "./clock.js";
 import { Choice, Player, keys } from "./controls.js";
 import { Flight } from "./flight.js";
@@ -12,7 +13,6 @@ import { frame, legend } from "./layout.js";
 import { matrix } from "./numbers.js";
 import { Plot } from "./plots.js";
 import { plots } from "./series.js";
-import { Compass } from "./scene/compass.js";
 import { steer } from "./scene/pointers.js";
 import { PRESETS } from "./scene/rig.js";
 import { LAYOUTS, Stage } from "./scene/stage.js";
@@ -50,11 +50,11 @@ class Replay {
     try {
       this.stage = new Stage(this.parts.canvas, this.flights);
       steer(this.parts.canvas, this.stage.rig, () => this.wake());
+      this.captions = new Captions(this.parts.scene, this.flights);
     } catch (error) {
       this.parts.scene.classList.add("none");
       this.parts.note.textContent = "This browser shows no 3-D graphics (WebGL is off); the plots work without.";
     }
-    this.compasses = this.flights.map(() => new Compass(this.parts.compasses));
   }
 
   #choices() {
@@ -148,26 +148,13 @@ class Replay {
     if (stage?.width) {
       stage.show(this.flights.map((flight) => flight.at(clock.time)));
       moving = stage.render(elapsed || 1 / 60);
-      this.#label();
+      this.captions.show(stage, clock.time, this.theme.colours);
     }
     this.player.show();
     for (const plot of this.plots) plot.show(clock.time);
     this.drawn.count += 1;
     this.drawn.cost = [...this.drawn.cost.slice(-59), performance.now() - started];
     return moving;
-  }
-
-  #label() {
-    const { stage, parts } = this;
-    this.compasses.forEach((compass, i) => {
-      const view = stage.views[i];
-      compass.canvas.hidden = !view;
-      if (!view) return;
-      Object.assign(compass.canvas.style, { left: `${view.left + 4}px`, top: `${view.top + view.height - 108}px` });
-      compass.draw(view, this.flights[view.main].e3, this.theme.colours);
-    });
-    const words = `grid ${+stage.spacing.toPrecision(2)} m`;
-    if (parts.scale.textContent !== words) parts.scale.textContent = words;
   }
 
   /** What tests and other pages may use. */

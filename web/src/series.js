@@ -31,7 +31,7 @@ export function plots(flights) {
         .filter((_, i) => i === 0 || flights[i].rotors >= k)),
     },
     {
-      ...axis, title: "Distance from the reference", unit: "m",
+      ...axis, title: "Position error", unit: "m",
       lines: line("distance", "|x − x_ref|", "ink"),
     },
   ];

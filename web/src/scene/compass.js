@@ -23,10 +23,11 @@ export class Compass {
     const seen = (v) => [right, up, back].map((axis) => axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2]);
     context.clearRect(0, 0, SIZE, SIZE);
     const axes = [["e₁", [1, 0, 0]], ["e₂", [0, sign, 0]], ["e₃", [0, 0, sign]]];
-    for (const [name, axis] of axes) this.#arrow(seen(axis), name, colours.muted, 1.2, 0.72);
+    for (const [name, axis] of e3 === "up" ? axes : axes.slice(0, 2)) this.#arrow(seen(axis), name, colours.muted, 1.2, 0.72);
+    const word = e3 === "up" ? "g" : "g, e₃";
     const gravity = seen([0, 0, -1]);
-    if (Math.hypot(gravity[0], gravity[1]) > 0.2) this.#arrow(gravity, "g", colours.ink, 2.2, 1.25);
-    else this.#along(gravity[2] < 0, colours.ink);
+    if (Math.hypot(gravity[0], gravity[1]) > 0.2) this.#arrow(gravity, word, colours.ink, 2.2, 1.25);
+    else this.#along(gravity[2] < 0, word, colours.ink);
   }
 
   #arrow([x, y], name, colour, width, size) {
@@ -47,11 +48,11 @@ export class Compass {
     context.lineTo(long - head, -0.45 * head);
     context.fill();
     context.restore();
-    this.#word(name, centre + Math.cos(angle) * (long + 8), centre + Math.sin(angle) * (long + 8), colour, name === "g");
+    this.#word(name, centre + Math.cos(angle) * (long + 8), centre + Math.sin(angle) * (long + 8), colour, name[0] === "g");
   }
 
   /** Gravity into the screen, a circle with a cross, or out of it, with a dot. */
-  #along(into, colour) {
+  #along(into, word, colour) {
     const { context } = this, centre = SIZE / 2, radius = 9, d = radius * Math.SQRT1_2;
     Object.assign(context, { strokeStyle: colour, fillStyle: colour, lineWidth: 1.8 });
     context.beginPath();
@@ -68,7 +69,7 @@ export class Compass {
       context.arc(centre, centre, 2.5, 0, 2 * Math.PI);
       context.fill();
     }
-    this.#word("g", centre - radius - 9, centre + radius + 3, colour, true);
+    this.#word(word, centre - radius - 9, centre + radius + 3, colour, true);
   }
 
   #word(text, x, y, colour, bold) {

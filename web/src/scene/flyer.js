@@ -36,24 +36,25 @@ export class Flyer extends Group {
     this.add(this.track, this.trail, this.planned, this.marker, this.model);
   }
 
-  /** Show `pose` (in the frame of the run) in a viewport of `width` by `height` pixels; returns it with e3 up. */
+  /** Take `pose`, in the frame of the run. */
   show(pose) {
     this.pose = upright(pose, this.flight.e3);
     this.model.show(this.pose);
     this.marker.position.set(...this.pose.x_ref);
-    return this.pose;
   }
 
-  draw(width, height) {
+  /** Draw in a viewport of `width` by `height` pixels, the machine larger by `factor` than it is. */
+  draw(width, height, factor) {
+    this.model.scale.setScalar(factor);
     for (const ribbon of [this.trail, this.track]) ribbon.draw(this.pose.t, width, height);
     this.planned.draw(Infinity, width, height);
   }
 
   colour(colours) {
     this.model.colour(colours);
-    this.trail.colour(this.model.ghost ? colours.ghost : colours.trail);
-    this.track.colour(this.model.ghost ? colours.ghost : colours.ink);
-    this.planned.colour(colours.reference);
+    this.trail.colour(this.model.ghost ? colours.ghost : colours.trail, colours.sky);
+    this.track.colour(this.model.ghost ? colours.ghost : colours.ink, colours.sky);
+    this.planned.colour(colours.reference, colours.sky);
     this.paint.color.set(colours.reference);
   }
 }

@@ -28,14 +28,14 @@ void main() {
 }`;
 
 const FRAGMENT = `
-uniform vec3 color;
+uniform vec3 color, behind;
 uniform float now, tail, faint, opacity, dash;
 varying float time, along;
 void main() {
   if (time > now) discard;
   if (dash > 0.0 && fract(along / dash) > 0.55) discard;
   float age = clamp((now - time) / tail, 0.0, 1.0);
-  gl_FragColor = vec4(color, opacity * mix(1.0, faint, age));
+  gl_FragColor = vec4(mix(behind, color, opacity * mix(1.0, faint, age)), 1.0);
   #include <colorspace_fragment>
 }`;
 
@@ -60,9 +60,9 @@ export class Ribbon extends Mesh {
     set("lengths", pairs(lengths), 2);
     geometry.instanceCount = count;
     super(geometry, new ShaderMaterial({
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false,
+      vertexShader: VERTEX, fragmentShader: FRAGMENT,
       uniforms: {
-        resolution: { value: new Vector2(1, 1) }, color: { value: new Color() }, width: { value: width },
+        resolution: { value: new Vector2(1, 1) }, color: { value: new Color() }, behind: { value: new Color() }, width: { value: width },
         now: { value: Infinity }, tail: { value: tail }, faint: { value: faint }, opacity: { value: opacity },
         dash: { value: dash },
       },
@@ -77,7 +77,9 @@ export class Ribbon extends Mesh {
     this.material.uniforms.resolution.value.set(width, height);
   }
 
-  colour(css) {
+  /** Colours of the path, and of what it fades into: opaque, so that its pieces may overlap. */
+  colour(css, behind) {
     this.material.uniforms.color.value.set(css);
+    this.material.uniforms.behind.value.set(behind);
   }
 }

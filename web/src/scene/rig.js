@@ -36,7 +36,7 @@ export class Rig {
     const side = heading - Math.PI / 2;
     if (this.preset === "overview") {
       const { centre, half } = this.box;
-      const width = Math.hypot(half[0], half[1]) + this.reach, height = half[2] + this.reach;
+      const width = Math.hypot(half[0], half[1]) + 0.7 * this.reach, height = half[2] + 0.5 * this.reach;
       const wide = Math.max(this.aspect, 1), high = Math.max(1 / this.aspect, 1);
       const distance = Math.max(width / (wide * tangent), height / (high * tangent), near) + Math.min(half[0], half[1]);
       return { azimuth: side - 0.3, elevation: 0.2, distance, follow: 0, centre };
@@ -96,6 +96,6 @@ export class Rig {
     Object.assign(camera, { aspect, fov: 360 / Math.PI * Math.atan(half), near: 0.02 * distance, far: 60 * distance });
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld(true);
-    return { target, distance, back, up, right };
+    return { target, distance, back, up, right, follow: this.now.follow };
   }
 }

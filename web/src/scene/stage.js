@@ -2,10 +2,12 @@
 
 import { PerspectiveCamera, PCFShadowMap, Scene, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
 
-import { roundUp } from "../numbers.js";
+import { norm, roundUp } from "../numbers.js";
 import { Flyer } from "./flyer.js";
 import { Rig } from "./rig.js";
 import { World } from "./world.js";
+
+const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
 
 export const LAYOUTS = ["overlay", "beside"];
 
@@ -26,8 +28,8 @@ export class Stage {
     const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
     this.rig = new Rig(flights[0].direction, reach, box);
-    const wide = Math.max(...box.half) < 2.2 * reach;
-    this.rig.choose(wide ? "overview" : "follow");
+    const near = Math.max(...box.half) < 4 * reach;
+    this.rig.choose(near ? "overview" : "follow");
     this.scene.add(this.world, ...this.flyers, ...this.ghosts.filter(Boolean));
   }
 
@@ -70,9 +72,12 @@ export class Stage {
       const { left, top, width, height, main } = port;
       const pivot = this.flyers[main].pose.x;
       const seen = rig.apply(this.camera, pivot, width / height);
+      const away = norm(pivot.map((value, k) => value - this.camera.position.getComponent(k)));
+      this.factor = roundUp(Math.max(1, LEAST * away / this.world.reach));
       this.#select(main, width, height);
-      this.spacing = roundUp(seen.distance / 9);
-      this.world.surround(pivot, seen.target, seen.distance, this.spacing, 2.4 * this.ratio);
+      const above = this.camera.position.z - this.world.ground;
+      this.spacing = roundUp(Math.max(seen.distance, above) / 9);
+      this.world.surround(pivot, seen, this.spacing, 2.4 * this.ratio);
       const bottom = this.height - top - height;
       renderer.setViewport(left, bottom, width, height);
       renderer.setScissor(left, bottom, width, height);
@@ -87,7 +92,7 @@ export class Stage {
     this.flyers.forEach((flyer, i) => {
       flyer.visible = i === main;
       if (this.ghosts[i]) this.ghosts[i].visible = !beside;
-      (flyer.visible ? flyer : this.ghosts[i])?.draw(width, height);
+      (flyer.visible ? flyer : this.ghosts[i])?.draw(width, height, this.factor);
     });
   }
 

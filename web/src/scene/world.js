@@ -5,6 +5,8 @@ import {
   ShaderMaterial, ShadowMaterial, Vector3,
 } from "three";
 
+import { roundUp } from "../numbers.js";
+
 const LATTICE = 5; // points to each side of the middle
 
 const GRID_VERTEX = `
@@ -23,12 +25,12 @@ varying vec2 place;
 float lines(float step) {
   vec2 cell = place / step, width = fwidth(cell);
   vec2 near = abs(fract(cell - 0.5) - 0.5) / max(width, 1e-6);
-  vec2 shown = (1.0 - clamp(near - 0.3, 0.0, 1.0)) * (1.0 - smoothstep(0.15, 0.6, width));
+  vec2 shown = (1.0 - clamp(near - 0.1, 0.0, 1.0)) * (1.0 - smoothstep(0.15, 0.6, width));
   return max(shown.x, shown.y);
 }
 void main() {
   float fade = 1.0 - smoothstep(0.25, 1.0, length(place - middle) / radius);
-  float strength = max(0.38 * lines(spacing), 0.75 * lines(5.0 * spacing));
+  float strength = max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing));
   gl_FragColor = vec4(color, strength * fade);
   #include <colorspace_fragment>
 }`;
@@ -48,10 +50,11 @@ void main() {
 
 const DUST_FRAGMENT = `
 uniform vec3 color;
+uniform float strength;
 varying float shown;
 void main() {
   float edge = length(gl_PointCoord - 0.5);
-  gl_FragColor = vec4(color, 0.55 * shown * (1.0 - smoothstep(0.3, 0.5, edge)));
+  gl_FragColor = vec4(color, 0.6 * strength * shown * (1.0 - smoothstep(0.3, 0.5, edge)));
   #include <colorspace_fragment>
 }`;
 
@@ -70,29 +73,30 @@ export class World extends Group {
     this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.2, depthWrite: false }));
     this.floor.receiveShadow = true;
     this.dust = new Points(lattice(), shader(DUST_VERTEX, DUST_FRAGMENT, {
-      color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, size: { value: 2 },
+      color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, size: { value: 2 }, strength: { value: 1 },
     }));
     this.dust.frustumCulled = false;
     this.grid.renderOrder = -2;
     this.floor.renderOrder = -1;
-    this.add(this.grid, this.floor, this.dust, new HemisphereLight(0xffffff, 0xb0a898, 2.1), this.#sun());
+    this.add(this.grid, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, 2.4), this.#sun());
   }
 
   #sun() {
-    this.sun = new DirectionalLight(0xffffff, 2.2);
+    this.sun = new DirectionalLight(0xffffff, 1.4);
     const { shadow } = this.sun, half = 2.6 * this.reach;
     this.sun.castShadow = true;
     shadow.mapSize.set(1024, 1024);
     Object.assign(shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.1 * this.reach });
     shadow.radius = 5;
     const group = new Group();
-    group.add(this.sun, this.sun.target);
+    this.fill = new DirectionalLight(0xffffff, 1.3); // from the camera
+    group.add(this.sun, this.sun.target, this.fill);
     return group;
   }
 
-  /** Put the grid, the points and the light around the pivot at `pivot`, seen from `distance`; `pixels` per point. */
-  surround(pivot, target, distance, spacing, pixels) {
-    const size = 14 * distance;
+  /** Put grid, points and light around `pivot`, as `Rig.apply` sees it; `pixels` to a point. */
+  surround(pivot, { target, distance, back, follow }, spacing, pixels) {
+    const size = Math.max(14 * distance, 40 * spacing);
     for (const plane of [this.grid, this.floor]) {
       plane.position.set(target[0], target[1], this.ground);
       plane.scale.set(size, size, 1);
@@ -102,8 +106,10 @@ export class World extends Group {
     grid.spacing.value = spacing;
     grid.radius.value = size / 2.2;
     dust.middle.value.set(...target);
-    dust.spacing.value = spacing;
+    dust.spacing.value = roundUp(distance / 9);
     dust.size.value = pixels;
+    dust.strength.value = follow;
+    this.fill.position.set(...back);
     const height = 6 * this.reach, { camera } = this.sun.shadow;
     this.sun.target.position.set(...pivot);
     this.sun.position.set(pivot[0] + 0.12 * height, pivot[1] + 0.08 * height, pivot[2] + height);

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Circle
+from matplotlib.patheffects import withStroke
 
 from flypend import errors, geometry
 from flypend import sketch as sketched
@@ -39,7 +40,7 @@ __all__ = [
 
 VIEWS = ("side", "axis")
 
-ROD: dict[str, Any] = {"color": RED, "linewidth": 2.2, "solid_capstyle": "round"}
+ROD: dict[str, Any] = {"color": RED, "linewidth": 3.0, "solid_capstyle": "round"}
 TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1))}
 THRUST: dict[str, Any] = {"color": GREEN, "linewidth": 1.1}
 
@@ -149,7 +150,8 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         ax.add_collection(PolyCollection(list(screen(shape.discs[shape.front == front])), **style))
     ax.add_collection(LineCollection(list(screen(shape.arms)), color=INK, linewidth=1.6, zorder=3.1))
     if np.linalg.norm(np.diff(project(camera, shape.thrust), axis=0)) > 0.1 * vehicle.rod_length:  # else only a head
-        _arrow(ax, *screen(shape.thrust), **THRUST, zorder=4.2)
+        rim = [withStroke(linewidth=1.9, foreground="white")]  # so that an arrow along the rod is seen in grey
+        _arrow(ax, *screen(shape.thrust), **THRUST, path_effects=rim, zorder=4.2)
     ax.plot(*screen(shape.rod).T, **ROD, zorder=2 if behind else 4)
     radius = BOB_SHARE * vehicle.rod_length * float(magnification(camera, shape.bob))
     ball = {"facecolor": RED, "edgecolor": INK, "linewidth": 0.7, "zorder": 2.1 if behind else 4.1}

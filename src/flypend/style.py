@@ -33,7 +33,7 @@ class Style:
 STYLES = {
     "paper": Style(half=(3.4, 3.3), full=(7.16, 6.4), columns=2, wide=4 / 3, dpi=200),
     # Half the size of a slide of 13.33 by 7.5 in, which doubles letters of 8 pt and lines; 1920 dots wide.
-    "slides": Style(half=(3.3, 3.3), full=(6.667, 3.75), columns=3, wide=2.2, dpi=288),
+    "slides": Style(half=(3.3, 3.3), full=(6.667, 3.75), columns=3, wide=1.9, dpi=288),
 }
 
 

@@ -159,6 +159,7 @@ def _sampled(run: Run, most: int) -> tuple[Any, State]:
     count = int(np.clip(np.ceil(passed[-1] - 1e-6), 1, most - 1)) + 1
     wanted = np.interp(np.linspace(0.0, passed[-1], count), passed, times)
     if run.interpolant is not None:
+        wanted = wanted.astype(np.float32).astype(float)  # the time that the page has
         return wanted, run.at(np.clip(wanted, times[0], times[-1]))
     keep = np.unique(np.clip(np.searchsorted(times, wanted - 1e-9), 0, len(times) - 1))
     return times[keep], states[keep]

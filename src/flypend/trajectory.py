@@ -220,10 +220,9 @@ class Trajectory:
         """
         from flypend import replay  # here, for the many runs that nobody looks at
 
-        others = [ghost] if isinstance(ghost, Trajectory) else list(ghost)
-        for other in others:
-            if not isinstance(other, Trajectory):
-                raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(other))
+        others = [ghost] if isinstance(ghost, Trajectory) else ghost
+        if not (isinstance(others, Sequence) and all(isinstance(other, Trajectory) for other in others)):
+            raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
         text = replay.page([self, *others], title=title, layout=layout, speed=speed)
         if path is not None:
             with whole_file(path, (".html",)) as partial:

@@ -169,6 +169,7 @@ class Replay {
         return { ...pose, R: matrix(pose.quat_xyzw) };
       },
       screen: (i = 0) => {
+        if (!this.stage) return null;
         this.#frame(0);
         return this.stage.screen(i);
       },

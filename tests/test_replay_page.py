@@ -1,4 +1,4 @@
-"""The replay in a real browser without a screen: it opens from disk, plays, scrubs, and shows the numbers of the run."""
+"""The replay in a real browser without a screen: it opens from disk, plays, scrubs, shows the numbers of the run."""
 
 import dataclasses
 import itertools
@@ -15,8 +15,11 @@ import flypend as fp
 from flypend.experiments import experiment
 
 # Drawn in software, and nothing that the browser itself would send out.
-OPTIONS = """--headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
-    --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync""".split()
+OPTIONS = [
+    "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+]  # fmt: skip
 WIDE, NARROW = {"width": 1280, "height": 720}, {"width": 390, "height": 844}
 SMALL = {"width": 900, "height": 520}  # drawn fast enough in software
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend import animate, cli, figures, runfile
+from flypend import animate, cli, figures, files, runfile
 from flypend.experiments import experiment
 from flypend.experiments.claims import SETTLED, theorem_claims
 from flypend.report import paper
@@ -180,7 +180,7 @@ MOVIES = ["movie-axis.mp4", "movie-side.mp4"]
 @pytest.fixture
 def sketches(monkeypatch):
     """Pictures and movies as files of a word, which take no time."""
-    monkeypatch.setattr(figures, "save_figure", lambda figure, path: path.write_text("picture"))
+    monkeypatch.setattr(files, "save_figure", lambda figure, path: path.write_text("picture"))
     monkeypatch.setattr(animate, "movie", lambda run, path, **options: path.write_text(f"{options}"))
 
 
@@ -442,7 +442,7 @@ def fail(*_, **__):
     raise RuntimeError("out of ink")
 
 
-@pytest.mark.parametrize("module_and_name", [(figures, "full_figure"), (figures, "save_figure"), (animate, "movie")])
+@pytest.mark.parametrize("module_and_name", [(figures, "full_figure"), (files, "save_figure"), (animate, "movie")])
 @pytest.mark.parametrize("out", ["out", "new"])
 def test_a_figure_that_fails_leaves_nothing_new(call, old, sketches, monkeypatch, module_and_name, out):
     monkeypatch.setattr(*module_and_name, fail)

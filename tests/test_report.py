@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 import flypend as fp
-from flypend import figures
+from flypend import files
 from flypend.experiments import experiment, experiment_names
 from flypend.experiments.claims import SETTLED, Verdict, theorem_claims
 from flypend.experiments.defects import DEFECTS, Finding, Runs, findings
@@ -436,7 +436,7 @@ def test_the_limit_is_read_on_the_longer_run(short, tmp_path):
 
 
 def test_progress_is_given_the_tasks_by_name_and_runs_them(short, tmp_path, monkeypatch):
-    monkeypatch.setattr(figures, "save_figure", lambda figure, path: path.write_text("drawn"))
+    monkeypatch.setattr(files, "save_figure", lambda figure, path: path.write_text("drawn"))
     seen = []
 
     def progress(tasks):

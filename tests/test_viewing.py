@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import flypend as fp
-from flypend import animate, cli, figures
+from flypend import animate, cli, files
 from flypend.experiments import experiment
 from flypend.style import STYLES
 
@@ -111,7 +111,7 @@ def test_figures(call, runs, tmp_path, style):
 
 def test_a_run_draws_in_the_style_asked_for(call, tmp_path, monkeypatch):
     drawn = []
-    monkeypatch.setattr(figures, "save_figure", lambda figure, path: drawn.append(figure.get_size_inches()[0]))
+    monkeypatch.setattr(files, "save_figure", lambda figure, path: drawn.append(figure.get_size_inches()[0]))
     call("run", "4", "--set", "duration=0.1", "--quick", "--style", "slides")
     assert set(drawn) == {STYLES["slides"].half[0], STYLES["slides"].full[0]}
 

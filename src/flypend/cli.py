@@ -49,6 +49,7 @@ def _root(
 def paper(
     out: Out = Path("paper-out"),
     quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out: seconds instead of a minute.")] = False,
+    style: Style = "paper",
 ) -> None:
     """Fly the paper's five experiments and say for every claim whether it holds.
 
@@ -58,7 +59,7 @@ def paper(
     from flypend.report.text import findings_table, judgement, summary_table
 
     with counter() as tell:
-        result = reproduce(out, quick=quick, progress=tell)
+        result = reproduce(out, quick=quick, style=style, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(findings_table(result.findings))
     console.print(f"The promise kept by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")

@@ -28,6 +28,12 @@ def save_figure(figure: Figure, path: str | Path) -> None:
             figure.savefig(partial, dpi="figure", metadata=metadata)
 
 
+def save_both(figure: Figure, path: Path) -> None:
+    """Write `figure` to files called `path`, as vectors (.pdf) and as .png. Raises InputError as `save_figure`."""
+    for suffix in (".png", ".pdf"):
+        save_figure(figure, path.with_name(path.name + suffix))
+
+
 def check_file(path: str | Path, suffixes: Sequence[str]) -> None:
     """Raise InputError if `path` ends in none of `suffixes` or cannot be written. Leaves what is there as it is."""
     with suppress(_DroppedError), whole_file(path, suffixes):

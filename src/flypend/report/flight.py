@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from flypend import __version__
+from flypend import __version__, files
 from flypend.experiments.claims import Verdict, theorem_claims
 from flypend.metrics import metrics
 from flypend.report import text
@@ -51,11 +51,7 @@ def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[s
 
 def draw(figure: Callable[..., Any], run: Trajectory, path: Path, style: str = "paper") -> None:
     """Draw one `figure` of `run` in a `style` into files called `path`, as vectors (.pdf) and as .png."""
-    from flypend import figures
-
-    drawn = figure(run, style=style)
-    for suffix in (".png", ".pdf"):
-        figures.save_figure(drawn, path.with_name(path.name + suffix))
+    files.save_both(figure(run, style=style), path)
 
 
 def write_flight(

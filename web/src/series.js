@@ -28,7 +28,8 @@ export function plots(flights) {
     {
       ...axis, title: "Rotor forces", unit: "N", levels: [[hover(first.rotors), "hover"]],
       lines: kinds.flatMap((k) => line(`rotor ${k}`, String(k), ROTORS[(k - 1) % ROTORS.length])
-        .filter((_, i) => i === 0 || flights[i].rotors >= k)),
+        .filter((_, i) => i === 0 || flights[i].rotors >= k)
+        .map((curve, i) => (i ? { ...curve, opacity: 0.35 } : curve))),
     },
     {
       ...axis, title: "Position error", unit: "m",

@@ -32,7 +32,7 @@ export class Compass {
 
   #arrow([x, y], name, colour, width, size) {
     const { context } = this, centre = SIZE / 2, long = Math.hypot(x, y) * LENGTH * size;
-    if (long < 4) return;
+    if (long < 8) return;
     const angle = Math.atan2(-y, x), head = Math.min(3.4 * width + 2, long);
     context.save();
     context.translate(centre, centre);

@@ -6,22 +6,28 @@ import { Compass } from "./scene/compass.js";
 const KEY = [["front", "front rotor"], ["thrust", "thrust"], ["trail", "bob"], ["ink", "vehicle"], ["reference", "reference"]];
 
 export class Captions {
-  /** Over the element `parent`, for `flights`. */
-  constructor(parent, flights) {
-    this.several = flights.length > 1;
-    this.views = flights.map((flight) => {
-      const root = document.createElement("div");
-      root.className = "view";
-      root.innerHTML = `<p class="motion"></p><p class="ended"></p>`;
-      parent.append(root);
-      return { flight, root, motion: root.querySelector(".motion"), ended: root.querySelector(".ended"), compass: new Compass(root) };
-    });
+  /** Over the element `parent`. */
+  constructor(parent) {
+    Object.assign(this, { parent, views: [] });
     const key = document.createElement("p");
     key.className = "key";
     key.innerHTML = KEY.map(([role, words]) => `<span><i style="background:var(--${role})"></i>${words}</span>`).join("")
       + `<span class="grid"></span>`;
     parent.append(key);
     this.grid = key.querySelector(".grid");
+  }
+
+  /** For other `flights`. */
+  load(flights) {
+    this.several = flights.length > 1;
+    for (const view of this.views) view.root.remove();
+    this.views = flights.map((flight) => {
+      const root = document.createElement("div");
+      root.className = "view";
+      root.innerHTML = `<p class="motion"></p><p class="ended"></p>`;
+      this.parent.append(root);
+      return { flight, root, motion: root.querySelector(".motion"), ended: root.querySelector(".ended"), compass: new Compass(root) };
+    });
   }
 
   /** For the pictures of `stage` as last drawn, at the time `t`. */

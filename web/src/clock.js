@@ -10,6 +10,12 @@ export class Clock {
     Object.assign(this, { start, end, changed, time: start, speed: 1, playing: false });
   }
 
+  /** Another start and end; the time stays if it lies between. */
+  span(start, end) {
+    Object.assign(this, { start, end });
+    this.seek(this.time);
+  }
+
   play() {
     if (this.time >= this.end) this.time = this.start;
     this.playing = this.end > this.start;

@@ -16,7 +16,6 @@ export class Player {
       <label class="speed"><span>speed</span> <select aria-label="Speed"></select></label>`;
     const find = (selector) => parent.querySelector(selector);
     Object.assign(this, { button: find(".play"), icon: find("path"), time: find(".time"), line: find(".line"), speed: find("select") });
-    Object.assign(this.line, { min: clock.start, max: clock.end });
     this.button.addEventListener("click", () => clock.toggle());
     this.line.addEventListener("input", () => clock.seek(Number(this.line.value)));
     this.speed.addEventListener("change", () => clock.setSpeed(Number(this.speed.value)));
@@ -33,7 +32,7 @@ export class Player {
     }
     const digits = clock.end >= 1 ? 2 : 4;
     this.time.textContent = `${clock.time.toFixed(digits)} / ${clock.end.toFixed(digits)} s`;
-    this.line.value = clock.time;
+    Object.assign(this.line, { min: clock.start, max: clock.end, value: clock.time });
     const share = (clock.time - clock.start) / (clock.end - clock.start || 1);
     this.line.style.setProperty("--done", `${100 * share}%`);
     this.#speeds();

@@ -23,6 +23,7 @@ export function frame(css, title) {
 
 /** One line for each flight: how its curves are drawn, its name, how it ended. */
 export function legend(parent, flights) {
+  parent.replaceChildren();
   flights.forEach((flight, i) => {
     const entry = document.createElement("p");
     entry.innerHTML = `<svg width="30" height="10" aria-hidden="true"><line x1="1" x2="29" y1="5" y2="5"/></svg>

@@ -11,22 +11,29 @@ const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins, CSS pixels
  */
 export class Plot {
   constructor(parent, options, seek) {
-    Object.assign(this, { names: [], levels: [], ...options });
     this.root = document.createElement("figure");
     this.root.className = "plot";
     this.root.innerHTML = `<figcaption><span class="what"></span><span class="values"></span></figcaption>
       <div class="area"><canvas></canvas><i class="cursor"></i></div>`;
     parent.append(this.root);
     const find = (selector) => this.root.querySelector(selector);
-    find(".what").textContent = options.unit ? `${options.title} (${options.unit})` : options.title;
     this.area = find(".area");
     this.canvas = find("canvas");
     this.cursor = find(".cursor");
     this.canvas.setAttribute("role", "img");
-    this.canvas.setAttribute("aria-label", `${options.title} over time`);
-    this.readings = options.lines.filter((line) => line.label).map((line) => this.#reading(find(".values"), line));
-    [this.span, this.peak] = options.range ? [options.range, null] : range(options.lines, this.levels);
     this.#listen(seek);
+    this.load(options);
+  }
+
+  /** Show something else, with options as for a new plot; `draw` puts it on the canvas. */
+  load(options) {
+    Object.assign(this, { names: [], levels: [], range: null, ...options });
+    this.root.querySelector(".what").textContent = options.unit ? `${options.title} (${options.unit})` : options.title;
+    this.canvas.setAttribute("aria-label", `${options.title} over time`);
+    const values = this.root.querySelector(".values");
+    values.replaceChildren();
+    this.readings = options.lines.filter((line) => line.label).map((line) => this.#reading(values, line));
+    [this.span, this.peak] = options.range ? [options.range, null] : range(options.lines, this.levels);
   }
 
   #reading(parent, line) {

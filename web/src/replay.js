@@ -1,7 +1,7 @@
 // The replay: puts scene, plots and player together for the runs in the page, and offers `window.flypend`.
 //
-// window.flypend: play(), pause(), seek(t), time(), duration(), playing(), speed(s), camera(name), layout(name),
-// theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, screen(i) with the pixels of pivot and bob,
+// window.flypend: play(), pause(), seek(t), time(), duration(), playing(), speed(s), load(runs), camera(name),
+// layout(name), theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, screen(i) with the pixels of pivot and bob,
 // frames() with the number of frames drawn and the milliseconds that the last sixty took to draw.
 
 import css from "./replay.css";
@@ -22,35 +22,51 @@ const STEP = 1 / 30; // s, of the arrow keys
 
 class Replay {
   constructor({ runs, palette, title, layout, speed }) {
-    this.flights = runs.map((record) => new Flight(record));
     this.parts = frame(css, title);
-    this.dirty = true;
     this.drawn = { count: 0, cost: [] };
-    const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
-    this.clock = new Clock(Math.min(...starts), Math.max(...ends), () => this.wake());
+    this.clock = new Clock(0, 0, () => this.wake());
     this.clock.speed = speed;
-    legend(this.parts.legend, this.flights);
     this.player = new Player(this.parts.player, this.clock);
-    this.plots = plots(this.flights).map((options) => new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
-    this.#stage();
-    this.#choices();
+    this.plots = [];
     this.theme = new Theme(palette, (colours) => this.#paint(colours));
+    this.#choices();
+    this.load(runs);
     this.theme.set(this.theme.name);
-    if (LAYOUTS.includes(layout)) this.layout(layout);
+    this.cameras.show(this.stage?.rig.preset);
+    this.layout(layout);
     this.#keys();
     new ResizeObserver(() => this.#resize()).observe(this.parts.scene);
     new ResizeObserver(() => this.#redraw()).observe(this.parts.plots);
     this.#resize();
-    this.#redraw();
     this.last = null;
+  }
+
+  /** Show other runs, packed as in the page; the clock stays where it is as far as they last, the camera as it looks. */
+  load(runs) {
+    this.flights = runs.map((record) => new Flight(record));
+    const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
+    this.clock.span(Math.min(...starts), Math.max(...ends));
+    legend(this.parts.legend, this.flights);
+    plots(this.flights).forEach((options, i) => {
+      if (this.plots[i]) this.plots[i].load(options);
+      else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
+    });
+    this.#stage();
+    this.layouts.root.hidden = this.flights.length < 2;
+    if (this.flights.length < 2) this.layout("overlay");
+    this.#redraw();
     this.wake();
   }
 
   #stage() {
     try {
-      this.stage = new Stage(this.parts.canvas, this.flights);
-      steer(this.parts.canvas, this.stage.rig, () => this.wake());
-      this.captions = new Captions(this.parts.scene, this.flights);
+      if (this.stage) this.stage.load(this.flights);
+      else {
+        this.stage = new Stage(this.parts.canvas, this.flights);
+        this.captions = new Captions(this.parts.scene);
+        steer(this.parts.canvas, this.stage.rig, () => this.wake());
+      }
+      this.captions.load(this.flights);
     } catch (error) {
       this.parts.scene.classList.add("none");
       this.parts.note.textContent = "This browser shows no 3-D graphics (WebGL is off); the plots work without.";
@@ -63,12 +79,8 @@ class Replay {
       ["follow", "Follow", "Behind the vehicle (3)"], ["axis", "Above", "From above, along gravity: the paper's camera on its −e₃ axis (4)"],
     ];
     this.cameras = new Choice(this.parts.choices, "Camera", cameras, (name) => this.camera(name));
-    this.cameras.show(this.stage?.rig.preset);
-    if (this.flights.length > 1) {
-      const layouts = [["overlay", "Overlay", "One picture, the others as ghosts (g)"], ["beside", "Side by side", "A picture for each (g)"]];
-      this.layouts = new Choice(this.parts.choices, "Layout", layouts, (name) => this.layout(name));
-      this.layouts.show("overlay");
-    }
+    const layouts = [["overlay", "Overlay", "One picture, the others as ghosts (g)"], ["beside", "Side by side", "A picture for each (g)"]];
+    this.layouts = new Choice(this.parts.choices, "Layout", layouts, (name) => this.layout(name));
     const themes = [["toggle", "◐", "Light or dark (t)"]];
     this.themes = new Choice(this.parts.choices, "Theme", themes, () => this.theme.toggle());
   }
@@ -83,7 +95,7 @@ class Replay {
       ArrowDown: () => clock.shift(-1),
       Home: () => clock.seek(clock.start),
       End: () => clock.seek(clock.end),
-      g: () => this.layouts && this.layout(this.stage?.layout === "overlay" ? "beside" : "overlay"),
+      g: () => this.layout(this.stage?.layout === "overlay" ? "beside" : "overlay"),
       t: () => this.theme.toggle(),
       ...Object.fromEntries(PRESETS.map((name, i) => [String(i + 1), () => this.camera(name)])),
     });
@@ -97,7 +109,7 @@ class Replay {
   }
 
   layout(name) {
-    if (!this.stage || !this.layouts || !LAYOUTS.includes(name)) return false;
+    if (!this.stage || !LAYOUTS.includes(name) || (name === "beside" && this.flights.length < 2)) return false;
     this.stage.layout = name;
     this.layouts.show(name);
     this.parts.scene.dataset.layout = name;
@@ -163,6 +175,7 @@ class Replay {
     return Object.freeze({
       play: () => clock.play(), pause: () => clock.pause(), seek: (t) => clock.seek(t), speed: (value) => clock.setSpeed(value),
       time: () => clock.time, duration: () => clock.end - clock.start, playing: () => clock.playing,
+      load: (runs) => this.load(runs),
       camera: (name) => this.camera(name), layout: (name) => this.layout(name), theme: (name) => this.theme.set(name),
       pose: (i = 0) => {
         const pose = this.flights[i].at(clock.time);

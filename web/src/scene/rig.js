@@ -1,11 +1,12 @@
 // Where the camera stands: an azimuth, an elevation and a distance about a target, with presets that it glides to and
 // pointers that turn it. Elevation 90 degrees looks straight down along gravity, which no look-at can.
 
-import { clamp, mix } from "../numbers.js";
+import { clamp, dot, mix } from "../numbers.js";
 
 export const FIELD = 32; // of view, degrees, along the shorter side of the picture
 export const PRESETS = ["overview", "side", "follow", "axis"];
 const GLIDE = 0.16; // s, time constant
+const LARGER = 0.06; // of the distance: room in the overview for a machine drawn larger than it is, see stage.js
 
 export class Rig {
   /** `direction` is the horizontal way of the flight; `reach` the radius of the machine; `box` all that flies, m. */
@@ -35,15 +36,21 @@ export class Rig {
     const near = 1.3 * this.reach / tangent;
     const side = heading - Math.PI / 2;
     if (this.preset === "overview") {
-      const { centre, half } = this.box;
-      const width = Math.hypot(half[0], half[1]) + 0.7 * this.reach, height = half[2] + 0.5 * this.reach;
-      const wide = Math.max(this.aspect, 1), high = Math.max(1 / this.aspect, 1);
-      const distance = Math.max(width / (wide * tangent), height / (high * tangent), near) + Math.min(half[0], half[1]);
-      return { azimuth: side - 0.3, elevation: 0.2, distance, follow: 0, centre };
+      const way = { azimuth: side - 0.3, elevation: 0.2 };
+      return { ...way, distance: Math.max(this.#fit(way, tangent), near), follow: 0 };
     }
     if (this.preset === "side") return { azimuth: side, elevation: 0.21, distance: 1.15 * near, follow: 1 };
     if (this.preset === "axis") return { azimuth: -Math.PI / 2, elevation: Math.PI / 2, distance: 1.15 * near, follow: 1 };
     return { azimuth: side - 0.75, elevation: 0.34, distance: 1.5 * near, follow: 1 };
+  }
+
+  /** The distance from which the whole box is in the picture, with room for the machine. */
+  #fit(way, tangent) {
+    const { right, up, back } = axes(way), { half } = this.box, room = 0.6 * this.reach;
+    const across = tangent * Math.max(this.aspect, 1) - LARGER, along = tangent * Math.max(1 / this.aspect, 1) - LARGER;
+    const corners = [-1, 1].flatMap((i) => [-1, 1].flatMap((j) => [-1, 1].map((k) => [i * half[0], j * half[1], k * half[2]])));
+    return Math.max(...corners.map((corner) => dot(corner, back)
+      + Math.max((Math.abs(dot(corner, right)) + room) / across, (Math.abs(dot(corner, up)) + room) / along)));
   }
 
   #aim() {
@@ -83,9 +90,7 @@ export class Rig {
 
   /** Put a three.js perspective camera where it belongs to look at `pivot`. */
   apply(camera, pivot, aspect) {
-    const { azimuth, elevation, distance } = this.now, target = this.target(pivot);
-    const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
-    const back = [ce * ca, ce * sa, se], up = [-se * ca, -se * sa, ce], right = [-sa, ca, 0];
+    const { distance } = this.now, target = this.target(pivot), { back, up, right } = axes(this.now);
     camera.matrix.set(
       right[0], up[0], back[0], target[0] + distance * back[0],
       right[1], up[1], back[1], target[1] + distance * back[1],
@@ -98,4 +103,10 @@ export class Rig {
     camera.updateMatrixWorld(true);
     return { target, distance, back, up, right, follow: this.now.follow };
   }
+}
+
+/** Unit vectors of a camera in the world: to the right and up the picture, and back from the target to the camera. */
+function axes({ azimuth, elevation }) {
+  const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
+  return { back: [ce * ca, ce * sa, se], up: [-se * ca, -se * sa, ce], right: [-sa, ca, 0] };
 }

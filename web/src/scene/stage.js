@@ -12,30 +12,51 @@ const LEAST = 0.03; // of its distance: a machine that is further away is drawn 
 export const LAYOUTS = ["overlay", "beside"];
 
 export class Stage {
-  /** On `canvas`, for `flights` (flight.js), the first of which the camera follows. Throws where WebGL is missing. */
+  /** On `canvas`, with `flights` as in `load`. Throws where WebGL is missing. */
   constructor(canvas, flights) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
     Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap });
-    Object.assign(this, { canvas, layout: "overlay", views: [] });
+    Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [] });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera();
     this.camera.matrixAutoUpdate = false;
+    this.load(flights);
+  }
+
+  /** Show other `flights` (flight.js); the camera follows the first, from where it is if there was one before. */
+  load(flights) {
+    for (const thing of this.#things()) {
+      this.scene.remove(thing);
+      thing.traverse((part) => {
+        part.geometry?.dispose();
+        part.material?.dispose();
+        part.dispose?.(); // lights hold the map of their shadow
+      });
+    }
     // A flight that can be a ghost has two machines, one of each kind; only one of them is seen at a time.
     this.flyers = flights.map((flight) => new Flyer(flight, false));
     this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true) : null));
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
     const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
-    this.rig = new Rig(flights[0].direction, reach, box);
-    const near = Math.max(...box.half) < 4 * reach;
-    this.rig.choose(near ? "overview" : "follow");
-    this.scene.add(this.world, ...this.flyers, ...this.ghosts.filter(Boolean));
+    if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box });
+    else {
+      this.rig = new Rig(flights[0].direction, reach, box);
+      this.rig.choose(Math.max(...box.half) < 4 * reach ? "overview" : "follow");
+    }
+    this.scene.add(...this.#things());
+    if (this.colours) this.colour(this.colours);
+  }
+
+  #things() {
+    return [this.world, ...this.flyers, ...this.ghosts].filter(Boolean);
   }
 
   /** Colours of a theme, see `Model.colour`. */
   colour(colours) {
-    for (const thing of [this.world, ...this.flyers, ...this.ghosts.filter(Boolean)]) thing.colour(colours);
+    this.colours = colours;
+    for (const thing of this.#things()) thing.colour(colours);
   }
 
   /** Put every flyer to its pose (in the frame of its run). */

@@ -659,7 +659,7 @@ def test_a_picture_that_fails_leaves_nothing_of_the_reproduction(runs, tmp_path,
     monkeypatch.setattr(paper, "fly_all", lambda progress: runs)
     monkeypatch.setattr(paper, "simulate", lambda *_, **__: runs.corrected["4"])
     monkeypatch.setattr(paper, "_pictures", lambda *_: [("one that fails", task)])
-    monkeypatch.setattr(paper, "figure_tasks", lambda *_: [])
+    monkeypatch.setattr(paper, "figure_tasks", lambda *_, **__: [])
     key = ("corrected", "1")
     monkeypatch.setattr(paper, "_judge", lambda _, swing_up: Reproduction({key: [verdict()]}, {key: ""}, [], swing_up))
     with pytest.raises(error):

@@ -61,8 +61,8 @@ def comparison_markdown(comparison: Comparison) -> str:
 
 
 def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str | Path) -> None:
-    """Write report.md, report.json (with `settings`) and comparison.png of `comparison` into the folder `out`."""
-    from flypend.figures import save_figure
+    """Write report.md, report.json (with `settings`), comparison.pdf and .png of `comparison` into the folder `out`."""
+    from flypend.files import save_both
     from flypend.studies.pictures import comparison_figure
 
     with staged(out) as folder:
@@ -70,7 +70,7 @@ def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str 
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {"flypend": __version__, "settings": settings, "laws": comparison.rows()}
         write_json(folder / "report.json", content)
-        save_figure(comparison_figure(comparison), folder / "comparison.png")
+        save_both(comparison_figure(comparison), folder / "comparison")
 
 
 def ladder_rows(ladder: Ladder) -> list[list[str]]:
@@ -100,8 +100,8 @@ def ladder_table(ladder: Ladder) -> Table:
 
 
 def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> None:
-    """Write report.md, report.json (with `settings`) and ladder.png of `ladder` into the folder `out`."""
-    from flypend.figures import save_figure
+    """Write report.md, report.json (with `settings`), ladder.pdf and .png of `ladder` into the folder `out`."""
+    from flypend.files import save_both
     from flypend.studies.pictures import ladder_figure
 
     laws = list(next(iter(ladder.rungs.values())).ensembles)
@@ -119,7 +119,7 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
             for rung, comparison in ladder.rungs.items()
         }
         write_json(folder / "report.json", {"flypend": __version__, "settings": settings, "rungs": content})
-        save_figure(ladder_figure(ladder), folder / "ladder.png")
+        save_both(ladder_figure(ladder), folder / "ladder")
 
 
 def tracking_table(results: Iterable[Tracking]) -> Table:

@@ -206,6 +206,22 @@ def circles(law: Laws = None, seed: Seed = 1) -> None:
     console.print(tracking_table(hehn2011(tuple(law or ("inverted", "lqr")), seed)))
 
 
+@app.command()
+def lab(
+    host: Annotated[str, typer.Option("--host", help="Address to listen on; others let other machines in.")] = (
+        "127.0.0.1"
+    ),
+    port: Annotated[int, typer.Option("--port", help="Port; 0 takes a free one.", min=0, max=65535)] = 0,
+    browser: Annotated[bool, typer.Option(help="Open the page in a browser (--no-browser does not).")] = True,
+) -> None:
+    """Open the laboratory in a browser: move sliders, drag the rod, poke; the flight follows. Ctrl-C ends it."""
+    from flypend.lab import serve
+
+    serve(
+        host, port, browser=browser, announce=lambda url: console.print(f"The laboratory is at {url}", soft_wrap=True)
+    )
+
+
 def _study(
     names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
 ) -> tuple[list[Any], Any, Any, dict[str, Any]]:

@@ -86,7 +86,7 @@ def page(
         "runs": [pack(run, MOST // len(runs)) for run in runs],
     }
     return PAGE.format(
-        policy=html.escape(POLICY), title=html.escape(str(data["title"])), data=_embedded(data), program=_program()
+        policy=html.escape(POLICY), title=html.escape(str(data["title"])), data=embedded(data), program=program()
     )
 
 
@@ -174,13 +174,13 @@ def _base64(values: Any) -> str:
     return base64.b64encode(finite.astype("<f4").tobytes()).decode("ascii")
 
 
-def _embedded(data: Any) -> str:
+def embedded(data: Any) -> str:
     """JSON that cannot end the script element that holds it, whatever its texts say."""
     text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 @cache
-def _program() -> str:
-    """The bundled program of the page."""
-    return (resources.files("flypend") / "web" / "replay.js").read_text(encoding="utf-8")
+def program(name: str = "replay") -> str:
+    """The bundled program of the page called `name`."""
+    return (resources.files("flypend") / "web" / f"{name}.js").read_text(encoding="utf-8")

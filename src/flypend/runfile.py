@@ -24,6 +24,7 @@ from flypend.simulate import simulate
 from flypend.trajectory import Trajectory
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment")
+_TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
 
 
 @dataclass(frozen=True)
@@ -54,12 +55,20 @@ def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
         settings = _read(what)
         for override in overrides:
             _override(settings, override)
+        return flight_of(settings)
+    except RecursionError:
+        raise _TOO_DEEP from None
+
+
+def flight_of(settings: dict[str, Any]) -> Flight:
+    """The flight that `settings`, the content of a TOML file, describe. Raises InputError as `flight`."""
+    try:
         for key, value in settings.items():
             _check_plain(key, value)
         with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
             return _build(_complete(settings))
     except RecursionError:
-        raise InputError("run", "settings nested a few levels deep", "hundreds of levels") from None
+        raise _TOO_DEEP from None
 
 
 def _read(what: str) -> dict[str, Any]:

@@ -62,8 +62,6 @@ class SampledProblem:
         Control period, and the delay that the law plans for, s.
     idle : tuple of float
         The command before the first.
-    least : float
-        Rotor force at the start, N.
     random : bool
         Whether numbers are drawn.
     """
@@ -84,7 +82,6 @@ class SampledProblem:
     period: float
     latency: float
     idle: tuple[float, ...]
-    least: float
     random: bool
 
     @property
@@ -163,13 +160,12 @@ class _Kernel:
         code, problem = self.code, self.problem
         with code.count(self.lanes.width) as lane:
             run = self._run(lane)
-            self._copy(self.at["starts"], run, self.state, lane, problem.size)
+            self._copy(self.at["starts"], run, self.state, lane, problem.size + problem.rotors)
             self._copy(self.at["parameters"], run, self.P, lane, problem.parameters)
             code.put(code.scalar(self.at["seeds"], run, I64), self.seeds, lane)
             self.results.reset(lane)
         for i in range(problem.rotors):
-            code.store(problem.least, self.state, problem.size + i)
-            code.store(problem.least, self.model, i)
+            code.store(code.load(self.state, problem.size + i), self.model, i)
         for slot in range(problem.depth):
             for i, value in enumerate(problem.idle):
                 code.store(value, self.ring, slot * len(problem.idle) + i)

@@ -86,7 +86,7 @@ class IdealKernel:
             Told `(done, runs)`.
         """
         starts = np.ascontiguousarray(starts, dtype=float)
-        values = self._values(parameters, len(starts))
+        values = self.values(parameters, len(starts))
         moments = np.ascontiguousarray(times, dtype=float)
         atol = rtol if atol is None else atol
 
@@ -95,7 +95,8 @@ class IdealKernel:
 
         return in_pieces(fly, len(starts), PIECE, workers, progress)
 
-    def _values(self, parameters: Any, runs: int) -> Any:
+    def values(self, parameters: Any, runs: int) -> Any:
+        """The inputs (runs, k) of the kernel for `parameters` as in `fly`."""
         if parameters is None:
             own = [self.law.numbers[name] for name in self.parameters]
             return np.ascontiguousarray(np.broadcast_to(own, (runs, len(own))), dtype=float)

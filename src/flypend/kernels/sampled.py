@@ -17,7 +17,7 @@ from flypend.compile.program import Program, lower
 from flypend.compile.sampled import ARGUMENTS, INTEGERS, SampledProblem, Stretch, write_kernel
 from flypend.compile.vector import Lanes
 from flypend.criterion import REDUCTIONS, Criterion, observed
-from flypend.errors import InputError
+from flypend.errors import InputError, array
 from flypend.kernels.flown import Flown, Progress, address, in_pieces
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
@@ -64,6 +64,7 @@ class SampledKernel:
         ticks: Any,
         first_seed: int = 0,
         parameters: Any = None,
+        rotors: Any = None,
         keep: bool = False,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
@@ -80,6 +81,8 @@ class SampledKernel:
             Seed of the first run; the next has the next.
         parameters : (n, k), optional
             Values of the gains that vary; default those of the law.
+        rotors : (n, rotors), optional
+            Forces with which the rotors begin, N; default the least.
         keep : bool
             Whether states and rotor forces at these ticks are kept, too, in the frame of the law.
         workers : int, optional
@@ -97,6 +100,9 @@ class SampledKernel:
         if values.shape != (len(packed), len(self.parameters)):
             raise InputError("parameters", f"shape {(len(packed), len(self.parameters))}", f"shape {values.shape}")
 
+        least = np.full((len(packed), len(self.vehicle.rotor_spins)), self.vehicle.rotor_limits[0])
+        packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
+
         def fly(part: slice) -> Flown:
             return self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, keep)
 
@@ -109,7 +115,7 @@ class SampledKernel:
 
     def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, keep: bool) -> Flown:
         n, rotors = len(starts), len(self.vehicle.rotor_spins)
-        final, end, code = np.empty_like(starts), np.empty(n), np.empty(n, dtype=np.int64)
+        final, end, code = np.empty((n, SIZE)), np.empty(n), np.empty(n, dtype=np.int64)
         reductions = np.empty((n, len(REDUCTIONS)))
         samples = np.full((n, len(ticks), SIZE + rotors), np.nan) if keep else None
         self.function(
@@ -189,7 +195,6 @@ def sampled_problem(
         period=period,
         latency=latency,
         idle=tuple(idle_command(believed, plant).tolist()),
-        least=float(believed.rotor_limits[0]),
         random=is_random(plant),
     )
 

@@ -9,7 +9,7 @@ import numpy as np
 from flypend.compile import runge_kutta
 from flypend.kernels.flown import STATUS, Flown
 from flypend.kernels.ideal import MAX_STEPS, IdealKernel, integrate
-from flypend.kernels.sampled import sampled_kernel
+from flypend.kernels.sampled import SampledKernel, sampled_kernel
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
@@ -29,13 +29,17 @@ class Solution:
     """A run of the ideal plant: its `outcome`, and its states at any times.
 
     `knots` (k+1,) are the times of its k accepted steps, `drift` (k, 3) says how far off the manifold each step ended.
-    The same steps are taken whichever times are asked for, so that every answer belongs to one solution.
+    The same steps are taken whichever times are asked for, so that every answer belongs to one solution. `parameters`
+    (k,) are values of the gains that the kernel takes as inputs; default those of its law.
     """
 
-    def __init__(self, kernel: IdealKernel, start: Any, duration: float, rtol: float, atol: float) -> None:
+    def __init__(
+        self, kernel: IdealKernel, start: Any, duration: float, rtol: float, atol: float, parameters: Any = None
+    ) -> None:
         self._function = kernel.function
         self._start = np.ascontiguousarray(start, dtype=float)
         self._setting = (duration, rtol, atol)
+        self._values = kernel.values(None if parameters is None else np.asarray(parameters)[None], 1)
         room = np.empty(1 + 4 * MAX_STEPS)
         room[0] = 0
         flown = self._fly(np.zeros(0), room)
@@ -45,8 +49,7 @@ class Solution:
         self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), kernel)
 
     def _fly(self, times: Any, room: Any = None) -> Flown:
-        none = np.zeros((1, 0))
-        return integrate(self._function, self._start[None], none, *self._setting, times, keep=True, knots=room)
+        return integrate(self._function, self._start[None], self._values, *self._setting, times, keep=True, knots=room)
 
     def __call__(self, t: Any) -> Any:
         """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""
@@ -65,9 +68,27 @@ def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:
 
 def flown_by_kernel(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant, ticks: Any) -> Samples:
     """As `flypend.plants.flight.fly`, at control `ticks` only."""
-    flown = sampled_kernel(vehicle, law, plant.replace(seed=0)).fly(
-        start.packed()[None], duration, ticks=ticks, first_seed=plant.seed, keep=True
-    )
+    kernel = sampled_kernel(vehicle, law, plant.replace(seed=0))
+    return sampled_samples(kernel, start.packed(), duration, ticks, plant.seed)
+
+
+def sampled_samples(
+    kernel: SampledKernel,
+    start: Any,
+    duration: float,
+    ticks: Any,
+    seed: int,
+    parameters: Any = None,
+    rotors: Any = None,
+) -> Samples:
+    """The samples, at control `ticks`, of the flight from the packed state `start` (24,) with `seed`.
+
+    `parameters` (k,) are gains that the kernel takes as inputs, `rotors` the forces (n,) that the rotors begin with.
+    """
+    values = None if parameters is None else np.asarray(parameters)[None]
+    begin = None if rotors is None else np.asarray(rotors)[None]
+    flown = kernel.fly(start[None], duration, ticks=ticks, first_seed=seed, parameters=values, rotors=begin, keep=True)
+    law, plant = kernel.law, kernel.plant
     code, end = int(flown.code[0]), float(flown.end[0])
     outcome = Outcome("completed", end)
     if code != runge_kutta.COMPLETED:

@@ -11,14 +11,14 @@ hover: that is what it is here to show.
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import E3, apply, cross, dot, norm, scale
+from flypend.geometry import E3, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.law import Control, Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
 from flypend.laws.references import Reference, hover
@@ -27,6 +27,10 @@ from flypend.model import State, Vehicle, Wrench
 
 # (1 + cos θ)/2 in the size of an error never counts as less than this: it has a direction up to the antipode only.
 ANTIPODE_FLOOR = 0.014
+
+ENTRIES = [
+    (f"K_{i}_{j}", i, j) for i in range(4) for j, coordinate in enumerate(COORDINATES) if coordinate not in SYMMETRIES
+]
 
 
 def lqr(
@@ -93,9 +97,30 @@ def _unbound(*_: Any) -> Control:
     raise TypeError("the regulator solves its Riccati equation for a vehicle: use law.bound(vehicle)")
 
 
+def by_matrix(K: Any, reference: Reference | None = None) -> Law:
+    """The regulator with the gain matrix `K` (4, 16), whose entries K_i_j are its gains: they may vary from run to run.
+
+    The column of the heading, which is zero, is none of them. `reference` as in `lqr`.
+    """
+    followed = reference or hover()
+
+    def control(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
+        matrix = ca.SX.zeros(4, len(COORDINATES))
+        for name, i, j in ENTRIES:
+            matrix[i, j] = getattr(k, name)
+        return lqr_control(t, state, vehicle, matrix, followed)
+
+    return Law(name="lqr", e3="up", gains=entries(K), control=control, reference=followed)
+
+
+def entries(K: Any) -> dict[str, float]:
+    """The entries of `K` (4, 16) by name."""
+    return {name: float(K[i, j]) for name, i, j in ENTRIES}
+
+
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     """K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its column of the heading is zero."""
-    A, B = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
+    A, B = _about_hover(vehicle)
     from scipy.linalg import solve_continuous_are  # for those who fly this law
 
     Q, R = weights(vehicle, deviations)
@@ -105,6 +130,11 @@ def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     K = np.zeros((4, len(COORDINATES)))
     K[:, keep] = np.linalg.solve(R, B.T @ P)
     return K
+
+
+@lru_cache(maxsize=16)
+def _about_hover(vehicle: Vehicle) -> tuple[Any, Any]:
+    return open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
 
 
 def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
@@ -132,7 +162,7 @@ def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, reference: Refer
     omega_ref, alpha_ref = apply(state.R.T, turn), apply(state.R.T, ca.jacobian(turn, t))
 
     xi = errors_of(state, x_ref, v_ref, z_ref, omega_ref, y_ref, y_ref_dot)
-    change = ca.mtimes(ca.DM(K), xi)
+    change = ca.mtimes(K if is_symbolic(K) else ca.DM(K), xi)
     thrust = ca.fmax(f_ref - change[0], 0)
     moment = apply(I, alpha_ref) - change[1:]
     return Control(

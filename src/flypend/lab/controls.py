@@ -1,0 +1,123 @@
+"""What a page offers: laws, plants, presets, and the sliders of a setting with their ranges and present values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+from flypend.experiments import experiment, experiment_names
+from flypend.lab.setting import BODIES, LONGEST, plain
+from flypend.laws.law import law_from_dict
+from flypend.model import State, Vehicle
+from flypend.model.vehicle import vehicle_names
+from flypend.plants import MOTION_CAPTURE, Noise, Plant, Wind
+from flypend.plants import plant as plant_named
+from flypend.runfile import Flight
+
+# Gains that have sliders: words and unit.
+GAINS: Mapping[str, Mapping[str, tuple[str, str]]] = {
+    "inverted": {
+        "position_bandwidth": ("position", "rad/s"),
+        "height_bandwidth": ("height", "rad/s"),
+        "rod_bandwidth": ("rod", "rad/s"),
+        "rod_damping": ("rod damping", ""),
+        "attitude_bandwidth": ("attitude", "rad/s"),
+        "attitude_damping": ("attitude damping", ""),
+        "throw_speed": ("throw speed", "m/s"),
+        "coast_time": ("look ahead", "s"),
+    },
+    "lqr": {
+        "position_error": ("position error", "m"),
+        "velocity_error": ("velocity error", "m/s"),
+        "attitude_error": ("attitude error", "rad"),
+        "rate_error": ("rate error", "rad/s"),
+        "rod_error": ("rod error", "rad"),
+        "rod_rate_error": ("rod rate error", "rad/s"),
+        "thrust_deviation": ("thrust", "weights"),
+        "moment_deviation": ("moment", "weights"),
+    },
+    "corrected": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
+    "printed": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
+}
+PLANTS = {"ideal": "ideal", "rotors": "rotors: limits, lag, 500 Hz", "hehn2011": "hehn2011: rates at 50 Hz"}
+FACTOR = 4.0  # of a gain's slider, either way
+
+
+def offer() -> dict[str, Any]:
+    """What there is to choose from, the presets, and the setting to begin with."""
+    first = {
+        "vehicle": {"base": "hehn2011"},
+        "law": {"name": "inverted", "gains": {}},
+        "plant": {"base": "ideal"},
+        "start": plain(State(y=(0.0, 0.0, -1.0))),
+        "duration": 6.0,
+        "pokes": [],
+    }
+    return {
+        "vehicles": [name for name in vehicle_names() if name != "crazyflie"] + ["crazyflie"],
+        "laws": list(GAINS),
+        "plants": PLANTS,
+        "bodies": list(BODIES),
+        "first": first,
+        "starts": {name: plain(State(y=y)) for name, y in STARTS.items()},
+        "experiments": {name: _preset(name) for name in experiment_names() if "-" not in name},
+        "noise": asdict(MOTION_CAPTURE),
+    }
+
+
+STARTS = {"hanging": (0.0, 0.0, -1.0), "level": (1.0, 0.0, 0.0), "nearly upright": (0.28, 0.0, 0.96)}
+
+
+def _preset(name: str) -> dict[str, Any]:
+    """An experiment of the paper as a setting, its start turned into the frame with e₃ up."""
+    row = experiment(name)
+    return {
+        "vehicle": {"base": row.vehicle.name},
+        "law": {"name": "corrected", "gains": dict(row.gains)},
+        "plant": {"base": "ideal"},
+        "start": plain(row.start.flipped()),
+        "duration": row.duration,
+        "pokes": [],
+    }
+
+
+def sliders(flight: Flight) -> list[dict[str, Any]]:
+    """The sliders of `flight`: path in the setting, group, words, unit, value, range, whether logarithmic."""
+    law, name = flight.law.bound(flight.vehicle), flight.law.name
+    proposed = law_from_dict({"name": name}).bound(flight.vehicle)
+    out = []
+    for gain, (words, unit) in GAINS[name].items():
+        value, usual = law.numbers[gain], proposed.numbers[gain]
+        low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
+        out.append(_slider(f"law.gains.{gain}", "gains", words, unit, value, low, high, log=True))
+    if flight.plant != "ideal":
+        out += _plant_sliders(plant_named(flight.plant), flight.vehicle)
+    return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
+
+
+def _plant_sliders(plant: Plant, vehicle: Vehicle) -> list[dict[str, Any]]:
+    least, largest = vehicle.rotor_limits
+    share = vehicle.weight / len(vehicle.rotor_spins)
+    lag = vehicle.rotor_lag if plant.lag is None else plant.lag
+    noise, wind = plant.noise or Noise(), plant.wind or Wind()
+    level = noise.x / MOTION_CAPTURE.x
+    high = 0.5 * vehicle.weight
+    return [
+        _slider("vehicle.rotor_limits.1", "plant", "rotor limit", "N", largest, least + 1.05 * share, 5 * share),
+        _slider("plant.lag", "plant", "rotor lag", "s", lag, 0.0, 0.1),
+        _slider("plant.delay", "plant", "delay", "s", plant.delay, 0.0, 0.1),
+        _slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0),
+        _slider("plant.wind.on_vehicle.0", "plant", "wind along e₁", "N", wind.on_vehicle[0], -high, high),
+        _slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, 0.0, high),
+    ]
+
+
+def _slider(
+    path: str, group: str, words: str, unit: str, value: float, low: float, high: float, log: bool = False
+) -> dict[str, Any]:
+    """One slider; the range reaches the value, whoever set it."""
+    return {
+        "path": path, "group": group, "words": words, "unit": unit, "value": float(value),
+        "low": float(min(low, value)), "high": float(max(high, value)), "log": log,
+    }  # fmt: skip

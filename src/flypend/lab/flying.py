@@ -1,0 +1,157 @@
+"""The flight of a setting: from poke to poke, each part from the state in which the one before was hit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from flypend.kernels import IdealKernel, SampledKernel
+from flypend.kernels.single import Solution, sampled_samples
+from flypend.lab.setting import Poke, Setting, in_frame
+from flypend.lab.tuning import Tell, Tuned, tuned, values
+from flypend.metrics import metrics
+from flypend.model import State, Vehicle, Wrench, disturbed_motion
+from flypend.model.state import FLIP_PACKED, E3Direction, split
+from flypend.outcome import Outcome
+from flypend.plants.flight import nearest_ticks
+from flypend.simulate import SAMPLE_PERIOD
+from flypend.trajectory import Trajectory
+
+STILL = Wrench(0.0, np.zeros(3))
+
+
+@dataclass(frozen=True)
+class Part:
+    """Samples between two pokes: times from the start of the part, packed states, rotor forces, wrench, outcome."""
+
+    t: Any
+    packed: Any
+    rotors: Any
+    wrench: Any
+    outcome: Outcome
+
+
+def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
+    """The trajectory of `setting`, pokes included, in the frame of its law.
+
+    After a poke it goes on for the duration of the setting. `tell` is called before something is compiled.
+    """
+    flight = setting.flight
+    machine, gains = tuned(flight, tell), values(flight)
+    begin, state, rotors, number = 0.0, flight.start.packed(), None, 0
+    parts: list[Part] = []
+    for poke in (*setting.pokes, None):
+        while_ = flight.duration if poke is None else poke.time - begin
+        part = _part(machine, gains, state, rotors, while_, _seed(setting) + number)
+        parts.append(_moved(part, begin, last=poke is None))
+        if poke is None or part.outcome.status != "completed":
+            break
+        end = State(**split(part.packed[-1]))
+        state = poked(end, flight.vehicle, machine.law.e3, poke).packed()
+        begin, rotors, number = begin + float(part.t[-1]), part.rotors[-1], number + 1
+    return _trajectory(setting, machine, parts)
+
+
+def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
+    """`state` (frame `e3`) after the blow of `poke`: the rates that its force, for one second, adds at once.
+
+    The accelerations are affine in external forces, and only what a force adds to them counts in a blow.
+    """
+    mass = vehicle.bob_mass if poke.on == "bob" else vehicle.mass
+    blow = {f"force_on_{poke.on}": mass * in_frame(poke.velocity, e3)}
+    hit, free = disturbed_motion(state, STILL, vehicle, e3, **blow), disturbed_motion(state, STILL, vehicle, e3)
+    return State(
+        x=state.x, x_dot=state.x_dot + hit.x_ddot - free.x_ddot, R=state.R, omega=state.omega, y=state.y,
+        y_dot=state.y_dot + hit.y_ddot - free.y_ddot,
+    )  # fmt: skip
+
+
+def verdict(run: Trajectory, machine: Tuned) -> dict[str, Any]:
+    """Whether `run` does what its law is to do: words, whether it is good, and the numbers."""
+    judged = metrics(run, machine.criterion)
+    distance = f"excursion {judged.excursion:.3g} m"
+    if run.outcome.status != "completed":
+        words = f"{run.outcome.status} after {run.outcome.time:.3g} s"
+    elif judged.success:
+        pose = "upright" if run.e3 == "up" else "rod along e₃, which hangs,"
+        words = f"{pose} after {judged.settling:.1f} s, {distance}"
+    else:
+        missed = {"rod": "rod not settled", "axis": "vehicle not level", "position": "away from its place"}
+        words = f"{missed.get(judged.cause, judged.cause)} during the last second, {distance}"
+    settling = judged.settling if judged.success else None
+    return {"words": words, "good": bool(judged.success), "settling": settling, "excursion": judged.excursion}
+
+
+def _seed(setting: Setting) -> int:
+    plant = setting.flight.plant
+    return 0 if isinstance(plant, str) else int(plant.seed)
+
+
+def _part(machine: Tuned, gains: Any, state: Any, rotors: Any, duration: float, seed: int) -> Part:
+    if isinstance(machine.kernel, SampledKernel):
+        return _sampled_part(machine, machine.kernel, gains, state, rotors, duration, seed)
+    return _ideal_part(machine, machine.kernel, gains, state, duration)
+
+
+def _grid(duration: float) -> Any:
+    return np.linspace(0.0, duration, max(2, round(duration / SAMPLE_PERIOD) + 1))
+
+
+def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, state: Any, duration: float) -> Part:
+    if duration == 0:
+        return _part_of(machine, gains, np.zeros(1), state[None], Outcome("completed", 0.0))
+    rtol = 1e-9
+    solution = Solution(kernel, state, duration, rtol, rtol, gains)
+    t, end = _grid(duration), solution.outcome.time
+    if solution.outcome.status != "completed":
+        t = np.append(t[t < end], end)
+    return _part_of(machine, gains, t, solution(t), solution.outcome)
+
+
+def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) -> Part:
+    columns = np.broadcast_to(gains[:, None], (len(gains), len(t)))
+    wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
+    rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
+    return Part(t, packed, rotors, wrench, outcome)
+
+
+def _sampled_part(
+    machine: Tuned, kernel: SampledKernel, gains: Any, state: Any, rotors: Any, duration: float, seed: int
+) -> Part:
+    plant, e3 = kernel.plant, machine.law.e3
+    true = plant.true_vehicle(machine.vehicle)
+    if duration < 1 / plant.rate:
+        duration = 1 / plant.rate
+    ticks = nearest_ticks(_grid(duration), plant, duration)
+    samples = sampled_samples(kernel, state, duration, ticks, seed, gains, rotors)
+    packed = samples.packed * (1.0 if e3 == "up" else FLIP_PACKED)
+    return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
+
+
+def _moved(part: Part, begin: float, *, last: bool) -> Part:
+    """`part` in the time of the whole flight, without the instant at which the next begins."""
+    keep = slice(None) if last or part.outcome.status != "completed" else slice(0, -1)
+    outcome = Outcome(part.outcome.status, begin + part.outcome.time, part.outcome.reason)
+    return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)
+
+
+def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajectory:
+    t, packed, rotors, wrench = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
+    )
+    law = setting.flight.law.bound(machine.vehicle)
+    return Trajectory(
+        t=t,
+        **split(packed),
+        thrust=wrench[:, 0],
+        moment=wrench[:, 1:4],
+        rotor_forces=rotors,
+        drift=np.zeros((0, 3)),
+        outcome=parts[-1].outcome,
+        e3=law.e3,
+        vehicle=machine.vehicle,
+        law=law.name,
+        gains=dict(law.gains),
+    )

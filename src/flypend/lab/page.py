@@ -1,0 +1,28 @@
+"""The page of the laboratory: what there is to choose from, inside a shell that loads one program."""
+
+from __future__ import annotations
+
+from flypend import palette, replay
+from flypend.lab.controls import offer
+
+PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,">
+<title>flypend laboratory</title>
+</head>
+<body>
+<noscript>The laboratory needs JavaScript.</noscript>
+<script id="flypend-data" type="application/json">{data}</script>
+<script src="lab.js"></script>
+</body>
+</html>
+"""
+
+
+def page() -> str:
+    """The page, as text."""
+    data = {"title": "flypend laboratory", "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": []}
+    return PAGE.format(data=replay.embedded({**data, "offer": offer()}))

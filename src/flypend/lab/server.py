@@ -1,0 +1,230 @@
+"""The server of the laboratory: one page, its program and a socket, for browsers on this machine unless told otherwise.
+
+A page of another site that gets a browser to call here is refused by its origin; a name of another site that was made to
+point here, by the host in the request.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import ipaddress
+import json
+import signal
+import socket
+import webbrowser
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from typing import Any
+from urllib.parse import urlsplit
+
+from tornado.httpserver import HTTPServer
+from tornado.web import Application, HTTPError, RequestHandler
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+from flypend import errors, replay
+from flypend.errors import InputError
+from flypend.lab.page import page
+from flypend.lab.session import Slot, flights, maps, read, refusal
+
+LARGEST_MESSAGE = 64 * 1024  # bytes; a setting takes one or two thousand
+MOST_PAGES = 32
+POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; img-src data:; "
+    "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+
+
+class Laboratory:
+    """What all pages share: two threads, one for flights and one for maps, and the pages that are open."""
+
+    def __init__(self, host: str) -> None:
+        self.host = host
+        self.pages: set[Socket] = set()
+        self.flights = ThreadPoolExecutor(1, "flypend-flight")
+        self.maps = ThreadPoolExecutor(1, "flypend-map")
+
+    def trusts(self, host: str) -> bool:
+        """Whether a request for `host`, as a browser wrote it, is for this server and not for a name that points here."""
+        name = urlsplit(f"//{host}").hostname or ""
+        if name in ("localhost", self.host):
+            return True
+        try:
+            address = ipaddress.ip_address(name)
+        except ValueError:
+            return False
+        return address.is_loopback or not _is_loopback(self.host)
+
+    def application(self) -> Application:
+        """Page, program and socket."""
+        shared = {"laboratory": self}
+        return Application(
+            [
+                (r"/", Page, {**shared, "kind": "text/html", "content": page()}),
+                (r"/lab\.js", Page, {**shared, "kind": "text/javascript", "content": replay.program("lab")}),
+                (r"/socket", Socket, shared),
+            ],
+            websocket_max_message_size=LARGEST_MESSAGE,
+            websocket_ping_interval=20,
+            websocket_ping_timeout=20,
+        )
+
+    def close(self) -> None:
+        """Leave every page and every thread; what is being computed ends with its present piece."""
+        for open_page in list(self.pages):
+            open_page.leave()
+        for pool in (self.flights, self.maps):
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+class Page(RequestHandler):
+    """A file that is made once."""
+
+    def initialize(self, laboratory: Laboratory, kind: str, content: str) -> None:
+        """Keep what to send: `content` of the media type `kind`."""
+        self.laboratory, self.kind, self.content = laboratory, kind, content
+
+    def prepare(self) -> None:
+        """Refuse requests for another host."""
+        if not self.laboratory.trusts(self.request.host):
+            raise HTTPError(403)
+
+    def get(self) -> None:
+        """Send it."""
+        self.set_header("Content-Type", f"{self.kind}; charset=utf-8")
+        self.set_header("Content-Security-Policy", POLICY.format(host=self.request.host))
+        self.set_header("X-Content-Type-Options", "nosniff")
+        self.set_header("Referrer-Policy", "no-referrer")
+        self.set_header("Cache-Control", "no-cache")
+        self.write(self.content)
+
+
+class Socket(WebSocketHandler):
+    """One page that is open."""
+
+    def initialize(self, laboratory: Laboratory) -> None:
+        """A page of `laboratory`."""
+        self.laboratory = laboratory
+        self.slots = {
+            "fly": Slot(laboratory.flights, flights, self._send),
+            "map": Slot(laboratory.maps, maps, self._send),
+        }
+
+    def prepare(self) -> None:
+        """Refuse requests for another host, and more pages than one person opens."""
+        if not self.laboratory.trusts(self.request.host):
+            raise HTTPError(403)
+        if len(self.laboratory.pages) >= MOST_PAGES:
+            raise HTTPError(503)
+
+    def check_origin(self, origin: str) -> bool:
+        """Only the page of this server may open a socket."""
+        parts = urlsplit(origin)
+        return parts.scheme in ("http", "https") and parts.netloc == self.request.host
+
+    def open(self, *_: str, **__: str) -> None:
+        """Remember the page."""
+        self.laboratory.pages.add(self)
+        self.set_nodelay(True)
+
+    async def on_message(self, message: str | bytes) -> None:
+        """Put work into its slot, or say what is wrong with the message."""
+        try:
+            asked = read(message)
+        except InputError as error:
+            await self._send(refusal(error))
+            return
+        if asked["kind"] == "stop":
+            self.slots["map"].drop()
+        else:
+            self.slots[asked["kind"]].put(asked)
+
+    def on_close(self) -> None:
+        """Drop what was asked for."""
+        self.leave()
+
+    def leave(self) -> None:
+        """Forget the page and what it asked for."""
+        self.laboratory.pages.discard(self)
+        for slot in self.slots.values():
+            slot.drop()
+        self.close()
+
+    async def _send(self, reply: dict[str, Any]) -> None:
+        with suppress(WebSocketClosedError):
+            await self.write_message(json.dumps(reply, allow_nan=False, separators=(",", ":")))
+
+
+def serve(
+    host: str = "127.0.0.1",
+    port: int = 0,
+    *,
+    browser: bool = True,
+    announce: Callable[[str], Any] = print,
+) -> None:
+    """Serve the laboratory until the process is interrupted.
+
+    Parameters
+    ----------
+    host : str
+        Address to listen on; anything but a loopback address lets other machines in.
+    port : int
+        Port; 0 for a free one.
+    browser : bool
+        Whether to open the page in a browser.
+    announce : callable
+        Told the address of the page once it is there.
+
+    Raises
+    ------
+    InputError
+        If one cannot listen there.
+    """
+    asyncio.run(_serve(_listen(host, port), host, browser, announce))
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    if not 0 <= port < 65536:
+        raise InputError("--port", "0 to 65535", port)
+    try:
+        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+        return socket.create_server((host, port), family=family)
+    except OSError as error:
+        raise InputError("--host and --port", "an address to listen on", f"{host}:{port}: {error.strerror}") from None
+
+
+async def _serve(listening: socket.socket, host: str, browser: bool, announce: Callable[[str], Any]) -> None:
+    laboratory, stop = Laboratory(host), asyncio.Event()
+    listening.setblocking(False)  # noqa: FBT003
+    server = HTTPServer(laboratory.application(), max_body_size=LARGEST_MESSAGE)
+    server.add_socket(listening)
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        with suppress(NotImplementedError, RuntimeError):  # no signals on this system or in this thread
+            loop.add_signal_handler(number, stop.set)
+    url = address(host, listening.getsockname()[1])
+    announce(url)
+    if browser:
+        webbrowser.open(url)
+    try:
+        await stop.wait()
+    finally:
+        server.stop()
+        laboratory.close()
+        await server.close_all_connections()
+
+
+def address(host: str, port: int) -> str:
+    """What to type into a browser of this machine for a server on `host` and `port`."""
+    errors.number("port", port, at_least=1)
+    shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)  # noqa: S104
+    return f"http{'://'}{shown}:{port}/"
+
+
+def _is_loopback(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False

@@ -1,0 +1,124 @@
+"""What happens with the messages of one page: the last one asked for is the one that is answered."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import Awaitable, Callable, Iterator
+from concurrent.futures import Executor
+from typing import Any
+
+from flypend import replay
+from flypend.errors import InputError
+from flypend.lab.controls import sliders
+from flypend.lab.export import python, toml
+from flypend.lab.flying import fly, verdict
+from flypend.lab.map import region
+from flypend.lab.setting import plain, setting_of
+from flypend.lab.tuning import tuned
+
+KINDS = ("fly", "map", "stop")
+Send = Callable[[dict[str, Any]], Awaitable[Any]]
+Tell = Callable[[], Any]
+
+
+class Slot:
+    """Room for one piece of work: what comes while it is busy waits, and only the last that came is done next.
+
+    `work(message, tell)` is an iterator of replies, made in a thread of `pool` one by one; it is dropped when another
+    message comes. `send` takes each reply.
+    """
+
+    def __init__(self, pool: Executor, work: Callable[[Any, Tell], Iterator[dict[str, Any]]], send: Send) -> None:
+        self.pool, self.work, self.send = pool, work, send
+        self.pending: Any = None
+        self.task: asyncio.Task[None] | None = None
+        self.done = 0
+
+    def put(self, message: Any) -> None:
+        """Ask for `message`, instead of whatever waits."""
+        self.pending = message
+        if self.task is None or self.task.done():
+            self.task = asyncio.get_running_loop().create_task(self._run())
+
+    def drop(self) -> None:
+        """Leave what waits, and stop after the reply that is being made."""
+        self.pending = False
+
+    async def _run(self) -> None:
+        while self.pending:
+            message, self.pending = self.pending, None
+            await self._answer(message)
+
+    async def _answer(self, message: Any) -> None:
+        loop = asyncio.get_running_loop()
+
+        def tell() -> None:
+            told = {"kind": "compiling", "number": message.get("number")}
+            asyncio.run_coroutine_threadsafe(_ignore(self.send(told)), loop)
+
+        replies = self.work(message, tell)
+        while True:
+            reply = await loop.run_in_executor(self.pool, next, replies, None)
+            self.done += 1
+            if reply is None:
+                return
+            await self.send(reply)
+            if self.pending is not None:
+                return
+
+
+async def _ignore(sent: Awaitable[Any]) -> None:
+    await sent
+
+
+def flights(message: Any, tell: Tell) -> Iterator[dict[str, Any]]:
+    """The reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports."""
+    begun = time.perf_counter()
+    number = message.get("number")
+    try:
+        setting = setting_of(message.get("setting"))
+        run = fly(setting, tell)
+        machine = tuned(setting.flight)
+        yield {
+            "kind": "flight",
+            "number": number,
+            "run": replay.pack(run),
+            "verdict": verdict(run, machine),
+            "sliders": sliders(setting.flight),
+            "start": plain(setting.start),
+            "toml": toml(setting),
+            "python": python(setting),
+            "milliseconds": 1e3 * (time.perf_counter() - begun),
+        }
+    except InputError as error:
+        yield refusal(error, number)
+
+
+def maps(message: Any, tell: Tell) -> Iterator[dict[str, Any]]:
+    """The replies to "map": chunks of the region of attraction."""
+    number = message.get("number")
+    try:
+        for chunk in region(setting_of(message.get("setting")), tell):
+            yield {"kind": "map", "number": number, **chunk}
+    except InputError as error:
+        yield refusal(error, number)
+
+
+def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
+    """The reply to what cannot be done."""
+    return {"kind": "error", "number": number, "field": error.field, "message": str(error)}
+
+
+def read(text: Any) -> dict[str, Any]:
+    """The message in `text`. Raises InputError if it is none."""
+    try:
+        message = json.loads(text) if isinstance(text, str) else None
+    except (ValueError, RecursionError):
+        message = None
+    if not isinstance(message, dict) or message.get("kind") not in KINDS:
+        raise InputError("message", f"JSON with a kind among {', '.join(KINDS)}", repr(text)[:80])
+    if not isinstance(message.get("number"), int | None):
+        raise InputError("message.number", "an integer", repr(message["number"])[:80])
+    return message

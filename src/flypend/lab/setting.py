@@ -1,0 +1,136 @@
+"""What a page asks for: a setting in plain JSON, checked, into a flight and the pokes on the way.
+
+A setting has the keys of a run file (vehicle, law, plant, start, duration) and `pokes`. Its start and its pokes are in the
+frame with e₃ up, whatever the law: who changes the law keeps the start.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from flypend import errors, geometry
+from flypend.errors import InputError
+from flypend.model import State
+from flypend.model.state import FLIP, SHAPES
+from flypend.plants import Plant
+from flypend.runfile import Flight, flight_of
+
+KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
+TABLES: Mapping[str, tuple[str, ...]] = {
+    "vehicle": ("base", "rotor_limits"),
+    "law": ("name", "gains"),
+    "plant": ("base", "limits", "lag", "rate", "delay", "noise", "wind", "seed"),
+    "start": (*SHAPES, "random"),
+}
+LONGEST, MOST_POKES = 30.0, 20
+# Bounds of what makes a flight long to compute: (least, largest).
+BOUNDS = {"rate": (20.0, 2000.0), "delay": (0.0, 0.2), "lag": (0.0, 1.0)}
+BODIES = ("bob", "vehicle")
+
+
+@dataclass(frozen=True)
+class Poke:
+    """At `time` (s) a body ("bob" or "vehicle") is hit as if, free, it would take the `velocity` (3,), m/s, e₃ up."""
+
+    time: float
+    on: str
+    velocity: Any
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A flight to make, the pokes on the way, and its start with e₃ up."""
+
+    flight: Flight
+    pokes: tuple[Poke, ...]
+    start: State
+
+
+def setting_of(asked: Any) -> Setting:
+    """The setting that a page asks for. Raises InputError for anything unknown, missing or out of range."""
+    if not isinstance(asked, dict):
+        raise InputError("setting", "a table", repr(asked)[:80])
+    errors.only_known("", asked, KEYS)
+    given = {key: dict(value) if isinstance(value, dict) else value for key, value in asked.items()}
+    for key, known in TABLES.items():
+        if isinstance(given.get(key), dict):
+            errors.only_known(key, given[key], known)
+    if isinstance(given.get("plant"), dict) and given["plant"].get("base") == "ideal":
+        given["plant"] = "ideal"  # what was set of another plant waits
+    pokes = _pokes(given.pop("pokes", []))
+    start = _start(given.get("start"))
+    law = given.get("law")
+    down = isinstance(law, dict) and law.get("name") in ("printed", "corrected")
+    given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
+    flight = flight_of(given)
+    _check_size(flight)
+    return Setting(flight, pokes, start)
+
+
+def plain(state: State) -> dict[str, Any]:
+    """The fields of `state` as lists."""
+    return {name: getattr(state, name).tolist() for name in SHAPES}
+
+
+def _start(given: Any) -> State:
+    """The state in the table `given`; with `random`, a seed, what is not given is random."""
+    if not isinstance(given, dict):
+        raise InputError("start", "a table", repr(given)[:80])
+    fields = dict(given)
+    if "random" in fields:
+        seed = errors.number("start.random", fields.pop("random"), at_least=0)
+        fields = plain(State.random(np.random.default_rng(int(seed)))) | fields
+    try:
+        y = errors.array("y", fields.get("y"), (3,))
+        if not 1e-3 < geometry.norm(y) < 1e3:
+            raise InputError("y", "a direction", y.tolist())
+        fields["y"] = geometry.unit(y)  # a page that drags the rod keeps neither length nor tangency
+        y_dot = errors.array("y_dot", fields.get("y_dot", (0.0, 0.0, 0.0)), (3,))
+        fields["y_dot"] = geometry.project_tangent(fields["y"], y_dot)
+        return State(**fields)
+    except InputError as error:
+        raise InputError(f"start.{error.field}", error.expected, error.got) from None
+
+
+def _pokes(given: Any) -> tuple[Poke, ...]:
+    if not isinstance(given, list) or len(given) > MOST_POKES:
+        raise InputError("pokes", f"a list of at most {MOST_POKES}", repr(given)[:80])
+    pokes = []
+    for entry in given:
+        if not isinstance(entry, dict):
+            raise InputError("pokes", "tables", repr(entry)[:80])
+        errors.only_known("pokes", entry, ("time", "on", "velocity"))
+        time = errors.number("pokes.time", entry.get("time"), at_least=0, unit="s")
+        body = errors.one_of("pokes.on", entry.get("on"), BODIES)
+        velocity = errors.array("pokes.velocity", entry.get("velocity"), (3,))
+        if np.max(np.abs(velocity)) > 100:
+            raise InputError("pokes.velocity", "at most 100 m/s", velocity.tolist())
+        if pokes and time <= pokes[-1].time:
+            raise InputError("pokes.time", "times that increase", f"{time:g} s")
+        pokes.append(Poke(time, body, velocity))
+    if pokes and pokes[-1].time > LONGEST:
+        raise InputError("pokes.time", f"at most {LONGEST:g} s", f"{pokes[-1].time:g} s")
+    return tuple(pokes)
+
+
+def _check_size(flight: Flight) -> None:
+    if flight.duration > LONGEST:
+        raise InputError("duration", f"at most {LONGEST:g} s", f"{flight.duration:g} s")
+    if not isinstance(flight.plant, Plant):
+        errors.one_of("plant", flight.plant, ("ideal", "rotors", "hehn2011"))
+        return
+    if flight.plant.engine != "equations":
+        raise InputError("plant.engine", "equations, in the laboratory", flight.plant.engine)
+    for name, (low, high) in BOUNDS.items():
+        value = getattr(flight.plant, name)
+        if value is not None and not low <= value <= high:
+            raise InputError(f"plant.{name}", f"{low:g} to {high:g}", f"{value:g}")
+
+
+def in_frame(vector: Any, e3: str) -> Any:
+    """`vector` (3,), given with e₃ up, in the frame `e3`."""
+    return np.asarray(vector, dtype=float) if e3 == "up" else FLIP @ vector

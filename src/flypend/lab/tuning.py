@@ -1,0 +1,112 @@
+"""Flights whose gains are inputs of the machine code: another gain compiles nothing."""
+
+from __future__ import annotations
+
+import json
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import RLock
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.compile.closed_loop import symbolic_loop
+from flypend.criterion import Criterion
+from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel
+from flypend.lab.controls import GAINS
+from flypend.laws import Law
+from flypend.laws.law import law_from_dict
+from flypend.laws.lqr import by_matrix, entries, gain_matrix
+from flypend.model import Vehicle
+from flypend.plants import Plant
+from flypend.plants import plant as plant_named
+from flypend.runfile import Flight
+
+MOST = 48
+Tell = Callable[[], Any]
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """What flies a flight.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What flies.
+    law : Law
+        The law of the machine code, whose `names` are inputs.
+    names : tuple of str
+        Gains that are inputs.
+    criterion : Criterion
+        What the flight should do.
+    plant : Plant, optional
+        None for the ideal one.
+    kernel : IdealKernel or SampledKernel
+        The machine code.
+    wrench : Function
+        (t, state, gains) → thrust and moment, as commanded.
+    """
+
+    vehicle: Vehicle
+    law: Law
+    names: tuple[str, ...]
+    criterion: Criterion
+    plant: Plant | None
+    kernel: IdealKernel | SampledKernel
+    wrench: ca.Function
+
+
+_made: OrderedDict[str, Tuned] = OrderedDict()
+_building = RLock()  # CasADi's symbols are shared by no two threads
+
+
+def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
+    """What flies `flight`; `tell` is called if it has to be made first, which takes a second."""
+    fixed = {name: value for name, value in flight.law.gains.items() if name not in GAINS[flight.law.name]}
+    plant = None if flight.plant == "ideal" else plant_named(flight.plant).replace(seed=0)
+    key = json.dumps([flight.vehicle.to_dict(), flight.law.name, fixed, repr(plant), flight.rtol], sort_keys=True)
+    with _building:
+        if key in _made:
+            _made.move_to_end(key)
+            return _made[key]
+        tell()
+        made = _make(flight, fixed, plant)
+        _made[key] = made
+        while len(_made) > MOST:
+            _made.popitem(last=False)
+        return made
+
+
+def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
+    vehicle, criterion = flight.vehicle, goal(flight.law)
+    law = law_from_dict({"name": flight.law.name, "gains": fixed}).bound(vehicle)
+    names = tuple(GAINS[law.name])
+    if law.name == "lqr":
+        law = by_matrix(gain_matrix(vehicle, flight.law.gains))
+        names = tuple(law.gains)
+    if plant is None:
+        method = method_for(flight.rtol, law)
+        kernel: Any = ideal_kernel(vehicle, law, criterion, names, method=method)
+    else:
+        kernel = sampled_kernel(vehicle, law, plant, criterion, names)
+    loop = symbolic_loop(vehicle, law, names)
+    wrench = ca.densify(ca.vertcat(loop.wrench.thrust, loop.wrench.moment))
+    function = ca.Function("wrench", [loop.t, loop.s, loop.p], ca.cse([wrench]))
+    return Tuned(vehicle, law, names, criterion, plant, kernel, function)
+
+
+def values(flight: Flight) -> Any:
+    """The values (k,) of the gains that are inputs."""
+    law = flight.law.bound(flight.vehicle)
+    if law.name == "lqr":
+        with _building:  # the linearisation is symbolic, too
+            return np.array(list(entries(gain_matrix(flight.vehicle, law.gains)).values()))
+    return np.array([law.numbers[name] for name in GAINS[law.name]])
+
+
+def goal(law: Law) -> Criterion:
+    """What `law` is to do: to stand inverted; for the paper's laws, to bring the rod to their e₃, anywhere."""
+    return Criterion() if law.e3 == "up" else Criterion(target="e3", position=np.inf)

@@ -10,7 +10,7 @@ const out = resolve(process.argv[2] ?? join(here, "../src/flypend/web"));
 await mkdir(out, { recursive: true });
 await build({
   absWorkingDir: here,
-  entryPoints: ["src/replay.js"],
+  entryPoints: ["src/replay.js", "src/lab.js"],
   bundle: true,
   minify: true,
   format: "iife",
@@ -18,6 +18,6 @@ await build({
   charset: "ascii",
   legalComments: "inline",
   loader: { ".css": "text" },
-  outfile: join(out, "replay.js"),
+  outdir: out,
 });
 await copyFile(join(here, "node_modules/three/LICENSE"), join(out, "THREE-LICENSE.txt"));

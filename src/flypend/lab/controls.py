@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict
+from functools import lru_cache
 from typing import Any
 
 from flypend.experiments import experiment, experiment_names
-from flypend.lab.setting import BODIES, LONGEST, plain
+from flypend.lab.setting import LONGEST, plain
+from flypend.laws import Law
 from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
@@ -41,6 +43,7 @@ GAINS: Mapping[str, Mapping[str, tuple[str, str]]] = {
     "printed": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
 }
 PLANTS = {"ideal": "ideal", "rotors": "rotors: limits, lag, 500 Hz", "hehn2011": "hehn2011: rates at 50 Hz"}
+_NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 FACTOR = 4.0  # of a gain's slider, either way
 
 
@@ -55,14 +58,12 @@ def offer() -> dict[str, Any]:
         "pokes": [],
     }
     return {
-        "vehicles": [name for name in vehicle_names() if name != "crazyflie"] + ["crazyflie"],
+        "vehicles": vehicle_names(),
         "laws": list(GAINS),
         "plants": PLANTS,
-        "bodies": list(BODIES),
         "first": first,
         "starts": {name: plain(State(y=y)) for name, y in STARTS.items()},
         "experiments": {name: _preset(name) for name in experiment_names() if "-" not in name},
-        "noise": asdict(MOTION_CAPTURE),
     }
 
 
@@ -84,16 +85,27 @@ def _preset(name: str) -> dict[str, Any]:
 
 def sliders(flight: Flight) -> list[dict[str, Any]]:
     """The sliders of `flight`: path in the setting, group, words, unit, value, range, whether logarithmic."""
-    law, name = flight.law.bound(flight.vehicle), flight.law.name
-    proposed = law_from_dict({"name": name}).bound(flight.vehicle)
+    given, proposed = gains_of(flight.law, flight.vehicle), proposed_gains(flight.law.name, flight.vehicle)
     out = []
-    for gain, (words, unit) in GAINS[name].items():
-        value, usual = law.numbers[gain], proposed.numbers[gain]
+    for gain, (words, unit) in GAINS[flight.law.name].items():
+        value, usual = given[gain], proposed[gain]
         low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
         out.append(_slider(f"law.gains.{gain}", "gains", words, unit, value, low, high, log=True))
     if flight.plant != "ideal":
         out += _plant_sliders(plant_named(flight.plant), flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
+
+
+def gains_of(law: Law, vehicle: Vehicle) -> Mapping[str, Any]:
+    """The gains with which `law` flies `vehicle`."""
+    # The regulator knows its weights without its vehicle, and need not solve its equation for them.
+    return law.gains if law.name == "lqr" else law.bound(vehicle).gains
+
+
+@lru_cache(maxsize=64)
+def proposed_gains(name: str, vehicle: Vehicle) -> Mapping[str, Any]:
+    """The gains of the law called `name` for `vehicle` where nobody sets them."""
+    return gains_of(law_from_dict({"name": name}), vehicle)
 
 
 def _plant_sliders(plant: Plant, vehicle: Vehicle) -> list[dict[str, Any]]:
@@ -104,20 +116,36 @@ def _plant_sliders(plant: Plant, vehicle: Vehicle) -> list[dict[str, Any]]:
     level = noise.x / MOTION_CAPTURE.x
     high = 0.5 * vehicle.weight
     return [
-        _slider("vehicle.rotor_limits.1", "plant", "rotor limit", "N", largest, least + 1.05 * share, 5 * share),
+        _slider(
+            "vehicle.rotor_limits", "plant", "rotor limit", "N", largest, 1.1 * share, 5 * share, put=[least, {"#": 1}]
+        ),
         _slider("plant.lag", "plant", "rotor lag", "s", lag, 0.0, 0.1),
         _slider("plant.delay", "plant", "delay", "s", plant.delay, 0.0, 0.1),
-        _slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0),
-        _slider("plant.wind.on_vehicle.0", "plant", "wind along e₁", "N", wind.on_vehicle[0], -high, high),
+        _slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0, put=_NOISE),
+        _slider(
+            "plant.wind.on_vehicle", "plant", "wind along e₁", "N", wind.on_vehicle[0], -high, high,
+            put=[{"#": 1}, 0.0, 0.0],
+        ),
         _slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, 0.0, high),
-    ]
+    ]  # fmt: skip
 
 
 def _slider(
-    path: str, group: str, words: str, unit: str, value: float, low: float, high: float, log: bool = False
+    path: str,
+    group: str,
+    words: str,
+    unit: str,
+    value: float,
+    low: float,
+    high: float,
+    log: bool = False,
+    put: Any = None,
 ) -> dict[str, Any]:
-    """One slider; the range reaches the value, whoever set it."""
+    """One slider; the range reaches the value, whoever set it.
+
+    `put` is what to write at `path`, {"#": factor} in it standing for factor times the value; None for the value.
+    """
     return {
         "path": path, "group": group, "words": words, "unit": unit, "value": float(value),
-        "low": float(min(low, value)), "high": float(max(high, value)), "log": log,
+        "low": float(min(low, value)), "high": float(max(high, value)), "log": log, "put": put,
     }  # fmt: skip

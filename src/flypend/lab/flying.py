@@ -9,6 +9,7 @@ import numpy as np
 
 from flypend.kernels import IdealKernel, SampledKernel
 from flypend.kernels.single import Solution, sampled_samples
+from flypend.lab.controls import gains_of
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Tell, Tuned, tuned, values
 from flypend.metrics import metrics
@@ -141,7 +142,7 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )
-    law = setting.flight.law.bound(machine.vehicle)
+    law = setting.flight.law
     return Trajectory(
         t=t,
         **split(packed),
@@ -153,5 +154,5 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
         e3=law.e3,
         vehicle=machine.vehicle,
         law=law.name,
-        gains=dict(law.gains),
+        gains=dict(gains_of(law, machine.vehicle)),
     )

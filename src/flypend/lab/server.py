@@ -1,6 +1,6 @@
 """The server of the laboratory: one page, its program and a socket, for browsers on this machine unless told otherwise.
 
-A page of another site that gets a browser to call here is refused by its origin; a name of another site that was made to
+A page of another site that gets a browser to call here is refused by its origin; another name that was made to
 point here, by the host in the request.
 """
 
@@ -45,7 +45,7 @@ class Laboratory:
         self.maps = ThreadPoolExecutor(1, "flypend-map")
 
     def trusts(self, host: str) -> bool:
-        """Whether a request for `host`, as a browser wrote it, is for this server and not for a name that points here."""
+        """Whether a request for `host`, as a browser wrote it, is for this server and not for a name pointing here."""
         name = urlsplit(f"//{host}").hostname or ""
         if name in ("localhost", self.host):
             return True
@@ -195,7 +195,7 @@ def _listen(host: str, port: int) -> socket.socket:
 
 async def _serve(listening: socket.socket, host: str, browser: bool, announce: Callable[[str], Any]) -> None:
     laboratory, stop = Laboratory(host), asyncio.Event()
-    listening.setblocking(False)  # noqa: FBT003
+    listening.setblocking(False)
     server = HTTPServer(laboratory.application(), max_body_size=LARGEST_MESSAGE)
     server.add_socket(listening)
     loop = asyncio.get_running_loop()

@@ -1,7 +1,7 @@
 """What a page asks for: a setting in plain JSON, checked, into a flight and the pokes on the way.
 
-A setting has the keys of a run file (vehicle, law, plant, start, duration) and `pokes`. Its start and its pokes are in the
-frame with e₃ up, whatever the law: who changes the law keeps the start.
+A setting has the keys of a run file (vehicle, law, plant, start, duration) and `pokes`. Its start and its pokes are in
+the frame with e₃ up, whatever the law: who changes the law keeps the start.
 """
 
 from __future__ import annotations
@@ -86,9 +86,8 @@ def _start(given: Any) -> State:
         fields = plain(State.random(np.random.default_rng(int(seed)))) | fields
     try:
         y = errors.array("y", fields.get("y"), (3,))
-        if not 1e-3 < geometry.norm(y) < 1e3:
-            raise InputError("y", "a direction", y.tolist())
-        fields["y"] = geometry.unit(y)  # a page that drags the rod keeps neither length nor tangency
+        length = errors.number("|y|", geometry.norm(y), above=1e-3)
+        fields["y"] = y / length  # a page that drags the rod keeps neither length nor tangency
         y_dot = errors.array("y_dot", fields.get("y_dot", (0.0, 0.0, 0.0)), (3,))
         fields["y_dot"] = geometry.project_tangent(fields["y"], y_dot)
         return State(**fields)
@@ -99,7 +98,7 @@ def _start(given: Any) -> State:
 def _pokes(given: Any) -> tuple[Poke, ...]:
     if not isinstance(given, list) or len(given) > MOST_POKES:
         raise InputError("pokes", f"a list of at most {MOST_POKES}", repr(given)[:80])
-    pokes = []
+    pokes: list[Poke] = []
     for entry in given:
         if not isinstance(entry, dict):
             raise InputError("pokes", "tables", repr(entry)[:80])

@@ -15,7 +15,7 @@ import numpy as np
 from flypend.compile.closed_loop import symbolic_loop
 from flypend.criterion import Criterion
 from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel
-from flypend.lab.controls import GAINS
+from flypend.lab.controls import GAINS, gains_of
 from flypend.laws import Law
 from flypend.laws.law import law_from_dict
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
@@ -100,11 +100,12 @@ def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
 
 def values(flight: Flight) -> Any:
     """The values (k,) of the gains that are inputs."""
-    law = flight.law.bound(flight.vehicle)
+    law, vehicle = flight.law, flight.vehicle
     if law.name == "lqr":
         with _building:  # the linearisation is symbolic, too
-            return np.array(list(entries(gain_matrix(flight.vehicle, law.gains)).values()))
-    return np.array([law.numbers[name] for name in GAINS[law.name]])
+            return np.array(list(entries(gain_matrix(vehicle, law.gains)).values()))
+    gains = gains_of(law, vehicle)
+    return np.array([float(gains[name]) for name in GAINS[law.name]])
 
 
 def goal(law: Law) -> Criterion:

@@ -1,0 +1,205 @@
+// The laboratory: a viewer beside controls; what they say goes to the server, what comes back is shown at once.
+//
+// window.flypend is that of the viewer (docs/replay.md) and: setting(), verdict(), number() of the last question, shown() of
+// the last flight that is shown, timings() in ms of the last ones, map() with the points so far.
+
+import css from "./replay.css";
+import own from "./lab.css";
+import { Choice, keys } from "./controls.js";
+import { Handle } from "./lab/handle.js";
+import { Link } from "./lab/link.js";
+import { Map as Disc } from "./lab/map.js";
+import { Panel } from "./lab/panel.js";
+import { Setting } from "./lab/setting.js";
+import { unit } from "./numbers.js";
+import { Viewer } from "./viewer.js";
+
+const MAP_DELAY = 250; // ms without a change before a map is asked for
+
+class Laboratory {
+  constructor(data) {
+    this.offer = data.offer;
+    this.viewer = new Viewer(data, css + own);
+    this.main = document.querySelector("main");
+    this.main.classList.add("lab");
+    this.setting = new Setting(data.offer.first, () => this.#changed());
+    Object.assign(this, { asked: 0, shown: 0, clock: new Map(), times: [], tab: "flight" });
+    this.#header();
+    this.panel = new Panel(this.main, this);
+    this.handle = new Handle(this.viewer, (y) => this.rod(y));
+    this.disc = new Disc(this.main, (y) => {
+      this.rod(y);
+      this.show("flight");
+    });
+    this.viewer.drew = () => this.handle.show();
+    this.link = new Link((reply) => this.#told(reply), (open) => this.#say(open ? "" : "no connection to the server"));
+    keys({ p: () => this.panel.poke("bob") });
+    this.#changed();
+  }
+
+  #header() {
+    const header = this.main.querySelector("header");
+    this.tabs = new Choice(header, "View", [["flight", "Flight", "The flight and its plots"], ["map", "Region of attraction", "From which directions of the rod it settles"]], (name) => this.show(name));
+    this.words = document.createElement("p");
+    Object.assign(this.words, { className: "verdict", ariaLive: "polite" });
+    header.append(this.words);
+    this.busy = document.createElement("p");
+    this.busy.className = "busy";
+    this.viewer.parts.scene.append(this.busy);
+    this.tabs.show("flight");
+  }
+
+  #say(words) {
+    this.busy.textContent = words;
+    this.busy.hidden = !words;
+  }
+
+  // What the controls do -----------------------------------------------------------------------------------------
+
+  slide(facts, value) {
+    this.touched = facts.path;
+    this.setting.slide(facts, value);
+  }
+
+  choose(what, name) {
+    this.touched = `${what}.${what === "law" ? "name" : "base"}`;
+    const value = structuredClone(this.setting.value);
+    if (what === "law") value.law = { name, gains: {} };
+    else if (what === "vehicle") Object.assign(value, { vehicle: { base: name }, law: { name: value.law.name, gains: {} } });
+    else value.plant = { base: name };
+    this.setting.replace(value);
+  }
+
+  reset(group) {
+    const value = structuredClone(this.setting.value);
+    if (group === "gains") value.law.gains = {};
+    else Object.assign(value, { plant: { base: value.plant.base }, vehicle: { base: value.vehicle.base } });
+    this.setting.replace(value);
+  }
+
+  /** Begin elsewhere; pokes belong to the flight that was. */
+  start(start) {
+    this.touched = "start.y.tilt";
+    this.viewer.clock.pause();
+    this.viewer.clock.seek(this.viewer.clock.start);
+    this.setting.replace({ ...this.setting.value, start, pokes: [] });
+  }
+
+  rod(y) {
+    this.start({ ...this.setting.value.start, y: unit(y) });
+  }
+
+  preset(setting) {
+    this.viewer.clock.pause();
+    this.viewer.clock.seek(this.viewer.clock.start);
+    this.steady = null;
+    this.setting.replace(setting);
+  }
+
+  /** Hit a body at the time shown; what was before stays, what came after is flown anew. */
+  poke(on, way, speed) {
+    const { clock, stage } = this.viewer;
+    const { right = [1, 0, 0], back = [0, -1, 0] } = stage?.views[0] ?? {};
+    const level = unit([back[0], back[1], 0]);
+    const [sign, along] = { right: [1, right], left: [-1, right], away: [-1, level], towards: [1, level], up: [1, [0, 0, 1]], down: [-1, [0, 0, 1]] }[way];
+    const time = Math.max(clock.time, 0);
+    const earlier = (this.setting.value.pokes ?? []).filter((poke) => poke.time < time - 1e-9);
+    this.touched = "pokes.velocity";
+    this.follow = true;
+    this.setting.replace({ ...this.setting.value, pokes: [...earlier, { time, on, velocity: along.map((value) => sign * speed * value) }] });
+  }
+
+  unpoke() {
+    this.setting.replace({ ...this.setting.value, pokes: [] });
+  }
+
+  /** Show a tab: "flight" or "map". */
+  show(tab) {
+    this.tab = tab;
+    this.main.dataset.tab = tab;
+    this.disc.root.hidden = tab !== "map";
+    this.tabs.show(tab);
+    if (tab === "map") this.#map();
+    else {
+      clearTimeout(this.mapping);
+      this.link.ask("stop");
+    }
+  }
+
+  // Questions and answers ----------------------------------------------------------------------------------------
+
+  #changed() {
+    if (!this.link) return;
+    this.panel.setting(this.setting.value);
+    this.asked = this.link.ask("fly", { setting: this.setting.value });
+    this.clock.set(this.asked, performance.now());
+    if (this.tab === "map") this.#map();
+  }
+
+  #map() {
+    const { duration, start } = this.setting.value;
+    this.disc.clear(duration, start.y);
+    this.mapped = -1;
+    clearTimeout(this.mapping);
+    this.mapping = setTimeout(() => (this.mapped = this.link.ask("map", { setting: this.setting.value })), MAP_DELAY);
+  }
+
+  #told(reply) {
+    if (reply.kind === "flight") this.#flight(reply);
+    else if (reply.kind === "map" && reply.number === this.mapped) this.disc.add(reply);
+    else if (reply.kind === "compiling" && reply.number >= this.shown) this.#say("compiling…");
+    else if (reply.kind === "error" && reply.number === this.asked) this.#error(reply);
+  }
+
+  #flight(reply) {
+    if (reply.number < this.shown) return;
+    this.shown = reply.number;
+    // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
+    this.steady ??= reply.run.direction;
+    this.viewer.load([{ ...reply.run, direction: this.steady }]);
+    this.verdict = reply.verdict;
+    this.words.textContent = reply.verdict.words;
+    this.words.className = `verdict ${reply.verdict.good ? "good" : "bad"}`;
+    if (reply.number === this.asked) {
+      this.#say("");
+      this.#adopt(reply.start);
+      this.panel.flight(reply);
+      if (this.follow) this.viewer.clock.play();
+      this.follow = false;
+    }
+    const begun = this.clock.get(reply.number);
+    for (const number of this.clock.keys()) if (number <= reply.number) this.clock.delete(number);
+    requestAnimationFrame(() => {
+      this.times = [...this.times.slice(-199), { server: reply.milliseconds, picture: performance.now() - begun }];
+    });
+  }
+
+  /** A random start comes back in numbers, which the setting then keeps. */
+  #adopt(start) {
+    if (!("random" in this.setting.value.start)) return;
+    this.setting.adopt(start);
+    this.panel.setting(this.setting.value);
+  }
+
+  #error({ number, field, message }) {
+    this.shown = number;
+    this.follow = false;
+    this.#say("");
+    const placed = this.panel.complain(message, field, this.touched);
+    this.verdict = { words: message, good: false };
+    this.words.textContent = placed ? "not flown: see the control" : message;
+    this.words.className = "verdict bad";
+  }
+
+  provide() {
+    return Object.freeze({
+      ...this.viewer.offer(),
+      setting: () => structuredClone(this.setting.value), verdict: () => this.verdict, number: () => this.asked,
+      shown: () => this.shown, timings: () => structuredClone(this.times), tab: (name) => this.show(name),
+      map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good }),
+    });
+  }
+}
+
+const data = JSON.parse(document.getElementById("flypend-data").textContent);
+window.flypend = new Laboratory(data).provide();

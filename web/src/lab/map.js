@@ -1,0 +1,138 @@
+// The region of attraction: every direction of the rod on a disc of equal areas, upright in the middle, hanging at the rim.
+
+const STOPS = ["#00224e", "#3b496c", "#7d7c78", "#bcae6c", "#fee838"]; // cividis, which every kind of vision reads
+const RINGS = [30, 60, 90, 120, 150]; // degrees from upright
+
+const HTML = `<div class="disc"><canvas role="img" aria-label="Region of attraction over the directions of the rod"></canvas></div>
+  <div class="told"><p class="share"></p><p class="hint">A point of the disc is a direction of the rod at the start, at rest; the rest of the
+  start is that of the flight. Equal areas are equal shares of the sphere. Touch a point to fly from there.</p>
+  <div class="scale"><span>0 s</span><i></i><span class="longest"></span><b></b><span>does not settle</span></div><p class="here"></p></div>`;
+
+export class Map {
+  /** In `parent`; `chosen` is told a direction (e3 up) that was touched. */
+  constructor(parent, chosen) {
+    this.root = document.createElement("section");
+    Object.assign(this.root, { className: "map", innerHTML: HTML, hidden: true, ariaLabel: "Region of attraction" });
+    parent.append(this.root);
+    const find = (selector) => this.root.querySelector(selector);
+    Object.assign(this, { canvas: find("canvas"), disc: find(".disc"), share: find(".share"), longest: find(".longest"), here: find(".here"), points: [], total: 0 });
+    this.canvas.addEventListener("click", (event) => {
+      const y = this.#direction(event);
+      if (y) chosen(y);
+    });
+    this.canvas.addEventListener("pointermove", (event) => this.#tell(this.#direction(event)));
+    new ResizeObserver(() => this.draw()).observe(this.disc);
+  }
+
+  /** Begin anew, for flights of `duration` seconds of which the present one begins with the rod along `y`. */
+  clear(duration, y) {
+    Object.assign(this, { points: [], total: 0, duration, y });
+    this.longest.textContent = `${+duration.toPrecision(3)} s`;
+    this.draw();
+  }
+
+  add({ y, settling, cause, total }) {
+    this.total = total;
+    y.forEach((direction, i) => this.points.push({ y: direction, settling: settling[i], cause: cause[i] }));
+    this.draw();
+  }
+
+  get good() {
+    return this.points.filter((point) => point.settling !== null).length;
+  }
+
+  draw() {
+    const { width, height } = this.disc.getBoundingClientRect(), ratio = devicePixelRatio || 1;
+    const size = Math.floor(Math.min(width, height));
+    if (size < 20) return;
+    this.size = size;
+    Object.assign(this.canvas, { width: size * ratio, height: size * ratio });
+    this.canvas.style.width = this.canvas.style.height = `${size}px`;
+    const context = this.canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
+    const role = (name) => style.getPropertyValue(`--${name}`).trim();
+    context.scale(ratio, ratio);
+    context.translate(size / 2, size / 2);
+    this.radius = size / 2 - 26;
+    const count = this.points.length, dot = Math.max(1.15 * this.radius / Math.sqrt(count || 1), 1.5);
+    context.save();
+    context.beginPath();
+    context.arc(0, 0, this.radius, 0, 2 * Math.PI);
+    context.fillStyle = role("sky");
+    context.fill();
+    context.clip();
+    for (const point of this.points) {
+      context.fillStyle = point.settling === null ? role("rod") : colour(point.settling / this.duration);
+      context.beginPath();
+      context.arc(...this.#place(point.y), Math.min(dot, this.radius / 6), 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.restore();
+    this.#frame(context, role);
+    const done = count ? `${(100 * this.good / count).toFixed(count < 500 ? 0 : 1)} % of ${count} directions` : "computing…";
+    this.share.textContent = count < this.total ? `${done}, of ${this.total}…` : done;
+  }
+
+  #frame(context, role) {
+    context.lineWidth = 1;
+    context.strokeStyle = "rgb(255 255 255 / 0.45)";
+    for (const ring of RINGS) {
+      context.beginPath();
+      context.arc(0, 0, this.radius * Math.sin(ring * Math.PI / 360), 0, 2 * Math.PI);
+      context.stroke();
+    }
+    context.strokeStyle = role("muted");
+    context.beginPath();
+    context.arc(0, 0, this.radius, 0, 2 * Math.PI);
+    context.stroke();
+    Object.assign(context, { font: "12px system-ui, sans-serif", textAlign: "center", textBaseline: "middle", fillStyle: role("muted") });
+    context.fillText("e₁", this.radius + 13, 0);
+    context.fillText("e₂", 0, -this.radius - 13);
+    context.fillText("rim: hanging", 0, this.radius + 14);
+    const label = (words, x, y) => {
+      Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: role("paper"), fillStyle: role("ink") });
+      context.strokeText(words, x, y);
+      context.fillText(words, x, y);
+    };
+    label("upright", 0, 0);
+    label("level", 0, this.radius * Math.SQRT1_2);
+    if (!this.y) return;
+    const [x, y] = this.#place(this.y);
+    for (const [width, tone] of [[5, role("paper")], [2.5, role("ink")]]) {
+      Object.assign(context, { lineWidth: width, strokeStyle: tone });
+      context.beginPath();
+      context.arc(x, y, 8, 0, 2 * Math.PI);
+      context.stroke();
+    }
+  }
+
+  /** Lambert's azimuthal projection: the distance from the middle is sin(θ/2). */
+  #place([a, b, c]) {
+    const level = Math.hypot(a, b), share = this.radius * Math.sqrt(Math.max(1 - c, 0) / 2);
+    return level > 1e-9 ? [share * a / level, -share * b / level] : [share, 0];
+  }
+
+  #direction(event) {
+    const area = this.canvas.getBoundingClientRect();
+    const across = (event.clientX - area.left - this.size / 2) / this.radius, along = -(event.clientY - area.top - this.size / 2) / this.radius;
+    const square = across ** 2 + along ** 2;
+    if (!(square <= 1)) return null;
+    const stretch = 2 * Math.sqrt(1 - square);
+    return [across * stretch, along * stretch, 1 - 2 * square];
+  }
+
+  #tell(y) {
+    this.here.textContent = "";
+    if (!y || !this.points.length) return;
+    const near = (point) => point.y.reduce((sum, value, k) => sum + value * y[k], 0);
+    const point = this.points.reduce((best, other) => (near(other) > near(best) ? other : best));
+    const tilt = (Math.acos(Math.min(Math.max(y[2], -1), 1)) * 180 / Math.PI).toFixed(0);
+    this.here.textContent = `${tilt}° from upright: ${point.settling === null ? `does not settle (${point.cause})` : `settles after ${point.settling.toFixed(1)} s`}`;
+  }
+}
+
+function colour(share) {
+  const place = Math.min(Math.max(share, 0), 1) * (STOPS.length - 1), i = Math.min(Math.floor(place), STOPS.length - 2);
+  const part = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
+  const mixed = [0, 1, 2].map((k) => Math.round(part(STOPS[i], k) + (place - i) * (part(STOPS[i + 1], k) - part(STOPS[i], k))));
+  return `rgb(${mixed.join(" ")})`;
+}

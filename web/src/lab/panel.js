@@ -1,0 +1,169 @@
+// The controls beside the picture: what flies, the start, gains, plant, pokes, export.
+
+import { Group, Slider } from "./slider.js";
+
+const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
+const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
+
+const HTML = `
+  <section><h2>Flight</h2>
+    <label class="row">Vehicle <select data-path="vehicle.base"></select></label>
+    <label class="row">Law <select data-path="law.name"></select></label>
+    <label class="row">Plant <select data-path="plant.base"></select></label>
+    <div class="flight"></div></section>
+  <section><h2>Start</h2>
+    <div class="chips starts"></div>
+    <div class="chips papers"><span>paper</span></div>
+    <div class="rod"></div><p class="hint">or drag the rod in the picture at 0 s</p></section>
+  <section class="poke"><h2>Poke <small></small></h2>
+    <div class="row two"><button type="button" data-on="bob">Poke bob</button><button type="button" data-on="vehicle">Poke vehicle</button></div>
+    <label class="row">Direction <select class="way" aria-label="Direction"></select></label>
+    <div class="strength"></div>
+    <button type="button" class="unpoke" hidden>Remove pokes</button></section>
+  <section class="has-gains"><h2>Gains <button type="button" class="reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
+  <section class="has-plant"><h2>Plant <button type="button" class="reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
+  <section><h2>Export</h2>
+    <div class="row two"><button type="button" data-export="toml">TOML</button><button type="button" data-export="python">Python</button></div>
+    <div class="export" hidden><textarea readonly rows="9" spellcheck="false" aria-label="Export"></textarea>
+    <div class="row two"><button type="button" class="copy">Copy</button><a class="save" download>Save</a></div></div></section>`;
+
+export class Panel {
+  /** `lab` has setting, offer, and what the buttons do. */
+  constructor(parent, lab) {
+    this.lab = lab;
+    this.root = document.createElement("aside");
+    Object.assign(this.root, { className: "panel", innerHTML: HTML, ariaLabel: "Controls" });
+    parent.append(this.root);
+    this.groups = Object.fromEntries(["gains", "plant", "flight"].map((name) =>
+      [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
+    this.#choices();
+    this.#starts();
+    this.#pokes();
+    this.#exports();
+  }
+
+  #find(selector) {
+    return this.root.querySelector(selector);
+  }
+
+  #choices() {
+    const { offer } = this.lab;
+    const options = { vehicle: offer.vehicles.map((name) => [name, NAMES[name] ?? name]), law: offer.laws.map((name) => [name, name]), plant: Object.entries(offer.plants) };
+    this.selects = Object.entries(options).map(([what, entries]) => {
+      const select = this.#find(`select[data-path^="${what}."]`);
+      select.append(...entries.map(([name, words]) => new Option(words, name)));
+      select.addEventListener("change", () => this.lab.choose(what, select.value));
+      return select;
+    });
+    this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
+    this.#find(".has-plant .reset").addEventListener("click", () => this.lab.reset("plant"));
+  }
+
+  #starts() {
+    const { lab } = this, { starts, experiments } = lab.offer;
+    const chip = (parent, words, title, act) => {
+      const button = document.createElement("button");
+      Object.assign(button, { type: "button", textContent: words, title });
+      button.addEventListener("click", act);
+      this.#find(parent).append(button);
+    };
+    for (const [name, start] of Object.entries(starts)) chip(".starts", name, "At rest at the origin", () => lab.start(start));
+    chip(".starts", "random", "Any attitude of rod and vehicle, any rates", () => lab.start({ random: Math.floor(Math.random() * 1e9) }));
+    for (const [name, setting] of Object.entries(experiments)) chip(".papers", name, `Experiment ${name} of the paper, its vehicle and law`, () => lab.preset(setting));
+    const facts = [
+      { path: "start.y.tilt", words: "rod from upright", unit: "°", low: 0, high: 180, value: 180 },
+      { path: "start.y.heading", words: "heading", unit: "°", low: -180, high: 180, value: 0 },
+    ];
+    this.rod = facts.map((entry) => new Slider(this.#find(".rod"), entry, () => {
+      const [tilt, heading] = this.rod.map((slider) => slider.facts.value * Math.PI / 180);
+      lab.rod([Math.sin(tilt) * Math.cos(heading), Math.sin(tilt) * Math.sin(heading), Math.cos(tilt)]);
+    }));
+  }
+
+  #pokes() {
+    const way = this.#find(".way");
+    way.append(...WAYS.map(([name, words]) => new Option(words, name)));
+    this.strength = new Slider(this.#find(".strength"), { path: "pokes.velocity", words: "strength", unit: "m/s", low: 0.1, high: 10, value: 1, log: true }, () => {});
+    for (const button of this.root.querySelectorAll("[data-on]")) {
+      button.title = "Hit it now, as hard as would give it this speed if it were free (p)";
+      button.addEventListener("click", () => this.poke(button.dataset.on));
+    }
+    this.#find(".unpoke").addEventListener("click", () => this.lab.unpoke());
+  }
+
+  poke(on) {
+    this.lab.poke(on, this.#find(".way").value, this.strength.facts.value);
+  }
+
+  #exports() {
+    const box = this.#find(".export"), text = box.querySelector("textarea"), save = box.querySelector(".save");
+    for (const button of this.root.querySelectorAll("[data-export]")) {
+      button.addEventListener("click", () => {
+        this.exported = this.exported === button.dataset.export ? null : button.dataset.export;
+        this.#export();
+        if (this.exported) box.scrollIntoView({ block: "nearest" });
+      });
+    }
+    box.querySelector(".copy").addEventListener("click", (event) => {
+      const { target } = event;
+      text.select();
+      const done = navigator.clipboard?.writeText(text.value) ?? Promise.reject(new Error("no clipboard"));
+      done.catch(() => document.execCommand("copy")).then(() => (target.textContent = "Copied"));
+      setTimeout(() => (target.textContent = "Copy"), 1200);
+    });
+    save.addEventListener("click", () => {
+      URL.revokeObjectURL(save.href);
+      save.href = URL.createObjectURL(new Blob([text.value], { type: "text/plain" }));
+    });
+  }
+
+  #export() {
+    const box = this.#find(".export");
+    box.hidden = !this.exported || !this.texts;
+    for (const button of this.root.querySelectorAll("[data-export]")) button.setAttribute("aria-pressed", String(button.dataset.export === this.exported));
+    if (box.hidden) return;
+    box.querySelector("textarea").value = this.texts[this.exported];
+    box.querySelector(".save").download = this.exported === "toml" ? "flight.toml" : "flight.py";
+  }
+
+  /** Show the setting, as far as it says so itself. */
+  setting(value) {
+    for (const select of this.selects) {
+      const [what, key] = select.dataset.path.split(".");
+      select.value = value[what]?.[key];
+    }
+    const y = value.start.y;
+    if (y) {
+      const level = Math.hypot(y[0], y[1]), degrees = (angle) => +(angle * 180 / Math.PI).toFixed(1);
+      const tilt = degrees(Math.atan2(level, y[2]));
+      const heading = level > 1e-6 ? degrees(Math.atan2(y[1], y[0])) : this.rod[1].facts.value;
+      [tilt, heading].forEach((angle, i) => this.rod[i].show({ ...this.rod[i].facts, value: angle }));
+    }
+    const pokes = value.pokes ?? [];
+    this.#find(".unpoke").hidden = pokes.length === 0;
+    this.#find(".poke small").textContent = pokes.length ? `at ${pokes.map((poke) => poke.time.toFixed(1)).join(", ")} s` : "";
+  }
+
+  /** Show what the server said with a flight. */
+  flight({ sliders, toml, python }) {
+    for (const [name, group] of Object.entries(this.groups)) group.show(sliders.filter((facts) => facts.group === name));
+    this.#find(".has-plant").hidden = this.groups.plant.sliders.length === 0;
+    this.texts = { toml, python };
+    this.#export();
+    this.complain("", "");
+  }
+
+  /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */
+  complain(message, field, path) {
+    for (const old of this.root.querySelectorAll(".complaint")) old.remove();
+    if (!message) return false;
+    const controls = [...this.root.querySelectorAll("[data-path]")];
+    const own = controls.find((control) => control.dataset.path === field || field.startsWith(`${control.dataset.path}.`))
+      ?? controls.find((control) => control.dataset.path === path);
+    if (!own) return false;
+    const words = document.createElement("p");
+    Object.assign(words, { className: "complaint", textContent: message, role: "alert" });
+    (own.closest("label") ?? own).after(words);
+    return true;
+  }
+}

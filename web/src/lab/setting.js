@@ -1,0 +1,70 @@
+// The setting of the laboratory: plain data that the server understands, kept in the address so that a reload keeps it.
+
+const HASH_DELAY = 250; // ms
+
+export class Setting {
+  /** `first` is what to begin with unless the address has a setting; `changed` is called with it after every change. */
+  constructor(first, changed) {
+    Object.assign(this, { first, changed, value: read() ?? structuredClone(first) });
+    addEventListener("pagehide", () => this.#keep());
+    addEventListener("hashchange", () => {
+      const value = read();
+      if (value && JSON.stringify(value) !== JSON.stringify(this.value)) this.replace(value);
+    });
+  }
+
+  get(path) {
+    return path.split(".").reduce((table, key) => table?.[key], this.value);
+  }
+
+  /** Put `value` at a path such as "law.gains.k_d". */
+  put(path, value) {
+    const keys = path.split("."), last = keys.pop();
+    let table = this.value;
+    for (const key of keys) table = (table[key] ??= {});
+    table[last] = value;
+    this.#tell();
+  }
+
+  /** Put what a slider says: its `put`, in which { "#": factor } stands for factor times the value, or the value. */
+  slide({ path, put }, value) {
+    this.put(path, put ? filled(put, value) : value);
+  }
+
+  replace(value) {
+    this.value = structuredClone(value);
+    this.#tell();
+  }
+
+  /** Take the numbers of a start that was asked for in other words; nothing changes by it. */
+  adopt(start) {
+    this.value.start = start;
+    this.#keep();
+  }
+
+  #tell() {
+    clearTimeout(this.waiting);
+    this.waiting = setTimeout(() => this.#keep(), HASH_DELAY);
+    this.changed(this.value);
+  }
+
+  #keep() {
+    history.replaceState(null, "", `#${encodeURIComponent(JSON.stringify(this.value))}`);
+  }
+}
+
+function filled(put, value) {
+  if (Array.isArray(put)) return put.map((entry) => filled(entry, value));
+  if (put === null || typeof put !== "object") return put;
+  if ("#" in put) return put["#"] * value;
+  return Object.fromEntries(Object.entries(put).map(([key, entry]) => [key, filled(entry, value)]));
+}
+
+function read() {
+  try {
+    const value = JSON.parse(decodeURIComponent(location.hash.slice(1)));
+    return value && typeof value === "object" && value.start && value.law ? value : null;
+  } catch {
+    return null;
+  }
+}

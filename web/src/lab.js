@@ -185,9 +185,9 @@ class Laboratory {
     this.shown = number;
     this.follow = false;
     this.#say("");
-    const placed = this.panel.complain(message, field, this.touched);
+    this.panel.complain(message, field, this.touched);
     this.verdict = { words: message, good: false };
-    this.words.textContent = placed ? "not flown: see the control" : message;
+    this.words.textContent = `not flown: ${message}`;
     this.words.className = "verdict bad";
   }
 

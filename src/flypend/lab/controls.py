@@ -42,7 +42,7 @@ GAINS: Mapping[str, Mapping[str, tuple[str, str]]] = {
     "corrected": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
     "printed": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
 }
-PLANTS = {"ideal": "ideal", "rotors": "rotors: limits, lag, 500 Hz", "hehn2011": "hehn2011: rates at 50 Hz"}
+PLANTS = {"ideal": "ideal", "rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 FACTOR = 4.0  # of a gain's slider, either way
 
@@ -67,7 +67,7 @@ def offer() -> dict[str, Any]:
     }
 
 
-STARTS = {"hanging": (0.0, 0.0, -1.0), "level": (1.0, 0.0, 0.0), "nearly upright": (0.28, 0.0, 0.96)}
+STARTS = {"hanging": (0.0, 0.0, -1.0), "level": (1.0, 0.0, 0.0), "leaning": (0.28, 0.0, 0.96)}
 
 
 def _preset(name: str) -> dict[str, Any]:

@@ -14,20 +14,16 @@ from flypend.model import State
 from flypend.model.state import SHAPES
 
 RUNS, CHUNK = {"ideal": 3000, "sampled": 1200}, {"ideal": 200, "sampled": 24}
-GOLDEN = (3 - 5**0.5) * np.pi
+# Powers of the inverse of the root of x³ = x + 1: the additive sequence that fills a square most evenly.
+STEPS = (0.7548776662466927, 0.5698402909980532)
 
 
 def directions(count: int) -> Any:
-    """`count` unit vectors (count, 3), each for the same area of S², from +e₃ to −e₃ along a spiral."""
-    i = np.arange(count)
-    height = 1 - (2 * i + 1) / count
-    level = np.sqrt(1 - height**2)
-    return np.stack([level * np.cos(GOLDEN * i), level * np.sin(GOLDEN * i), height], axis=-1)
-
-
-def spread(count: int) -> Any:
-    """The numbers below `count` in an order whose beginnings are spread over all of them."""
-    return np.argsort(np.modf(np.arange(count) * (5**0.5 - 1) / 2)[0], kind="stable").argsort(kind="stable")
+    """`count` unit vectors (count, 3), each for the same area of S²; so are those of every beginning of the sequence."""
+    height, turn = (np.modf(0.5 + step * np.arange(count))[0] for step in STEPS)
+    y_3 = 1 - 2 * height
+    level = np.sqrt(1 - y_3**2)
+    return np.stack([level * np.cos(2 * np.pi * turn), level * np.sin(2 * np.pi * turn), y_3], axis=-1)
 
 
 def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, Any]]:
@@ -39,7 +35,7 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
     machine, gains = tuned(flight, tell), values(flight)
     kind = "ideal" if machine.plant is None else "sampled"
     count, done = RUNS[kind], 0
-    rods = directions(count)[spread(count)]
+    rods = directions(count)
     tuning = {name: float(value) for name, value in zip(machine.names, gains, strict=True)}
     plant = "ideal" if machine.plant is None else flight.plant
     while done < count:

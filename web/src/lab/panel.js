@@ -156,14 +156,13 @@ export class Panel {
   /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */
   complain(message, field, path) {
     for (const old of this.root.querySelectorAll(".complaint")) old.remove();
-    if (!message) return false;
+    if (!message) return;
     const controls = [...this.root.querySelectorAll("[data-path]")];
     const own = controls.find((control) => control.dataset.path === field || field.startsWith(`${control.dataset.path}.`))
       ?? controls.find((control) => control.dataset.path === path);
-    if (!own) return false;
+    if (!own) return;
     const words = document.createElement("p");
     Object.assign(words, { className: "complaint", textContent: message, role: "alert" });
     (own.closest("label") ?? own).after(words);
-    return true;
   }
 }

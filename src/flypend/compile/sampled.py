@@ -168,7 +168,9 @@ class _Kernel:
             code.store(code.load(self.state, problem.size + i), self.model, i)
         for slot in range(problem.depth):
             for i, value in enumerate(problem.idle):
-                code.store(value, self.ring, slot * len(problem.idle) + i)
+                # Commands that are rotor forces: the rotors are at what they were told.
+                before = value if problem.loop is not None else code.load(self.state, problem.size + i)
+                code.store(before, self.ring, slot * len(problem.idle) + i)
         for memory in (self.gust, self.wind, self.forces, self.believed, self.known, self.estimate):
             for i in range(6):
                 code.store(0.0, memory, i)

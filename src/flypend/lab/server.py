@@ -64,6 +64,7 @@ class Laboratory:
                 (r"/lab\.js", Page, {**shared, "kind": "text/javascript", "content": replay.program("lab")}),
                 (r"/socket", Socket, shared),
             ],
+            log_function=lambda _: None,  # a refusal is told to who asked
             websocket_max_message_size=LARGEST_MESSAGE,
             websocket_ping_interval=20,
             websocket_ping_timeout=20,

@@ -18,6 +18,7 @@ from flypend.lab.map import region
 from flypend.lab.setting import plain, setting_of
 from flypend.lab.tuning import tuned
 
+MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands exhaust the parser
 KINDS = ("fly", "map", "stop")
 Send = Callable[[dict[str, Any]], Awaitable[Any]]
 Tell = Callable[[], Any]
@@ -43,7 +44,7 @@ class Slot:
             self.task = asyncio.get_running_loop().create_task(self._run())
 
     def drop(self) -> None:
-        """Leave what waits, and stop after the reply that is being made."""
+        """Leave what waits, and what is under way as soon as its present piece is made."""
         self.pending = False
 
     async def _run(self) -> None:
@@ -62,7 +63,7 @@ class Slot:
         while True:
             reply = await loop.run_in_executor(self.pool, next, replies, None)
             self.done += 1
-            if reply is None:
+            if reply is None or self.pending is False:
                 return
             await self.send(reply)
             if self.pending is not None:
@@ -114,8 +115,9 @@ def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
 def read(text: Any) -> dict[str, Any]:
     """The message in `text`. Raises InputError if it is none."""
     try:
-        message = json.loads(text) if isinstance(text, str) else None
-    except (ValueError, RecursionError):
+        nested = isinstance(text, str) and text.count("[") + text.count("{") > MOST_BRACKETS
+        message = json.loads(text) if isinstance(text, str) and not nested else None
+    except ValueError:
         message = None
     if not isinstance(message, dict) or message.get("kind") not in KINDS:
         raise InputError("message", f"JSON with a kind among {', '.join(KINDS)}", repr(text)[:80])

@@ -68,6 +68,7 @@ def setting_of(asked: Any) -> Setting:
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
     flight = flight_of(given)
     _check_size(flight)
+    _check_gains(flight)
     return Setting(flight, pokes, start)
 
 
@@ -128,6 +129,16 @@ def _check_size(flight: Flight) -> None:
         value = getattr(flight.plant, name)
         if value is not None and not low <= value <= high:
             raise InputError(f"plant.{name}", f"{low:g} to {high:g}", f"{value:g}")
+
+
+def _check_gains(flight: Flight) -> None:
+    """Whether the law takes its gains for this vehicle, too."""
+    if flight.law.name == "lqr":  # each of its weights is one by itself, and its equation takes a while
+        return
+    try:
+        flight.law.bound(flight.vehicle)
+    except InputError as error:
+        raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 
 
 def in_frame(vector: Any, e3: str) -> Any:

@@ -135,14 +135,14 @@ def test_the_rod_is_dragged_over_its_sphere(visit):
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 12, y - 6, steps=3)
-    page.mouse.up()
     shown(page)
+    bob = page.evaluate("flypend.screen(0).bob")
+    page.mouse.up()
     rod = np.array(setting(page)["start"]["y"])
     assert np.linalg.norm(rod) == pytest.approx(1)
     assert -0.999 < rod[2] < -0.3
-    bob = page.evaluate("flypend.screen(0).bob")
     scene = page.locator(".picture").bounding_box()
-    assert np.hypot(scene["x"] + bob[0] - x - 12, scene["y"] + bob[1] - y + 6) < 12  # the camera may come nearer
+    assert np.hypot(scene["x"] + bob[0] - x - 12, scene["y"] + bob[1] - y + 6) < 1.5  # under the hand
     np.testing.assert_allclose(expect_flight(page).y[0], rod, atol=1e-12)
     handle.focus()
     page.keyboard.press("ArrowUp")

@@ -19,7 +19,7 @@ STEPS = (0.7548776662466927, 0.5698402909980532)
 
 
 def directions(count: int) -> Any:
-    """`count` unit vectors (count, 3), each for the same area of S²; so are those of every beginning of the sequence."""
+    """`count` unit vectors (count, 3), each for the same area of S², and so in every beginning of them."""
     height, turn = (np.modf(0.5 + step * np.arange(count))[0] for step in STEPS)
     y_3 = 1 - 2 * height
     level = np.sqrt(1 - y_3**2)

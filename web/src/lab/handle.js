@@ -17,11 +17,11 @@ export class Handle {
     viewer.parts.scene.append(this.root);
     this.root.addEventListener("pointerdown", (event) => {
       this.root.setPointerCapture(event.pointerId);
-      this.held = true;
+      this.#hold(true);
       event.stopPropagation();
     });
     this.root.addEventListener("pointermove", (event) => this.held && this.#drag(event));
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) this.root.addEventListener(name, () => (this.held = false));
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) this.root.addEventListener(name, () => this.#hold(false));
     this.root.addEventListener("keydown", (event) => this.#key(event));
   }
 
@@ -34,9 +34,16 @@ export class Handle {
     const { viewer, flyer } = this, { clock } = viewer;
     this.root.hidden = !flyer || clock.playing || clock.time > clock.start + 1e-9;
     if (this.root.hidden) return;
-    const [left, top] = viewer.stage.screen(0).bob;
+    const [left, top] = viewer.stage.screen(0, viewer.stage.factor).bob;
     if (!this.held) this.y = flyer.pose.y;
     this.root.style.transform = `translate(${left}px, ${top}px)`;
+  }
+
+  #hold(held) {
+    if (this.held === held) return;
+    this.held = held;
+    this.viewer.stage.hold(held);
+    this.viewer.wake();
   }
 
   #drag(event) {

@@ -34,7 +34,8 @@ export class Stage {
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
     const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
-    if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box });
+    this.box = box;
+    if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box: this.held ? this.rig.box : box });
     else {
       this.rig = new Rig(flights[0].direction, reach, box);
       this.rig.choose(Math.max(...box.half) < 4 * reach ? "overview" : "follow");
@@ -52,6 +53,12 @@ export class Stage {
         part.dispose?.(); // lights hold the map of their shadow
       });
     }
+  }
+
+  /** Hold the camera while something is dragged in the picture, or let it go. */
+  hold(held) {
+    this.held = held;
+    this.rig.box = this.box;
   }
 
   #things() {
@@ -123,10 +130,10 @@ export class Stage {
     });
   }
 
-  /** Where pivot and bob of a flyer are drawn: CSS pixels from the upper left of the canvas. */
-  screen(which) {
+  /** Where pivot and bob of a flyer are, its rod `factor` times as long: CSS pixels from the upper left of the canvas. */
+  screen(which, factor = 1) {
     const view = this.views.find((port) => port.main === which) ?? this.views[0];
-    const { x, y } = this.flyers[which].pose, rod = this.flyers[which].flight.vehicle.rod_length;
+    const { x, y } = this.flyers[which].pose, rod = factor * this.flyers[which].flight.vehicle.rod_length;
     const place = (point) => {
       const { x: across, y: up } = new Vector3(...point).project(view.camera);
       return [view.left + (across + 1) / 2 * view.width, view.top + (1 - up) / 2 * view.height];

@@ -23,9 +23,9 @@ from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.inverted_gains import BOUNDS, Gains, computer_of, gains_for
 from flypend.laws.law import Control, Law
-from flypend.laws.references import Reference, hover
+from flypend.laws.references import Path, Reference, hover
 from flypend.laws.sphere import velocity_error
-from flypend.laws.throw import bob_reference, coasted, largest_thrust, rod_force
+from flypend.laws.throw import carrying, coasted, derivatives, largest_thrust, rod_force
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
 
@@ -49,7 +49,8 @@ def inverted(reference: Reference | None = None, **gains: float) -> Law:
 
     @cache
     def for_vehicle(vehicle: Vehicle) -> Law:
-        return _law(gains_for(vehicle, **given), reference or hover())
+        followed = reference or hover()
+        return _law(gains_for(vehicle, **given), followed, carrying(followed))
 
     return Law(name="inverted", e3="up", gains=given, control=_unbound, for_vehicle=for_vehicle)
 
@@ -58,9 +59,9 @@ def _unbound(*_: Any) -> Control:
     raise TypeError("the inverted law takes its gains from the vehicle: use law.bound(vehicle)")
 
 
-def _law(gains: Gains, reference: Reference) -> Law:
+def _law(gains: Gains, reference: Reference, path: Path) -> Law:
     def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
-        return inverted_control(t, state, vehicle, k, reference, forces)
+        return inverted_control(t, state, vehicle, k, path, forces)
 
     return Law(
         name="inverted",
@@ -70,20 +71,20 @@ def _law(gains: Gains, reference: Reference) -> Law:
         computer=computer_of(gains),
         uses_forces=True,
         reference=reference,
+        along=lambda other: _law(gains, reference, other),
     )
 
 
-def inverted_control(
-    t: Any, state: State, vehicle: Vehicle, k: Gains, reference: Reference, forces: tuple[Any, Any]
-) -> Control:
+def inverted_control(t: Any, state: State, vehicle: Vehicle, k: Gains, path: Path, forces: tuple[Any, Any]) -> Control:
     """The law for symbols of `t` (s) and `state`.
 
-    `vehicle`, gains `k` and `reference` as in `inverted`; `forces` are the estimated external forces on vehicle and
-    bob, each (3, 1), N.
+    `vehicle` and gains `k` as in `inverted`; `path` is what pivot and bob follow; `forces` are the estimated external
+    forces on vehicle and bob, each (3, 1), N.
     """
     z, z_dot = state.z, apply(state.R, cross(state.omega, E3))
-    p_ref, v_ref, a_ref, jerk_ref, y_ref = bob_reference(t, reference, vehicle, forces[1])
-    height = state.x[2] - reference(t)[2]
+    x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
+    v_ref, a_ref, jerk_ref = derivatives(p_ref, t, 3)
+    height = state.x[2] - x_ref[2]
 
     def force(y: Any, y_dot: Any) -> Any:
         e, v = state.x + vehicle.l * y - p_ref, state.x_dot + vehicle.l * y_dot - v_ref

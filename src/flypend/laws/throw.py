@@ -8,7 +8,7 @@ import casadi as ca
 
 from flypend.geometry import E1, E3, cross, dot, scale, tangent_part, unit
 from flypend.laws.inverted_gains import Gains
-from flypend.laws.references import Reference
+from flypend.laws.references import Path, Reference
 from flypend.laws.sphere import velocity_error
 from flypend.model import Vehicle
 
@@ -17,23 +17,36 @@ from flypend.model import Vehicle
 ANTIPODE_SHIFT = 0.03
 
 
+def carrying(reference: Reference) -> Path:
+    """The path of a bob carried so that the pivot is at `reference`(t).
+
+    The rod leans along g e₃ − F_b/m + p̈ with p = x_ref + l y, which is solved by two fixed-point steps; each shrinks
+    the error by (rate of the reference)² l/g.
+    """
+
+    def path(t: Any, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any]:
+        x_ref = reference(t)
+        support = vehicle.g * E3 - on_bob / vehicle.m
+        y = unit(support)
+        for _ in range(2):
+            acceleration = derivatives(x_ref + vehicle.l * y, t, 2)[-1]
+            y = unit(support + acceleration)
+        return x_ref, x_ref + vehicle.l * y, y
+
+    return path
+
+
 def bob_reference(t: Any, reference: Reference, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any, Any, Any]:
     """Position of the bob, its first three derivatives, and rod direction, for the pivot to be at `reference`(`t`).
 
-    The rod leans along g e₃ − F_b/m + p̈ with p = x_ref + l y, which is solved by two fixed-point steps; each shrinks
-    the error by (rate of the reference)² l/g. `on_bob` is the external force F_b on the bob of `vehicle`, N.
+    `on_bob` is the external force F_b on the bob of `vehicle`, N. See `carrying`.
     """
-    x_ref = reference(t)
-    support = vehicle.g * E3 - on_bob / vehicle.m
-    y = unit(support)
-    for _ in range(2):
-        acceleration = _derivatives(x_ref + vehicle.l * y, t, 2)[-1]
-        y = unit(support + acceleration)
-    position = x_ref + vehicle.l * y
-    return position, *_derivatives(position, t, 3), y
+    _, position, y = carrying(reference)(t, vehicle, on_bob)
+    return position, *derivatives(position, t, 3), y
 
 
-def _derivatives(value: Any, t: Any, count: int) -> list[Any]:
+def derivatives(value: Any, t: Any, count: int) -> list[Any]:
+    """The first `count` derivatives of the expression `value` with respect to the symbol `t`."""
     out = []
     for _ in range(count):
         value = ca.jacobian(value, t)
@@ -131,9 +144,9 @@ def _demand(
     return A, d, d_dot
 
 
-def largest_thrust(vehicle: Vehicle) -> float:
+def largest_thrust(vehicle: Vehicle) -> Any:
     """Sum of the largest rotor forces, N."""
-    return float(vehicle.rotor_limits[1] * len(vehicle.rotor_spins))
+    return vehicle.rotor_limits[1] * len(vehicle.rotor_spins)
 
 
 def limited_force(F: Any, limit: Any) -> Any:

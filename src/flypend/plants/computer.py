@@ -10,10 +10,11 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.compile.closed_loop import upright_wrench
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import apply, cross
 from flypend.laws.law import Controller, Law
-from flypend.model import State, Vehicle, Wrench
+from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.actuation import Actuation, rotor_forces
 from flypend.plants.equations import EquationsEngine
@@ -117,12 +118,7 @@ def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
 def _law_command(law: Law, vehicle: Vehicle, limits: bool, interface: str, rate_gain: float, lead: float) -> Any:
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     rotors, external = ca.SX.sym("r", len(vehicle.rotor_spins)), ca.SX.sym("F", 6)
-    wrench: Wrench = law.evaluate(t, State.symbolic(packed), vehicle, (external[:3], external[3:])).wrench
-    stacked = ca.vertcat(wrench.thrust, wrench.moment)
-    if law.e3 == "down":
-        own = ca.Function("wrench", [t, packed, external], [stacked])
-        stacked = own(t, packed * FLIP_PACKED, external) * np.array([-1.0, 1.0, -1.0, -1.0])
-    command = _finish(stacked, packed, rotors, vehicle, limits, interface, rate_gain, lead)
+    command = _finish(upright_wrench(law, t, packed, vehicle, external), packed, rotors, vehicle, limits, interface, rate_gain, lead)
     return as_numpy(ca.Function("command", [t, packed, rotors, external], [ca.cse(ca.densify(command))]))
 
 
@@ -143,7 +139,12 @@ def _finish(
         omega = State.symbolic(packed).omega
         free = moment - cross(omega, apply(vehicle.I, omega))
         return ca.vertcat(thrust, omega + apply(vehicle.I_inv, free) / rate_gain)
-    command = rotors + lead * (rotor_forces(thrust, moment, vehicle, limits) - rotors)
+    command = led(rotor_forces(thrust, moment, vehicle, limits), rotors, lead)
     if limits:
         command = ca.fmin(ca.fmax(command, vehicle.rotor_limits[0]), vehicle.rotor_limits[1])
     return ca.if_else(ca.norm_1(wrench) < np.inf, command, np.nan)
+
+
+def led(wanted: Any, rotors: Any, lead: Any) -> Any:
+    """Commands (n,), N, that bring `rotors`, modelled forces (n,), to `wanted` forces faster by `lead`: see `Computer`."""
+    return rotors + lead * (wanted - rotors)

@@ -1,0 +1,6 @@
+"""The law as C99 for a flight computer, its adapters, and the compiled law flown in the loop."""
+
+
+
+
+

@@ -96,7 +96,8 @@ WRENCH = Record(
 
 def rotors_record(vehicle: Vehicle) -> Record:
     """Forces of the rotors of `vehicle`, in its order."""
-    return Record("rotors", "Forces of the rotors, in the order of the vehicle.", (Field("force", _count(vehicle), "N"),))
+    forces = Field("force", _count(vehicle), "N")
+    return Record("rotors", "Forces of the rotors, in the order of the vehicle.", (forces,))
 
 
 def params_record(vehicle: Vehicle) -> Record:

@@ -61,32 +61,33 @@ def inverted(reference: Reference | None = None, *, form: str = "full", **gains:
     errors.one_of("form", form, FORMS)
     errors.only_known("", gains, BOUNDS)
     given = {name: errors.number(name, value, at_least=BOUNDS[name]) for name, value in gains.items()}
+    options = {} if form == "full" else {"form": form}
 
     @cache
     def for_vehicle(vehicle: Vehicle) -> Law:
         followed = reference or hover()
-        return _law(gains_for(vehicle, **given), form, followed, carrying(followed))
+        return _law(gains_for(vehicle, **given), options, followed, carrying(followed))
 
-    return Law(name="inverted", e3="up", gains={**given, "form": form}, control=_unbound, for_vehicle=for_vehicle)
+    return Law(name="inverted", e3="up", gains={**given, **options}, control=_unbound, for_vehicle=for_vehicle)
 
 
 def _unbound(*_: Any) -> Control:
     raise TypeError("the inverted law takes its gains from the vehicle: use law.bound(vehicle)")
 
 
-def _law(gains: Gains, form: str, reference: Reference, path: Path) -> Law:
+def _law(gains: Gains, options: dict[str, str], reference: Reference, path: Path) -> Law:
     def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
-        return inverted_control(t, state, vehicle, k, path, forces, light=k.form == "light")
+        return inverted_control(t, state, vehicle, k, path, forces, light="form" in options)
 
     return Law(
         name="inverted",
         e3="up",
-        gains={**vars(gains), "form": form},
+        gains={**vars(gains), **options},
         control=control,
         computer=computer_of(gains),
         uses_forces=True,
         reference=reference,
-        along=lambda other: _law(gains, form, reference, other),
+        along=lambda other: _law(gains, options, reference, other),
     )
 
 

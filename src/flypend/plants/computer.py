@@ -118,7 +118,8 @@ def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
 def _law_command(law: Law, vehicle: Vehicle, limits: bool, interface: str, rate_gain: float, lead: float) -> Any:
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     rotors, external = ca.SX.sym("r", len(vehicle.rotor_spins)), ca.SX.sym("F", 6)
-    command = _finish(upright_wrench(law, t, packed, vehicle, external), packed, rotors, vehicle, limits, interface, rate_gain, lead)
+    wrench = upright_wrench(law, t, packed, vehicle, external)
+    command = _finish(wrench, packed, rotors, vehicle, limits, interface, rate_gain, lead)
     return as_numpy(ca.Function("command", [t, packed, rotors, external], [ca.cse(ca.densify(command))]))
 
 
@@ -146,5 +147,5 @@ def _finish(
 
 
 def led(wanted: Any, rotors: Any, lead: Any) -> Any:
-    """Commands (n,), N, that bring `rotors`, modelled forces (n,), to `wanted` forces faster by `lead`: see `Computer`."""
+    """Commands (n,), N, that bring `rotors`, modelled forces (n,), to the `wanted` forces; `lead` as in `Computer`."""
     return rotors + lead * (wanted - rotors)

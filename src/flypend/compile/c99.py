@@ -28,12 +28,12 @@ _FORMS = {
 
 def literal(value: float, precision: Precision) -> str:
     """The shortest C literal that is `value` in `precision`. Raises InputError for one that precision cannot hold."""
-    if one_of("precision", precision, PRECISIONS) == "double":
+    if one_of("precision", precision, PRECISIONS) == "double" and np.isfinite(value):
         return repr(float(value))
     with np.errstate(over="ignore", under="ignore"):
         single = np.float32(value)
     if not np.isfinite(single) or (single == 0) != (value == 0):
-        raise InputError("precision", "numbers that single precision can hold", f"{value:g}")
+        raise InputError("precision", "finite numbers that it can hold", f"{value:g}")
     return f"{single!s}f"
 
 

@@ -1,6 +1,5 @@
 """The law as C99 for a flight computer, its adapters, and the compiled law flown in the loop."""
 
+from flypend.export.write import export_c
 
-
-
-
+__all__ = ["export_c"]

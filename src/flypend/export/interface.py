@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -21,8 +21,6 @@ from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SIZE
 from flypend.plants.allocation import allocate, within
 from flypend.plants.computer import led
-
-BOB = slice(SIZE + 3, SIZE + 6)  # of the external forces in the state
 
 
 @dataclass(frozen=True)
@@ -130,27 +128,31 @@ def interface(law: Law, vehicle: Vehicle) -> Interface:
 
 def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], Program, bool]:
     """Names of the gains in the equations, the program of the law, and whether it follows the reference."""
-    t, state = ca.SX.sym("t"), ca.SX.sym("state", records.STATE.length)
-    reference = ca.SX.sym("reference", records.REFERENCE.length)
+    state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
     gains = {name: ca.SX.sym(name) for name in law.numbers}
-    flown = law.along(_streamed(reference)) if law.along is not None else law
-    packed = state[:SIZE]
     try:
-        wrench = upright_wrench(flown, t, packed, cast(Vehicle, vehicle), state[SIZE:], gains)
+        wrench = streamed_wrench(law, vehicle, state, reference, gains)
     except InputError:
         raise
     except Exception as error:  # whatever a law of one's own does with numbers that are symbols
         raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name} ({error})") from error
-    if law.along is None and ca.depends_on(wrench, t):
-        raise InputError("law", "one that does not depend on time, or a Law with `along`", law.name)
-    wrench = ca.densify(ca.substitute(wrench, t, 0))
     names = [name for name, symbol in gains.items() if ca.depends_on(wrench, symbol)]
-    fixed = {name: gains[name] for name in gains if name not in names}
-    if fixed:
-        wrench = ca.substitute(wrench, ca.vertcat(*fixed.values()), ca.DM([law.numbers[name] for name in fixed]))
     entries = ca.vertcat(*(gains[name] for name in names)) if names else ca.SX.sym("none", 1)
     program = lower(ca.Function("step", [state, reference, entries, params], [wrench]))
     return names, program, bool(ca.depends_on(wrench, reference))
+
+
+def streamed_wrench(law: Law, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
+    """The wrench (4, 1), e₃ up, of a bound `law` for the numbers of `records.STATE` and `records.REFERENCE`.
+
+    `vehicle` has numbers or symbols, as have the `gains`. Raises InputError for a law that needs the time itself.
+    """
+    t = ca.SX.sym("t")
+    flown = law.along(_streamed(reference)) if law.along is not None else law
+    wrench = upright_wrench(flown, t, state[:SIZE], vehicle, state[SIZE:], gains)
+    if law.along is None and ca.depends_on(wrench, t):
+        raise InputError("law", "one that does not depend on time, or a Law with `along`", law.name)
+    return ca.densify(ca.substitute(wrench, t, 0))
 
 
 def _streamed(reference: Any) -> Any:
@@ -170,13 +172,20 @@ def _polynomial(values: Sequence[Any], t: Any) -> Any:
 
 
 def _follow(params: Any, vehicle: Any) -> Program:
-    """The reference on a path of the pivot, with the bob carried as the laws have it."""
-    t, path = ca.SX.sym("t"), ca.SX.sym("path", records.PATH.length)
-    state = ca.SX.sym("state", records.STATE.length)
-    x, p, _ = carrying(lambda time: _polynomial(ca.vertsplit(path, 3), time))(t, vehicle, state[BOB])
+    path, state = ca.SX.sym("path", records.PATH.length), ca.SX.sym("state", records.STATE.length)
+    return lower(ca.Function("follow", [path, state, params], [followed(vehicle, path, state)]))
+
+
+def followed(vehicle: Any, path: Any, state: Any) -> Any:
+    """The numbers of `records.REFERENCE` on a `path` of the pivot, the bob carried as the laws have it.
+
+    `vehicle` has numbers or symbols; `path` and `state` are the numbers of their records.
+    """
+    t = ca.SX.sym("t")
+    x, p, _ = carrying(lambda time: _polynomial(ca.vertsplit(path, 3), time))(t, vehicle, state[SIZE:][3:])
     orders = len(records.ORDERS)
     values = ca.vertcat(x, *derivatives(x, t, orders - 1), p, *derivatives(p, t, orders - 1))
-    return lower(ca.Function("follow", [path, state, params], [ca.densify(ca.substitute(values, t, 0))]))
+    return ca.densify(ca.substitute(values, t, 0))
 
 
 def _mix(params: Any, vehicle: Any) -> Program:

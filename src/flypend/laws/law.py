@@ -165,6 +165,9 @@ class Controller:
         Numbers to keep with the run.
     computer : Computer
         Lead, prediction and observer around it in a sampled flight.
+    source : callable, optional
+        `source(vehicle, lead)` gives a function (t, packed state (24,) with e₃ up, modelled rotor forces (n,), external
+        forces (6,)) → rotor commands (n,) that stands for law, allocation and lead in a plant with limits.
     """
 
     name: str
@@ -174,6 +177,7 @@ class Controller:
     reference: Callable[[Any], Any] | None = None
     gains: Mapping[str, Any] = field(default_factory=dict)
     computer: Computer = field(default_factory=Computer)
+    source: Callable[[Vehicle, float], Callable[..., Any]] | None = None
 
     def __post_init__(self) -> None:
         errors.one_of("controller.e3", self.e3, ("up", "down"))

@@ -62,9 +62,7 @@ def within(thrust: Any, moment: Any, tilting: Any, yawing: Any, spins: Any, limi
         reach[spin] = (low - factor * least, high - factor * most)
     (a_low, a_high), (b_low, b_high) = reach[1], reach[-1]
     mean = _clip(thrust / n, (a_low + b_low) / 2, (a_high + b_high) / 2)
-    q = _clip(
-        yawing * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low)
-    )
+    q = _clip(yawing * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low))
     forces = ca.vertcat(*(scaled[i] + mean + spins[i] * q for i in range(n)))
     return _clip(forces, low, high)  # roundoff
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from flypend.compile.closed_loop import upright_wrench
 from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
 from flypend.geometry import apply, cross
 from flypend.laws.law import Controller, Law
 from flypend.model import State, Vehicle
@@ -95,6 +96,12 @@ def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Cal
     if isinstance(law, Law):
         compiled: Callable[..., Any] = _law_command(law, *setting)
         return compiled
+    if law.source is not None:
+        if plant.interface != "wrench" or not plant.limits:
+            raise InputError(
+                "plant", f"rotor forces within limits, such as rotors or mujoco, for {law.name}", "another"
+            )
+        return law.source(vehicle, usable_lead(law, vehicle, plant))
     finish, sign = _finish_command(*setting), 1.0 if law.e3 == "up" else FLIP_PACKED
 
     def call(t: float, state: Any, rotors: Any, _: Any) -> Any:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from importlib import resources
+import math
+from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -18,7 +19,6 @@ from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
 from flypend.staging import staged
 
-FORMAT = "0.1.0"
 CORE = ("flypend_law.h", "flypend_law.c")
 BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")
 ADAPTERS = (
@@ -94,7 +94,7 @@ def filled(name: str, values: dict[str, Any]) -> str:
 def _values(made: Interface, precision: Precision) -> dict[str, Any]:
     law, vehicle = made.law, made.vehicle
     parts = functions(made, precision)
-    gains = [law.numbers[field.name] if field.name in law.numbers else 0.0 for field in made.gains.fields]
+    gains = [law.numbers.get(field.name, 0.0) for field in made.gains.fields]
     has_gains = reads(made.step, 2)
     thrust_scale, moment_scale = vectors.scales(vehicle)
     checks = [("reference", "reference", made.follows), ("gains", "gains", has_gains)]
@@ -102,7 +102,7 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "law": ascii_of(law.name),
         "law_function": parts["law"],
         "vehicle": ascii_of(vehicle.name),
-        "version": FORMAT,
+        "version": metadata.version("flypend"),
         "precision": precision,
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),
@@ -122,9 +122,37 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
             if used
         ),
         "finite": _without(parts["finite"], () if has_gains else ("gains",)),
+        "zero_state": initializer(records.STATE, [0.0] * records.STATE.length, precision),
+        "zero_path": initializer(records.PATH, [0.0] * records.PATH.length, precision),
+        "radians": literal(math.pi / 180, precision),
+        "sqrt": "sqrt" if precision == "double" else "sqrtf",
+        "order": ", ".join(str(i) for i in range(made.rotors.length)),
+        "baked": _baked(made),
+        "latency": f"{law.computer.latency:.3g}",
+        "rotor_table": _rotor_table(vehicle),
         "thrust_scale": repr(thrust_scale),
         "moment_scale": repr(moment_scale),
     }
+
+
+def _baked(made: Interface) -> str:
+    """What the code holds as constants, in words."""
+    inertia = next(field for field in made.params.fields if field.name == "inertia")
+    diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"
+    text = f"the number of rotors ({made.rotors.length}), their spins, {diagonal}."
+    options = {name: value for name, value in made.law.gains.items() if isinstance(value, str)}
+    if options:
+        text += " Options: " + ", ".join(f"{name} = {value}" for name, value in options.items()) + "."
+    if not reads(made.step, 2):
+        text += f" All gains of the {made.law.name} law, computed for this vehicle: export again after a change of it."
+    return ascii_of(text)
+
+
+def _rotor_table(vehicle: Vehicle) -> str:
+    lines = ["| rotor | x m | y m | spin |", "|---|---|---|---|"]
+    for i, (place, spin) in enumerate(zip(vehicle.rotor_positions, vehicle.rotor_spins, strict=True)):
+        lines.append(f"| {i} | {place[0]:.4g} | {place[1]:.4g} | {spin:+.0f} |")
+    return "\n".join(lines)
 
 
 def _without(text: str, names: tuple[str, ...]) -> str:

@@ -42,7 +42,7 @@ def statements(
 ) -> list[str]:
     """C statements that compute `program`: `inputs[i][j]` is the C expression of entry j of input vector i.
 
-    Values are written in the order of use, so that few live at a time; `outputs[i][j]` receives entry j of output i.
+    `outputs[i][j]` receives entry j of output i, after everything has been computed: it may be an input as well.
     What is selected is computed in any case: no branch decides how long a call takes.
 
     Raises InputError for an operation that needs more of the C library than the square root.
@@ -51,8 +51,7 @@ def statements(
     root = "sqrt" if precision == "double" else "sqrtf"
     names: dict[int, str] = {}
     lines: list[str] = []
-    for number in in_order_of_use(program):
-        operation = program.operations[number]
+    for number, operation in enumerate(program.operations):
         if operation.name == "input":
             names[number] = inputs[operation.arguments[0]][operation.arguments[1]]
         elif operation.name == "constant":
@@ -72,23 +71,3 @@ def _form(operation: Operation) -> str:
     if operation.name not in _FORMS:
         raise InputError("law", "no function of the C library but the square root", operation.name)
     return _FORMS[operation.name]
-
-
-def in_order_of_use(program: Program) -> list[int]:
-    """Numbers of the operations, each after its arguments and as late as the outputs allow: depth first."""
-    order: list[int] = []
-    done: set[int] = set()
-    stack = [number for vector in reversed(program.outputs) for number in reversed(vector)]
-    while stack:
-        number = stack.pop()
-        if number in done:
-            continue
-        operation = program.operations[number]
-        arguments = () if operation.name == "input" else operation.arguments
-        missing = [a for a in arguments if a not in done]
-        if missing:
-            stack += [number, *reversed(missing)]
-        else:
-            done.add(number)
-            order.append(number)
-    return order

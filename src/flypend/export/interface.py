@@ -139,6 +139,8 @@ def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], Program, bool
     names = [name for name, symbol in gains.items() if ca.depends_on(wrench, symbol)]
     entries = ca.vertcat(*(gains[name] for name in names)) if names else ca.SX.sym("none", 1)
     program = lower(ca.Function("step", [state, reference, entries, params], [wrench]))
+    if any(math.isnan(operation.value) for operation in program.operations):  # float() of a symbol
+        raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name}, which has NaN in them")
     return names, program, bool(ca.depends_on(wrench, reference))
 
 

@@ -41,11 +41,11 @@ class Library:
         self._of = (law, vehicle, precision)
         self.made = interface(law, vehicle)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
-        self._folder = tempfile.TemporaryDirectory(prefix="flypend-c-")
         texts = core(self.made, precision) | {"many.c": filled("many.c", {})}
-        for name, text in texts.items():
-            (Path(self._folder.name) / name).write_text(text, encoding="utf-8")
-        self._c = ctypes.CDLL(str(_compile(Path(self._folder.name))))
+        with tempfile.TemporaryDirectory(prefix="flypend-c-") as folder:
+            for name, text in texts.items():
+                (Path(folder) / name).write_text(text, encoding="utf-8")
+            self._c = ctypes.CDLL(str(_compile(Path(folder))))
         numbers = self.made.law.numbers
         self.gains = self._array([numbers.get(field.name, 0.0) for field in self.made.gains.fields])
         self.params = self._array(records.params_of(vehicle))

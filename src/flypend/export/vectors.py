@@ -10,7 +10,6 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.c99 import Precision
-from flypend.compile.numeric import as_numpy
 from flypend.export import records
 from flypend.export.interface import followed, streamed_wrench
 from flypend.laws.law import Law
@@ -52,8 +51,7 @@ def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision)
     forces = FORCE_SPREAD * vehicle.weight * rng.uniform(-1, 1, (count, 6))
     state = records.state_numbers(packed, forces)
     path = PATH_SPREAD * rng.uniform(-1, 1, (count, records.PATH.length))
-    follow = path_reference(vehicle)
-    reference = np.array([follow(*pair) for pair in zip(path, state, strict=True)])
+    reference = np.array(path_reference(vehicle)(path.T, state.T)).T
     return rounded(state, precision), rounded(reference, precision)
 
 
@@ -73,9 +71,9 @@ def answers(law: Law, vehicle: Vehicle) -> Any:
 
 @lru_cache(maxsize=16)
 def path_reference(vehicle: Vehicle) -> Any:
-    """The callable (path (27,), state (30,)) → numbers of `records.REFERENCE` in Python."""
+    """The CasADi function (path (27), state (30)) → numbers of `records.REFERENCE`."""
     path, state = ca.SX.sym("path", records.PATH.length), ca.SX.sym("state", records.STATE.length)
-    return as_numpy(ca.Function("path_reference", [path, state], [followed(vehicle, path, state)]))
+    return ca.Function("path_reference", [path, state], [ca.cse(followed(vehicle, path, state))])
 
 
 def scales(vehicle: Vehicle) -> tuple[float, float]:

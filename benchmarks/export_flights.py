@@ -1,4 +1,4 @@
-"""Does the exported law succeed as often as the Python one, and the light form as the full one?
+"""Flights of the exported law beside the Python one, and of the light form beside the full one.
 
     python benchmarks/export_flights.py --runs 500 --plant mujoco
 

@@ -146,7 +146,8 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
 
         def command(t: float, packed: Any, rotors: Any, forces: Any) -> Any:
             _, wanted = _step(code, path, t, packed, forces)
-            return code.lead(wanted, rotors, lead).astype(float)
+            # Where the law refuses, what the rotors would safely do is not its answer: the flight ends as singular.
+            return code.lead(wanted, rotors, lead).astype(float) if np.all(np.isfinite(wanted)) else wanted
 
         return command
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copyreg
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -12,13 +12,17 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from flypend import errors
+from flypend.criterion import Criterion
+from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
 from flypend.laws import Controller, Law
-from flypend.metrics import Metrics, metrics, wilson
+from flypend.metrics import Metrics, judged, metrics, wilson
 from flypend.model import State, Vehicle
 from flypend.plants import Plant
-from flypend.simulate import simulate
+from flypend.plants import plant as plant_named
+from flypend.plants.flight import nearest_ticks
+from flypend.simulate import LEAST_RTOL, SAMPLE_PERIOD, simulate
 
-# Runs per task: a task compiles the law once, which costs a fraction of one run.
+# Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
 CHUNK = 8
 
 # What another process refuses comes back as the three fields of an InputError; by itself it is pickled by its message.
@@ -39,6 +43,10 @@ class Ensemble:
         The fields of `Metrics`, run by run.
     law, vehicle : str
         Names of what flew.
+    times : (t,), optional
+        Sample times, s, if any were asked for.
+    samples : (n, t, 24), optional
+        Packed states at these times, in the frame of the law; NaN after the end of a run.
     """
 
     starts: State
@@ -52,6 +60,8 @@ class Ensemble:
     cause: Any
     law: str
     vehicle: str
+    times: Any = None
+    samples: Any = None
 
     def __len__(self) -> int:
         """Number of runs."""
@@ -82,6 +92,13 @@ def simulate_ensemble(
     *,
     plant: str | Plant = "ideal",
     rtol: float = 1e-9,
+    gains: Mapping[str, Any] | None = None,
+    criterion: Criterion | None = None,
+    times: Any = None,
+    judge_period: float = SAMPLE_PERIOD,
+    method: str | None = None,
+    precision: str = "double",
+    engine: str = "kernel",
     workers: int | None = None,
     progress: Callable[[int, int], Any] = lambda *_: None,
 ) -> Ensemble:
@@ -93,37 +110,105 @@ def simulate_ensemble(
         As in `simulate`. A plant with noise or gusts gives run i the seed `plant.seed + i`.
     starts : State
         A batch of states with one leading axis, in the frame of the law.
+    gains : dict, optional
+        Gains of the law that differ from run to run: name to (n,).
+    criterion : Criterion, optional
+        What counts as a success; default to stand inverted at the reference.
+    times : (t,) increasing, optional
+        Times, s, at which states are kept, in the ideal plant under a Law.
+    judge_period : float
+        Every so often a run is judged, s. The default is that of `metrics`; a longer one makes short runs cheaper.
+    method : "dop853" or "dp5", optional
+        Runge-Kutta method of the ideal plant; default by the tolerance.
+    precision : "double" or "float"
+        Of the ideal plant; "float" is for tolerances of 1e-4 and looser.
+    engine : "kernel" or "scipy"
+        As in `simulate`.
     workers : int, optional
-        Processes; default one per core.
+        Threads, or processes for the engine "scipy"; default one per core.
     progress : callable
         Told `(done, total)` as runs come in.
 
     Raises
     ------
     InputError
-        For starts that are not a batch, and whatever `simulate` refuses.
+        For starts that are not a batch, gains that the law lacks, options that the engine lacks, and whatever
+        `simulate` refuses.
     """
     if not isinstance(starts, State) or len(starts.batch_shape) != 1:
         raise errors.InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
-    results = list(_run_all(vehicle, law, starts, duration, plant, rtol, workers, progress))
-    columns = {
-        entry.name: np.array([getattr(result[0], entry.name) for result in results]) for entry in fields(Metrics)
-    }
-    final = np.array([result[1] for result in results])
-    return Ensemble(starts=starts, final=final, law=law.name, vehicle=vehicle.name, **columns)
+    criterion = criterion or Criterion()
+    errors.one_of("engine", engine, ("kernel", "scipy"))
+    if not isinstance(plant, Plant) and plant != "ideal":
+        plant = plant_named(plant)
+    if engine == "scipy" or isinstance(law, Controller) or (isinstance(plant, Plant) and plant.engine == "mujoco"):
+        for name, value in (("gains", gains), ("times", times), ("method", method)):
+            if value is not None:
+                raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
+        return _one_by_one(vehicle, law, starts, duration, plant, rtol, criterion, engine, workers, progress)
+
+    bound, names = law.bound(vehicle), tuple(gains or ())
+    columns = [_column(name, value, len(starts)) for name, value in (gains or {}).items()]
+    values = np.stack(columns, axis=1) if columns else None
+    duration = errors.number("duration", duration, above=0, unit="s")
+    period = errors.number("judge_period", judge_period, above=0, unit="s")
+    grid = np.linspace(0.0, duration, max(2, round(duration / period) + 1))
+    packed = starts.packed()
+    if isinstance(plant, Plant):
+        if times is not None or method is not None or precision != "double":
+            raise errors.InputError("times, method, precision", "nothing, in a sampled flight", "a value")
+        flown = sampled_kernel(vehicle, bound, plant.replace(seed=0), criterion, names).fly(
+            packed, duration, ticks=nearest_ticks(grid, plant, duration), first_seed=plant.seed, parameters=values,
+            workers=workers, progress=progress,
+        )  # fmt: skip
+        return _ensemble(flown, starts, vehicle, bound, criterion)
+    rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
+    chosen = method or method_for(rtol, bound)
+    kernel = ideal_kernel(vehicle, bound, criterion, names, method=chosen, precision=precision)
+    kept = None if times is None else errors.array("times", times, (None,))
+    flown = kernel.fly(
+        packed, duration, rtol=rtol, parameters=values, times=grid if kept is None else kept, keep=kept is not None,
+        workers=workers, progress=progress,
+    )  # fmt: skip
+    return _ensemble(flown, starts, vehicle, bound, criterion, kept)
 
 
-def _run_all(
+def _column(name: str, value: Any, runs: int) -> Any:
+    """The values (n,) of one gain, from (n,) or one number for all."""
+    given = errors.array(f"gains.{name}", value, (), batch=True)
+    if given.shape not in ((), (runs,)):
+        raise errors.InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")
+    return np.broadcast_to(given, (runs,))
+
+
+def _ensemble(
+    flown: Flown, starts: State, vehicle: Vehicle, law: Law, criterion: Criterion, times: Any = None
+) -> Ensemble:
+    columns = judged(flown.reductions, flown.status, flown.end, vehicle, criterion)
+    return Ensemble(
+        starts=starts,
+        final=flown.final,
+        law=law.name,
+        vehicle=vehicle.name,
+        times=times,
+        samples=flown.samples,
+        **columns,
+    )
+
+
+def _one_by_one(
     vehicle: Vehicle,
     law: Law | Controller,
     starts: State,
     duration: float,
     plant: str | Plant,
     rtol: float,
+    criterion: Criterion,
+    engine: str,
     workers: int | None,
     progress: Callable[[int, int], Any],
-) -> Iterator[tuple[Metrics, Any]]:
-    """Results in the order of the starts, from one process per core."""
+) -> Ensemble:
+    """As `simulate_ensemble`, by single runs in one process per core."""
     count = workers or os.cpu_count() or 1
     bound = law.bound(vehicle)
 
@@ -132,16 +217,20 @@ def _run_all(
 
     def one(index: int) -> tuple[Metrics, Any]:
         seeded = plant.replace(seed=plant.seed + index) if isinstance(plant, Plant) else plant
-        run = simulate(vehicle, bound, starts[index], duration, plant=seeded, rtol=rtol)
-        return metrics(run), run.states[-1].packed()
+        run = simulate(vehicle, bound, starts[index], duration, plant=seeded, rtol=rtol, engine=engine)
+        return metrics(run, criterion), run.packed[-1]
 
     chunks = [range(i, min(i + CHUNK, len(starts))) for i in range(0, len(starts), CHUNK)]
     if count == 1 or len(chunks) == 1:
-        results: Any = (chunk(indices) for indices in chunks)
+        parts: Any = (chunk(indices) for indices in chunks)
     else:
-        results = Parallel(n_jobs=count, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
-    done = 0
-    for part in results:
-        done += len(part)
-        progress(done, len(starts))
-        yield from part
+        parts = Parallel(n_jobs=count, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
+    results: list[tuple[Metrics, Any]] = []
+    for part in parts:
+        results += part
+        progress(len(results), len(starts))
+    columns = {
+        entry.name: np.array([getattr(result[0], entry.name) for result in results]) for entry in fields(Metrics)
+    }
+    final = np.array([result[1] for result in results])
+    return Ensemble(starts=starts, final=final, law=law.name, vehicle=vehicle.name, **columns)

@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 from scipy.stats import binomtest
 
-from flypend.geometry import E3, norm
+from flypend.criterion import PARTS, Criterion, lean
+from flypend.geometry import norm
+from flypend.model import Vehicle
 from flypend.trajectory import Trajectory
 
-# Success: |y − e₃| and |z − e₃| (e₃ up), and |x − x_ref| in m, below these during the last second.
-ROD_TOLERANCE, AXIS_TOLERANCE, POSITION_TOLERANCE, HOLD = 0.05, 0.05, 0.2, 1.0
+# Roundoff of times, s.
+SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class Metrics:
     ----------
     success : bool
         Rod and thrust axis within 0.05 of upright (more by the lean that a moving reference takes) and the pivot within
-        0.2 m of its reference, for the last second.
+        0.2 m of its reference, for the last second; or whatever else the criterion says.
     settling : float
         Time after which all that holds to the end, s; NaN if it does not.
     excursion : float
@@ -48,52 +50,75 @@ class Metrics:
     cause: str
 
 
-def metrics(run: Trajectory) -> Metrics:
-    """Metrics of `run`; a run in the frame with e₃ down is turned up first."""
-    run = run if run.e3 == "up" else run.flipped()
+def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
+    """Metrics of `run` by `criterion` (default: inverted, as `Criterion` has it)."""
+    criterion = criterion or Criterion()
     distance = norm(run.x - run.x_ref)
-    lean = _lean(run)
-    within = {
-        "rod": norm(run.y - E3) < ROD_TOLERANCE + lean,
-        "axis": norm(run.z - E3) < AXIS_TOLERANCE + lean,
-        "position": distance < POSITION_TOLERANCE,
+    excess = criterion.excess(run.y, run.z, distance, _lean(run), run.e3)
+    out = [~(part <= 0) for part in excess]
+    reductions = [_since(run.t, np.any(out, axis=0)), *(_last(run.t, bad) for bad in out)]
+    forces = run.rotor_forces
+    values = [*reductions, np.max(distance), np.mean(forces**2), np.max(forces)]
+    columns = judged(np.array([values]), [run.outcome.status], np.array([run.outcome.time]), run.vehicle, criterion)
+    return Metrics(**{name: column[0].item() for name, column in columns.items()})
+
+
+def judged(reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: Criterion) -> dict[str, Any]:
+    """The fields of `Metrics` as arrays (n,), from what runs were reduced to.
+
+    Parameters
+    ----------
+    reductions : (n, 7)
+        As `criterion.REDUCTIONS` has it.
+    status : (n,)
+        "completed", "diverged" or "singular".
+    end : (n,)
+        When each run ended, s.
+    vehicle, criterion
+        What flew, and what it should do.
+    """
+    since, last, excursion, square, peak = (
+        reductions[:, 0], reductions[:, 1:4], reductions[:, 4], reductions[:, 5], reductions[:, 6]
+    )  # fmt: skip
+    status = np.asarray(status)
+    late = last >= (end - criterion.hold - SAME)[:, None]
+    success = (status == "completed") & ~np.any(late, axis=1)
+    cause = np.where(status != "completed", status, np.array(PARTS)[np.argmax(late, axis=1)])
+    share = vehicle.weight / len(vehicle.rotor_spins)
+    return {
+        "success": success,
+        "settling": np.where(success, since, np.nan),
+        "excursion": excursion,
+        "effort": np.sqrt(square) / share,
+        "peak_force": peak,
+        "end": end,
+        "cause": np.where(success, "", cause),
     }
-    good = np.logical_and.reduce(list(within.values()))
-    completed = run.outcome.status == "completed"
-    last = run.t >= run.t[-1] - HOLD - 1e-9
-    success = bool(completed and np.all(good[last]))
-    out = [name for name, inside in within.items() if not np.all(inside[last])]
-    share = run.vehicle.weight / run.rotor_forces.shape[1]
-    return Metrics(
-        success=success,
-        settling=_settled_since(run.t, good) if success else float("nan"),
-        excursion=float(np.max(distance)),
-        effort=float(np.sqrt(np.mean(run.rotor_forces**2)) / share),
-        peak_force=float(np.max(run.rotor_forces)),
-        end=float(run.outcome.time),
-        cause="" if success else out[0] if completed else run.outcome.status,
-    )
 
 
 def _lean(run: Trajectory) -> Any:
-    """How far one leans who follows the reference: |d − e₃|, d being the direction of ẍ_ref + g e₃; 0 in hover.
-
-    On a circle rod and axis lean a little less, since the bob goes round on a smaller one than the pivot. No level
-    reference allows as much as √2, so a rod that hangs is never let pass.
-    """
+    """The lean that the reference of `run` takes; 0 in hover."""
     if len(run.t) < 3 or not np.any(run.x_ref != run.x_ref[0]):
         return 0.0
     velocity = np.gradient(run.x_ref, run.t, axis=0, edge_order=2)
-    a_1, a_2, a_3 = np.gradient(velocity, run.t, axis=0, edge_order=2).T
-    return 2 * np.sin(np.arctan2(np.hypot(a_1, a_2), run.vehicle.g + a_3) / 2)
+    acceleration = np.gradient(velocity, run.t, axis=0, edge_order=2)
+    return lean(acceleration * (1.0 if run.e3 == "up" else np.array([1.0, -1.0, -1.0])), run.vehicle.g)
+
+
+def _last(t: Any, bad: Any) -> float:
+    """Last time at which `bad`; −1 if never."""
+    found = np.flatnonzero(bad)
+    return float(t[found[-1]]) if len(found) else -1.0
+
+
+def _since(t: Any, bad: Any) -> float:
+    """First time after the last `bad` one; inf if that is the last of all."""
+    found = np.flatnonzero(bad)
+    place = found[-1] + 1 if len(found) else 0
+    return float(t[place]) if place < len(t) else float("inf")
 
 
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:
     """Wilson interval of a success rate: `successes` out of `runs`, at `confidence`."""
     interval = binomtest(int(successes), int(runs)).proportion_ci(confidence, method="wilson")
     return float(interval.low), float(interval.high)
-
-
-def _settled_since(t: Any, good: Any) -> float:
-    bad = np.flatnonzero(~good)
-    return float(t[0] if not len(bad) else t[bad[-1] + 1])

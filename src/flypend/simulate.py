@@ -7,15 +7,17 @@ from typing import Any
 import numpy as np
 
 from flypend import errors, plants
-from flypend.compile import close_loop
+from flypend.compile import ClosedLoop, close_loop
 from flypend.compile.numeric import as_numpy
-from flypend.integrate import integrate
+from flypend.integrate import Integration, integrate
+from flypend.kernels import ideal_kernel, method_for
+from flypend.kernels.single import Solution, flown_by_kernel
 from flypend.laws import Controller, Law
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, split
 from flypend.plants import Plant
-from flypend.plants.flight import fly
+from flypend.plants.flight import fly, nearest_ticks
 from flypend.trajectory import Trajectory
 
 SAMPLE_PERIOD = 0.01
@@ -32,6 +34,7 @@ def simulate(
     rtol: float = 1e-9,
     atol: float | None = None,
     times: Any = None,
+    engine: str = "kernel",
 ) -> Trajectory:
     """Fly `vehicle` under `law` from `start` for `duration` seconds.
 
@@ -50,11 +53,15 @@ def simulate(
         lag and sampling, integrated by the package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011"
         (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
-        Tolerances of the adaptive step (DOP853); atol defaults to rtol (state entries are of order one in SI units).
+        Tolerances of the adaptive step (DOP853; from 1e-6 on DP5, which is faster there); atol defaults to rtol, since
+        state entries are of order one in SI units.
         Used by the ideal plant; a sampled flight takes steps of 1 ms or less.
     times : (n,) increasing, optional
         Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends
         early is sampled up to its end.
+    engine : "kernel" or "scipy"
+        Machine code made for vehicle, law and plant, or the independent reference: SciPy's DOP853 for the ideal plant,
+        a sampled flight step by step in Python. What has no kernel (a Controller, MuJoCo) takes the latter anyway.
 
     Returns
     -------
@@ -64,7 +71,8 @@ def simulate(
     Raises
     ------
     InputError
-        For a batch of states, a duration or tolerance that is not positive, or times outside the run.
+        For a batch of states, a duration or tolerance that is not positive, times outside the run, or an unknown
+        engine.
     """
     _check(vehicle, law, start)
     law = law.bound(vehicle)
@@ -73,31 +81,23 @@ def simulate(
     if rtol < LEAST_RTOL:
         raise errors.InputError("rtol", f"at least {LEAST_RTOL:g}, a hundred roundoffs", f"{rtol:g}")
     atol = None if atol is None else errors.number("atol", atol, above=0)
+    errors.one_of("engine", engine, ("kernel", "scipy"))
     wanted = _sample_times(duration, times)
     if plant == "ideal":
         if isinstance(law, Law):
-            return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted)
+            return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted, engine)
         plant = Plant(limits=False, lag=0.0, rate=law.rate)
-    return _sampled(vehicle, law, start, duration, plants.plant(plant), wanted)
+    return _sampled(vehicle, law, start, duration, plants.plant(plant), wanted, engine)
 
 
 def _ideal(
-    vehicle: Vehicle, law: Law, start: State, duration: float, rtol: float, atol: float, wanted: Any
+    vehicle: Vehicle, law: Law, start: State, duration: float, rtol: float, atol: float, wanted: Any, engine: str
 ) -> Trajectory:
     """The closed loop in continuous time, the wrench acting as commanded."""
     loop = close_loop(vehicle, law)
     outputs = as_numpy(loop.outputs)
-    margin, reason = None, ""
-    if law.guard is not None:
-        errors.one_of("law.guard", law.guard.signal, loop.signal_names)
-        row, threshold, reason = 4 + loop.signal_names.index(law.guard.signal), law.guard.threshold, law.guard.reason
-
-        def margin(t: float, s: Any) -> float:
-            return float(outputs(t, s)[row]) - threshold
-
-    solution = integrate(
-        as_numpy(loop.rates), start.packed(), duration, rtol=rtol, atol=atol, margin=margin, margin_reason=reason
-    )
+    solve = _by_kernel if engine == "kernel" else _by_scipy
+    solution, drift = solve(loop, start.packed(), duration, rtol, atol, outputs)
     end = solution.outcome.time
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
     packed = solution(t)
@@ -109,7 +109,7 @@ def _ideal(
         moment=values[:, 1:4],
         rotor_forces=values[:, :4] @ vehicle.unmixing(law.e3).T,
         signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)),
-        drift=solution.drift,
+        drift=drift,
         outcome=solution.outcome,
         e3=law.e3,
         vehicle=vehicle,
@@ -120,27 +120,51 @@ def _ideal(
     )
 
 
+def _by_kernel(loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, _: Any) -> tuple[Solution, Any]:
+    solution = Solution(
+        ideal_kernel(loop.vehicle, loop.law, method=method_for(rtol, loop.law)), start, duration, rtol, atol
+    )
+    return solution, solution.drift
+
+
+def _by_scipy(
+    loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, outputs: Any
+) -> tuple[Integration, Any]:
+    guard, margin, reason = loop.law.guard, None, ""
+    if guard is not None:
+        errors.one_of("law.guard", guard.signal, loop.signal_names)
+        row, threshold, reason = 4 + loop.signal_names.index(guard.signal), guard.threshold, guard.reason
+
+        def margin(t: float, s: Any) -> float:
+            return float(outputs(t, s)[row]) - threshold
+
+    rates = as_numpy(loop.rates)
+    solution = integrate(rates, start, duration, rtol=rtol, atol=atol, margin=margin, margin_reason=reason)
+    return solution, solution.drift
+
+
 def _sampled(
-    vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant, wanted: Any
+    vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant, wanted: Any, engine: str
 ) -> Trajectory:
     """A sampled flight; it is recorded at control ticks, of which those nearest to `wanted` are kept."""
-    samples = fly(vehicle, law, start, duration, plant)
-    ticks = np.unique(np.clip(np.rint(wanted * plant.rate).astype(int), 0, len(samples.t) - 1))
-    rotors = samples.rotors[ticks]
-    wrench = rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
+    if engine == "kernel" and isinstance(law, Law) and plant.engine == "equations":
+        samples = flown_by_kernel(vehicle, law, start, duration, plant, nearest_ticks(wanted, plant, duration))
+    else:
+        samples = fly(vehicle, law, start, duration, plant).at(wanted * plant.rate)
+    wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     return Trajectory(
-        t=samples.t[ticks],
-        **split(samples.packed[ticks] * (1.0 if law.e3 == "up" else FLIP_PACKED)),
+        t=samples.t,
+        **split(samples.packed * (1.0 if law.e3 == "up" else FLIP_PACKED)),
         thrust=wrench[:, 0],
         moment=wrench[:, 1:],
-        rotor_forces=rotors,
+        rotor_forces=samples.rotors,
         drift=np.zeros((0, 3)),
         outcome=samples.outcome,
         e3=law.e3,
         vehicle=vehicle,
         law=law.name,
         gains=dict(law.gains),
-        x_ref=_reference(law, samples.t[ticks]),
+        x_ref=_reference(law, samples.t),
     )
 
 

@@ -175,26 +175,29 @@ class _Builder:
         a, b = arguments[0], arguments[-1]
         first, second = values[0], values[-1]
         if name == "add":
-            if 0.0 in (first, second):
-                return b if first == 0.0 else a
-            if (inner := self._negated(b)) is not None:
-                return self.do("sub", a, inner)
-            if (inner := self._negated(a)) is not None:
-                return self.do("sub", b, inner)
-        elif name == "sub":
-            if second == 0.0:
-                return a
-            if first == 0.0:
-                return self.do("neg", b)
-            if (inner := self._negated(b)) is not None:
-                return self.do("add", a, inner)
-        elif name == "mul":
+            return self._sum(a, b, first, second)
+        if name == "sub":
+            return self._difference(a, b, first, second)
+        if name == "mul":
             return self._product(a, b, first, second)
-        elif name == "div" and second is not None and second != 0.0:
+        if name == "div" and second is not None and second != 0.0:
             return self.do("mul", a, self.constant(1.0 / second))
-        elif name == "neg":
-            return self._negated(a)
+        return self._negated(a) if name == "neg" else None
+
+    def _sum(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
+        if 0.0 in (first, second):
+            return b if first == 0.0 else a
+        for one, other in ((a, b), (b, a)):
+            if (inner := self._negated(other)) is not None:
+                return self.do("sub", one, inner)
         return None
+
+    def _difference(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
+        if second == 0.0:
+            return a
+        if first == 0.0:
+            return self.do("neg", b)
+        return None if (inner := self._negated(b)) is None else self.do("add", a, inner)
 
     def _product(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
         for other, value in ((b, first), (a, second)):

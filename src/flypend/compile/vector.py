@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from functools import partial
 
 from llvmlite import ir
 
@@ -268,36 +268,34 @@ def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]])
 
 
 def _operation(code: Code, name: str, values: list[Value]) -> Value:
-    if name in _ARITHMETIC:
-        return _ARITHMETIC[name](*values)
-    if name in _COMPARISONS:
-        return code.select(values[0].compare(_COMPARISONS[name], values[1]), 1.0, 0.0)
     if name in LIBRARY or name in LIBRARY_2:
         return code.library(name, *values)
-    a, b = values[0], values[-1]
-    if name == "fmin":
-        return code.least(a, b)
-    if name == "fmax":
-        return code.most(a, b)
-    if name == "sqrt":
-        return code.sqrt(a)
-    if name == "fabs":
-        return code.fabs(a)
-    if name == "sign":
-        return code.select(a > 0.0, 1.0, code.select(a < 0.0, -1.0, 0.0))
-    if name == "select":
-        return code.select(a.compare("!=", 0.0), b, 0.0)
-    if name == "not":
-        return code.select(a.compare("==", 0.0), 1.0, 0.0)
-    first, second = a.compare("!=", 0.0), b.compare("!=", 0.0)
-    return code.select(first & second if name == "and" else first | second, 1.0, 0.0)
+    if name in _COMPARISONS:
+        return code.select(values[0].compare(_COMPARISONS[name], values[1]), 1.0, 0.0)
+    return _OPERATIONS[name](code, *values)
 
 
-_ARITHMETIC: dict[str, Callable[..., Value]] = {
-    "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
-    "neg": lambda a: -a,
-}  # fmt: skip
+def _true(value: Value) -> Value:
+    return value.compare("!=", 0.0)
+
+
 _COMPARISONS = {"lt": "<", "le": "<=", "eq": "==", "ne": "!="}
+_OPERATIONS: dict[str, Callable[..., Value]] = {
+    "add": lambda _, a, b: a + b,
+    "sub": lambda _, a, b: a - b,
+    "mul": lambda _, a, b: a * b,
+    "div": lambda _, a, b: a / b,
+    "neg": lambda _, a: -a,
+    "fmin": Code.least,
+    "fmax": Code.most,
+    "sqrt": Code.sqrt,
+    "fabs": Code.fabs,
+    "sign": lambda code, a: code.select(a > 0.0, 1.0, code.select(a < 0.0, -1.0, 0.0)),
+    "select": lambda code, condition, a: code.select(_true(condition), a, 0.0),
+    "not": lambda code, a: code.select(a.compare("==", 0.0), 1.0, 0.0),
+    "and": lambda code, a, b: code.select(_true(a) & _true(b), 1.0, 0.0),
+    "or": lambda code, a, b: code.select(_true(a) | _true(b), 1.0, 0.0),
+}
 
 
 def define(lanes: Lanes, program: Program) -> ir.Function:
@@ -307,7 +305,7 @@ def define(lanes: Lanes, program: Program) -> ir.Function:
     """
     function, code = lanes.function(program.name, len(program.inputs) + len(program.outputs))
     sources, targets = function.args[: len(program.inputs)], function.args[len(program.inputs) :]
-    results = emit(code, program, [lambda i, source=source: code.load(source, i) for source in sources])
+    results = emit(code, program, [partial(code.load, source) for source in sources])
     for target, values in zip(targets, results, strict=True):
         for i, value in enumerate(values):
             code.store(value, target, i)

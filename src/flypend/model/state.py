@@ -112,7 +112,12 @@ class State:
         """Members of a batch: `index` applies to the batch axes."""
         if not self.batch_shape:
             raise IndexError("a single state has no members; only a batch of states can be indexed")
-        return State(**{name: getattr(self, name)[index] for name in SHAPES})
+        member = object.__new__(type(self))  # what is on the manifold stays as it is, to the last bit
+        for name in SHAPES:
+            part = np.array(getattr(self, name)[index])
+            part.setflags(write=False)
+            object.__setattr__(member, name, part)
+        return member
 
     def __len__(self) -> int:
         """Length of the first batch axis."""
@@ -229,3 +234,15 @@ def _in_ball(rng: np.random.Generator, shape: tuple[int, ...], radius: float) ->
 
 
 assert tuple(field.name for field in fields(State)) == tuple(SHAPES)
+
+
+def project_symbolic(packed: Any) -> Any:
+    """Project a packed state (24, 1) that a small step took off the manifold back onto it, in CasADi.
+
+    For R one Newton step of the polar decomposition, R(3 − RᵀR)/2, squares the error: 1e-8 becomes 1e-16.
+    """
+    s = State.symbolic(packed)
+    y = s.y / ca.norm_2(s.y)
+    y_dot = s.y_dot - ca.dot(y, s.y_dot) * y
+    rotation = s.R @ (3 * ca.SX.eye(3) - s.R.T @ s.R) / 2
+    return State(x=s.x, x_dot=s.x_dot, R=rotation, omega=s.omega, y=y, y_dot=y_dot).packed()

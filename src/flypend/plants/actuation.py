@@ -113,25 +113,36 @@ class Actuation:
     def __init__(self, engine: Engine, vehicle: Vehicle, plant: Plant, step: float | None = None) -> None:
         self.engine = engine
         self._rates = plant.interface == "rates"
-        self._step = step or (1 / plant.rate_loop_rate if self._rates else PLANT_STEP)
+        self._longest = step
+        self._plant = plant
         if self._rates:
-            self._loop = rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
+            self._loop = _compiled_rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
 
     def advance(self, command: Any, duration: float, wind: Any) -> None:
         """Hold `command` for `duration` seconds under `wind` (6,)."""
-        steps = max(1, int(np.ceil(duration / self._step - 1e-9)))
+        steps = steps_in(duration, self._plant, self._longest)
         for _ in range(steps):
             forces = self._loop(command, self.engine.packed[OMEGA]) if self._rates else command
             self.engine.step(forces, duration / steps, wind)
 
 
+def steps_in(duration: float, plant: Plant, longest: float | None = None) -> int:
+    """Number of equal steps of an engine in `duration` (s), none longer than `longest` (s; default that of `plant`)."""
+    longest = longest or (1 / plant.rate_loop_rate if plant.interface == "rates" else PLANT_STEP)
+    return max(1, int(np.ceil(duration / longest - 1e-9)))
+
+
 @lru_cache(maxsize=32)
-def rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
+def _compiled_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
+    return as_numpy(rate_loop(vehicle, limits, gain))
+
+
+def rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> ca.Function:
     """The loop (command (4,), omega (3,)) → rotor forces of `vehicle`, with `gain` (1/s), within `limits` if set."""
     command, omega = ca.SX.sym("c", 4), ca.SX.sym("omega", 3)
     gyroscopic = cross(omega, apply(vehicle.I, omega))
     moment = apply(vehicle.I, gain * (command[1:] - omega)) + gyroscopic
-    return as_numpy(ca.Function("rate_loop", [command, omega], [rotor_forces(command[0], moment, vehicle, limits)]))
+    return ca.Function("rate_loop", [command, omega], [rotor_forces(command[0], moment, vehicle, limits)])
 
 
 def rotor_forces(thrust: Any, moment: Any, vehicle: Vehicle, limits: bool) -> Any:

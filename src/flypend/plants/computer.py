@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -21,6 +20,7 @@ from flypend.plants.actuation import Actuation, rotor_forces
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.observer import ForceObserver
 from flypend.plants.plant import Plant
+from flypend.plants.schedule import Segment, ahead, within_period
 
 # Longest step of the prediction, s. It is shorter than the dynamics that it predicts and costs a tenth of the plant's.
 TWIN_STEP = 1e-2
@@ -41,44 +41,48 @@ class FlightComputer:
         self._observer = ForceObserver(vehicle, law.computer)
         self._forces: Any = np.zeros(6)
         self._rotors: Any = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
-        self._current: Any = idle_command(vehicle, plant)
-        self._pending: deque[tuple[float, Any]] = deque()
+        self._ahead = ahead(self._latency, self._period)
+        self._within = within_period(self._latency, self._period)
+        self._commands = Commands(idle_command(vehicle, plant))
 
     def command(self, t: float, measured: Any) -> Any:
         """The command for the measurement `measured` (24,), e₃ up, taken at time `t` (s)."""
         self._forces = self._observer.update(measured, self._rotors, self._period)
-        state, rotors = self._predict(t, measured)
-        command = self._command(t + self._latency, state, rotors, self._forces)
-        self._pending.append((t + self._latency, command))
+        state, rotors = self._predict(measured)
+        command: Any = self._command(t + self._latency, state, rotors, self._forces)
+        self._commands.add(command)
         return command
 
-    def _predict(self, t: float, measured: Any) -> tuple[Any, Any]:
-        """State and rotor forces when a command given at `t` is planned to act, over the commands under way."""
-        twin = self._twin
-        twin.engine.reset(measured, self._rotors)
-        now, command = t, self._current
-        for act, following in self._pending:
-            if act > now + 1e-9:
-                twin.advance(command, act - now, self._forces)
-                now = act
-            command = following
-        if t + self._latency > now + 1e-9:
-            twin.advance(command, t + self._latency - now, self._forces)
-        return twin.engine.packed, twin.engine.rotors
+    def _predict(self, measured: Any) -> tuple[Any, Any]:
+        """State and rotor forces when the command after `measured` is planned to act, over the commands under way."""
+        return self._imagine(measured, self._ahead, newest=1)
 
-    def tick(self, t: float, measured: Any) -> None:
-        """Move the model of the rotors from `t` over one period, over the commands that are planned to act in it."""
-        twin, end = self._twin, t + self._period
-        twin.engine.reset(measured, self._rotors)
-        now = t
-        while self._pending and self._pending[0][0] < end - 1e-9:
-            act, following = self._pending.popleft()
-            if act > now + 1e-9:
-                twin.advance(self._current, act - now, self._forces)
-                now = act
-            self._current = following
-        twin.advance(self._current, end - now, self._forces)
-        self._rotors = twin.engine.rotors
+    def tick(self, measured: Any) -> None:
+        """Move the model of the rotors over one period, over the commands that are planned to act in it."""
+        _, self._rotors = self._imagine(measured, self._within, newest=0)
+
+    def _imagine(self, measured: Any, segments: Sequence[Segment], newest: int) -> tuple[Any, Any]:
+        """State and rotor forces after `segments` from `measured`; the last command computed has age `newest`."""
+        self._twin.engine.reset(measured, self._rotors)
+        for age, duration in segments:
+            self._twin.advance(self._commands[age - newest], duration, self._forces)
+        return self._twin.engine.packed, self._twin.engine.rotors
+
+
+class Commands:
+    """The commands of a flight by age, 0 for the last one; `idle` before the first."""
+
+    def __init__(self, idle: Any) -> None:
+        self._idle = idle
+        self._given: list[Any] = []
+
+    def add(self, command: Any) -> None:
+        """Take in the command of this tick."""
+        self._given.append(command)
+
+    def __getitem__(self, age: int) -> Any:
+        """The command given `age` ticks before the last."""
+        return self._given[-1 - age] if age < len(self._given) else self._idle
 
 
 def idle_command(vehicle: Vehicle, plant: Plant) -> Any:
@@ -94,13 +98,11 @@ def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Cal
     """
     setting = (vehicle, plant.limits, plant.interface, plant.rate_loop_gain, usable_lead(law, vehicle, plant))
     if isinstance(law, Law):
-        compiled: Callable[..., Any] = _law_command(law, *setting)
-        return compiled
+        return _compiled_command(law, *setting)
     if law.source is not None:
         if plant.interface != "wrench" or not plant.limits:
-            raise InputError(
-                "plant", f"rotor forces within limits, such as rotors or mujoco, for {law.name}", "another"
-            )
+            expected = f"rotor forces within limits, such as rotors or mujoco, for {law.name}"
+            raise InputError("plant", expected, "another")
         return law.source(vehicle, usable_lead(law, vehicle, plant))
     finish, sign = _finish_command(*setting), 1.0 if law.e3 == "up" else FLIP_PACKED
 
@@ -122,12 +124,32 @@ def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
 
 
 @lru_cache(maxsize=64)
-def _law_command(law: Law, vehicle: Vehicle, limits: bool, interface: str, rate_gain: float, lead: float) -> Any:
-    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+def _compiled_command(law: Law, *setting: Any) -> Callable[..., Any]:
+    compiled = as_numpy(law_command(law, *setting))
+    none = np.zeros(0)
+    return lambda t, state, rotors, forces: compiled(t, state, rotors, forces, none)
+
+
+def law_command(
+    law: Law,
+    vehicle: Vehicle,
+    limits: bool,
+    interface: str,
+    rate_gain: float,
+    lead: float,
+    parameters: Sequence[str] = (),
+) -> ca.Function:
+    """(t, state (24,), modelled rotor forces (n,), external forces (6,), p) → command, e₃ up, as a CasADi function.
+
+    `vehicle` is the one that the law believes in; `limits`, `interface` and `rate_gain` are those of the plant, `lead`
+    is `usable_lead`, and p holds the gains called `parameters`.
+    """
+    t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
     rotors, external = ca.SX.sym("r", len(vehicle.rotor_spins)), ca.SX.sym("F", 6)
-    wrench = upright_wrench(law, t, packed, vehicle, external)
+    gains = {name: p[i] for i, name in enumerate(parameters)}
+    wrench = upright_wrench(law, t, packed, vehicle, external, gains)
     command = _finish(wrench, packed, rotors, vehicle, limits, interface, rate_gain, lead)
-    return as_numpy(ca.Function("command", [t, packed, rotors, external], [ca.cse(ca.densify(command))]))
+    return ca.Function("command", [t, packed, rotors, external, p], [ca.cse(ca.densify(command))])
 
 
 @lru_cache(maxsize=64)

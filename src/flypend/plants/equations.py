@@ -9,9 +9,10 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.compile.numeric import as_numpy
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.disturbed import disturbed_motion
-from flypend.model.state import SIZE
+from flypend.model.state import SIZE, project_symbolic
 
 
 class EquationsEngine:
@@ -27,6 +28,7 @@ class EquationsEngine:
 
     def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0)) -> None:
         self._step = _compiled_step(vehicle, tuple(pivot_offset))
+        self._lag = vehicle.rotor_lag
         self.packed: Any = np.zeros(SIZE)
         self.rotors: Any = np.zeros(len(vehicle.rotor_spins))
 
@@ -36,25 +38,33 @@ class EquationsEngine:
 
     def step(self, command: Any, duration: float, wind: Any) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
-        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, duration)
+        timing = step_timing(self._lag, duration)
+        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, timing)
 
 
 @lru_cache(maxsize=64)
 def _compiled_step(vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> Callable[..., Any]:
-    from flypend.compile.numeric import as_numpy
-
     return as_numpy(rotor_step(vehicle, pivot_offset))
 
 
+@lru_cache(maxsize=256)
+def step_timing(lag: float, duration: float) -> Any:
+    """What `rotor_step` must know of its `duration` h (s): h, e^{−h/2T} and e^{−h/T} for a `lag` of T (s)."""
+    decay = np.exp(-duration / (2 * lag)) if lag > 0 else 0.0
+    return np.array([duration, decay, decay**2])
+
+
 def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0)) -> ca.Function:
-    """One step (state, rotors, command, wind, duration) → (state, rotors) of `vehicle` as a CasADi function.
+    """One step (state, rotors, command, wind, timing) → (state, rotors) of `vehicle` as a CasADi function.
 
     Rotor forces follow the command with the time constant of the vehicle, exactly; the motion is integrated by the
-    Runge-Kutta method of order 4 and projected back onto the manifold. `pivot_offset` as in `EquationsEngine`.
+    Runge-Kutta method of order 4 and projected back onto the manifold. `pivot_offset` as in `EquationsEngine`, timing
+    (3,) as `step_timing` gives it.
     """
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
-    wind, h = ca.SX.sym("w", 6), ca.SX.sym("h")
+    wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", 3)
+    h = timing[0]
     mixing = vehicle.mixing()
 
     def rates(s: Any, forces: Any) -> Any:
@@ -71,9 +81,7 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
         return motion.packed()
 
     if vehicle.rotor_lag > 0:
-        middle = command + (rotors - command) * ca.exp(-h / (2 * vehicle.rotor_lag))
-        end = command + (rotors - command) * ca.exp(-h / vehicle.rotor_lag)
-        start = rotors
+        start, middle, end = (command + (rotors - command) * decay for decay in (1, timing[1], timing[2]))
     else:
         start = middle = end = command
     k_1 = rates(packed, start)
@@ -82,16 +90,4 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
     k_4 = rates(packed + h * k_3, end)
     result = project_symbolic(packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4))
     outputs = ca.cse([ca.densify(result), ca.densify(end)])
-    return ca.Function("rotor_step", [packed, rotors, command, wind, h], outputs)
-
-
-def project_symbolic(packed: Any) -> Any:
-    """Project a packed state (24, 1) that a small step took off the manifold back onto it, in CasADi.
-
-    For R one Newton step of the polar decomposition, R(3 − RᵀR)/2, squares the error: 1e-8 becomes 1e-16.
-    """
-    s = State.symbolic(packed)
-    y = s.y / ca.norm_2(s.y)
-    y_dot = s.y_dot - ca.dot(y, s.y_dot) * y
-    rotation = s.R @ (3 * ca.SX.eye(3) - s.R.T @ s.R) / 2
-    return State(x=s.x, x_dot=s.x_dot, R=rotation, omega=s.omega, y=y, y_dot=y_dot).packed()
+    return ca.Function("rotor_step", [packed, rotors, command, wind, timing], outputs)

@@ -1,22 +1,31 @@
-"""One sampled flight: measure, command, hold, with whatever the plant puts in between."""
+"""One sampled flight, step by step in Python: measure, command, hold, with whatever the plant puts in between.
+
+It flies what no kernel can: MuJoCo, and laws that are plain callables. For the rest it is the reference of the kernel.
+"""
 
 from __future__ import annotations
 
-from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from flypend.geometry import project_tangent, unit
+from flypend.compile.numeric import as_numpy
+from flypend.compile.random import normals
 from flypend.integrate import MAX_STATE, Outcome
 from flypend.laws.law import Controller, Law
 from flypend.model import State, Vehicle
-from flypend.model.state import FLIP_PACKED, split
+from flypend.model.state import FLIP_PACKED
 from flypend.plants.actuation import Actuation, make_engine
-from flypend.plants.computer import FlightComputer, idle_command
+from flypend.plants.computer import Commands, FlightComputer, idle_command
+from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement
 from flypend.plants.plant import Noise, Plant, Wind
+from flypend.plants.schedule import within_period
+
+NOT_FINITE = "the law's wrench is not a finite number"
+LEFT = f"the state left |s| < {MAX_STATE:g}"
 
 
 @dataclass(frozen=True)
@@ -28,87 +37,89 @@ class Samples:
     rotors: Any
     outcome: Outcome
 
+    def at(self, ticks: Any) -> Samples:
+        """The samples at the control ticks nearest to `ticks` (real numbers), each once."""
+        kept = np.unique(np.clip(np.rint(ticks).astype(int), 0, len(self.t) - 1))
+        return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
+
 
 def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant) -> Samples:
     """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
 
     Rotors start at their least force. Every quantity is recorded at each control tick.
     """
-    rng = np.random.default_rng(plant.seed)
     engine = make_engine(plant.true_vehicle(vehicle), plant)
     packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
     engine.reset(packed, np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]))
     world = Actuation(engine, vehicle, plant)
     computer = FlightComputer(law, vehicle, plant)
-    gusts = _Gusts(plant.wind, 1 / plant.rate, rng)
 
-    period, ticks = 1 / plant.rate, max(1, round(duration * plant.rate))
+    period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
+    measure, next_wind = _chance(plant, ticks)
     states, rotors = [engine.packed], [engine.rotors]
-    active, queue = idle_command(vehicle, plant), deque[tuple[float, Any]]()
+    commands, segments = Commands(idle_command(vehicle, plant)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
     with np.errstate(all="ignore"):
         for k in range(ticks):
-            t, end = k * period, (k + 1) * period
-            measured = _measure(engine.packed, plant.noise, rng)
-            command = computer.command(t, measured)
+            measured = measure(k, engine.packed)
+            command = computer.command(k * period, measured)
             if not np.isfinite(np.sum(command)):
-                outcome = Outcome("singular", t, "the law's wrench is not a finite number")
+                outcome = Outcome("singular", k * period, NOT_FINITE)
                 break
-            queue.append((t + plant.delay, command))
-            computer.tick(t, measured)
-            wind = gusts.next()
-            while queue and queue[0][0] < end - 1e-9:
-                arrival, command = queue.popleft()
-                if arrival > t + 1e-9:
-                    world.advance(active, arrival - t, wind)
-                    t = arrival
-                active = command
-            world.advance(active, end - t, wind)
+            commands.add(command)
+            computer.tick(measured)
+            wind = next_wind(k)
+            for age, while_ in segments:
+                world.advance(commands[age], while_, wind)
+            if not (np.all(np.isfinite(engine.packed)) and np.max(np.abs(engine.packed)) < MAX_STATE):
+                outcome = Outcome("diverged", k * period, LEFT)
+                break
             states.append(engine.packed)
             rotors.append(engine.rotors)
-            if not (np.all(np.isfinite(engine.packed)) and np.max(np.abs(engine.packed)) < MAX_STATE):
-                states.pop(), rotors.pop()
-                outcome = Outcome("diverged", k * period, f"the state left |s| < {MAX_STATE:g}")
-                break
     return Samples(np.arange(len(states)) * period, np.array(states), np.array(rotors), outcome)
 
 
-def _measure(packed: Any, noise: Noise | None, rng: np.random.Generator) -> Any:
-    """The packed state (24,) as measured: on the manifold, with the noise added."""
-    if noise is None:
-        return packed
-    s = split(packed)
-    draw = rng.standard_normal((6, 3))
-    y = unit(s["y"] + noise.y * project_tangent(s["y"], draw[4]))
-    return np.concatenate(
-        [
-            s["x"] + noise.x * draw[0],
-            s["x_dot"] + noise.x_dot * draw[1],
-            (s["R"] @ Rotation.from_rotvec(noise.attitude * draw[2]).as_matrix()).ravel(),
-            s["omega"] + noise.omega * draw[3],
-            y,
-            project_tangent(y, s["y_dot"] + noise.y_dot * draw[5]),
-        ]
+def number_of_ticks(duration: float, plant: Plant) -> int:
+    """Control ticks of a flight of `duration` seconds."""
+    return max(1, round(duration * plant.rate))
+
+
+def nearest_ticks(times: Any, plant: Plant, duration: float) -> Any:
+    """The control ticks (k,) of a flight of `duration` seconds nearest to `times` (s), each once."""
+    return np.unique(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
+
+
+def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:
+    """(tick, state) → the state as measured, and tick → force of the wind on vehicle and bob (6,)."""
+    drawn = normals(plant.seed, ticks) if is_random(plant) else None
+    measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
+    if plant.noise is not None and drawn is not None:
+        noisy = _compiled_measurement(plant.noise)
+        measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT])  # noqa: E731
+    if plant.wind is None:
+        return measure, lambda _: np.zeros(6)
+    blow, gust = _compiled_gusts(plant.wind, 1 / plant.rate), np.zeros(6)
+    nothing = np.zeros(6)
+
+    def next_wind(k: int) -> Any:
+        gust[:], force = blow(gust, nothing if drawn is None else drawn[k, GUSTS])
+        return force
+
+    return measure, next_wind
+
+
+def is_random(plant: Plant) -> bool:
+    """Whether flights through `plant` depend on its seed."""
+    return plant.noise is not None or (
+        plant.wind is not None and (plant.wind.gust_on_vehicle > 0 or plant.wind.gust_on_bob > 0)
     )
 
 
-class _Gusts:
-    """Forces on vehicle and bob (6,), one value per control period: the constant wind and a first-order gust."""
+@lru_cache(maxsize=32)
+def _compiled_measurement(noise: Noise) -> Any:
+    return as_numpy(measurement(noise))
 
-    def __init__(self, wind: Wind | None, period: float, rng: np.random.Generator) -> None:
-        self._rng = rng
-        if wind is None:
-            self._mean, self._sigma, self._decay = np.zeros(6), np.zeros(6), 0.0
-        else:
-            self._mean = np.array([*wind.on_vehicle, *wind.on_bob])
-            self._sigma = np.repeat([wind.gust_on_vehicle, wind.gust_on_bob], 3)
-            self._decay = float(np.exp(-period / wind.gust_time))
-        self._gust = np.zeros(6)
-        self._still = not np.any(self._sigma)
 
-    def next(self) -> Any:
-        if self._still:
-            return self._mean
-        innovation = np.sqrt(1 - self._decay**2) * self._sigma * self._rng.standard_normal(6)
-        self._gust = self._decay * self._gust + innovation
-        return self._mean + self._gust
+@lru_cache(maxsize=32)
+def _compiled_gusts(wind: Wind, period: float) -> Any:
+    return as_numpy(gusts(wind, period))

@@ -40,7 +40,7 @@ class ForceObserver:
         self._known: Any = None
         self._estimate: Any = np.zeros(6)
         if self._on:
-            self._measure, self._update = _observer_functions(vehicle, computer)
+            self._measure, self._update = _compiled(vehicle, computer)
 
     def update(self, measured: Any, rotors: Any, period: float) -> Any:
         """Forces on vehicle and bob (6,), N, after a measurement (24,) and `period` seconds under `rotors` (n,)."""
@@ -56,7 +56,16 @@ class ForceObserver:
 
 
 @lru_cache(maxsize=32)
-def _observer_functions(vehicle: Vehicle, computer: Computer) -> tuple[Any, Any]:
+def _compiled(vehicle: Vehicle, computer: Computer) -> tuple[Any, ...]:
+    return tuple(as_numpy(function) for function in observer_functions(vehicle, computer))
+
+
+def observer_functions(vehicle: Vehicle, computer: Computer) -> tuple[ca.Function, ca.Function]:
+    """The beginning (state, rotors) → (momenta, known), and the update of `ForceObserver` as CasADi functions.
+
+    The update takes (state, rotors, momenta believed, known before, estimate, period) and gives the first three of
+    these anew, and the forces on vehicle and bob (6,), N.
+    """
     M, m, l, L = vehicle.M, vehicle.m, vehicle.l, computer.observer
     packed, rotors = ca.SX.sym("s", SIZE), ca.SX.sym("r", len(vehicle.rotor_spins))
     believed, before, estimate, period = (*(ca.SX.sym(name, 6) for name in "PKN"), ca.SX.sym("T"))
@@ -73,4 +82,4 @@ def _observer_functions(vehicle: Vehicle, computer: Computer) -> tuple[Any, Any]
     outputs = ca.cse([ca.densify(value) for value in (following, known, unknown, ca.vertcat(*forces))])
     update = ca.Function("observe", [packed, rotors, believed, before, estimate, period], outputs)
     measure = ca.Function("momenta", [packed, rotors], [ca.densify(momenta), ca.densify(known)])
-    return as_numpy(measure), as_numpy(update)
+    return measure, update

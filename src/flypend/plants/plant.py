@@ -156,6 +156,10 @@ class Plant:
             errors.number(f"plant.mismatch.{name}", factor, above=0)
         object.__setattr__(self, "mismatch", dict(self.mismatch))
 
+    def __hash__(self) -> int:
+        """By content: a mismatch is a dict."""
+        return hash(repr(self))
+
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
         """The vehicle that flies when the law believes in `vehicle`: `mismatch` and `lag` applied."""
         changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}

@@ -1,0 +1,105 @@
+"""When a flight counts as a success, as one formula for trajectories and for kernels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any, Literal
+
+import casadi as ca
+import numpy as np
+
+from flypend import errors
+from flypend.geometry import E3, is_symbolic, norm
+from flypend.laws.references import Reference
+from flypend.model import State, Vehicle
+from flypend.model.state import E3Direction
+
+PARTS = ("rod", "axis", "position")
+# What a kernel reduces, in this order: since when all is within tolerance, when each part last was not, the largest
+# distance, and mean square and maximum of the rotor forces.
+REDUCTIONS = ("since", "last", "last", "last", "max", "mean", "max")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Criterion:
+    """What a flight must do during its last `hold` seconds to succeed.
+
+    Parameters
+    ----------
+    rod, axis : float
+        |y − e₃| and |z − e₃| stay below these (more by the lean that a moving reference takes).
+    position : float
+        The pivot stays this near to its reference, m; inf for anywhere.
+    hold : float
+        Seconds.
+    target : "inverted" or "e3"
+        The rod's pose: upright against gravity, or along e₃ of the law's own frame, which for the paper's laws hangs.
+        The thrust axis z = R e₃ is to be e₃ of that frame in either case.
+
+    Raises
+    ------
+    InputError
+        For a tolerance that is not positive, or an unknown target.
+    """
+
+    rod: float = 0.05
+    axis: float = 0.05
+    position: float = 0.2
+    hold: float = 1.0
+    target: Literal["inverted", "e3"] = "inverted"
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            if entry.name != "target" and getattr(self, entry.name) != np.inf:
+                errors.number(f"criterion.{entry.name}", getattr(self, entry.name), above=0)
+        errors.one_of("criterion.target", self.target, ("inverted", "e3"))
+
+    def pose(self, e3: E3Direction) -> Any:
+        """The unit vector (3,) that the rod should take, in a frame with third axis `e3`."""
+        return E3 if self.target == "e3" or e3 == "up" else -E3
+
+    def excess(self, y: Any, z: Any, distance: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any, Any]:
+        """By how much each of `PARTS` is out of tolerance, not positive within.
+
+        `y` and `z` are rod and thrust axis in the frame `e3`, `distance` (m) that to the reference, `lean` as `lean`
+        gives it; NumPy batches or CasADi expressions.
+        """
+        rod = norm(y - self.pose(e3)) - (self.rod + lean)
+        return rod, norm(z - E3) - (self.axis + lean), distance - self.position
+
+
+def lean(acceleration: Any, g: float) -> Any:
+    """|d − e₃| of the direction d of `acceleration` + g e₃ (frame with e₃ up): how far one leans who follows it.
+
+    On a circle rod and axis lean a little less, since the bob goes round on a smaller one than the pivot. No level
+    reference allows as much as √2, so a rod that hangs is never let pass.
+    """
+    symbolic = is_symbolic(acceleration)
+    a = [acceleration[i] if symbolic else acceleration[..., i] for i in range(3)]
+    level, up = a[0] ** 2 + a[1] ** 2, g + a[2]
+    length = (level + up**2) ** 0.5
+    # 1 − d·e₃ without cancellation for small leans: level / (length (length + up)).
+    return (2 * level / (length * (length + up))) ** 0.5
+
+
+def observed(
+    t: Any,
+    state: State,
+    rotors: Any,
+    vehicle: Vehicle,
+    reference: Reference | None,
+    criterion: Criterion,
+    e3: E3Direction,
+) -> Any:
+    """The values (7, 1) that `REDUCTIONS` reduce, in CasADi, for a `state` in the frame `e3` with rotor forces, N.
+
+    `t` is the symbol of time, s; `reference` the position that the law holds, None for the origin.
+    """
+    x_ref = reference(t) if reference is not None else ca.SX.zeros(3)
+    velocity = ca.jacobian(x_ref, t)
+    a_ref = ca.densify(ca.jacobian(velocity, t)) * (1.0 if e3 == "up" else np.array([1.0, -1.0, -1.0]))
+    distance = norm(state.x - x_ref)
+    moving = lean(a_ref, vehicle.g) if ca.depends_on(velocity, t) else 0.0
+    excess = criterion.excess(state.y, state.z, distance, moving, e3)
+    worst = ca.fmax(ca.fmax(excess[0], excess[1]), excess[2])
+    return ca.vertcat(worst, *excess, distance, ca.sumsqr(rotors) / rotors.numel(), ca.mmax(rotors))

@@ -1,0 +1,221 @@
+"""The kernel of the ideal plant: continuous time, the wrench acts as commanded."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from llvmlite import ir
+
+from flypend.compile import jit
+from flypend.compile.closed_loop import SymbolicLoop, symbolic_loop
+from flypend.compile.methods import method as method_named
+from flypend.compile.program import lower
+from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, Problem, write_kernel
+from flypend.compile.vector import Lanes
+from flypend.criterion import REDUCTIONS, Criterion, observed
+from flypend.errors import InputError, one_of
+from flypend.kernels.flown import Flown, Progress, address, in_pieces
+from flypend.laws.law import Law
+from flypend.model import State, Vehicle
+from flypend.model.state import project_symbolic
+
+LANES = {"double": 8, "float": 16}
+MAX_STEPS = 1_000_000
+# From this tolerance on the method of order 5 is the faster one.
+LOOSE = 1e-6
+PIECE = 1024
+
+
+@dataclass(frozen=True, eq=False)
+class IdealKernel:
+    """A compiled closed loop.
+
+    Parameters
+    ----------
+    vehicle, law, criterion
+        What flies, what steers it, and what counts as a success.
+    parameters : tuple of str
+        Gains that may differ from run to run.
+    function : callable
+        The compiled kernel.
+    """
+
+    vehicle: Vehicle
+    law: Law
+    criterion: Criterion
+    parameters: tuple[str, ...]
+    function: Any
+
+    def fly(
+        self,
+        starts: Any,
+        duration: float,
+        *,
+        rtol: float,
+        atol: float | None = None,
+        parameters: Any = None,
+        times: Any = (),
+        keep: bool = False,
+        workers: int | None = None,
+        progress: Progress = lambda *_: None,
+    ) -> Flown:
+        """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds.
+
+        Parameters
+        ----------
+        starts, duration
+            Packed states; how long, s.
+        rtol, atol : float
+            Tolerances of a step; atol defaults to rtol.
+        parameters : (n, k), optional
+            Values of the gains that vary; default those of the law.
+        times : (t,)
+            Increasing times, s, at which a run is judged.
+        keep : bool
+            Whether the states at these times are kept, too.
+        workers : int, optional
+            Threads; default one per core.
+        progress : callable
+            Told `(done, runs)`.
+        """
+        starts = np.ascontiguousarray(starts, dtype=float)
+        values = self._values(parameters, len(starts))
+        moments = np.ascontiguousarray(times, dtype=float)
+        atol = rtol if atol is None else atol
+
+        def fly(part: slice) -> Flown:
+            return integrate(self.function, starts[part], values[part], duration, rtol, atol, moments, keep=keep)
+
+        return in_pieces(fly, len(starts), PIECE, workers, progress)
+
+    def _values(self, parameters: Any, runs: int) -> Any:
+        if parameters is None:
+            own = [self.law.numbers[name] for name in self.parameters]
+            return np.ascontiguousarray(np.broadcast_to(own, (runs, len(own))), dtype=float)
+        given = np.ascontiguousarray(parameters, dtype=float)
+        if given.shape != (runs, len(self.parameters)):
+            raise InputError("parameters", f"an array of shape {(runs, len(self.parameters))}", f"shape {given.shape}")
+        return given
+
+
+def integrate(
+    function: jit.Native,
+    starts: Any,
+    values: Any,
+    duration: float,
+    rtol: float,
+    atol: float,
+    times: Any,
+    *,
+    keep: bool,
+    knots: Any = None,
+) -> Flown:
+    """Call a compiled ideal kernel for contiguous `starts` (n, 24) and parameter `values` (n, k).
+
+    `duration` (s), `rtol`, `atol`, `times` and `keep` as in `IdealKernel.fly`. `knots`, for one run only, receives the
+    number of accepted steps and four numbers for each: its time, and the drift from the manifold.
+    """
+    n, count = len(starts), len(times)
+    final, end = np.empty_like(starts), np.empty(n)
+    code, steps = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    reductions = np.empty((n, len(REDUCTIONS)))
+    samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
+    function(
+        address(starts), address(values), n, duration, rtol, atol, MAX_STEPS, address(times), count,
+        address(samples), address(reductions), address(final), address(end), address(code), address(steps),
+        address(knots),
+    )  # fmt: skip
+    return Flown(final, end, code, reductions, samples, steps)
+
+
+@lru_cache(maxsize=64)
+def ideal_kernel(
+    vehicle: Vehicle,
+    law: Law,
+    criterion: Criterion | None = None,
+    parameters: tuple[str, ...] = (),
+    *,
+    method: str = "dop853",
+    precision: str = "double",
+) -> IdealKernel:
+    """The kernel of `vehicle` under a bound `law`, compiled or from the cache.
+
+    Parameters
+    ----------
+    vehicle, law, criterion
+        What flies, what steers it, and what counts as a success (default: inverted).
+    parameters : tuple of str
+        Gains that may differ from run to run; the others are constants of the machine code.
+    method : "dop853" or "dp5"
+        Order 8 for tight tolerances, order 5 for 1e-6 and looser.
+    precision : "double" or "float"
+        Of all arithmetic.
+
+    Raises
+    ------
+    InputError
+        For an unknown method, precision or gain, and for a law with operations that cannot be compiled.
+    """
+    criterion = criterion or Criterion()
+    one_of("precision", precision, LANES)
+    problem = ideal_problem(vehicle, law, criterion, parameters)
+    table = method_named(method)
+
+    def module() -> ir.Module:
+        lanes = Lanes(ir.Module("flypend"), LANES[precision], precision)
+        write_kernel(lanes, problem, table)
+        return lanes.module
+
+    kinds = [
+        ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
+        for name in ARGUMENTS
+    ]
+    function = jit.build(f"ideal {method} {precision} {problem!r}", module, "kernel", kinds)
+    return IdealKernel(vehicle, law, criterion, parameters, function)
+
+
+def method_for(rtol: float, law: Law) -> str:
+    """The Runge-Kutta method for a tolerance `rtol`: the faster one, but DOP853 where `law` can be singular.
+
+    The error estimate of order 5 steps over a narrow singularity that the other notices.
+    """
+    return "dp5" if rtol >= LOOSE and law.guard is None else "dop853"
+
+
+def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:
+    """The closed loop of `vehicle` under `law` as programs, judged by `criterion`, with `parameters` as inputs."""
+    loop = symbolic_loop(vehicle, law, parameters)
+    inputs = [loop.t, loop.s, loop.p]
+    state = State.symbolic(loop.s)
+    wrench = ca.vertcat(loop.wrench.thrust, loop.wrench.moment)
+    rotors = ca.mtimes(vehicle.unmixing(law.e3), wrench)
+    seen = observed(loop.t, state, rotors, vehicle, law.reference, criterion, law.e3)
+    return Problem(
+        rates=lower(ca.Function("rates", inputs, [loop.rates])),
+        project=lower(_projection()),
+        margin=_margin(loop, law, inputs),
+        observe=lower(ca.Function("observe", inputs, [ca.densify(seen)])),
+        reductions=REDUCTIONS,
+    )
+
+
+def _margin(loop: SymbolicLoop, law: Law, inputs: list[Any]) -> Any:
+    if law.guard is None:
+        return None
+    signal = loop.signals[one_of("law.guard", law.guard.signal, loop.signals)]
+    return lower(ca.Function("margin", inputs, [signal - law.guard.threshold]))
+
+
+def _projection() -> ca.Function:
+    """A packed state → that state on the manifold, and the drift (3,) before."""
+    packed = ca.SX.sym("s", 24)
+    s = State.symbolic(packed)
+    defect = s.R.T @ s.R - ca.SX.eye(3)
+    drift = ca.vertcat(ca.fabs(ca.norm_2(s.y) - 1), ca.fabs(ca.dot(s.y, s.y_dot)), ca.norm_fro(defect))
+    return ca.Function("project", [packed], [project_symbolic(packed), drift])

@@ -1,0 +1,212 @@
+"""The kernel of sampled flights: everything that `flypend.plants.flight` does, in the package's own equations."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from llvmlite import ir
+
+from flypend.compile import jit
+from flypend.compile.program import Program, lower
+from flypend.compile.sampled import ARGUMENTS, INTEGERS, SampledProblem, Stretch, write_kernel
+from flypend.compile.vector import Lanes
+from flypend.criterion import REDUCTIONS, Criterion, observed
+from flypend.errors import InputError
+from flypend.kernels.flown import Flown, Progress, address, in_pieces
+from flypend.laws.law import Law
+from flypend.model import State, Vehicle
+from flypend.model.state import FLIP_PACKED, SIZE
+from flypend.plants.actuation import rate_loop, steps_in
+from flypend.plants.computer import TWIN_STEP, idle_command, law_command, usable_lead
+from flypend.plants.equations import rotor_step, step_timing
+from flypend.plants.flight import is_random, number_of_ticks
+from flypend.plants.measurement import gusts, measurement
+from flypend.plants.observer import observer_functions
+from flypend.plants.plant import Plant
+from flypend.plants.schedule import Segment, ahead, within_period
+
+WIDTH = 8
+PIECE = 4 * WIDTH
+
+
+@dataclass(frozen=True, eq=False)
+class SampledKernel:
+    """A compiled sampled flight.
+
+    Parameters
+    ----------
+    vehicle, law, plant, criterion
+        What flies, what steers it, through what, and what counts as a success.
+    parameters : tuple of str
+        Gains that may differ from run to run.
+    function : callable
+        The compiled kernel.
+    """
+
+    vehicle: Vehicle
+    law: Law
+    plant: Plant
+    criterion: Criterion
+    parameters: tuple[str, ...]
+    function: Any
+
+    def fly(
+        self,
+        starts: Any,
+        duration: float,
+        *,
+        ticks: Any,
+        first_seed: int = 0,
+        parameters: Any = None,
+        keep: bool = False,
+        workers: int | None = None,
+        progress: Progress = lambda *_: None,
+    ) -> Flown:
+        """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds.
+
+        Parameters
+        ----------
+        starts, duration
+            Packed states; how long, s.
+        ticks : (t,) of int
+            Increasing control ticks at which a run is judged.
+        first_seed : int
+            Seed of the first run; the next has the next.
+        parameters : (n, k), optional
+            Values of the gains that vary; default those of the law.
+        keep : bool
+            Whether states and rotor forces at these ticks are kept, too, in the frame of the law.
+        workers : int, optional
+            Threads; default one per core.
+        progress : callable
+            Told `(done, runs)`.
+        """
+        sign = 1.0 if self.law.e3 == "up" else FLIP_PACKED
+        packed = np.ascontiguousarray(starts, dtype=float) * sign
+        seeds = (first_seed + np.arange(len(packed))).astype(np.int64)
+        judged = np.ascontiguousarray(ticks, dtype=np.int64)
+        count = number_of_ticks(duration, self.plant)
+        own = [self.law.numbers[name] for name in self.parameters]
+        values = np.broadcast_to(own, (len(packed), len(own))) if parameters is None else np.asarray(parameters, float)
+        if values.shape != (len(packed), len(self.parameters)):
+            raise InputError("parameters", f"shape {(len(packed), len(self.parameters))}", f"shape {values.shape}")
+
+        def fly(part: slice) -> Flown:
+            return self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, keep)
+
+        flown = in_pieces(fly, len(packed), PIECE, workers, progress)
+        if self.law.e3 == "down":
+            flown.final[...] *= FLIP_PACKED
+            if keep:
+                flown.samples[..., :SIZE] *= FLIP_PACKED
+        return flown
+
+    def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, keep: bool) -> Flown:
+        n, rotors = len(starts), len(self.vehicle.rotor_spins)
+        final, end, code = np.empty_like(starts), np.empty(n), np.empty(n, dtype=np.int64)
+        reductions = np.empty((n, len(REDUCTIONS)))
+        samples = np.full((n, len(ticks), SIZE + rotors), np.nan) if keep else None
+        self.function(
+            address(starts), address(values), address(seeds), n, count, address(ticks), len(ticks),
+            address(samples), address(reductions), address(final), address(end), address(code),
+        )  # fmt: skip
+        return Flown(final, end, code, reductions, samples)
+
+
+@lru_cache(maxsize=64)
+def sampled_kernel(
+    vehicle: Vehicle,
+    law: Law,
+    plant: Plant,
+    criterion: Criterion | None = None,
+    parameters: tuple[str, ...] = (),
+) -> SampledKernel:
+    """The kernel of flights of `vehicle` under a bound `law` through `plant`, compiled or from the cache.
+
+    Parameters
+    ----------
+    vehicle, law, plant, criterion
+        As in `SampledKernel`; the engine of the plant must be "equations".
+    parameters : tuple of str
+        Gains that may differ from run to run; lead, latency and observer of the flight computer may not.
+
+    Raises
+    ------
+    InputError
+        For an unknown gain, and for a law with operations that cannot be compiled.
+    """
+    criterion = criterion or Criterion()
+    problem = sampled_problem(vehicle, law, plant, criterion, parameters)
+
+    def module() -> ir.Module:
+        lanes = Lanes(ir.Module("flypend"), WIDTH)
+        write_kernel(lanes, problem)
+        return lanes.module
+
+    kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
+    function = jit.build(f"sampled {problem!r}", module, "kernel", kinds)
+    return SampledKernel(vehicle, law, plant, criterion, parameters, function)
+
+
+def sampled_problem(
+    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: Sequence[str] = ()
+) -> SampledProblem:
+    """A flight of `vehicle` under `law` through `plant` as programs, judged by `criterion`."""
+    believed, true = vehicle, plant.true_vehicle(vehicle)
+    period, latency = 1 / plant.rate, law.computer.latency
+    setting = (believed, plant.limits, plant.interface, plant.rate_loop_gain, usable_lead(law, believed, plant))
+    watched = law.computer.observer > 0
+    observer = [lower(f) for f in observer_functions(believed, law.computer)] if watched else [None, None]
+
+    def stretches(segments: Sequence[Segment], lag: float, longest: float | None) -> tuple[Stretch, ...]:
+        made = []
+        for age, duration in segments:
+            steps = steps_in(duration, plant, longest)
+            made.append(Stretch(age, steps, tuple(step_timing(lag, duration / steps).tolist())))
+        return tuple(made)
+
+    rates = plant.interface == "rates"
+    return SampledProblem(
+        command=lower(law_command(law, *setting, parameters)),
+        world=_named(rotor_step(true, plant.pivot_offset), "world"),
+        twin=_named(rotor_step(believed), "twin"),
+        loop=_named(_loop(believed, plant), "loop") if rates else None,
+        measure=lower(measurement(plant.noise)) if plant.noise is not None else None,
+        gusts=lower(gusts(plant.wind, period)) if plant.wind is not None else None,
+        observe_first=observer[0],
+        observe=observer[1],
+        judge=lower(_judge(vehicle, law, criterion, len(parameters))),
+        reductions=REDUCTIONS,
+        ahead=stretches(ahead(latency, period), believed.rotor_lag, TWIN_STEP),
+        within=stretches(within_period(latency, period), believed.rotor_lag, TWIN_STEP),
+        flown=stretches(within_period(plant.delay, period), true.rotor_lag, None),
+        period=period,
+        latency=latency,
+        idle=tuple(idle_command(believed, plant).tolist()),
+        least=float(believed.rotor_limits[0]),
+        random=is_random(plant),
+    )
+
+
+def _named(function: ca.Function, name: str) -> Program:
+    program = lower(function)
+    return Program(name, program.inputs, program.operations, program.outputs)
+
+
+def _loop(vehicle: Vehicle, plant: Plant) -> ca.Function:
+    return rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
+
+
+def _judge(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: int) -> ca.Function:
+    """(t, state and rotor forces with e₃ up, parameters) → what `criterion.REDUCTIONS` reduce."""
+    n = len(vehicle.rotor_spins)
+    t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", parameters)
+    own = packed[:SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    seen = observed(t, State.symbolic(own), packed[SIZE:], vehicle, law.reference, criterion, law.e3)
+    return ca.Function("judge", [t, packed, p], [ca.densify(seen)])

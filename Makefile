@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= paper-out
 
-.PHONY: setup paper test lint lock clean
+.PHONY: setup paper test test-tools fuzz lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -24,8 +24,20 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-test: lint
+test: test-tools lint
 	$(BIN)/pytest -n 2
+
+# What the tests need besides Python: compilers and checkers of the exported C.
+TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake
+AS_ROOT := $(shell test "$$(id -u)" = 0 || echo sudo)
+
+test-tools:
+	@dpkg -s $(TEST_PACKAGES) > /dev/null 2>&1 || { $(AS_ROOT) apt-get update -qq \
+	    && $(AS_ROOT) apt-get install -y -qq --no-install-recommends $(TEST_PACKAGES); }
+
+# A minute of libFuzzer per law and precision under ASan and UBSan, and cppcheck on each.
+fuzz: test-tools setup
+	$(BIN)/pytest -m slow tests/test_c_tools.py
 
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 lock:

@@ -144,7 +144,7 @@ def disassembled(text):
     """Instructions (mnemonic, operands) of every function."""
     functions, current = {}, None
     for line in text.splitlines():
-        if head := re.match(r"[0-9a-f]+ <(\w+)>:", line):
+        if head := re.match(r"[0-9a-f]+ <([\w.]+)>:", line):
             current = functions.setdefault(head[1], [])
         elif current is not None and (body := re.match(r"\s+[0-9a-f]+:\s+([a-z]\S*)\s*(.*)", line)):
             current.append((body[1], body[2]))
@@ -154,7 +154,7 @@ def disassembled(text):
 def called(functions, name):
     """Functions of the file that `name` calls, once per call."""
     for word, operands in functions[name]:
-        target = re.search(r"<(\w+)>", operands)
+        target = re.search(r"<([\w.]+)>", operands)
         if word in ("bl", "b.w", "b") and target and target[1] in functions and target[1] != name:
             yield target[1]
 

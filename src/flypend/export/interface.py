@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.closed_loop import upright_wrench
-from flypend.compile.program import Program, lower
+from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.records import Record
@@ -21,6 +21,8 @@ from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SIZE
 from flypend.plants.allocation import allocate, within
 from flypend.plants.computer import led
+
+GAINS = 2  # place of the gains among the inputs of a step
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,8 @@ class Interface:
         The law, bound to the vehicle, and the vehicle whose numbers are proposed.
     gains, params, rotors : Record
         The records that depend on them.
+    constant : tuple of str
+        Gains that the code holds as constants.
     step : Program
         (state, reference, gains, params) → wrench.
     follow : Program
@@ -52,6 +56,7 @@ class Interface:
     gains: Record
     params: Record
     rotors: Record
+    constant: tuple[str, ...]
     step: Program
     follow: Program
     mix: Program
@@ -109,12 +114,13 @@ def interface(law: Law, vehicle: Vehicle) -> Interface:
     symbols = ca.SX.sym("params", params.length)
     spins = np.sign(vehicle.unmixing()[:, 3])
     stand_in = _SymbolicVehicle(symbols, params, spins)
-    names, step, reference = _step(law, symbols, stand_in)
+    names, constant, step, reference = _step(law, symbols, stand_in)
     rotors = records.rotors_record(vehicle)
     return Interface(
         law=law,
         vehicle=vehicle,
         gains=records.gains_record(law, names),
+        constant=constant,
         params=params,
         rotors=rotors,
         step=step,
@@ -126,8 +132,8 @@ def interface(law: Law, vehicle: Vehicle) -> Interface:
     )
 
 
-def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], Program, bool]:
-    """Names of the gains in the equations, the program of the law, and whether it follows the reference."""
+def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], Program, bool]:
+    """Gains at run time, gains that are constants, the program of the law, and whether it follows the reference."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
     gains = {name: ca.SX.sym(name) for name in law.numbers}
     try:
@@ -137,11 +143,33 @@ def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], Program, bool
     except Exception as error:  # whatever a law of one's own does with numbers that are symbols
         raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name} ({error})") from error
     names = [name for name, symbol in gains.items() if ca.depends_on(wrench, symbol)]
-    entries = ca.vertcat(*(gains[name] for name in names)) if names else ca.SX.sym("none", 1)
-    program = lower(ca.Function("step", [state, reference, entries, params], [wrench]))
+    program = _with_gains(wrench, state, reference, params, {name: gains[name] for name in names})
+    constant = _in_functions(program, names)
+    if constant:
+        values = ca.DM([law.numbers[name] for name in constant])
+        wrench = ca.substitute(wrench, ca.vertcat(*(gains[name] for name in constant)), values)
+        names = [name for name in names if name not in constant]
+        program = _with_gains(wrench, state, reference, params, {name: gains[name] for name in names})
     if any(math.isnan(operation.value) for operation in program.operations):  # float() of a symbol
         raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name}, which has NaN in them")
-    return names, program, bool(ca.depends_on(wrench, reference))
+    return names, constant, program, bool(ca.depends_on(wrench, reference))
+
+
+def _with_gains(wrench: Any, state: Any, reference: Any, params: Any, gains: dict[str, Any]) -> Program:
+    entries = ca.vertcat(*gains.values()) if gains else ca.SX.sym("none", 1)
+    return lower(ca.Function("step", [state, reference, entries, params], [wrench]))
+
+
+def _in_functions(program: Program, names: list[str]) -> tuple[str, ...]:
+    """Gains of which the program takes a function that C code has not, such as a cosine: they become constants."""
+    found: set[int] = set()
+    above: list[set[tuple[int, ...]]] = []  # the inputs that each value depends on
+    for operation in program.operations:
+        is_input = operation.name == "input"
+        above.append({operation.arguments} if is_input else set().union(*(above[i] for i in operation.arguments)))
+        if operation.name in (*LIBRARY, *LIBRARY_2):
+            found |= {entry for vector, entry in above[-1] if vector == GAINS}
+    return tuple(names[entry] for entry in sorted(found))
 
 
 def streamed_wrench(law: Law, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:

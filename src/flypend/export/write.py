@@ -141,6 +141,8 @@ def _baked(made: Interface) -> str:
     diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"
     text = f"the number of rotors ({made.rotors.length}), their spins, {diagonal}."
     options = {name: value for name, value in made.law.gains.items() if isinstance(value, str)}
+    if made.constant:
+        text += " Gains: " + ", ".join(f"{name} = {made.law.numbers[name]:.6g}" for name in made.constant) + "."
     if options:
         text += " Options: " + ", ".join(f"{name} = {value}" for name, value in options.items()) + "."
     if not reads(made.step, 2):

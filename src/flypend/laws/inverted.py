@@ -32,6 +32,8 @@ from flypend.laws.throw import (
     demand,
     derivatives,
     largest_thrust,
+    lifted,
+    limited_force,
     rod_force,
     steering_force,
 )
@@ -128,7 +130,7 @@ def inverted_control(
     else:
         present, turned = force(state.y, state.y_dot), force(*ahead)
     f = ca.fmin(ca.fmax(dot(present, z), 0), largest_thrust(vehicle))
-    wanted = turned + 0.028 * vehicle.weight * E3  # ε e₃: off zero
+    wanted = lifted(turned, k.tilt_limit) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
     z_d = scale(1 / smooth_norm(wanted, 0.006 * vehicle.weight), wanted)
 
     wrench = Wrench(f, ca.SX.sym("moment", 3))
@@ -140,7 +142,9 @@ def inverted_control(
         f, z_d, z_d_dot = ca.substitute([f, z_d, ca.densify(z_d_dot)], held, values)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
     spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π
-    u_z = k.attitude_bandwidth**2 * spring - 2 * k.attitude_damping * k.attitude_bandwidth * v_e
+    stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
+    # No faster than the vehicle can stop: the spring alone would turn it at stiffness / damping per radian.
+    u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
 
     # z̈ = −|ż|² z + u_z with R ω̇ = z × u_z across z, the paper's (setmu) solved for ω̇; the yaw rate is damped.
     turn = apply(state.R.T, cross(z, u_z) + state.omega[2] * z_dot)

@@ -98,8 +98,8 @@ def run(
     """
     from flypend.experiments.claims import SETTLED
     from flypend.files import check_file
-    from flypend.report.staging import check_writable
     from flypend.runfile import flight
+    from flypend.staging import check_writable
     from flypend.style import style_named
 
     chosen = flight(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
@@ -158,8 +158,8 @@ def compare(
 
     Success is to stand inverted within 0.05 and 0.2 m of the reference during the last second.
     """
-    from flypend.report.staging import check_writable
     from flypend.report.studies import comparison_table, write_comparison
+    from flypend.staging import check_writable
     from flypend.studies import compare as fly
 
     names = law or ["inverted", "lqr", "corrected", "detuned"]
@@ -186,8 +186,8 @@ def ladder(
 ) -> None:
     """See which step towards reality breaks which law: limits, lag, sampling, delay, noise, mismatch, pivot offset."""
     from flypend import errors
-    from flypend.report.staging import check_writable
     from flypend.report.studies import ladder_table, write_ladder
+    from flypend.staging import check_writable
     from flypend.studies import ladder as climb
     from flypend.studies.ladder import RUNGS
 

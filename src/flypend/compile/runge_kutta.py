@@ -109,6 +109,7 @@ class _Kernel:
         code.store(0.0, self.active)
         with code.count(self.lanes.width) as lane:
             code.put(ir.Constant(I64, -1), self.run, lane)
+            code.put(ir.Constant(I64, 0), self.cursor, lane)  # a lane that never has a run looks for samples, too
             self._load_next(lane)
         self._evaluate(self.t, self.S, 0)
         with code.loop(lambda: builder.icmp_signed(">", builder.load(self.left, typ=I64), zero)):

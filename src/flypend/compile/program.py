@@ -94,7 +94,7 @@ def lower(function: ca.Function) -> Program:
     build = _Builder()
     outputs = _walk(expanded, build)
     inputs = tuple(expanded.nnz_in(i) for i in range(expanded.n_in()))
-    return _divided(_needed(Program(function.name(), inputs, tuple(build.operations), outputs)))
+    return _divided(needed(Program(function.name(), inputs, tuple(build.operations), outputs)))
 
 
 def _walk(function: ca.Function, build: _Builder) -> tuple[tuple[int, ...], ...]:
@@ -233,7 +233,7 @@ def _folded(name: str, values: Sequence[float | None]) -> float | None:
         return None
 
 
-def _needed(program: Program) -> Program:
+def needed(program: Program) -> Program:
     """`program` without the operations that no output depends on."""
     used = {number for vector in program.outputs for number in vector}
     for number in range(len(program.operations) - 1, -1, -1):
@@ -269,7 +269,7 @@ def _divided(program: Program) -> Program:
                 if inverse.name == "div" and uses[reciprocal] == 1 and _is_one(operations[inverse.arguments[0]]):
                     operations[place] = Operation("div", (numerator, inverse.arguments[1]))
                     break
-    return _needed(Program(program.name, program.inputs, tuple(operations), program.outputs))
+    return needed(Program(program.name, program.inputs, tuple(operations), program.outputs))
 
 
 def _is_one(operation: Operation) -> bool:

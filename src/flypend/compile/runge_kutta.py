@@ -12,12 +12,15 @@ from typing import Any
 from llvmlite import ir
 
 from flypend.compile.methods import Method
-from flypend.compile.program import Program
+from flypend.compile.program import Program, needed
 from flypend.compile.reductions import Reductions
+from flypend.compile.rows import as_double, copy_lane
+from flypend.compile.sampling import Sampler, Step
 from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
 
 COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY = range(6)
-SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.9, 0.2, 10.0
+# Half of the rejected steps of SciPy's 0.9 and 10, for 3 to 7 % fewer evaluations at the same error.
+SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
 # A state this large has left every machine that the model could describe (m, m/s, rad/s).
 MAX_STATE = 1e6
 # Shortest step, s: below it the time no longer moves, or a singularity has been located.
@@ -40,19 +43,19 @@ class Problem:
         (t, s, p) → rates of the state.
     project : Program
         s → s drawn back onto the manifold, and the drift (3,) before.
-    margin : Program, optional
-        (t, s, p) → a number that stays positive where the law is defined.
-    observe : Program, optional
+    observe : Program
         (t, s, p) → the values that `reductions` reduce at the sample times.
     reductions : tuple of str
         One kind per value: see `Reductions`.
+    margin : Program, optional
+        (t, s, p) → a number that stays positive where the law is defined.
     """
 
     rates: Program
     project: Program
+    observe: Program
+    reductions: tuple[str, ...]
     margin: Program | None = None
-    observe: Program | None = None
-    reductions: tuple[str, ...] = ()
 
     @property
     def size(self) -> int:
@@ -91,9 +94,10 @@ class _Kernel:
         self.active, self.when, self.drift = code.reserve(1), code.reserve(1), code.reserve(3)
         self.run, self.ended = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
         self.next, self.left = code.reserve(1, I64), code.reserve(1, I64)
-        self.dense = code.reserve(7 * n)
-        self.samples = Reductions(code, problem.observe, problem.reductions) if problem.observe else None
-        self.cursor = code.reserve(lanes.width, I64)
+        reductions = Reductions(code, problem.observe, problem.reductions)
+        onto = define(lanes, without_drift(problem.project))
+        self.sampler = Sampler(code, method, n, self.at, onto, reductions)
+        self.sampler.run = self.run
 
     def write(self) -> None:
         code, builder = self.code, self.code.builder
@@ -109,7 +113,6 @@ class _Kernel:
         code.store(0.0, self.active)
         with code.count(self.lanes.width) as lane:
             code.put(ir.Constant(I64, -1), self.run, lane)
-            code.put(ir.Constant(I64, 0), self.cursor, lane)  # a lane that never has a run looks for samples, too
             self._load_next(lane)
         self._evaluate(self.t, self.S, 0)
         with code.loop(lambda: builder.icmp_signed(">", builder.load(self.left, typ=I64), zero)):
@@ -214,11 +217,11 @@ class _Kernel:
             code.store(code.load(self.S, i) + h * self._weighted(weights, i), self.Y, i)
 
     def _factor(self, error: Value) -> Value:
-        """Ratio of the next step to this one: 0.9 error^(−1/8), for order 5 error^(−3/16) in place of −1/5."""
+        """Ratio of the next step to this one: that which would bring the error to `SAFETY` of what is allowed."""
         code = self.code
-        eighth = code.sqrt(code.sqrt(code.sqrt(code.most(error, 1e-12))))
-        root = eighth if self.method.stages > 8 else eighth * code.sqrt(eighth)
-        return code.least(code.most(SAFETY / root, LEAST_FACTOR), MOST_FACTOR)
+        order = 8 if self.method.stages > 8 else 5
+        factor = SAFETY * code.power(code.most(error, 1e-12), -1 / order)
+        return code.least(code.most(factor, LEAST_FACTOR), MOST_FACTOR)
 
     def _finish_step(
         self, t: Value, h: Value, t_new: Value, error: Value, accepted: Value, guarded: Value | None, active: Value
@@ -230,7 +233,8 @@ class _Kernel:
             after = code.reserve(n)
             code.store(t_new, self.when)
             code.call(self.rates, self.when, self.Y, self.P, after)
-        self._sample(t, h, t_new, accepted, after)
+        step = Step(self.S, self.Y, self.K, after, t, h, t_new)
+        self.sampler.take(step, accepted, self.P, self._evaluate, self._combine)
         peak = code.reserve(1)
         code.store(0.0, peak)
         with code.count(n) as i:
@@ -289,38 +293,20 @@ class _Kernel:
     def _first_rate_undefined(self) -> Value:
         """Whether the run stands at its start and has a rate that is not finite."""
         code = self.code
-        total = code.reserve(1)
+        total, at_start = code.reserve(1), code.load(self.t) <= 0.0
         code.store(0.0, total)
-        with code.count(self.problem.size) as i:
+        with code.when(code.any(at_start)), code.count(self.problem.size) as i:
             code.store(code.load(total) + 0.0 * code.load(self.K, i), total)
-        return (code.load(self.t) <= 0.0) & ~(code.load(total).compare("==", 0.0))
+        return at_start & ~(code.load(total).compare("==", 0.0))
 
     def _store_result(self, lane: ir.Value, status: ir.Value) -> None:
         code, builder = self.code, self.code.builder
         run = code.scalar(self.run, lane, I64)
-        self._copy(self.S, lane, self.at["final"], run, self.problem.size, out=True)
-        code.put(self._double(code.scalar(self.t, lane)), self.at["end"], run)
+        copy_lane(code, self.S, lane, self.at["final"], run, self.problem.size, out=True)
+        code.put(as_double(code, code.scalar(self.t, lane)), self.at["end"], run)
         code.put(status, self.at["status"], run)
         code.put(builder.fptosi(code.scalar(self.count, lane), I64), self.at["steps"], run)
-        if self.samples is not None:
-            self.samples.store(lane, run, self.at["reductions"])
-
-    def _double(self, value: ir.Value) -> ir.Value:
-        return value if self.lanes.precision == "double" else self.code.builder.fpext(value, ir.DoubleType())
-
-    def _single(self, value: ir.Value) -> ir.Value:
-        return value if self.lanes.precision == "double" else self.code.builder.fptrunc(value, self.lanes.scalar)
-
-    def _copy(self, memory: ir.Value, lane: ir.Value, rows: ir.Value, row: ir.Value, length: int, *, out: bool) -> None:
-        """Copy lane `lane` of `length` vectors to or from row `row` of an array of doubles."""
-        code, builder = self.code, self.code.builder
-        with code.count(length) as i:
-            here = builder.add(builder.mul(i, ir.Constant(I64, self.lanes.width)), lane)
-            there = builder.add(builder.mul(row, ir.Constant(I64, length)), i)
-            if out:
-                code.put(self._double(code.scalar(memory, here)), rows, there)
-            else:
-                code.put(self._single(code.scalar(rows, there, ir.DoubleType())), memory, here)
+        self.sampler.finish(lane, run)
 
     def _load_next(self, lane: ir.Value) -> None:
         """Put the next start into `lane`, or let it rest when there is none."""
@@ -332,13 +318,11 @@ class _Kernel:
                 builder.store(builder.add(run, ir.Constant(I64, 1)), self.next)
                 code.put(run, self.run, lane)
                 code.put(one, self.active, lane)
-                self._copy(self.S, lane, self.at["starts"], run, self.problem.size, out=False)
-                self._copy(self.P, lane, self.at["parameters"], run, self.problem.parameters, out=False)
+                copy_lane(code, self.S, lane, self.at["starts"], run, self.problem.size, out=False)
+                copy_lane(code, self.P, lane, self.at["parameters"], run, self.problem.parameters, out=False)
                 for memory in (self.t, self.h, self.count, self.limit):
                     code.put(zero, memory, lane)
-                code.put(ir.Constant(I64, 0), self.cursor, lane)
-                if self.samples is not None:
-                    self.samples.reset(lane)
+                self.sampler.reset(lane)
             with none:
                 code.put(zero, self.active, lane)
                 builder.store(builder.sub(builder.load(self.left, typ=I64), ir.Constant(I64, 1)), self.left)
@@ -353,108 +337,16 @@ class _Kernel:
             row = builder.fptosi(code.scalar(self.at["knots"], zero, ir.DoubleType()), I64)
             base = builder.add(builder.mul(row, ir.Constant(I64, 4)), ir.Constant(I64, 1))
             code.put(
-                self._double(builder.extract_element(t.raw, ir.Constant(ir.IntType(32), 0))), self.at["knots"], base
+                as_double(code, builder.extract_element(t.raw, ir.Constant(ir.IntType(32), 0))), self.at["knots"], base
             )
             for k in range(3):
                 value = builder.extract_element(code.load(self.drift, k).raw, ir.Constant(ir.IntType(32), 0))
                 place = builder.add(base, ir.Constant(I64, k + 1))
-                code.put(self._double(value), self.at["knots"], place)
+                code.put(as_double(code, value), self.at["knots"], place)
             counted = builder.sitofp(builder.add(row, ir.Constant(I64, 1)), ir.DoubleType())
             code.put(counted, self.at["knots"], zero)
 
-    # Samples inside a step ------------------------------------------------------------------------------------
 
-    def _sample(self, t: Value, h: Value, t_new: Value, accepted: Value, after: ir.Value) -> None:
-        """At every wanted time in the accepted steps: the state of the dense output, stored and reduced."""
-        code = self.code
-        wanted = code.reserve(1)
-        self._next_times(wanted)
-        with code.when(code.any(accepted & (code.load(wanted) <= t_new))):
-            self._dense_output(t, h, after)
-            state = code.reserve(self.problem.size)
-
-            def due() -> ir.Value:
-                return code.any(accepted & (code.load(wanted) <= t_new))
-
-            with code.loop(due):
-                theta = (code.load(wanted) - t) / h
-                self._interpolate(theta, state)
-                unused = code.reserve(3)
-                code.call(self.project, state, state, unused)
-                here = accepted & (code.load(wanted) <= t_new)
-                if self.samples is not None:
-                    self.samples.update(here, wanted, state, self.P)
-                self._store_samples(here, state)
-                self._next_times(wanted)
-
-    def _next_times(self, wanted: ir.Value) -> None:
-        """The next sample time of each lane; infinity past the last."""
-        code, builder = self.code, self.code.builder
-        code.store(float("inf"), wanted)
-        with code.count(self.lanes.width) as lane:
-            place = code.scalar(self.cursor, lane, I64)
-            with code.when(builder.icmp_signed("<", place, self.at["time_count"])):
-                time = code.scalar(self.at["times"], place, ir.DoubleType())
-                code.put(self._single(time), wanted, lane)
-
-    def _store_samples(self, here: Value, state: ir.Value) -> None:
-        code, builder = self.code, self.code.builder
-        marks = code.reserve(1)
-        code.store(code.select(here, 1.0, 0.0), marks)
-        kept = builder.icmp_unsigned("!=", builder.ptrtoint(self.at["samples"], I64), ir.Constant(I64, 0))
-        with code.count(self.lanes.width) as lane:
-            one = ir.Constant(self.lanes.scalar, 1.0)
-            with code.when(builder.fcmp_ordered("==", code.scalar(marks, lane), one)):
-                place = code.scalar(self.cursor, lane, I64)
-                with code.when(kept):
-                    run = code.scalar(self.run, lane, I64)
-                    row = builder.add(builder.mul(run, self.at["time_count"]), place)
-                    self._copy(state, lane, self.at["samples"], row, self.problem.size, out=True)
-                code.put(builder.add(place, ir.Constant(I64, 1)), self.cursor, lane)
-
-    def _dense_output(self, t: Value, h: Value, after: ir.Value) -> None:
-        """The coefficients of the polynomial over the step, from the stages, f at its end, and further stages."""
-        code, n, method = self.code, self.problem.size, self.method
-        s = method.stages
-        if method.name == "dp5":
-            for power in range(4):
-                self._rows(power, method.dense[:, power], h)
-            return
-        with code.count(n) as i:
-            code.store(code.load(after, i), self.K, code.builder.add(i, ir.Constant(I64, s * n)))
-        moved = code.reserve(n)
-        with code.count(n) as i:
-            code.store(code.load(self.Y, i) - code.load(self.S, i), moved, i)
-        end = code.reserve(n)
-        with code.count(n) as i:
-            code.store(code.load(self.Y, i), end, i)
-        for extra, c in enumerate(method.C_extra):
-            self._combine(method.A_extra[extra, : s + 1 + extra], h)
-            code.store(t + float(c) * h, self.when)
-            self._evaluate(self.when, self.Y, s + 1 + extra)
-        with code.count(n) as i:
-            code.store(code.load(end, i), self.Y, i)
-            difference, first = code.load(moved, i), code.load(self.K, i)
-            code.store(difference, self.dense, i)
-            code.store(h * first - difference, self.dense, code.builder.add(i, ir.Constant(I64, n)))
-            third = 2.0 * difference - h * (code.load(after, i) + first)
-            code.store(third, self.dense, code.builder.add(i, ir.Constant(I64, 2 * n)))
-        for row in range(4):
-            self._rows(3 + row, method.dense[row], h)
-
-    def _rows(self, row: int, weights: Any, h: Value) -> None:
-        code = self.code
-        with code.count(self.problem.size) as i:
-            place = code.builder.add(i, ir.Constant(I64, row * self.problem.size))
-            code.store(h * self._weighted(weights, i), self.dense, place)
-
-    def _interpolate(self, theta: Value, state: ir.Value) -> None:
-        code, n = self.code, self.problem.size
-        rows = 4 if self.method.name == "dp5" else 7
-        with code.count(n) as i:
-            value = code.value(0.0)
-            for row in range(rows - 1, -1, -1):
-                value = value + code.load(self.dense, code.builder.add(i, ir.Constant(I64, row * n)))
-                swapped = self.method.name == "dop853" and (rows - 1 - row) % 2
-                value = value * ((1.0 - theta) if swapped else theta)
-            code.store(code.load(self.S, i) + value, state, i)
+def without_drift(project: Program) -> Program:
+    """The program s → s on the manifold."""
+    return needed(Program("onto", project.inputs, project.operations, project.outputs[:1]))

@@ -23,9 +23,13 @@ from flypend.errors import InputError, one_of
 from flypend.kernels.flown import Flown, Progress, address, in_pieces
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
-from flypend.model.state import project_symbolic
+from flypend.model.state import SIZE, project_symbolic
 
-LANES = {"double": 8, "float": 16}
+# Bytes of a vector. A long program is a long chain of dependent operations: two registers side by side keep the
+# processor busy while it waits. A short one is better off with all registers for one.
+SHORT, LONG = 64, 128
+OPERATIONS_OF_LONG = 800
+BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
 PIECE = 1024
 
@@ -60,6 +64,7 @@ class IdealKernel:
         parameters: Any = None,
         times: Any = (),
         keep: bool = False,
+        judge: bool = True,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -77,6 +82,8 @@ class IdealKernel:
             Increasing times, s, at which a run is judged.
         keep : bool
             Whether the states at these times are kept, too.
+        judge : bool
+            Whether the runs are judged; without it `Flown.reductions` is None.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -84,24 +91,27 @@ class IdealKernel:
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = self._values(parameters, len(starts))
-        moments = np.ascontiguousarray(times, dtype=float)
+        moments = _closed(times)
         atol = rtol if atol is None else atol
 
-        def fly(part: slice) -> Flown:
-            return self._call(starts[part], values[part], duration, rtol, atol, moments, keep, None)
+        def fly(part: slice, out: Flown) -> None:
+            self._call(starts[part], values[part], duration, rtol, atol, moments, out, None)
 
-        return in_pieces(fly, len(starts), PIECE, workers, progress)
+        return in_pieces(fly, self._memory(len(starts), moments, keep, judge), PIECE, workers, progress)
 
     def fly_one(self, start: Any, duration: float, rtol: float, atol: float, times: Any) -> tuple[Flown, Any]:
         """One run from `start` (24,), and the drift (k, 3) from the manifold before each of its k projections."""
         knots = np.empty(1 + 4 * MAX_STEPS)
         knots[0] = 0
         row = np.ascontiguousarray(start, dtype=float)[None]
-        flown = self._call(
-            row, self._values(None, 1), duration, rtol, atol, np.ascontiguousarray(times, dtype=float), True, knots
-        )
+        moments = _closed(times)
+        flown = self._memory(1, moments, True, True)
+        self._call(row, self._values(None, 1), duration, rtol, atol, moments, flown, knots)
         count = int(knots[0])
         return flown, knots[1 : 1 + 4 * count].reshape(count, 4)[:, 1:].copy()
+
+    def _memory(self, runs: int, moments: Any, keep: bool, judge: bool) -> Flown:
+        return Flown.of_size(runs, SIZE, samples=(len(moments) - 1, SIZE) if keep else None, steps=True, judged=judge)
 
     def _values(self, parameters: Any, runs: int) -> Any:
         if parameters is None:
@@ -113,19 +123,24 @@ class IdealKernel:
         return given
 
     def _call(
-        self, starts: Any, values: Any, duration: float, rtol: float, atol: float, times: Any, keep: bool, knots: Any
-    ) -> Flown:
-        n, count = len(starts), len(times)
-        final, end = np.empty_like(starts), np.empty(n)
-        code, steps = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-        reductions = np.empty((n, len(REDUCTIONS)))
-        samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
+        self, starts: Any, values: Any, duration: float, rtol: float, atol: float, moments: Any, out: Flown, knots: Any
+    ) -> None:
         self.function(
-            address(starts), address(values), n, duration, rtol, atol, MAX_STEPS, address(times), count,
-            address(samples), address(reductions), address(final), address(end), address(code), address(steps),
-            address(knots),
+            address(starts), address(values), len(starts), duration, rtol, atol, MAX_STEPS, address(moments),
+            len(moments) - 1, address(out.samples), address(out.reductions), address(out.final), address(out.end),
+            address(out.code), address(out.steps), address(knots),
         )  # fmt: skip
-        return Flown(final, end, code, reductions, samples, steps)
+
+
+def lane_count(problem: Problem, precision: str) -> int:
+    """Lanes of the kernel of `problem`: the width at which it is fastest."""
+    size = LONG if sum(problem.rates.counts().values()) > OPERATIONS_OF_LONG else SHORT
+    return size // BYTES[precision]
+
+
+def _closed(times: Any) -> Any:
+    """`times` with infinity at the end, where a kernel stops looking for the next."""
+    return np.append(np.asarray(times, dtype=float), np.inf)
 
 
 @lru_cache(maxsize=64)
@@ -157,12 +172,12 @@ def ideal_kernel(
         For an unknown method, precision or gain, and for a law with operations that cannot be compiled.
     """
     criterion = criterion or Criterion()
-    one_of("precision", precision, LANES)
+    one_of("precision", precision, BYTES)
     problem = ideal_problem(vehicle, law, criterion, parameters)
     table = method_named(method)
 
     def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), LANES[precision], precision)
+        lanes = Lanes(ir.Module("flypend"), lane_count(problem, precision), precision)
         write_kernel(lanes, problem, table)
         return lanes.module
 

@@ -97,26 +97,28 @@ class SampledKernel:
         if values.shape != (len(packed), len(self.parameters)):
             raise InputError("parameters", f"shape {(len(packed), len(self.parameters))}", f"shape {values.shape}")
 
-        def fly(part: slice) -> Flown:
-            return self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, keep)
+        length = SIZE + len(self.vehicle.rotor_spins)
+        memory = Flown.of_size(
+            len(packed), SIZE, samples=(len(judged), length) if keep else None, steps=False, judged=True
+        )
 
-        flown = in_pieces(fly, len(packed), PIECE, workers, progress)
+        def fly(part: slice, out: Flown) -> None:
+            self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, out)
+
+        flown = in_pieces(fly, memory, PIECE, workers, progress)
         if self.law.e3 == "down":
             flown.final[...] *= FLIP_PACKED
             if keep:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, keep: bool) -> Flown:
-        n, rotors = len(starts), len(self.vehicle.rotor_spins)
-        final, end, code = np.empty_like(starts), np.empty(n), np.empty(n, dtype=np.int64)
-        reductions = np.empty((n, len(REDUCTIONS)))
-        samples = np.full((n, len(ticks), SIZE + rotors), np.nan) if keep else None
+    def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
+        if out.samples is not None:
+            out.samples[...] = np.nan
         self.function(
-            address(starts), address(values), address(seeds), n, count, address(ticks), len(ticks),
-            address(samples), address(reductions), address(final), address(end), address(code),
+            address(starts), address(values), address(seeds), len(starts), count, address(ticks), len(ticks),
+            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         )  # fmt: skip
-        return Flown(final, end, code, reductions, samples)
 
 
 @lru_cache(maxsize=64)

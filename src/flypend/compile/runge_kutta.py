@@ -98,6 +98,7 @@ class _Kernel:
         onto = define(lanes, without_drift(problem.project))
         self.sampler = Sampler(code, method, n, self.at, onto, reductions)
         self.sampler.run = self.run
+        self.low = code.reserve(1)
 
     def write(self) -> None:
         code, builder = self.code, self.code.builder
@@ -114,7 +115,7 @@ class _Kernel:
         with code.count(self.lanes.width) as lane:
             code.put(ir.Constant(I64, -1), self.run, lane)
             self._load_next(lane)
-        self._evaluate(self.t, self.S, 0)
+        self._first_rates()
         with code.loop(lambda: builder.icmp_signed(">", builder.load(self.left, typ=I64), zero)):
             self._iterate()
         builder.ret_void()
@@ -148,7 +149,9 @@ class _Kernel:
             code.call(self.margin, self.when, self.Y, self.P, margin)
             guarded = accepted & ~(code.load(margin) > 0.0)
             accepted = accepted & ~guarded
-        self._finish_step(t, h, t_new, error, accepted, guarded, active)
+        accepted = accepted & ~(code.load(self.low) > 0.0)
+        lost = accepted & ~(self._largest(self.Y) < MAX_STATE)
+        self._finish_step(t, h, t_new, error, accepted & ~lost, guarded, lost, active)
 
     def _trial_step(self, t: Value) -> Value:
         """The step to try: that of the controller, or for a new run a cautious one from the sizes of s and its rate."""
@@ -156,7 +159,12 @@ class _Kernel:
         size, rate = code.reserve(1), code.reserve(1)
         h = code.load(self.h)
         new = h <= 0.0
+        code.store(0.0, self.low)
         with code.when(code.any(new)):
+            if self.margin is not None:
+                margin = code.reserve(1)
+                code.call(self.margin, self.t, self.S, self.P, margin)
+                code.store(code.select(new & ~(code.load(margin) > 0.0), 1.0, 0.0), self.low)
             code.store(0.0, size)
             code.store(0.0, rate)
             with code.count(n) as i:
@@ -224,7 +232,15 @@ class _Kernel:
         return code.least(code.most(factor, LEAST_FACTOR), MOST_FACTOR)
 
     def _finish_step(
-        self, t: Value, h: Value, t_new: Value, error: Value, accepted: Value, guarded: Value | None, active: Value
+        self,
+        t: Value,
+        h: Value,
+        t_new: Value,
+        error: Value,
+        accepted: Value,
+        guarded: Value | None,
+        lost: Value,
+        active: Value,
     ) -> None:
         code, n = self.code, self.problem.size
         if self.method.errors[0][-1] != 0:  # f at the end is known, up to the projection
@@ -235,14 +251,9 @@ class _Kernel:
             code.call(self.rates, self.when, self.Y, self.P, after)
         step = Step(self.S, self.Y, self.K, after, t, h, t_new)
         self.sampler.take(step, accepted, self.P, self._evaluate, self._combine)
-        peak = code.reserve(1)
-        code.store(0.0, peak)
         with code.count(n) as i:
-            new = code.load(self.Y, i)
-            state = code.select(accepted, new, code.load(self.S, i))
-            code.store(state, self.S, i)
+            code.store(code.select(accepted, code.load(self.Y, i), code.load(self.S, i)), self.S, i)
             code.store(code.select(accepted, code.load(after, i), code.load(self.K, i)), self.K, i)
-            code.store(code.most(code.fabs(state), code.load(peak)), peak)
         self._record_knot(t_new, accepted)
 
         count = code.load(self.count) + 1.0
@@ -258,12 +269,28 @@ class _Kernel:
         code.store(code.select(accepted, 0.0, 1.0), self.limit)
         h_next = code.select(active, h * factor, h)
         code.store(h_next, self.h)
-        self._end_runs(t_now, h_next, count, guarded, accepted, active, code.load(peak))
+        self._end_runs(t_now, h_next, count, guarded, lost, accepted, active)
+
+    def _largest(self, state: ir.Value) -> Value:
+        """Largest size of an entry of `state`."""
+        code = self.code
+        peak = code.reserve(1)
+        code.store(0.0, peak)
+        with code.count(self.problem.size) as i:
+            code.store(code.most(code.fabs(code.load(state, i)), code.load(peak)), peak)
+        return code.load(peak)
 
     # Ends of runs ---------------------------------------------------------------------------------------------
 
     def _end_runs(
-        self, t: Value, h: Value, count: Value, guarded: Value | None, accepted: Value, active: Value, peak: Value
+        self,
+        t: Value,
+        h: Value,
+        count: Value,
+        guarded: Value | None,
+        lost: Value,
+        accepted: Value,
+        active: Value,
     ) -> None:
         code, builder = self.code, self.code.builder
         status, steps_left = code.reserve(1), self._max_steps()
@@ -273,8 +300,9 @@ class _Kernel:
         value = code.select(stuck, float(TOO_SMALL), value)
         if guarded is not None:
             value = code.select(stuck & guarded, float(SINGULAR), value)
-        value = code.select(peak < MAX_STATE, value, float(DIVERGED))
-        value = code.select(accepted & (t >= self.duration) & (peak < MAX_STATE), float(COMPLETED), value)
+            value = code.select(code.load(self.low) > 0.0, float(SINGULAR), value)
+        value = code.select(lost, float(DIVERGED), value)
+        value = code.select(accepted & (t >= self.duration), float(COMPLETED), value)
         value = code.select(self._first_rate_undefined(), float(UNDEFINED), value)
         value = code.select(active, value, -1.0)
         code.store(value, status)
@@ -284,7 +312,15 @@ class _Kernel:
                 with code.when(builder.icmp_signed(">=", code_number, ir.Constant(I64, 0))):
                     self._store_result(lane, code_number)
                     self._load_next(lane)
-            self._evaluate(self.t, self.S, 0)
+            self._first_rates()
+
+    def _first_rates(self) -> None:
+        """The rates of new runs; those of the others stay as their last step left them, to the last bit."""
+        code, n = self.code, self.problem.size
+        first, new = code.reserve(n), code.load(self.h) <= 0.0
+        code.call(self.rates, self.t, self.S, self.P, first)
+        with code.count(n) as i:
+            code.store(code.select(new, code.load(first, i), code.load(self.K, i)), self.K, i)
 
     def _max_steps(self) -> Value:
         code = self.code

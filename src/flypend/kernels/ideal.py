@@ -31,6 +31,8 @@ SHORT, LONG = 64, 128
 OPERATIONS_OF_LONG = 800
 BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
+# From this tolerance on the method of order 5 is the faster one.
+LOOSE = 1e-6
 PIECE = 1024
 
 
@@ -95,23 +97,9 @@ class IdealKernel:
         atol = rtol if atol is None else atol
 
         def fly(part: slice, out: Flown) -> None:
-            self._call(starts[part], values[part], duration, rtol, atol, moments, out, None)
+            _call(self.function, starts[part], values[part], (duration, rtol, atol), moments, out)
 
-        return in_pieces(fly, self._memory(len(starts), moments, keep, judge), PIECE, workers, progress)
-
-    def fly_one(self, start: Any, duration: float, rtol: float, atol: float, times: Any) -> tuple[Flown, Any]:
-        """One run from `start` (24,), and the drift (k, 3) from the manifold before each of its k projections."""
-        knots = np.empty(1 + 4 * MAX_STEPS)
-        knots[0] = 0
-        row = np.ascontiguousarray(start, dtype=float)[None]
-        moments = _closed(times)
-        flown = self._memory(1, moments, True, True)
-        self._call(row, self._values(None, 1), duration, rtol, atol, moments, flown, knots)
-        count = int(knots[0])
-        return flown, knots[1 : 1 + 4 * count].reshape(count, 4)[:, 1:].copy()
-
-    def _memory(self, runs: int, moments: Any, keep: bool, judge: bool) -> Flown:
-        return Flown.of_size(runs, SIZE, samples=(len(moments) - 1, SIZE) if keep else None, steps=True, judged=judge)
+        return in_pieces(fly, _memory(len(starts), moments, keep, judge), PIECE, workers, progress)
 
     def _values(self, parameters: Any, runs: int) -> Any:
         if parameters is None:
@@ -122,15 +110,6 @@ class IdealKernel:
             raise InputError("parameters", f"an array of shape {(runs, len(self.parameters))}", f"shape {given.shape}")
         return given
 
-    def _call(
-        self, starts: Any, values: Any, duration: float, rtol: float, atol: float, moments: Any, out: Flown, knots: Any
-    ) -> None:
-        self.function(
-            address(starts), address(values), len(starts), duration, rtol, atol, MAX_STEPS, address(moments),
-            len(moments) - 1, address(out.samples), address(out.reductions), address(out.final), address(out.end),
-            address(out.code), address(out.steps), address(knots),
-        )  # fmt: skip
-
 
 def lane_count(problem: Problem, precision: str) -> int:
     """Lanes of the kernel of `problem`: the width at which it is fastest."""
@@ -138,9 +117,44 @@ def lane_count(problem: Problem, precision: str) -> int:
     return size // BYTES[precision]
 
 
+def integrate(
+    function: jit.Native, start: Any, duration: float, rtol: float, atol: float, times: Any, knots: Any = None
+) -> Flown:
+    """One run by a compiled ideal kernel without parameters from `start` (24,), its states at `times` kept.
+
+    `duration` (s), `rtol`, `atol` and `times` as in `IdealKernel.fly`. `knots` receives the number of accepted steps
+    and four numbers for each: its time, and the drift from the manifold.
+    """
+    moments = _closed(times)
+    out = _memory(1, moments, True, False)
+    _call(function, start[None], np.zeros((1, 0)), (duration, rtol, atol), moments, out, knots)
+    return out
+
+
 def _closed(times: Any) -> Any:
     """`times` with infinity at the end, where a kernel stops looking for the next."""
     return np.append(np.asarray(times, dtype=float), np.inf)
+
+
+def _memory(runs: int, moments: Any, keep: bool, judge: bool) -> Flown:
+    return Flown.of_size(runs, SIZE, samples=(len(moments) - 1, SIZE) if keep else None, steps=True, judged=judge)
+
+
+def _call(
+    function: jit.Native,
+    starts: Any,
+    values: Any,
+    setting: tuple[float, float, float],
+    moments: Any,
+    out: Flown,
+    knots: Any = None,
+) -> None:
+    """Call `function` for contiguous arrays: `setting` is duration, rtol and atol, and `out` is written."""
+    function(
+        address(starts), address(values), len(starts), *setting, MAX_STEPS, address(moments), len(moments) - 1,
+        address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
+        address(out.steps), address(knots),
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=64)
@@ -181,12 +195,20 @@ def ideal_kernel(
         write_kernel(lanes, problem, table)
         return lanes.module
 
-    machine = jit.build(f"ideal {method} {precision} {problem!r}", module, ["kernel"])
     kinds = [
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    return IdealKernel(vehicle, law, criterion, parameters, machine.function("kernel", kinds))
+    function = jit.build(f"ideal {method} {precision} {problem!r}", module, "kernel", kinds)
+    return IdealKernel(vehicle, law, criterion, parameters, function)
+
+
+def method_for(rtol: float, law: Law) -> str:
+    """The Runge-Kutta method for a tolerance `rtol`: the faster one, but DOP853 where `law` can be singular.
+
+    The error estimate of order 5 steps over a narrow singularity that the other notices.
+    """
+    return "dp5" if rtol >= LOOSE and law.guard is None else "dop853"
 
 
 def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:

@@ -151,9 +151,9 @@ def sampled_kernel(
         write_kernel(lanes, problem)
         return lanes.module
 
-    machine = jit.build(f"sampled {problem!r}", module, ["kernel"])
     kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    return SampledKernel(vehicle, law, plant, criterion, parameters, machine.function("kernel", kinds))
+    function = jit.build(f"sampled {problem!r}", module, "kernel", kinds)
+    return SampledKernel(vehicle, law, plant, criterion, parameters, function)
 
 
 def sampled_problem(

@@ -32,7 +32,7 @@ FLYING = -1
 
 
 class Runs(NamedTuple):
-    """Runs under way: time and next step (n,), state and its rate (24, n), how each ended, steps tried, just rejected."""
+    """Runs under way: time and next step (n,), state and rate (24, n), how each ended, steps tried, just rejected."""
 
     t: Any
     h: Any

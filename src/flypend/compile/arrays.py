@@ -6,9 +6,10 @@ JAX is imported when this is used, not before. Operations are those of `flypend.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
-from flypend.compile.program import Program
+from flypend.compile.program import Program, interpret
 
 Function = Callable[..., tuple[Any, ...]]
 
@@ -21,15 +22,9 @@ def as_jax(program: Program) -> Function:
 
     def call(*inputs: Any) -> tuple[Any, ...]:
         like = next(rows for rows in inputs if rows.shape[0])[0]
-        values: list[Any] = []
-        for name, arguments, constant in program.operations:
-            if name == "input":
-                values.append(inputs[arguments[0]][arguments[1]])
-            elif name == "constant":
-                values.append(jnp.full_like(like, constant))
-            else:
-                values.append(operations[name](*(values[number] for number in arguments)))
-        return tuple(jnp.stack([values[number] for number in vector]) for vector in program.outputs)
+        rows = [vector.__getitem__ for vector in inputs]
+        vectors = interpret(program, rows, operations, partial(jnp.full_like, like))
+        return tuple(jnp.stack(vector) for vector in vectors)
 
     return call
 

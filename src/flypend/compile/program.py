@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -48,6 +48,28 @@ class Program:
             if operation.name not in ("input", "constant"):
                 found[operation.name] = found.get(operation.name, 0) + 1
         return dict(sorted(found.items(), key=lambda entry: -entry[1]))
+
+
+def interpret(
+    program: Program,
+    inputs: Sequence[Callable[[int], Any]],
+    operations: Mapping[str, Callable[..., Any]],
+    constant: Callable[[float], Any],
+) -> list[list[Any]]:
+    """The values of each output vector of `program`, on values of any kind.
+
+    Entry i of input vector j is `inputs[j](i)`; `operations` has a function for each name, `constant` makes a number a
+    value.
+    """
+    values: list[Any] = []
+    for name, arguments, number in program.operations:
+        if name == "input":
+            values.append(inputs[arguments[0]](arguments[1]))
+        elif name == "constant":
+            values.append(constant(number))
+        else:
+            values.append(operations[name](*[values[place] for place in arguments]))
+    return [[values[place] for place in vector] for vector in program.outputs]
 
 
 # Functions of one argument that code generators take from the C library.

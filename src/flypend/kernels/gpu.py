@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -104,8 +105,5 @@ def _doubles() -> AbstractContextManager[Any]:
     """JAX with doubles inside, and as it was outside."""
     import jax
 
-    if hasattr(jax, "enable_x64"):
-        return jax.enable_x64(True)  # type: ignore[no-any-return]
-    from jax.experimental import enable_x64
-
-    return enable_x64()  # type: ignore[no-any-return]
+    holder = jax if hasattr(jax, "enable_x64") else import_module("jax.experimental")
+    return holder.enable_x64(True)  # type: ignore[no-any-return]

@@ -64,7 +64,7 @@ a, b, c = (ca.SX.sym(name) for name in "abc")
     [
         (ca.sin(0.0) + a * 1 + 0 * b, {}),
         (a + ca.exp(ca.SX(0)) * 0, {}),
-        (-(-a), {}),
+        (0 - (-a), {}),
         (a * -1, {"neg": 1}),
         (a + (-b), {"sub": 1}),
         (0 - a, {"neg": 1}),

@@ -17,7 +17,6 @@ from flypend.compile.runge_kutta import (
     COMPLETED,
     DIVERGED,
     LEAST_FACTOR,
-    MAX_STATE,
     MOST_FACTOR,
     SAFETY,
     SHORTEST,
@@ -27,6 +26,7 @@ from flypend.compile.runge_kutta import (
     UNDEFINED,
     Problem,
 )
+from flypend.outcome import MAX_STATE
 
 FLYING = -1
 

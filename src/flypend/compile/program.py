@@ -82,7 +82,7 @@ LIBRARY_2: dict[str, Callable[[float, float], float]] = {
     "pow": math.pow, "atan2": math.atan2, "fmod": math.fmod, "hypot": math.hypot
 }  # fmt: skip
 
-_FOLD: dict[str, Callable[..., float]] = {
+FOLD: dict[str, Callable[..., float]] = {
     "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
     "neg": lambda a: -a, "sqrt": math.sqrt, "fabs": math.fabs, "fmin": min, "fmax": max,
     "sign": lambda a: float((a > 0) - (a < 0)), "lt": lambda a, b: float(a < b), "le": lambda a, b: float(a <= b),
@@ -250,7 +250,7 @@ class _Builder:
 def _folded(name: str, values: Sequence[float | None]) -> float | None:
     """The constant that operation `name` gives for constants; None where it has none (a division by zero)."""
     try:
-        return float(_FOLD[name](*values))
+        return float(FOLD[name](*values))
     except (ArithmeticError, ValueError):
         return None
 

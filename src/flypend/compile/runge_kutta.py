@@ -17,12 +17,11 @@ from flypend.compile.reductions import Reductions
 from flypend.compile.rows import as_double, copy_lane
 from flypend.compile.sampling import Sampler, Step
 from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
+from flypend.outcome import MAX_STATE
 
 COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY = range(6)
 # Half of the rejected steps of SciPy's 0.9 and 10, for 3 to 7 % fewer evaluations at the same error.
 SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
-# A state this large has left every machine that the model could describe (m, m/s, rad/s).
-MAX_STATE = 1e6
 # Shortest step, s: below it the time no longer moves, or a singularity has been located.
 SHORTEST = 1e-13
 

@@ -24,7 +24,7 @@ from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.actuation import rate_loop, steps_in
 from flypend.plants.computer import TWIN_STEP, idle_command, law_command, usable_lead
-from flypend.plants.equations import rotor_step, step_timing
+from flypend.plants.equations import rotor_lag, rotor_step, step_timing
 from flypend.plants.flight import is_random, number_of_ticks
 from flypend.plants.measurement import gusts, measurement
 from flypend.plants.observer import observer_functions
@@ -178,6 +178,7 @@ def sampled_problem(
         command=lower(law_command(law, *setting, parameters)),
         world=_named(rotor_step(true, plant.pivot_offset), "world"),
         twin=_named(rotor_step(believed), "twin"),
+        lag=None if rates else lower(rotor_lag(believed)),
         loop=_named(_loop(believed, plant), "loop") if rates else None,
         measure=lower(measurement(plant.noise)) if plant.noise is not None else None,
         gusts=lower(gusts(plant.wind, period)) if plant.wind is not None else None,

@@ -22,7 +22,7 @@ def make(problem: Any, threads: int) -> Fly:
     def fly(starts: Any, tolerance: float) -> Any:
         if tolerance not in compiled:
             compiled[tolerance] = hy.taylor_adaptive_batch(
-                system, np.zeros((24, lanes)), tol=tolerance, compact_mode=True, high_accuracy=False
+                system, np.zeros((24, lanes)), tol=tolerance, compact_mode=False
             )
         integrator, out = compiled[tolerance], np.empty_like(starts)
         for first in range(0, len(starts), lanes):
@@ -36,4 +36,4 @@ def make(problem: Any, threads: int) -> Fly:
     return fly
 
 
-PEER = Peer("heyoka batch", "Taylor series, batch mode, compact code, no projection", make, 512)
+PEER = Peer("heyoka batch", "Taylor series, batch mode, unrolled code, no projection", make, 512)

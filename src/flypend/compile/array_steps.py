@@ -1,7 +1,7 @@
 """Embedded Runge-Kutta steps in JAX on rows of runs, each run with its own time and step: the GPU form of the kernel.
 
-The steps are those of `flypend.compile.runge_kutta`. All runs go until the last has ended, since a GPU has no use for
-a lane that is refilled; what a run gives does not depend on its neighbours.
+Steps and queue are those of `flypend.compile.runge_kutta`: a lane whose run has ended takes the next one, so that a
+few runs of many steps do not hold up the rest, and what a run gives does not depend on its neighbours.
 """
 
 from __future__ import annotations
@@ -28,11 +28,13 @@ from flypend.compile.runge_kutta import (
 )
 from flypend.outcome import MAX_STATE
 
-FLYING = -1
+FLYING, IDLE = -1, -2
 
 
-class Runs(NamedTuple):
-    """Runs under way: time and next step (n,), state and rate (24, n), how each ended, steps tried, just rejected."""
+class Lanes(NamedTuple):
+    """L runs under way: which, time, next step (L,), state and rate (24, L), how they ended, steps tried, rejected."""
+
+    run: Any
 
     t: Any
     h: Any
@@ -43,8 +45,19 @@ class Runs(NamedTuple):
     rejected: Any
 
 
+class Results(NamedTuple):
+    """Final states (24, n+1), ends, codes and steps (n+1,) of all runs; entry n is for lanes without one."""
+
+    s: Any
+    t: Any
+    code: Any
+    steps: Any
+
+
 class Setting(NamedTuple):
-    """Duration, tolerances, and the largest number of steps."""
+    """Number of runs, duration, tolerances, and the largest number of steps."""
+
+    count: Any
 
     duration: Any
     rtol: Any
@@ -52,18 +65,46 @@ class Setting(NamedTuple):
     max_steps: Any
 
 
-def write_integrator(problem: Problem, method: Method) -> Callable[..., Runs]:
-    """A function (starts (24, n), parameters (k, n), setting) of JAX arrays that flies all runs to their end."""
+def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[..., Results]:
+    """A function (starts (24, n), parameters (k, n), setting) of JAX arrays that flies the first `setting.count` runs.
+
+    It is compiled anew for each n; so many runs as there are `lanes` are under way together.
+    """
     import jax
+    import jax.numpy as jnp
 
     step = _Step(problem, method)
 
-    def fly(starts: Any, parameters: Any, setting: Setting) -> Runs:
-        return jax.lax.while_loop(
-            lambda runs: (runs.code == FLYING).any(),
-            lambda runs: step(runs, parameters, setting),
-            step.begin(starts, parameters, setting),
-        )
+    def fly(starts: Any, parameters: Any, setting: Setting) -> Results:
+        n, width = starts.shape[1], min(lanes, starts.shape[1])
+
+        def begin(run: Any) -> Lanes:
+            place = jnp.minimum(run, n - 1)
+            begun = step.begin(run, starts[:, place], parameters[:, place], setting)
+            return begun._replace(code=jnp.where(run < setting.count, begun.code, IDLE))
+
+        def body(carry: tuple[Lanes, Any, Results]) -> tuple[Lanes, Any, Results]:
+            now, following, results = carry
+            now = step(now, parameters[:, jnp.minimum(now.run, n - 1)], setting)
+            ended = (now.code != FLYING) & (now.code != IDLE)
+            after: tuple[Lanes, Any, Results]
+            after = jax.lax.cond(ended.any(), refilled, lambda *same: same[:3], now, following, results, ended)
+            return after
+
+        def refilled(now: Lanes, following: Any, results: Results, ended: Any) -> tuple[Lanes, Any, Results]:
+            place = jnp.where(ended, now.run, n)
+            results = Results(
+                results.s.at[:, place].set(now.s), results.t.at[place].set(now.t),
+                results.code.at[place].set(now.code), results.steps.at[place].set(now.steps),
+            )  # fmt: skip
+            fresh = begin(jnp.where(ended, following + jnp.cumsum(ended) - 1, now.run))
+            merged = Lanes(*(jnp.where(ended, new, old) for new, old in zip(fresh, now, strict=True)))
+            return merged, following + jnp.sum(ended), results
+
+        first = begin(jnp.arange(width))
+        none = Results(jnp.zeros((len(starts), n + 1)), jnp.zeros(n + 1), jnp.zeros(n + 1, int), jnp.zeros(n + 1, int))
+        carry = (first, jnp.asarray(width), none)
+        return jax.lax.while_loop(lambda carry: (carry[0].code != IDLE).any(), body, carry)[2]
 
     return jax.jit(fly)
 
@@ -82,7 +123,7 @@ class _Step:
         self._A[:s, : method.A.shape[1]], self._A[s, :s] = method.A[:s], method.B
         self._C = np.append(method.C[:s], 1.0)
 
-    def begin(self, starts: Any, parameters: Any, setting: Setting) -> Runs:
+    def begin(self, run: Any, starts: Any, parameters: Any, setting: Setting) -> Lanes:
         """All runs at their start, with a cautious first step; those that cannot begin have ended."""
         import jax.numpy as jnp
 
@@ -96,9 +137,9 @@ class _Step:
         code = jnp.where(self._allowed(t, starts, parameters), FLYING, SINGULAR)
         code = jnp.where(defined, code, UNDEFINED)
         none = jnp.zeros(n, dtype=bool)
-        return Runs(t, jnp.where(defined, h, 1e-2), starts, rate, code, jnp.zeros(n, dtype=int), none)
+        return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, code, jnp.zeros(n, dtype=int), none)
 
-    def __call__(self, runs: Runs, parameters: Any, setting: Setting) -> Runs:
+    def __call__(self, runs: Lanes, parameters: Any, setting: Setting) -> Lanes:
         import jax.numpy as jnp
 
         flying = runs.code == FLYING
@@ -121,7 +162,8 @@ class _Step:
         code = jnp.where(stuck, jnp.where(good & ~allowed, SINGULAR, TOO_SMALL), code)
         code = jnp.where(lost, DIVERGED, code)
         code = jnp.where(accepted & (t_new >= setting.duration), COMPLETED, code)
-        return Runs(
+        return Lanes(
+            run=runs.run,
             t=jnp.where(accepted, t_new, runs.t),
             h=h_next,
             s=jnp.where(accepted, new, runs.s),
@@ -131,7 +173,7 @@ class _Step:
             rejected=flying & ~accepted,
         )
 
-    def _attempt(self, runs: Runs, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any]:
+    def _attempt(self, runs: Lanes, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any]:
         """The new state before projection, f there (if the error weighs it), and the error: accept at most 1."""
         import jax
         import jax.numpy as jnp

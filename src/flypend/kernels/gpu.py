@@ -18,6 +18,10 @@ from flypend.kernels.ideal import MAX_STEPS, ideal_problem
 from flypend.laws.law import Law
 from flypend.model import Vehicle
 
+# Runs that are under way together: what fits a cache, or what fills a GPU.
+LANES = {"cpu": 256}
+LANES_OF_GPU = 32768
+
 
 @dataclass(frozen=True, eq=False)
 class ArrayKernel:
@@ -64,17 +68,17 @@ class ArrayKernel:
         """
         from flypend.compile.array_steps import Setting
 
-        rows = np.ascontiguousarray(np.asarray(starts, dtype=float).T)
+        given = np.asarray(starts, dtype=float)
         own = [self.law.numbers[name] for name in self.parameters]
-        n = rows.shape[1]
+        n = len(given)
         values = np.broadcast_to(own, (n, len(own))) if parameters is None else np.asarray(parameters, float)
         if values.shape != (n, len(own)):
             raise errors.InputError("parameters", f"shape {(n, len(own))}", f"shape {values.shape}")
-        setting = Setting(float(duration), float(rtol), float(rtol if atol is None else atol), max_steps)
+        setting = Setting(n, float(duration), float(rtol), float(rtol if atol is None else atol), max_steps)
         with _doubles():
-            runs = self.function(rows, np.ascontiguousarray(values.T), setting)
-            final, end, code, steps = (np.asarray(x) for x in (runs.s.T, runs.t, runs.code, runs.steps))
-        return Flown(final=final, end=end, code=code, reductions=None, steps=steps)
+            results = self.function(_rows(given), _rows(values), setting)
+            final, end, code, steps = (np.asarray(x)[..., :n] for x in results)
+        return Flown(final=np.ascontiguousarray(final.T), end=end, code=code, reductions=None, steps=steps)
 
 
 @lru_cache(maxsize=16)
@@ -92,13 +96,21 @@ def array_kernel(vehicle: Vehicle, law: Law, parameters: tuple[str, ...] = (), *
         Without JAX, for an unknown method or gain, and for a law with operations that cannot be compiled.
     """
     try:
+        from jax import default_backend
+
         from flypend.compile.array_steps import write_integrator
 
         problem = ideal_problem(vehicle, law, Criterion(), parameters)
-        integrator = write_integrator(problem, method_named(method))
+        integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
     except ModuleNotFoundError:
         raise errors.InputError("engine", "JAX, the extra gpu of this package", "an installation without it") from None
     return ArrayKernel(vehicle, law, parameters, integrator)
+
+
+def _rows(values: Any) -> Any:
+    """`values` (n, k) as rows (k, m), n filled up to a power of two: JAX compiles for every m."""
+    n = len(values)
+    return np.pad(values, ((0, (1 << (n - 1).bit_length()) - n), (0, 0)), mode="edge").T.copy()
 
 
 def _doubles() -> AbstractContextManager[Any]:

@@ -7,6 +7,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,50 +18,68 @@ from benchmarks.peers import Peer, peers
 from benchmarks.problem import Problem, matched, reference
 
 ACCURACY_RUNS = 48
+ROUNDS = 3
 LOOSE = 1e-4
 
 
-def compare(say: Any) -> list[dict[str, Any]]:
+@dataclass
+class Ready:
+    """A peer that is compiled and has its tolerance: `alone` and `together` fly its runs on one core and on all."""
+
+    peer: Peer
+    row: dict[str, Any]
+    alone: Callable[[], Any]
+    together: Callable[[], Any] | None
+
+
+def compare(say: Callable[[str], None]) -> list[dict[str, Any]]:
     """One row per peer that can be imported."""
     problem = Problem()
     starts = problem.starts(ACCURACY_RUNS, seed=7)
     exact = reference(problem, starts)
-    rows = []
+    ready = []
     for module, peer in peers():
         try:
-            row = measure(module, peer, problem, starts, exact)
+            ready.append(prepared(module, peer, problem, starts, exact))
         except ModuleNotFoundError as missing:
             say(f"{peer.name}: left out, {missing}")
-            continue
-        say(f"{peer.name}: {row['per_core']:.3g} runs/s and core, rtol {row['tolerance']:.0e}")
-        rows.append(row)
-    return rows
+        else:
+            say(f"{peer.name}: rtol {ready[-1].row['tolerance']:.0e}")
+    # The peers take turns, so that all see the machine in the same moods.
+    seconds = clock.processor(*(one.alone for one in ready), repeats=ROUNDS)
+    threaded = [one for one in ready if one.together]
+    together = clock.wall(*(one.together for one in threaded if one.together), repeats=ROUNDS)
+    for one, spent in zip(ready, seconds, strict=True):
+        one.row["per_core"] = one.peer.runs / spent
+    for one, spent in zip(threaded, together, strict=True):
+        one.row["all_cores"] = one.peer.runs / spent
+    for one in ready:
+        one.row["cold"], one.row["cold_again"] = cold(one.row["module"], one.row["tolerance"])
+        say(f"{one.peer.name}: {one.row['per_core']:.3g} runs/s and core, first run after {one.row['cold']:.1f} s")
+    return [one.row for one in ready]
 
 
-def measure(module: str, peer: Peer, problem: Problem, starts: Any, exact: Any) -> dict[str, Any]:
-    """Tolerance, errors, rates and times of one peer."""
+def prepared(module: str, peer: Peer, problem: Problem, starts: Any, exact: Any) -> Ready:
+    """`peer`, compiled, at the tolerance that gives the error asked for."""
     begin = time.perf_counter()
     fly = peer.make(problem, 1)
     fly(starts[:1], LOOSE)
     first = time.perf_counter() - begin
-    few = starts[: min(len(starts), 4 * peer.runs)]
-    tolerance, median, most = (
-        matched(fly, few, exact[: len(few)]) if peer.accurate else (LOOSE, float("nan"), float("nan"))
-    )
+    tolerance, median, most = matched(fly, starts, exact) if peer.accurate else (LOOSE, float("nan"), float("nan"))
     many = problem.starts(peer.runs)
-    fly(many, tolerance)  # compiles for this number of runs, where that matters
-    (seconds,) = clock.processor(lambda: fly(many, tolerance), repeats=3)
+    wide = peer.make(problem, os.cpu_count() or 1) if peer.threaded else None
     row = {
         "module": module, "name": peer.name, "note": peer.note, "tolerance": tolerance, "median_error": median,
-        "error_95": most, "per_core": peer.runs / seconds, "accurate": peer.accurate, "all_cores": None,
-        "compile_and_first": first,
+        "error_95": most, "accurate": peer.accurate, "all_cores": None, "compile_and_first": first,
     }  # fmt: skip
-    if peer.threaded:
-        wide = peer.make(problem, os.cpu_count() or 1)
-        wide(many, tolerance)
-        row["all_cores"] = peer.runs / clock.wall(lambda: wide(many, tolerance), repeats=3)[0]
-    row["cold"], row["cold_again"] = cold(module, tolerance)
-    return row
+    ready = Ready(
+        peer,
+        row,
+        partial(fly, many, tolerance),
+        None if wide is None else partial(wide, many, tolerance),
+    )
+    ready.alone()  # compiles for this number of runs, where that matters
+    return ready
 
 
 def cold(module: str, tolerance: float) -> tuple[float, float]:

@@ -28,6 +28,7 @@ numbers = st.sampled_from([0.0, 1.0, -1.0, 0.5, 2.0, -3.0])
 @st.composite
 def expressions(draw):
     """Symbols, and a few expressions in them that share parts."""
+    ca.GlobalOptions.setSimplificationOnTheFly(draw(st.booleans()))
     symbols = [ca.SX.sym(name) for name in "abc"]
     known = [*symbols, *(ca.SX(draw(numbers)) for _ in range(2))]
     place = st.integers(0, 200)
@@ -37,6 +38,7 @@ def expressions(draw):
             known.append(draw(st.sampled_from(BINARY))(one, other))
         else:
             known.append(draw(st.sampled_from(UNARY))(one))
+    ca.GlobalOptions.setSimplificationOnTheFly(True)
     return symbols, known[-3:]
 
 
@@ -76,6 +78,17 @@ a, b, c = (ca.SX.sym(name) for name in "abc")
 )
 def test_constants_and_neutral_elements_cost_nothing(expression, counts):
     assert operations_of(expression, a, b) == counts
+
+
+def test_signs_move_into_sums():
+    """Also those that CasADi did not simplify by itself."""
+    ca.GlobalOptions.setSimplificationOnTheFly(False)
+    wanted = [a + (-b), (-b) + a, a - (-b), 0 - a, a * -1 + b, (a * 0) + b, a * 1 - 0]
+    ca.GlobalOptions.setSimplificationOnTheFly(True)
+    program, function = program_of(wanted, [a, b])
+    assert program.counts() == {"sub": 2, "add": 1, "neg": 1}
+    values = [1.7, -2.2]
+    np.testing.assert_array_equal(evaluate(program, values)[0], np.array(function(values)).ravel())
 
 
 def test_divisions_by_one_value_share_its_reciprocal():

@@ -33,13 +33,14 @@ def make(problem: Any, threads: int, method: str = "dp5", lanes: int = 8) -> Fly
 
     def fly(starts: Any, rtol: float) -> Any:
         starts, out = np.ascontiguousarray(starts), np.empty_like(starts)
+        size = 8192 if threads == 1 else max(512, -(-len(starts) // (4 * threads)))  # as flypend's own
 
         def part(first: int) -> None:
-            some, place = starts[first : first + 1024], out[first : first + 1024]
+            some, place = starts[first : first + size], out[first : first + size]
             kernel(some.ctypes.data, len(some), problem.duration, rtol, rtol, place.ctypes.data)
 
         with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(part, range(0, len(starts), 1024)))
+            list(pool.map(part, range(0, len(starts), size)))
         return out
 
     return fly

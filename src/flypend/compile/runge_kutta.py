@@ -7,7 +7,6 @@ it, so that no lane waits for another, and what a run gives does not depend on i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from llvmlite import ir
 
@@ -16,6 +15,7 @@ from flypend.compile.program import Program, needed
 from flypend.compile.reductions import Reductions
 from flypend.compile.rows import as_double, copy_lane
 from flypend.compile.sampling import Sampler, Step
+from flypend.compile.stages import Stages
 from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
 from flypend.outcome import MAX_STATE
 
@@ -83,12 +83,10 @@ class _Kernel:
         self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
         self.at = dict(zip(ARGUMENTS, function.args, strict=True))
         n = problem.size
-        self.rates = define(lanes, problem.rates)
+        self.stages = stages = Stages(code, method, problem.rates)
         self.project = define(lanes, problem.project)
         self.margin = define(lanes, problem.margin) if problem.margin else None
-        self.S, self.Y, self.P = code.reserve(n), code.reserve(n), code.reserve(problem.parameters)
-        self.stages = len(method.errors[0]) + len(method.C_extra)
-        self.K = code.reserve(n * self.stages)
+        self.S, self.Y, self.P, self.K = stages.S, stages.Y, stages.P, stages.K
         self.t, self.h, self.count, self.limit = (code.reserve(1) for _ in range(4))
         self.active, self.when, self.drift = code.reserve(1), code.reserve(1), code.reserve(3)
         self.run, self.ended = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
@@ -123,12 +121,6 @@ class _Kernel:
         value = self.at[name]
         return value if self.lanes.precision == "double" else self.code.builder.fptrunc(value, self.lanes.scalar)
 
-    def _stage(self, j: int) -> ir.Value:
-        return self.code.vector_at(self.K, j * self.problem.size)
-
-    def _evaluate(self, t: ir.Value, state: ir.Value, stage: int) -> None:
-        self.code.call(self.rates, t, state, self.P, self._stage(stage))
-
     # One attempted step in every lane ---------------------------------------------------------------------------
 
     def _iterate(self) -> None:
@@ -137,7 +129,7 @@ class _Kernel:
         h = self._trial_step(t)
         last = t + 1.0001 * h >= self.duration
         h = code.select(last, self.duration - t, h)
-        error = self._attempt(t, h)
+        error = self.stages.attempt(t, h, self.rtol, self.atol)
         t_new = code.select(last, self.duration, t + h)
         accepted = (error <= 1.0) & active
         code.call(self.project, self.Y, self.Y, self.drift)
@@ -177,52 +169,6 @@ class _Kernel:
             code.store(code.select(new, code.most(code.least(first, 1e-2), 1e-6), h), self.h)
         return code.load(self.h)
 
-    def _attempt(self, t: Value, h: Value) -> Value:
-        """Stages, the new state in Y, and the error relative to the tolerance: accept at most 1."""
-        code, n, method = self.code, self.problem.size, self.method
-        for s in range(1, method.stages):
-            self._combine(method.A[s, :s], h)
-            code.store(t + float(method.C[s]) * h, self.when)
-            self._evaluate(self.when, self.Y, s)
-        self._combine(method.B, h)
-        if method.errors[0][-1] != 0:  # the estimate weighs f at the end of the step
-            code.store(t + h, self.when)
-            self._evaluate(self.when, self.Y, method.stages)
-        sums = [code.reserve(1) for _ in method.errors]
-        for memory in sums:
-            code.store(0.0, memory)
-        with code.count(n) as i:
-            before, after = code.fabs(code.load(self.S, i)), code.fabs(code.load(self.Y, i))
-            scale = 1.0 / (self.atol + self.rtol * code.most(before, after))
-            for weights, memory in zip(method.errors, sums, strict=True):
-                part = self._weighted(weights, i) * scale
-                code.store(code.load(memory) + part * part, memory)
-        return self._norm([code.load(memory) for memory in sums], h)
-
-    def _norm(self, sums: list[Value], h: Value) -> Value:
-        code, n = self.code, self.problem.size
-        if len(sums) == 1:
-            return h * code.sqrt(sums[0] / n)
-        joined = sums[0] + 0.01 * sums[1]  # Hairer, Nørsett, Wanner: Solving ODEs I, II.10
-        return code.select(joined > 0.0, h * sums[0] / code.sqrt(joined * n), joined)
-
-    def _weighted(self, weights: Any, i: ir.Value) -> Value:
-        """Σ w_j k_j in component i."""
-        code, n = self.code, self.problem.size
-        total: Value | None = None
-        for j, weight in enumerate(weights):
-            if weight != 0:
-                place = code.builder.add(i, ir.Constant(I64, j * n))
-                term = float(weight) * code.load(self.K, place)
-                total = term if total is None else total + term
-        return total if total is not None else code.value(0.0)
-
-    def _combine(self, weights: Any, h: Value) -> None:
-        """Y = S + h Σ w_j k_j."""
-        code = self.code
-        with code.count(self.problem.size) as i:
-            code.store(code.load(self.S, i) + h * self._weighted(weights, i), self.Y, i)
-
     def _factor(self, error: Value) -> Value:
         """Ratio of the next step to this one: that which would bring the error to `SAFETY` of what is allowed."""
         code = self.code
@@ -243,13 +189,12 @@ class _Kernel:
     ) -> None:
         code, n = self.code, self.problem.size
         if self.method.errors[0][-1] != 0:  # f at the end is known, up to the projection
-            after = self._stage(self.method.stages)
+            after = self.stages.rate(self.method.stages)
         else:
             after = code.reserve(n)
             code.store(t_new, self.when)
-            code.call(self.rates, self.when, self.Y, self.P, after)
-        step = Step(self.S, self.Y, self.K, after, t, h, t_new)
-        self.sampler.take(step, accepted, self.P, self._evaluate, self._combine)
+            code.call(self.stages.rates, self.when, self.Y, self.P, after)
+        self.sampler.take(Step(self.stages, after, t, h, t_new), accepted)
         with code.count(n) as i:
             code.store(code.select(accepted, code.load(self.Y, i), code.load(self.S, i)), self.S, i)
             code.store(code.select(accepted, code.load(after, i), code.load(self.K, i)), self.K, i)
@@ -317,7 +262,7 @@ class _Kernel:
         """The rates of new runs; those of the others stay as their last step left them, to the last bit."""
         code, n = self.code, self.problem.size
         first, new = code.reserve(n), code.load(self.h) <= 0.0
-        code.call(self.rates, self.t, self.S, self.P, first)
+        code.call(self.stages.rates, self.t, self.S, self.P, first)
         with code.count(n) as i:
             code.store(code.select(new, code.load(first, i), code.load(self.K, i)), self.K, i)
 

@@ -12,16 +12,15 @@ from llvmlite import ir
 from flypend.compile.methods import Method
 from flypend.compile.reductions import Reductions
 from flypend.compile.rows import copy_row, define_turn, from_double
+from flypend.compile.stages import Stages
 from flypend.compile.vector import I64, Code, Value
 
 
 @dataclass(frozen=True)
 class Step:
-    """An accepted step in memory: state before (S) and after (Y), stages K, rate `after` it; from `t` over `h`."""
+    """An accepted step: its stages and the rate `after` it in memory; from `t` over `h` to `t_new`."""
 
-    S: ir.Value
-    Y: ir.Value
-    K: ir.Value
+    stages: Stages
     after: ir.Value
     t: Value
     h: Value
@@ -61,57 +60,51 @@ class Sampler:
         code.put(place, self.cursor, lane)
         code.put(from_double(code, code.scalar(self.at["times"], place, ir.DoubleType())), self.wanted, lane)
 
-    def take(self, step: Step, accepted: Value, parameters: ir.Value, evaluate: Any, combine: Any) -> None:
-        """Take every wanted sample inside the accepted steps.
-
-        `evaluate(time, state, stage)` and `combine(weights, h)` are those of the kernel, for stages that only the
-        dense output needs.
-        """
+    def take(self, step: Step, accepted: Value) -> None:
+        """Take every wanted sample inside the accepted steps."""
         code = self.code
 
         def here() -> Value:
             return accepted & (code.load(self.wanted) <= step.t_new)
 
         with code.when(code.any(here())):
-            self._prepare(step, evaluate, combine)
+            self._prepare(step)
             with code.loop(lambda: code.any(here())):
                 due = here()
                 self._interpolate(step, (code.load(self.wanted) - step.t) / step.h)
                 code.call(self.project, self.state, self.state)
                 with self._if_reduced():
-                    self.reductions.update(due, self.wanted, self.state, parameters)
+                    self.reductions.update(due, self.wanted, self.state, step.stages.P)
                 self._store(due)
 
     # The polynomial of a step is a sum of its stages, weighted by polynomials of the place in the step -----------
 
-    def _prepare(self, step: Step, evaluate: Any, combine: Any) -> None:
+    def _prepare(self, step: Step) -> None:
         """Further stages of DOP853; its polynomial is written with Y − S, and Y is used for the stages."""
         if self.method.name == "dp5":
             return
-        code, n, s = self.code, self.size, self.method.stages
+        code, n, s, stages = self.code, self.size, self.method.stages, step.stages
         end = code.reserve(n)
         with code.count(n) as i:
-            code.store(code.load(step.after, i), step.K, code.builder.add(i, ir.Constant(I64, s * n)))
-            code.store(code.load(step.Y, i), end, i)
-            code.store(code.load(step.Y, i) - code.load(step.S, i), self.moved, i)
-        time = code.reserve(1)
+            code.store(code.load(step.after, i), stages.K, code.builder.add(i, ir.Constant(I64, s * n)))
+            code.store(code.load(stages.Y, i), end, i)
+            code.store(code.load(stages.Y, i) - code.load(stages.S, i), self.moved, i)
         for extra, c in enumerate(self.method.C_extra):
-            combine(self.method.A_extra[extra, : s + 1 + extra], step.h)
-            code.store(step.t + float(c) * step.h, time)
-            evaluate(time, step.Y, s + 1 + extra)
+            stages.combine(self.method.A_extra[extra, : s + 1 + extra], step.h)
+            stages.evaluate(step.t + float(c) * step.h, s + 1 + extra)
         with code.count(n) as i:
-            code.store(code.load(end, i), step.Y, i)
+            code.store(code.load(end, i), stages.Y, i)
 
     def _interpolate(self, step: Step, theta: Value) -> None:
         code, n = self.code, self.size
         whole, weights = self._dp5(theta) if self.method.name == "dp5" else self._dop853(theta)
         scaled = {j: step.h * weight for j, weight in weights.items()}
         with code.count(n) as i:
-            value = code.load(step.S, i)
+            value = code.load(step.stages.S, i)
             if whole is not None:
                 value = value + whole * code.load(self.moved, i)
             for j, weight in scaled.items():
-                value = value + weight * code.load(step.K, code.builder.add(i, ir.Constant(I64, j * n)))
+                value = value + weight * code.load(step.stages.K, code.builder.add(i, ir.Constant(I64, j * n)))
             code.store(value, self.state, i)
 
     def _dp5(self, theta: Value) -> tuple[None, dict[int, Value]]:

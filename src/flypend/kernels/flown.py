@@ -14,8 +14,8 @@ from flypend.criterion import REDUCTIONS
 
 Progress = Callable[[int, int], Any]
 
-# Runs in the smallest piece: some for each lane.
-LEAST_PIECE = 64
+# Runs in the smallest piece: at its end lanes are empty while the longest run, of ten times the steps, goes on.
+LEAST_PIECE = 512
 
 # Words of `Trajectory.outcome` for the codes of `flypend.compile.runge_kutta`.
 STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
@@ -87,8 +87,9 @@ def in_pieces(
     `progress` is told (done, runs) after each piece. A run gives the same result in any piece and on any thread.
     """
     runs, threads = len(out), workers or os.cpu_count() or 1
-    # Four pieces or more per thread, so that none waits long for another; none so small that lanes stay empty.
-    piece = max(1, min(largest, max(LEAST_PIECE, -(-runs // (4 * threads)))))
+    # Some pieces per thread, so that none waits long for another.
+    share = -(-runs // (4 * threads)) if threads > 1 else runs
+    piece = max(1, min(largest, max(LEAST_PIECE, share)))
     slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
     threads = min(threads, len(slices))
     if threads <= 1:

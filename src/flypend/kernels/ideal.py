@@ -34,7 +34,7 @@ BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
 # From this tolerance on the method of order 5 is the faster one.
 LOOSE = 1e-6
-PIECE = 1024
+PIECE = 8192
 
 
 @dataclass(frozen=True, eq=False)

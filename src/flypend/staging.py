@@ -1,0 +1,66 @@
+"""An output folder that is filled elsewhere first, so that nothing half-written is left behind."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from flypend.errors import InputError
+
+
+def check_writable(out: str | Path) -> None:
+    """Raise InputError if `out` cannot become a folder that can be written. Leaves nothing behind."""
+    _open(Path(out)).rmdir()
+
+
+@contextmanager
+def staged(out: str | Path) -> Iterator[Path]:
+    """Give a temporary folder beside `out`; when the block ends well, move its files into `out`, else drop them.
+
+    Raises InputError, before anything is computed, if `out` cannot become a folder that can be written.
+    """
+    out = Path(out)
+    folder = _open(out)
+    try:
+        yield folder
+        moves = [(path, out / path.relative_to(folder)) for path in sorted(folder.rglob("*")) if path.is_file()]
+        for _, target in moves:  # before the first file is moved
+            _check_free(target, out)
+        for source, target in moves:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            source.replace(target)
+    except OSError as error:
+        where = error.filename
+        if isinstance(where, str | Path) and not any(Path(where).is_relative_to(place) for place in (folder, out)):
+            raise  # something else is missing, such as a program
+        raise _unwritable(out, error) from None
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _open(out: Path) -> Path:
+    """A fresh folder on the file system of `out`: inside it if it exists, else beside it."""
+    if os.path.lexists(out) and not out.is_dir():
+        raise InputError(str(out), "a folder", "a file" if out.exists() else "a link that leads nowhere")
+    try:
+        beside = out if out.is_dir() else out.absolute().parent
+        return Path(tempfile.mkdtemp(prefix=f".{out.name}-partial-", dir=beside))
+    except OSError as error:
+        raise _unwritable(out, error) from None
+
+
+def _check_free(target: Path, out: Path) -> None:
+    """Raise InputError if something in `out` stands where the file `target` or one of its folders has to be."""
+    if target.is_dir():
+        raise InputError(str(target), "a file or nothing", "a folder")
+    for folder in target.relative_to(out).parents:
+        if os.path.lexists(out / folder) and not (out / folder).is_dir():
+            raise InputError(str(out / folder), "a folder or nothing", "a file")
+
+
+def _unwritable(out: Path, error: OSError) -> InputError:
+    return InputError(str(out), "a folder that can be written", error.strerror or error)

@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= paper-out
 
-.PHONY: setup paper test test-tools fuzz web lint lock clean
+.PHONY: setup paper test bench test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -26,6 +26,11 @@ lint: setup
 
 test: lint test-tools
 	$(BIN)/pytest -n 2
+
+# The kernels and their peers side by side; the peers are locked by themselves, so that the tests need none of them.
+bench: setup
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
+	$(BIN)/python -m benchmarks bench-out
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
 # rebuilds the bundle of the pages.
@@ -50,6 +55,9 @@ fuzz: test-tools setup
 lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
 	    --custom-compile-command "make lock" --group dev pyproject.toml --upgrade --output-file requirements.lock
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
+	    --custom-compile-command "make lock" --group bench --constraint requirements.lock pyproject.toml \
+	    --upgrade --output-file requirements-bench.lock
 
 clean:
-	rm -rf $(VENV) web/node_modules paper-out .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache

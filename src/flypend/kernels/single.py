@@ -45,8 +45,7 @@ class Solution:
         self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), kernel)
 
     def _fly(self, times: Any, room: Any = None) -> Flown:
-        none = np.zeros((1, 0))
-        return integrate(self._function, self._start[None], none, *self._setting, times, keep=True, knots=room)
+        return integrate(self._function, self._start, *self._setting, times, room)
 
     def __call__(self, t: Any) -> Any:
         """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""

@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= paper-out
 
-.PHONY: setup paper test test-tools web lint lock clean
+.PHONY: setup paper test bench test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -27,8 +27,19 @@ lint: setup
 test: lint test-tools
 	$(BIN)/pytest -n 2
 
-# What the tests of the pages need beyond Python: a browser without a screen, and npm, which rebuilds the bundle.
+# The kernels and their peers side by side; the peers are locked by themselves, so that the tests need none of them.
+bench: setup
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
+	$(BIN)/python -m benchmarks bench-out
+
+# What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
+# rebuilds the bundle of the pages.
+TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake
+AS_ROOT := $(shell test "$$(id -u)" = 0 || echo sudo)
+
 test-tools:
+	dpkg -s $(TEST_PACKAGES) >/dev/null 2>&1 || { $(AS_ROOT) apt-get update --quiet=2 \
+	    && $(AS_ROOT) apt-get install --yes --quiet=2 --no-install-recommends $(TEST_PACKAGES); }
 	command -v chromium >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 chromium; }
 	command -v npm >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 npm; }
 
@@ -36,10 +47,17 @@ test-tools:
 web:
 	cd web && npm ci --silent && npm run --silent build
 
+# A minute of libFuzzer per law and precision under ASan and UBSan, and cppcheck on each.
+fuzz: test-tools setup
+	$(BIN)/pytest -m slow tests/test_c_tools.py
+
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
 	    --custom-compile-command "make lock" --group dev pyproject.toml --upgrade --output-file requirements.lock
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
+	    --custom-compile-command "make lock" --group bench --constraint requirements.lock pyproject.toml \
+	    --upgrade --output-file requirements-bench.lock
 
 clean:
-	rm -rf $(VENV) web/node_modules paper-out .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache

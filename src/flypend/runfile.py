@@ -14,7 +14,8 @@ import numpy as np
 from flypend import errors
 from flypend.errors import InputError
 from flypend.experiments import experiment, experiment_names
-from flypend.laws import Law
+from flypend.export import compiled
+from flypend.laws import Controller, Law
 from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
@@ -23,7 +24,7 @@ from flypend.plants import PRESETS, Noise, Plant, Wind, plant
 from flypend.simulate import simulate
 from flypend.trajectory import Trajectory
 
-KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment")
+KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
 
 
@@ -32,7 +33,7 @@ class Flight:
     """One run to make: what flies, under which law, from where, how long, on which plant; and what said so."""
 
     vehicle: Vehicle
-    law: Law
+    law: Law | Controller
     start: State
     duration: float
     plant: str | Plant
@@ -143,6 +144,13 @@ def _plant(value: Any) -> str | Plant:
     return base.replace(**given)
 
 
+def _controller(law: Law, vehicle: Vehicle, kind: Any) -> Law | Controller:
+    """The law itself, or its exported C, compiled: `kind` is "python", "c" (double precision) or "c-float"."""
+    if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
+        return law
+    return compiled(law, vehicle, "double" if kind == "c" else "float")
+
+
 def _table(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
     value = settings.get(key, {})
     if not isinstance(value, dict):
@@ -184,9 +192,10 @@ def _build(settings: dict[str, Any]) -> Flight:
         raise InputError(f"start.{error.field}", error.expected, error.got) from None
     if state.batch_shape:
         raise InputError("start", "a single state", f"a batch of shape {state.batch_shape}")
+    vehicle = Vehicle.from_dict(_table(settings, "vehicle"))
     return Flight(
-        vehicle=Vehicle.from_dict(_table(settings, "vehicle")),
-        law=law_from_dict(_table(settings, "law")),
+        vehicle=vehicle,
+        law=_controller(law_from_dict(_table(settings, "law")), vehicle, settings.get("controller", "python")),
         start=state,
         duration=errors.number("duration", settings["duration"], above=0, unit="s"),
         plant=_plant(settings.get("plant", "ideal")),

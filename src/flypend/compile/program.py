@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -50,6 +50,28 @@ class Program:
         return dict(sorted(found.items(), key=lambda entry: -entry[1]))
 
 
+def interpret(
+    program: Program,
+    inputs: Sequence[Callable[[int], Any]],
+    operations: Mapping[str, Callable[..., Any]],
+    constant: Callable[[float], Any],
+) -> list[list[Any]]:
+    """The values of each output vector of `program`, on values of any kind.
+
+    Entry i of input vector j is `inputs[j](i)`; `operations` has a function for each name, `constant` makes a number a
+    value.
+    """
+    values: list[Any] = []
+    for name, arguments, number in program.operations:
+        if name == "input":
+            values.append(inputs[arguments[0]](arguments[1]))
+        elif name == "constant":
+            values.append(constant(number))
+        else:
+            values.append(operations[name](*[values[place] for place in arguments]))
+    return [[values[place] for place in vector] for vector in program.outputs]
+
+
 # Functions of one argument that code generators take from the C library.
 LIBRARY: dict[str, Callable[[float], float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan,
@@ -60,7 +82,7 @@ LIBRARY_2: dict[str, Callable[[float, float], float]] = {
     "pow": math.pow, "atan2": math.atan2, "fmod": math.fmod, "hypot": math.hypot
 }  # fmt: skip
 
-_FOLD: dict[str, Callable[..., float]] = {
+FOLD: dict[str, Callable[..., float]] = {
     "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
     "neg": lambda a: -a, "sqrt": math.sqrt, "fabs": math.fabs, "fmin": min, "fmax": max,
     "sign": lambda a: float((a > 0) - (a < 0)), "lt": lambda a, b: float(a < b), "le": lambda a, b: float(a <= b),
@@ -94,7 +116,7 @@ def lower(function: ca.Function) -> Program:
     build = _Builder()
     outputs = _walk(expanded, build)
     inputs = tuple(expanded.nnz_in(i) for i in range(expanded.n_in()))
-    return _divided(_needed(Program(function.name(), inputs, tuple(build.operations), outputs)))
+    return _divided(needed(Program(function.name(), inputs, tuple(build.operations), outputs)))
 
 
 def _walk(function: ca.Function, build: _Builder) -> tuple[tuple[int, ...], ...]:
@@ -228,12 +250,12 @@ class _Builder:
 def _folded(name: str, values: Sequence[float | None]) -> float | None:
     """The constant that operation `name` gives for constants; None where it has none (a division by zero)."""
     try:
-        return float(_FOLD[name](*values))
+        return float(FOLD[name](*values))
     except (ArithmeticError, ValueError):
         return None
 
 
-def _needed(program: Program) -> Program:
+def needed(program: Program) -> Program:
     """`program` without the operations that no output depends on."""
     used = {number for vector in program.outputs for number in vector}
     for number in range(len(program.operations) - 1, -1, -1):
@@ -269,7 +291,7 @@ def _divided(program: Program) -> Program:
                 if inverse.name == "div" and uses[reciprocal] == 1 and _is_one(operations[inverse.arguments[0]]):
                     operations[place] = Operation("div", (numerator, inverse.arguments[1]))
                     break
-    return _needed(Program(program.name, program.inputs, tuple(operations), program.outputs))
+    return needed(Program(program.name, program.inputs, tuple(operations), program.outputs))
 
 
 def _is_one(operation: Operation) -> bool:

@@ -44,6 +44,8 @@ class SampledProblem:
         (t, state, rotors, forces, parameters) → command.
     world, twin : Program
         One step (state, rotors, command, wind, timing) → (state, rotors) of what flies, and of what the law believes.
+    lag : Program, optional
+        (rotors, command, timing) → rotors of what the law believes in, alone; there is one if there is no `loop`.
     loop : Program, optional
         (command, omega) → rotor forces, before every step of either; without it a command is the rotor forces.
     measure : Program, optional
@@ -69,6 +71,7 @@ class SampledProblem:
     command: Program
     world: Program
     twin: Program
+    lag: Program | None
     loop: Program | None
     measure: Program | None
     gusts: Program | None
@@ -119,7 +122,7 @@ class _Kernel:
         self.lanes, self.problem = lanes, problem
         self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
         self.at = dict(zip(ARGUMENTS, function.args, strict=True))
-        names = ("command", "world", "twin", "loop", "measure", "gusts", "observe_first", "observe")
+        names = ("command", "world", "twin", "lag", "loop", "measure", "gusts", "observe_first", "observe")
         programs = {name: getattr(problem, name) for name in names}
         self.call = {name: define(lanes, program) for name, program in programs.items() if program is not None}
         self.normals = define_normals(lanes) if problem.random else None
@@ -216,8 +219,7 @@ class _Kernel:
         commanded = code.vector_at(self.ring, self._slot(tick, 0))
         code.call(self.call["command"], self.t, self.imagined, self.planned, self.forces, self.P, commanded)
         self._end_runs(self._undefined(commanded), UNDEFINED, time)
-        self._imagine(problem.within, tick)
-        self._move(self.planned, self.model, problem.rotors)
+        self._move_model(tick)
         if problem.gusts is not None:
             drawn = code.vector_at(self.draws, 18)
             code.call(self.call["gusts"], self.gust, drawn, self.gust, self.wind)
@@ -254,6 +256,20 @@ class _Kernel:
         self._move(self.measured, self.imagined, self.problem.size)
         self._move(self.model, self.planned, self.problem.rotors)
         self._advance("twin", stretches, tick, self.imagined, self.planned, self.forces)
+
+    def _move_model(self, tick: ir.Value) -> None:
+        """Move the rotors that the law believes in over the period: with the twin, if their command depends on it."""
+        code = self.code
+        if self.problem.lag is None:
+            self._imagine(self.problem.within, tick)
+            self._move(self.planned, self.model, self.problem.rotors)
+            return
+        for stretch in self.problem.within:
+            for i, value in enumerate(stretch.timing):
+                code.store(value, self.timing, i)
+            command = code.vector_at(self.ring, self._slot(tick, stretch.age))
+            with code.count(stretch.steps):
+                code.call(self.call["lag"], self.model, command, self.timing, self.model)
 
     def _advance(
         self,

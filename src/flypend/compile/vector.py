@@ -8,7 +8,7 @@ from functools import partial
 
 from llvmlite import ir
 
-from flypend.compile.program import LIBRARY, LIBRARY_2, Program
+from flypend.compile.program import LIBRARY, LIBRARY_2, Program, interpret
 
 I1, I64, POINTER, VOID = ir.IntType(1), ir.IntType(64), ir.PointerType(), ir.VoidType()
 # a·b + c may become one fused operation: more exact, and the same in every lane of a kernel.
@@ -139,6 +139,16 @@ class Code:
         """Square root."""
         return Value(self, self.builder.call(self.lanes.intrinsic("sqrt"), [value.raw]))
 
+    def power(self, value: Value, exponent: float) -> Value:
+        """`value` > 0 to a power, to some per cent: through its bits, which are nearly its logarithm."""
+        lanes, builder = self.lanes, self.builder
+        bits = 64 if lanes.precision == "double" else 32
+        kind = ir.VectorType(ir.IntType(bits), lanes.width)
+        one = float(0x3FF << 52 if bits == 64 else 0x7F << 23)
+        number = Value(self, builder.sitofp(builder.bitcast(value.raw, kind), lanes.vector))
+        wanted = (number - one) * exponent + one
+        return Value(self, builder.bitcast(builder.fptosi(wanted.raw, kind), lanes.vector))
+
     def fabs(self, value: Value) -> Value:
         """Absolute value."""
         return Value(self, self.builder.call(self.lanes.intrinsic("fabs"), [value.raw]))
@@ -256,30 +266,22 @@ class Value:
 
 def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]]) -> list[list[Value]]:
     """Emit `program`, entry i of input vector j being `inputs[j](i)`; the values of each output vector."""
-    values: list[Value] = []
-    for operation in program.operations:
-        if operation.name == "input":
-            values.append(inputs[operation.arguments[0]](operation.arguments[1]))
-        elif operation.name == "constant":
-            values.append(code.value(operation.value))
-        else:
-            values.append(_operation(code, operation.name, [values[number] for number in operation.arguments]))
-    return [[values[number] for number in vector] for vector in program.outputs]
-
-
-def _operation(code: Code, name: str, values: list[Value]) -> Value:
-    if name in LIBRARY or name in LIBRARY_2:
-        return code.library(name, *values)
-    if name in _COMPARISONS:
-        return code.select(values[0].compare(_COMPARISONS[name], values[1]), 1.0, 0.0)
-    return _OPERATIONS[name](code, *values)
+    operations = {name: partial(operation, code) for name, operation in _OPERATIONS.items()}
+    return interpret(program, inputs, operations, code.value)
 
 
 def _true(value: Value) -> Value:
     return value.compare("!=", 0.0)
 
 
-_COMPARISONS = {"lt": "<", "le": "<=", "eq": "==", "ne": "!="}
+def _compared(sign: str) -> Callable[[Code, Value, Value], Value]:
+    return lambda code, a, b: code.select(a.compare(sign, b), 1.0, 0.0)
+
+
+def _of_library(name: str) -> Callable[..., Value]:
+    return lambda code, *values: code.library(name, *values)
+
+
 _OPERATIONS: dict[str, Callable[..., Value]] = {
     "add": lambda _, a, b: a + b,
     "sub": lambda _, a, b: a - b,
@@ -295,6 +297,8 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "not": lambda code, a: code.select(a.compare("==", 0.0), 1.0, 0.0),
     "and": lambda code, a, b: code.select(_true(a) & _true(b), 1.0, 0.0),
     "or": lambda code, a, b: code.select(_true(a) | _true(b), 1.0, 0.0),
+    **{name: _compared(sign) for name, sign in (("lt", "<"), ("le", "<="), ("eq", "=="), ("ne", "!="))},
+    **{name: _of_library(name) for name in (*LIBRARY, *LIBRARY_2)},
 }
 
 

@@ -10,7 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from flypend.criterion import REDUCTIONS
+
 Progress = Callable[[int, int], Any]
+
+# Runs in the smallest piece: at its end lanes are empty while the longest run, of ten times the steps, goes on.
+LEAST_PIECE = 512
 
 # Words of `Trajectory.outcome` for the codes of `flypend.compile.runge_kutta`.
 STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
@@ -28,7 +33,7 @@ class Flown:
         When each run ended, s.
     code : (n,)
         How: see `flypend.compile.runge_kutta`; `STATUS` has the words.
-    reductions : (n, 7)
+    reductions : (n, 7), optional
         As `criterion.REDUCTIONS` has it.
     samples : (n, times, 24 or more), optional
         States at the sample times, followed by the rotor forces in a sampled flight; NaN after the end.
@@ -43,6 +48,23 @@ class Flown:
     samples: Any = None
     steps: Any = None
 
+    @classmethod
+    def of_size(cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: bool) -> Flown:
+        """Memory for `runs` runs of states of `size`, to be written; `samples` (times, length) if they are kept."""
+        return cls(
+            final=np.empty((runs, size)),
+            end=np.empty(runs),
+            code=np.empty(runs, dtype=np.int64),
+            reductions=np.empty((runs, len(REDUCTIONS))) if judged else None,
+            samples=None if samples is None else np.empty((runs, *samples)),
+            steps=np.empty(runs, dtype=np.int64) if steps else None,
+        )
+
+    def part(self, runs: slice) -> Flown:
+        """The results of `runs`, in the same memory."""
+        columns = {entry.name: getattr(self, entry.name) for entry in fields(self)}
+        return Flown(**{name: None if column is None else column[runs] for name, column in columns.items()})
+
     def __len__(self) -> int:
         """Number of runs."""
         return len(self.end)
@@ -54,37 +76,35 @@ class Flown:
 
 
 def in_pieces(
-    fly: Callable[[slice], Flown], runs: int, piece: int, workers: int | None, progress: Progress = lambda *_: None
+    fly: Callable[[slice, Flown], None],
+    out: Flown,
+    largest: int,
+    workers: int | None,
+    progress: Progress = lambda *_: None,
 ) -> Flown:
-    """The results of `runs` runs, `fly` being called with slices of `piece` runs from `workers` threads.
+    """`out`, after `fly` wrote into its parts from `workers` threads, `largest` runs or fewer at a time.
 
-    `progress` is told (done, runs) after each piece. A run gives the same result in any slice and on any thread.
+    `progress` is told (done, runs) after each piece. A run gives the same result in any piece and on any thread.
     """
+    runs, threads = len(out), workers or os.cpu_count() or 1
+    # Some pieces per thread, so that none waits long for another.
+    share = -(-runs // (4 * threads)) if threads > 1 else runs
+    piece = max(1, min(largest, max(LEAST_PIECE, share)))
     slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
-    count = min(workers or os.cpu_count() or 1, len(slices))
-    parts: list[Flown] = []
-    if count == 1:
+    threads = min(threads, len(slices))
+    if threads <= 1:
         for part in slices:
-            parts.append(fly(part))
+            fly(part, out.part(part))
             progress(part.stop, runs)
-        return joined(parts)
-    with ThreadPoolExecutor(count) as pool:
+        return out
+    with ThreadPoolExecutor(threads) as pool:
         try:
-            for part, result in zip(slices, pool.map(fly, slices), strict=True):
-                parts.append(result)
+            for part, _ in zip(slices, pool.map(lambda part: fly(part, out.part(part)), slices), strict=True):
                 progress(part.stop, runs)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return joined(parts)
-
-
-def joined(parts: list[Flown]) -> Flown:
-    """Results of runs that follow each other, as one."""
-    if len(parts) == 1:
-        return parts[0]
-    columns = {entry.name: [getattr(part, entry.name) for part in parts] for entry in fields(Flown)}
-    return Flown(**{name: None if column[0] is None else np.concatenate(column) for name, column in columns.items()})
+    return out
 
 
 def address(array: Any) -> int | None:

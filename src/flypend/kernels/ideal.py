@@ -24,13 +24,17 @@ from flypend.errors import InputError, one_of
 from flypend.kernels.flown import Flown, Progress, address, in_pieces
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
-from flypend.model.state import project_symbolic
+from flypend.model.state import SIZE, project_symbolic
 
-LANES = {"double": 8, "float": 16}
+# Bytes of a vector. A long program is a long chain of dependent operations: two registers side by side keep the
+# processor busy while it waits. A short one is better off with all registers for one.
+SHORT, LONG = 64, 128
+OPERATIONS_OF_LONG = 800
+BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
 # From this tolerance on the method of order 5 is the faster one.
 LOOSE = 1e-6
-PIECE = 1024
+PIECE = 8192
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +67,7 @@ class IdealKernel:
         parameters: Any = None,
         times: Any = (),
         keep: bool = False,
+        judge: bool = True,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -80,6 +85,8 @@ class IdealKernel:
             Increasing times, s, at which a run is judged.
         keep : bool
             Whether the states at these times are kept, too.
+        judge : bool
+            Whether the runs are judged; without it `Flown.reductions` is None.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -87,13 +94,13 @@ class IdealKernel:
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = self.values(parameters, len(starts))
-        moments = np.ascontiguousarray(times, dtype=float)
+        moments = _closed(times)
         atol = rtol if atol is None else atol
 
-        def fly(part: slice) -> Flown:
-            return integrate(self.function, starts[part], values[part], duration, rtol, atol, moments, keep=keep)
+        def fly(part: slice, out: Flown) -> None:
+            _call(self.function, starts[part], values[part], (duration, rtol, atol), moments, out)
 
-        return in_pieces(fly, len(starts), PIECE, workers, progress)
+        return in_pieces(fly, _memory(len(starts), moments, keep, judge), PIECE, workers, progress)
 
     def values(self, parameters: Any, runs: int) -> Any:
         """The inputs (runs, k) of the kernel for `parameters` as in `fly`."""
@@ -106,34 +113,57 @@ class IdealKernel:
         return given
 
 
+def lane_count(problem: Problem, precision: str) -> int:
+    """Lanes of the kernel of `problem`: the width at which it is fastest."""
+    size = LONG if sum(problem.rates.counts().values()) > OPERATIONS_OF_LONG else SHORT
+    return size // BYTES[precision]
+
+
 def integrate(
     function: jit.Native,
-    starts: Any,
+    start: Any,
     values: Any,
     duration: float,
     rtol: float,
     atol: float,
     times: Any,
-    *,
-    keep: bool,
     knots: Any = None,
 ) -> Flown:
-    """Call a compiled ideal kernel for contiguous `starts` (n, 24) and parameter `values` (n, k).
+    """One run by a compiled ideal kernel from `start` (24,), its states at `times` kept.
 
-    `duration` (s), `rtol`, `atol`, `times` and `keep` as in `IdealKernel.fly`. `knots`, for one run only, receives the
-    number of accepted steps and four numbers for each: its time, and the drift from the manifold.
+    `values` (1, k) are those of its parameters, `duration` (s), `rtol`, `atol` and `times` as in `IdealKernel.fly`.
+    `knots` receives the number of accepted steps and four numbers for each: its time, and the drift from the manifold.
     """
-    n, count = len(starts), len(times)
-    final, end = np.empty_like(starts), np.empty(n)
-    code, steps = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-    reductions = np.empty((n, len(REDUCTIONS)))
-    samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
+    moments = _closed(times)
+    out = _memory(1, moments, True, False)
+    _call(function, start[None], values, (duration, rtol, atol), moments, out, knots)
+    return out
+
+
+def _closed(times: Any) -> Any:
+    """`times` with infinity at the end, where a kernel stops looking for the next."""
+    return np.append(np.asarray(times, dtype=float), np.inf)
+
+
+def _memory(runs: int, moments: Any, keep: bool, judge: bool) -> Flown:
+    return Flown.of_size(runs, SIZE, samples=(len(moments) - 1, SIZE) if keep else None, steps=True, judged=judge)
+
+
+def _call(
+    function: jit.Native,
+    starts: Any,
+    values: Any,
+    setting: tuple[float, float, float],
+    moments: Any,
+    out: Flown,
+    knots: Any = None,
+) -> None:
+    """Call `function` for contiguous arrays: `setting` is duration, rtol and atol, and `out` is written."""
     function(
-        address(starts), address(values), n, duration, rtol, atol, MAX_STEPS, address(times), count,
-        address(samples), address(reductions), address(final), address(end), address(code), address(steps),
-        address(knots),
+        address(starts), address(values), len(starts), *setting, MAX_STEPS, address(moments), len(moments) - 1,
+        address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
+        address(out.steps), address(knots),
     )  # fmt: skip
-    return Flown(final, end, code, reductions, samples, steps)
 
 
 @lru_cache(maxsize=64)
@@ -165,12 +195,12 @@ def ideal_kernel(
         For an unknown method, precision or gain, and for a law with operations that cannot be compiled.
     """
     criterion = criterion or Criterion()
-    one_of("precision", precision, LANES)
+    one_of("precision", precision, BYTES)
     problem = ideal_problem(vehicle, law, criterion, parameters)
     one_of("method", method, METHODS)
 
     def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), LANES[precision], precision)
+        lanes = Lanes(ir.Module("flypend"), lane_count(problem, precision), precision)
         write_kernel(lanes, problem, method_named(method))
         return lanes.module
 

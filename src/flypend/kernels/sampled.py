@@ -24,7 +24,7 @@ from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.actuation import rate_loop, steps_in
 from flypend.plants.computer import TWIN_STEP, idle_command, law_command, usable_lead
-from flypend.plants.equations import rotor_step, step_timing
+from flypend.plants.equations import rotor_lag, rotor_step, step_timing
 from flypend.plants.flight import is_random, number_of_ticks
 from flypend.plants.measurement import gusts, measurement
 from flypend.plants.observer import observer_functions
@@ -103,26 +103,28 @@ class SampledKernel:
         least = np.full((len(packed), len(self.vehicle.rotor_spins)), self.vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
 
-        def fly(part: slice) -> Flown:
-            return self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, keep)
+        length = SIZE + len(self.vehicle.rotor_spins)
+        memory = Flown.of_size(
+            len(packed), SIZE, samples=(len(judged), length) if keep else None, steps=False, judged=True
+        )
 
-        flown = in_pieces(fly, len(packed), PIECE, workers, progress)
+        def fly(part: slice, out: Flown) -> None:
+            self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, out)
+
+        flown = in_pieces(fly, memory, PIECE, workers, progress)
         if self.law.e3 == "down":
             flown.final[...] *= FLIP_PACKED
             if keep:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, keep: bool) -> Flown:
-        n, rotors = len(starts), len(self.vehicle.rotor_spins)
-        final, end, code = np.empty((n, SIZE)), np.empty(n), np.empty(n, dtype=np.int64)
-        reductions = np.empty((n, len(REDUCTIONS)))
-        samples = np.full((n, len(ticks), SIZE + rotors), np.nan) if keep else None
+    def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
+        if out.samples is not None:
+            out.samples[...] = np.nan
         self.function(
-            address(starts), address(values), address(seeds), n, count, address(ticks), len(ticks),
-            address(samples), address(reductions), address(final), address(end), address(code),
+            address(starts), address(values), address(seeds), len(starts), count, address(ticks), len(ticks),
+            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         )  # fmt: skip
-        return Flown(final, end, code, reductions, samples)
 
 
 @lru_cache(maxsize=64)
@@ -182,6 +184,7 @@ def sampled_problem(
         command=lower(law_command(law, *setting, parameters)),
         world=_named(rotor_step(true, plant.pivot_offset), "world"),
         twin=_named(rotor_step(believed), "twin"),
+        lag=None if rates else lower(rotor_lag(believed)),
         loop=_named(_loop(believed, plant), "loop") if rates else None,
         measure=lower(measurement(plant.noise)) if plant.noise is not None else None,
         gusts=lower(gusts(plant.wind, period)) if plant.wind is not None else None,

@@ -49,7 +49,7 @@ class Solution:
         self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), kernel)
 
     def _fly(self, times: Any, room: Any = None) -> Flown:
-        return integrate(self._function, self._start[None], self._values, *self._setting, times, keep=True, knots=room)
+        return integrate(self._function, self._start, self._values, *self._setting, times, room)
 
     def __call__(self, t: Any) -> Any:
         """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""

@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from flypend.experiments import experiment, experiment_names
-from flypend.lab.setting import LONGEST, plain
+from flypend.lab.setting import LONGEST, law_of, plain
 from flypend.laws import Law
 from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle
@@ -85,9 +85,9 @@ def _preset(name: str) -> dict[str, Any]:
 
 def sliders(flight: Flight) -> list[dict[str, Any]]:
     """The sliders of `flight`: path in the setting, group, words, unit, value, range, whether logarithmic."""
-    given, proposed = gains_of(flight.law, flight.vehicle), proposed_gains(flight.law.name, flight.vehicle)
+    given, proposed = gains_of(law_of(flight), flight.vehicle), proposed_gains(law_of(flight).name, flight.vehicle)
     out = []
-    for gain, (words, unit) in GAINS[flight.law.name].items():
+    for gain, (words, unit) in GAINS[law_of(flight).name].items():
         value, usual = given[gain], proposed[gain]
         low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
         out.append(_slider(f"law.gains.{gain}", "gains", words, unit, value, low, high, log=True))

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
-from flypend.lab.setting import Setting
+from flypend.lab.setting import Setting, law_of
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.plants import Plant
@@ -28,7 +28,7 @@ def toml(setting: Setting) -> str:
         lines.append(f"vehicle = {_value(base)}")
     else:
         lines += _table("vehicle", {"base": base, **changed})
-    lines += _table("law", {"name": flight.law.name, "gains": dict(flight.law.gains)})
+    lines += _table("law", {"name": law_of(flight).name, "gains": dict(law_of(flight).gains)})
     if isinstance(plant, dict):
         lines += _table("plant", plant)
     lines += _table("start", _start(flight.start))
@@ -44,7 +44,7 @@ def python(setting: Setting) -> str:
     return (
         f"import flypend as fp\n\n"
         f"{POKED if setting.pokes else ''}vehicle = {machine}\n"
-        f"law = fp.laws.{flight.law.name}({_arguments(flight.law.gains)})\n"
+        f"law = fp.laws.{law_of(flight).name}({_arguments(law_of(flight).gains)})\n"
         f"start = fp.State(\n{start},\n)\n"
         f"run = fp.simulate(vehicle, law, start, duration={flight.duration!r}, plant={_plant_call(flight.plant)})\n"
         f"print(run.outcome)\n"

@@ -10,7 +10,7 @@ import numpy as np
 from flypend.kernels import IdealKernel, SampledKernel
 from flypend.kernels.single import Solution, sampled_samples
 from flypend.lab.controls import gains_of
-from flypend.lab.setting import Poke, Setting, in_frame
+from flypend.lab.setting import Poke, Setting, in_frame, law_of
 from flypend.lab.tuning import Tell, Tuned, tuned, values
 from flypend.metrics import metrics
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
@@ -142,7 +142,7 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )
-    law = setting.flight.law
+    law = law_of(setting.flight)
     return Trajectory(
         t=t,
         **split(packed),

@@ -14,6 +14,7 @@ import numpy as np
 
 from flypend import errors, geometry
 from flypend.errors import InputError
+from flypend.laws import Law
 from flypend.model import State
 from flypend.model.state import FLIP, SHAPES
 from flypend.plants import Plant
@@ -133,12 +134,18 @@ def _check_size(flight: Flight) -> None:
 
 def _check_gains(flight: Flight) -> None:
     """Whether the law takes its gains for this vehicle, too."""
-    if flight.law.name == "lqr":  # each of its weights is one by itself, and its equation takes a while
+    if law_of(flight).name == "lqr":  # each of its weights is one by itself, and its equation takes a while
         return
     try:
-        flight.law.bound(flight.vehicle)
+        law_of(flight).bound(flight.vehicle)
     except InputError as error:
         raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
+
+
+def law_of(flight: Flight) -> Law:
+    """The law of `flight`; a setting has no controller that is not one."""
+    assert isinstance(flight.law, Law)
+    return flight.law
 
 
 def in_frame(vector: Any, e3: str) -> Any:

@@ -16,6 +16,7 @@ from flypend.compile.closed_loop import symbolic_loop
 from flypend.criterion import Criterion
 from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel
 from flypend.lab.controls import GAINS, gains_of
+from flypend.lab.setting import law_of
 from flypend.laws import Law
 from flypend.laws.law import law_from_dict
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
@@ -65,9 +66,9 @@ _building = RLock()  # CasADi's symbols are shared by no two threads
 
 def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
     """What flies `flight`; `tell` is called if it has to be made first, which takes a second."""
-    fixed = {name: value for name, value in flight.law.gains.items() if name not in GAINS[flight.law.name]}
+    fixed = {name: value for name, value in law_of(flight).gains.items() if name not in GAINS[law_of(flight).name]}
     plant = None if flight.plant == "ideal" else plant_named(flight.plant).replace(seed=0)
-    key = json.dumps([flight.vehicle.to_dict(), flight.law.name, fixed, repr(plant), flight.rtol], sort_keys=True)
+    key = json.dumps([flight.vehicle.to_dict(), law_of(flight).name, fixed, repr(plant), flight.rtol], sort_keys=True)
     with _building:
         if key in _made:
             _made.move_to_end(key)
@@ -81,11 +82,11 @@ def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
 
 
 def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
-    vehicle, criterion = flight.vehicle, goal(flight.law)
-    law = law_from_dict({"name": flight.law.name, "gains": fixed}).bound(vehicle)
+    vehicle, criterion = flight.vehicle, goal(law_of(flight))
+    law = law_from_dict({"name": law_of(flight).name, "gains": fixed}).bound(vehicle)
     names = tuple(GAINS[law.name])
     if law.name == "lqr":
-        law = by_matrix(gain_matrix(vehicle, flight.law.gains))
+        law = by_matrix(gain_matrix(vehicle, law_of(flight).gains))
         names = tuple(law.gains)
     if plant is None:
         method = method_for(flight.rtol, law)
@@ -100,7 +101,7 @@ def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
 
 def values(flight: Flight) -> Any:
     """The values (k,) of the gains that are inputs."""
-    law, vehicle = flight.law, flight.vehicle
+    law, vehicle = law_of(flight), flight.vehicle
     if law.name == "lqr":
         with _building:  # the linearisation is symbolic, too
             return np.array(list(entries(gain_matrix(vehicle, law.gains)).values()))

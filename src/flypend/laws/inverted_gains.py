@@ -126,15 +126,29 @@ BOUNDS: Mapping[str, float | None] = MappingProxyType(
 # Pure numbers, found by CMA-ES on the success and the excursion of random starts of hehn2011 (see docs/inverted.md).
 # Times are in √(l/g), speeds in √(g l), lengths in l, the attitude bandwidth in the root of the angular acceleration
 # that the rotors can give, as is the rate of turning.
-NUMBERS: Mapping[str, float] = MappingProxyType(
+AGILE: Mapping[str, float] = MappingProxyType(
     {
         "position_bandwidth": 0.56, "position_damping": 1.0, "height_bandwidth": 0.74, "height_damping": 0.82,
         "rod_bandwidth": 1.8, "rod_damping": 0.40, "attitude_bandwidth": 1.4, "attitude_damping": 0.87,
         "turn_rate": 1.8, "rate_feedforward": 0.64, "coast": 1.2, "latency": 0.46, "lead": 2.1, "throw_speed": 0.90,
         "flip_speed": 0.51, "flip_by_rod": 0.84, "flip_by_height": 0.46, "flip_width": 0.20, "hanging_share": 0.64,
         "low_below": 0.80, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9, "level": 6.0,
+        "tilt_limit": 3.1, "pump_share": 0.0, "pump_rate": 1.0,
     }
 )  # fmt: skip
+# For a vehicle that turns too slowly to flip its rod, found in the same way on nayak2018: level, pump, catch.
+SLOW: Mapping[str, float] = MappingProxyType(
+    {
+        **AGILE,
+        "position_bandwidth": 0.30, "position_damping": 0.79, "height_bandwidth": 0.25, "height_damping": 0.79,
+        "rod_bandwidth": 0.55, "rod_damping": 0.63, "attitude_bandwidth": 2.4, "attitude_damping": 0.67,
+        "turn_rate": 1.15, "rate_feedforward": 0.26, "coast": 1.05, "throw_speed": 0.046,
+        "low_below": 0.51, "high_above": 0.88, "position_reach": 22.0, "descent": 0.15, "level": 0.53,
+        "tilt_limit": 0.80, "pump_share": 1.0, "pump_rate": 2.0,
+    }
+)  # fmt: skip
+# α l/g, α being that acceleration, from which on a vehicle is agile.
+LEAST_AGILITY = 3.0
 
 
 def gains_for(vehicle: Vehicle, **given: float) -> Gains:
@@ -142,7 +156,7 @@ def gains_for(vehicle: Vehicle, **given: float) -> Gains:
 
     Fields `given` replace proposals. Raises InputError for bandwidths that are not separated.
     """
-    n = NUMBERS
+    n = AGILE if angular_authority(vehicle) * vehicle.l >= LEAST_AGILITY * vehicle.g else SLOW
     time, speed = np.sqrt(vehicle.l / vehicle.g), np.sqrt(vehicle.g * vehicle.l)
     # A vehicle too slow to turn for its rod is given the bandwidth that balancing takes: near upright small moments do.
     attitude = max(
@@ -162,7 +176,7 @@ def gains_for(vehicle: Vehicle, **given: float) -> Gains:
         "attitude_bandwidth": attitude,
         "attitude_damping": n["attitude_damping"],
         "turn_rate": n["turn_rate"] * np.sqrt(angular_authority(vehicle)),
-        "tilt_limit": 3.1,
+        "tilt_limit": n["tilt_limit"],
         "rate_feedforward": n["rate_feedforward"],
         "coast_time": n["coast"] / attitude,
         "throw_speed": n["throw_speed"] * speed,
@@ -171,8 +185,8 @@ def gains_for(vehicle: Vehicle, **given: float) -> Gains:
         "flip_by_height": n["flip_by_height"] / time,
         "flip_width": n["flip_width"] * speed,
         "hanging_share": n["hanging_share"],
-        "pump_share": 0.0,
-        "pump_rate": 1.0 / time,
+        "pump_share": n["pump_share"],
+        "pump_rate": n["pump_rate"] / time,
         "low_below": n["low_below"],
         "high_above": n["high_above"],
         "yaw_damping": 5.0,

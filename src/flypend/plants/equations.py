@@ -80,10 +80,7 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
         )
         return motion.packed()
 
-    if vehicle.rotor_lag > 0:
-        start, middle, end = (command + (rotors - command) * decay for decay in (1, timing[1], timing[2]))
-    else:
-        start = middle = end = command
+    start, middle, end = (_lagging(rotors, command, decay, vehicle) for decay in (1, timing[1], timing[2]))
     k_1 = rates(packed, start)
     k_2 = rates(packed + h / 2 * k_1, middle)
     k_3 = rates(packed + h / 2 * k_2, middle)
@@ -91,3 +88,15 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
     result = project_symbolic(packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4))
     outputs = ca.cse([ca.densify(result), ca.densify(end)])
     return ca.Function("rotor_step", [packed, rotors, command, wind, timing], outputs)
+
+
+def rotor_lag(vehicle: Vehicle) -> ca.Function:
+    """The rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
+    n = len(vehicle.rotor_spins)
+    rotors, command, timing = ca.SX.sym("r", n), ca.SX.sym("u", n), ca.SX.sym("h", 3)
+    return ca.Function("rotor_lag", [rotors, command, timing], [_lagging(rotors, command, timing[2], vehicle)])
+
+
+def _lagging(rotors: Any, command: Any, decay: Any, vehicle: Vehicle) -> Any:
+    """Rotor forces that a `command` draws from `rotors`, when `decay` = e^{−t/T} of the difference is left."""
+    return command + (rotors - command) * decay if vehicle.rotor_lag > 0 else command

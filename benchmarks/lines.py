@@ -1,0 +1,121 @@
+"""What the kernels cost in other settings, each as a ratio with its goal."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import flypend as fp
+from benchmarks import clock
+from benchmarks.problem import Problem
+from flypend.kernels import ideal_kernel, sampled_kernel
+from flypend.plants import plant
+
+
+class Line(NamedTuple):
+    """A figure: its `value`, what it is, and the goal with its sense ("" for none)."""
+
+    name: str
+    value: float
+    unit: str
+    goal: str = ""
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the goal is reached."""
+        if not self.goal:
+            return None
+        sense, number = self.goal.split()
+        return self.value >= float(number) if sense == "≥" else self.value <= float(number)
+
+
+def lines() -> Iterator[Line]:
+    """All of them, one after the other."""
+    problem = Problem()
+    kernel = partial(ideal_kernel, problem.vehicle, problem.law)
+    yield from threads(problem, kernel(method="dp5"))
+    yield from sampling(problem, kernel(method="dp5"))
+    yield from floats(problem, kernel)
+    yield from inverted()
+    yield from rotors()
+    yield from sizes(problem, kernel(method="dp5"))
+
+
+def threads(problem: Problem, kernel: Any) -> Iterator[Line]:
+    """All threads over one."""
+    starts, count = problem.starts(16384), os.cpu_count() or 1
+    one, all_ = (partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=n) for n in (1, count))
+    alone, together = clock.wall(one, all_)
+    yield Line(f"{count} threads over one, on the wall", alone / together, "×", "≥ 1.85")
+    # On a machine that others use, too, the wall says little: what do the threads cost each other in processor time?
+    alone, together = clock.processor(one, all_)
+    yield Line(f"{count} threads over one, if both had a core to themselves", count * alone / together, "×", "≥ 1.85")
+
+
+def sampling(problem: Problem, kernel: Any) -> Iterator[Line]:
+    """What it costs to keep, or to judge, 100 states of a run."""
+    starts, times = problem.starts(4096), np.linspace(0, problem.duration, 100)
+    fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=1)
+    tasks = [
+        partial(fly, judge=False),
+        partial(fly, times=times, keep=True, judge=False),
+        partial(fly, times=times),
+    ]
+    none, kept, judged = clock.processor(*tasks, repeats=8)
+    yield Line("keeping 100 states, above none", 100 * (kept / none - 1), "%", "≤ 25")
+    yield Line("judging at 100 times, above none", 100 * (judged / none - 1), "%")
+
+
+def floats(problem: Problem, kernel: Any) -> Iterator[Line]:
+    """Floats over doubles at 1e-3."""
+    starts = problem.starts(8192)
+    tasks = [
+        partial(kernel(method="dp5", precision=precision).fly, starts, problem.duration, rtol=1e-3, workers=1)
+        for precision in ("double", "float")
+    ]
+    double, single = clock.processor(*tasks)
+    yield Line("corrected law, rtol 1e-3, doubles", len(starts) / double, "runs/s")
+    yield Line("corrected law, rtol 1e-3, floats", len(starts) / single, "runs/s")
+    yield Line("floats over doubles", double / single, "×", "≥ 1.8")
+
+
+def inverted() -> Iterator[Line]:
+    """Ten seconds of the inverted law on the ideal plant."""
+    vehicle = fp.vehicle("hehn2011")
+    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
+    kernel = ideal_kernel(vehicle, law, method="dp5")
+    for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
+        (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
+        yield Line(f"inverted law, 10 s, ideal plant, rtol {rtol:.0e}", len(starts) / seconds, "runs/s", goal)
+
+
+def rotors() -> Iterator[Line]:
+    """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms."""
+    vehicle = fp.vehicle("hehn2011")
+    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
+    kernel = sampled_kernel(vehicle, law, plant("rotors"))
+    ticks = np.arange(0, 5001, 5)
+    (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, ticks=ticks, workers=1), repeats=2)
+    yield Line("inverted law, 10 s, rotors at 500 Hz", len(starts) / seconds, "flights/s")
+
+
+def sizes(problem: Problem, kernel: Any) -> Iterator[Line]:
+    """Cost of a run in ensembles of a thousand to a million, all threads, judged every 50 ms."""
+    times, cores = np.linspace(0, problem.duration, 131), os.cpu_count() or 1
+    costs = {}
+    for decade in (3, 4, 5, 6):
+        starts = problem.starts(10**decade)
+        fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, times=times)
+        begin = time.perf_counter()
+        (seconds,) = clock.processor(fly, repeats=1 if decade == 6 else 3)
+        costs[decade] = 1e6 * seconds / len(starts)
+        yield Line(f"cost of a run among 10^{decade}, judged every 50 ms, on a core", costs[decade], "µs")
+        if decade == 6:
+            yield Line(f"a million runs on {cores} cores of their own", seconds / cores, "s", "≤ 20")
+            yield Line("a million runs on the wall", time.perf_counter() - begin, "s")
+    yield Line("dearest over cheapest run, 10^3 to 10^6", max(costs.values()) / min(costs.values()), "×", "≤ 1.25")

@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= paper-out
 
-.PHONY: setup paper test bench test-tools fuzz web lint lock clean
+.PHONY: setup paper lab test bench test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -18,6 +18,10 @@ $(VENV)/.ready: requirements.lock pyproject.toml
 
 paper: setup
 	$(BIN)/flypend paper --out $(OUT)
+
+# The live page; prints its address and opens it in a browser.
+lab: setup
+	$(BIN)/flypend lab
 
 lint: setup
 	$(BIN)/ruff format --check .

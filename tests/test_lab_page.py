@@ -235,10 +235,7 @@ def test_200_rapid_moves_end_with_the_last(visit, server):
     assert page.evaluate("flypend.number()") >= 201
     expect_flight(page)
     assert slider(page, "law.gains.throw_speed").input_value() == "299"
-    time.sleep(0.4)
-    before = server.cpu()
-    time.sleep(0.5)
-    assert server.cpu() - before < 0.1  # nothing is left
+    assert server.calm()  # nothing is left
 
 
 def test_the_map_fills_and_a_point_of_it_flies(visit):

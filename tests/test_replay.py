@@ -216,8 +216,9 @@ def test_a_notebook_shows_the_page_in_a_frame_of_its_own(dense):
 WEB = Path(replay.__file__).parent / "web"
 
 
-def test_the_program_keeps_its_licences_and_cannot_end_its_script():
-    program = (WEB / "replay.js").read_text(encoding="utf-8")
+@pytest.mark.parametrize("name", ["replay.js", "lab.js"])
+def test_the_program_keeps_its_licences_and_cannot_end_its_script(name):
+    program = (WEB / name).read_text(encoding="utf-8")
     assert program.isascii()
     assert "</script" not in program.lower()
     assert "<!--" not in program
@@ -240,7 +241,7 @@ def test_the_program_is_what_its_sources_give(tmp_path):
     for command in (["npm", "ci", "--silent"], ["node", "build.mjs", str(tmp_path / "built")]):
         done = subprocess.run(command, cwd=web, capture_output=True, text=True, timeout=300, check=False)
         assert done.returncode == 0, done.stderr
-    for name in ("replay.js", "THREE-LICENSE.txt"):
+    for name in ("replay.js", "lab.js", "THREE-LICENSE.txt"):
         assert (tmp_path / "built" / name).read_bytes() == (WEB / name).read_bytes(), f"{name} is old: make web"
 
 
@@ -251,4 +252,4 @@ def test_the_wheel_carries_the_program(tmp_path):
 
     (wheel,) = WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"])
     names = zipfile.ZipFile(wheel).namelist()
-    assert {"flypend/web/replay.js", "flypend/web/THREE-LICENSE.txt"} <= set(names)
+    assert {"flypend/web/replay.js", "flypend/web/lab.js", "flypend/web/THREE-LICENSE.txt"} <= set(names)

@@ -60,7 +60,8 @@ export class Map {
     context.fillStyle = role("sky");
     context.fill();
     context.clip();
-    const failed = role("rod");
+    const failed = between(role("paper"), role("rod"), 0.5); // calm, for there can be much of it
+    this.root.style.setProperty("--failed", failed);
     // Wide dots first, which leave no gap, then narrower ones, so that a point has its own surroundings.
     for (const width of count < 30 ? [1] : [2.4, 1.7, 1.2]) {
       for (const point of this.points) {
@@ -136,7 +137,11 @@ export class Map {
 
 function colour(share) {
   const place = Math.min(Math.max(share, 0), 1) * (STOPS.length - 1), i = Math.min(Math.floor(place), STOPS.length - 2);
+  return between(STOPS[i], STOPS[i + 1], place - i);
+}
+
+/** The colour a `share` of the way from one #rrggbb to another. */
+function between(from, to, share) {
   const part = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
-  const mixed = [0, 1, 2].map((k) => Math.round(part(STOPS[i], k) + (place - i) * (part(STOPS[i + 1], k) - part(STOPS[i], k))));
-  return `rgb(${mixed.join(" ")})`;
+  return `rgb(${[0, 1, 2].map((k) => Math.round(part(from, k) + share * (part(to, k) - part(from, k)))).join(" ")})`;
 }

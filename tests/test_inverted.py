@@ -493,7 +493,7 @@ def test_a_vehicle_too_slow_to_flip_levels_pumps_and_stands():
     assert result.rate > 0.95  # 496 of 500 on another seed: docs/inverted.md
     assert result.percentile("excursion", 95) < 40  # m: it falls while it turns over
     # Negative control: the gains of an agile vehicle, scaled to this one, throw and flip in vain.
-    agile = {name: value for name, value in vars(_with(inverted_gains.AGILE, slow)).items()}
+    agile = vars(_with(inverted_gains.AGILE, slow))
     lost = fp.simulate_ensemble(slow, fp.laws.inverted(**agile), starts, 20.0, plant="rotors")
     assert lost.rate < 0.05
 

@@ -8,6 +8,7 @@ from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.plants import Noise, Plant, Wind
 from flypend.simulate import simulate
+from flypend.sweep import Study, study, sweep
 from flypend.trajectory import Trajectory, load
 
 __version__ = "0.1.0"
@@ -21,6 +22,7 @@ __all__ = [
     "Outcome",
     "Plant",
     "State",
+    "Study",
     "Trajectory",
     "Vehicle",
     "Wind",
@@ -29,5 +31,7 @@ __all__ = [
     "load",
     "simulate",
     "simulate_ensemble",
+    "study",
+    "sweep",
     "vehicle",
 ]

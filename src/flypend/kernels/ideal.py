@@ -42,6 +42,8 @@ class IdealKernel:
         Gains that may differ from run to run.
     function : callable
         The compiled kernel.
+    key : str
+        What determines the kernel, processor and versions apart.
     """
 
     vehicle: Vehicle
@@ -49,6 +51,7 @@ class IdealKernel:
     criterion: Criterion
     parameters: tuple[str, ...]
     function: Any
+    key: str
 
     def fly(
         self,
@@ -166,12 +169,13 @@ def ideal_kernel(
         write_kernel(lanes, problem, table)
         return lanes.module
 
-    machine = jit.build(f"ideal {method} {precision} {problem!r}", module, ["kernel"])
+    key = f"ideal {method} {precision} {problem!r}"
+    machine = jit.build(key, module, ["kernel"])
     kinds = [
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    return IdealKernel(vehicle, law, criterion, parameters, machine.function("kernel", kinds))
+    return IdealKernel(vehicle, law, criterion, parameters, machine.function("kernel", kinds), key)
 
 
 def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:

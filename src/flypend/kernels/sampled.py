@@ -47,6 +47,8 @@ class SampledKernel:
         Gains that may differ from run to run.
     function : callable
         The compiled kernel.
+    key : str
+        What determines the kernel, processor and versions apart.
     """
 
     vehicle: Vehicle
@@ -55,6 +57,7 @@ class SampledKernel:
     criterion: Criterion
     parameters: tuple[str, ...]
     function: Any
+    key: str
 
     def fly(
         self,
@@ -149,9 +152,10 @@ def sampled_kernel(
         write_kernel(lanes, problem)
         return lanes.module
 
-    machine = jit.build(f"sampled {problem!r}", module, ["kernel"])
+    key = f"sampled {problem!r}"
+    machine = jit.build(key, module, ["kernel"])
     kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    return SampledKernel(vehicle, law, plant, criterion, parameters, machine.function("kernel", kinds))
+    return SampledKernel(vehicle, law, plant, criterion, parameters, machine.function("kernel", kinds), key)
 
 
 def sampled_problem(

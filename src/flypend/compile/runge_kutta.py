@@ -279,7 +279,15 @@ class _Kernel:
                 with code.when(builder.icmp_signed(">=", code_number, ir.Constant(I64, 0))):
                     self._store_result(lane, code_number)
                     self._load_next(lane)
-            self._evaluate(self.t, self.S, 0)
+            self._begin_runs(value >= 0.0)
+
+    def _begin_runs(self, new: Value) -> None:
+        """The first rates of the runs in the lanes `new`; the others keep theirs, to the last bit."""
+        code = self.code
+        self._evaluate(self.t, self.S, 1)
+        with code.count(self.problem.size) as i:
+            place = code.builder.add(i, ir.Constant(I64, self.problem.size))
+            code.store(code.select(new, code.load(self.K, place), code.load(self.K, i)), self.K, i)
 
     def _max_steps(self) -> Value:
         code = self.code

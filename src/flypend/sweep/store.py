@@ -238,6 +238,11 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return out
 
 
+def lock_of(path: Path) -> Path:
+    """The file beside a store at `path` that a sweep holds."""
+    return path.with_name(f".{path.name}.lock")
+
+
 @contextmanager
 def alone(store: Store) -> Iterator[None]:
     """Hold the store against a second sweep. The system lets go of it when the process ends, in whatever way."""
@@ -246,7 +251,7 @@ def alone(store: Store) -> Iterator[None]:
     except ImportError:  # a system without such locks
         yield
         return
-    place = store.path / ".lock"
+    place = lock_of(store.path)
     with place.open("w") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -44,8 +44,8 @@ def log(monkeypatch):
     seen = Log()
 
     class Spy(flight.FlightComputer):
-        def _predict(self, t, packed):
-            state, rotors = super()._predict(t, packed)
+        def _predict(self, packed):
+            state, rotors = super()._predict(packed)
             seen.predicted.append(state)
             seen.rotors.append(rotors)
             return state, rotors
@@ -61,9 +61,10 @@ def log(monkeypatch):
 
 
 def fly(control, start, duration, plant):
-    """The flight, sampled at every control tick."""
+    """The flight, step by step (the reference of the kernel), sampled at every control tick."""
     ticks = np.arange(round(duration * plant.rate) + 1) / plant.rate
-    return fp.simulate(VEHICLE, control, start, duration, plant=plant, times=np.minimum(ticks, duration))
+    times = np.minimum(ticks, duration)
+    return fp.simulate(VEHICLE, control, start, duration, plant=plant, times=times, engine="scipy")
 
 
 # Prediction ------------------------------------------------------------------------------------------------------

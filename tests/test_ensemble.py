@@ -54,10 +54,12 @@ def same(one, other):
 
 def is_the_single_run(result, i, law, start, duration, plant):
     run = fp.simulate(VEHICLE, law, start, duration, plant=plant)
-    np.testing.assert_array_equal(result.final[i], run.states[-1].packed())
+    np.testing.assert_array_equal(result.final[i], run.packed[-1])
     single = metrics(run)
     for name in FIELDS:
-        assert same(np.asarray(getattr(result, name))[i].item(), getattr(single, name)), name
+        got, wanted = np.asarray(getattr(result, name))[i].item(), getattr(single, name)
+        # A kernel judges in fused operations, `metrics` in NumPy's: the same numbers up to roundoff.
+        assert same(got, wanted) or got == pytest.approx(wanted, rel=1e-9), name
 
 
 # A member is a single run ---------------------------------------------------------------------------------------------
@@ -98,7 +100,7 @@ def test_member_i_has_the_seed_of_the_plant_and_i(starts):
     for i in range(5):
         is_the_single_run(result, i, weak(1.0), starts[i], 0.2, BLOWN.replace(seed=7 + i))
     # Negative control: with the seed of another member it is another flight.
-    other = fp.simulate(VEHICLE, weak(1.0), starts[1], 0.2, plant=BLOWN.replace(seed=7)).states[-1].packed()
+    other = fp.simulate(VEHICLE, weak(1.0), starts[1], 0.2, plant=BLOWN.replace(seed=7)).packed[-1]
     assert np.max(np.abs(other - result.final[1])) > 1e-6
 
 
@@ -106,7 +108,8 @@ def test_the_accuracy_is_that_asked_for(starts):
     for rtol in (1e-4, 1e-9):
         result = simulate_ensemble(VEHICLE, weak(1.0), starts, 0.3, rtol=rtol, workers=1)
         run = fp.simulate(VEHICLE, weak(1.0), starts[4], 0.3, rtol=rtol)
-        np.testing.assert_array_equal(result.final[4], run.states[-1].packed())
+        np.testing.assert_array_equal(result.final[4], run.packed[-1])
+        assert len(run.drift) < 30 if rtol == 1e-4 else len(run.drift) > 3
 
 
 def test_the_frame_is_that_of_the_law(starts):
@@ -125,6 +128,8 @@ def test_the_frame_is_that_of_the_law(starts):
 def small_tasks(monkeypatch):
     """Two runs to a task, so that few starts are several tasks."""
     monkeypatch.setattr(ensemble, "CHUNK", 2)
+    monkeypatch.setattr("flypend.kernels.ideal.PIECE", 2)
+    monkeypatch.setattr("flypend.kernels.sampled.PIECE", 2)
 
 
 def test_processes_change_nothing_and_the_order_is_that_of_the_starts(starts, small_tasks):
@@ -148,8 +153,8 @@ def test_processes_change_nothing_and_the_order_is_that_of_the_starts(starts, sm
         for name in FIELDS:
             np.testing.assert_array_equal(getattr(one, name), getattr(two, name), err_msg=name)
         assert told[1] == told[2] == [(2, 5), (4, 5), (5, 5)]
-        last = plant if isinstance(plant, str) else plant.replace(seed=plant.seed + 4)
-        is_the_single_run(two, 4, law, starts[4], 0.2, last)
+        seeded = plant if isinstance(plant, str) else plant.replace(seed=plant.seed + 4)
+        is_the_single_run(two, 4, law, starts[4], 0.2, seeded)
 
 
 def test_results_come_in_the_order_of_the_starts_though_the_first_take_longest(small_tasks):
@@ -211,7 +216,7 @@ def test_a_member_that_meets_a_singularity_is_named():
     single = fp.simulate(case.vehicle, printed(**case.gains), starts[0], 0.3)
     assert (result.cause[0], result.end[0]) == ("singular", single.outcome.time)
     assert single.outcome.time < 0.3
-    np.testing.assert_array_equal(result.final[0], single.states[-1].packed())
+    np.testing.assert_array_equal(result.final[0], single.packed[-1])
 
 
 # What is told about many ---------------------------------------------------------------------------------------------

@@ -216,12 +216,14 @@ def test_outcomes_print_in_a_line():
 
 def test_the_integrator_stops_at_its_step_limit(monkeypatch):
     monkeypatch.setattr("flypend.integrate.MAX_STEPS", 5)
-    run = fp.simulate(VEHICLE, law(push), TUMBLING, 4.0)
-    assert run.outcome.status == "diverged"
-    assert "5 steps were not enough" in run.outcome.reason
-    assert len(run.drift) == 5
-    assert run.t[-1] == run.outcome.time == run.interpolant.knots[-1]  # no sample lies past the last step
-    assert 0 < run.outcome.time < 4.0
+    monkeypatch.setattr("flypend.kernels.ideal.MAX_STEPS", 5)
+    for engine in ("kernel", "scipy"):
+        run = fp.simulate(VEHICLE, law(push), TUMBLING, 4.0, engine=engine)
+        assert run.outcome.status == "diverged"
+        assert "steps were not enough" in run.outcome.reason
+        assert len(run.drift) == 5
+        assert run.t[-1] == run.outcome.time  # no sample lies past the last step
+        assert 0 < run.outcome.time < 4.0
 
 
 def test_integrate_by_itself_keeps_the_start_and_counts_evaluations():

@@ -33,7 +33,8 @@ class Criterion:
     hold : float
         Seconds.
     target : "inverted" or "e3"
-        The pose: upright against gravity, or along e₃ of the law's own frame, which for the paper's laws hangs.
+        The rod's pose: upright against gravity, or along e₃ of the law's own frame, which for the paper's laws hangs.
+        The thrust axis z = R e₃ is to be e₃ of that frame in either case.
 
     Raises
     ------
@@ -54,7 +55,7 @@ class Criterion:
         errors.one_of("criterion.target", self.target, ("inverted", "e3"))
 
     def pose(self, e3: E3Direction) -> Any:
-        """The unit vector (3,) that rod and thrust axis should take, in a frame with third axis `e3`."""
+        """The unit vector (3,) that the rod should take, in a frame with third axis `e3`."""
         return E3 if self.target == "e3" or e3 == "up" else -E3
 
     def excess(self, y: Any, z: Any, distance: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any, Any]:
@@ -63,8 +64,8 @@ class Criterion:
         `y` and `z` are rod and thrust axis in the frame `e3`, `distance` (m) that to the reference, `lean` as `lean`
         gives it; NumPy batches or CasADi expressions.
         """
-        pose = self.pose(e3)
-        return norm(y - pose) - (self.rod + lean), norm(z - pose) - (self.axis + lean), distance - self.position
+        rod = norm(y - self.pose(e3)) - (self.rod + lean)
+        return rod, norm(z - E3) - (self.axis + lean), distance - self.position
 
 
 def lean(acceleration: Any, g: float) -> Any:

@@ -13,7 +13,7 @@ from joblib import Parallel, delayed
 
 from flypend import errors
 from flypend.criterion import Criterion
-from flypend.kernels import Flown, ideal_kernel, sampled_kernel
+from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
 from flypend.laws import Controller, Law
 from flypend.metrics import Metrics, judged, metrics, wilson
 from flypend.model import State, Vehicle
@@ -24,8 +24,6 @@ from flypend.simulate import LEAST_RTOL, SAMPLE_PERIOD, simulate
 
 # Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
 CHUNK = 8
-# From this tolerance on the method of order 5 is the faster one.
-LOOSE = 1e-6
 
 # What another process refuses comes back as the three fields of an InputError; by itself it is pickled by its message.
 copyreg.pickle(errors.InputError, lambda error: (errors.InputError, (error.field, error.expected, str(error.got))))
@@ -197,7 +195,7 @@ def fly_packed(
             workers=workers, progress=progress,
         )  # fmt: skip
     rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
-    chosen = method or ("dp5" if rtol >= LOOSE else "dop853")
+    chosen = method or method_for(rtol, law)
     kernel = ideal_kernel(vehicle, law, criterion, names, method=chosen, precision=precision)
     return kernel.fly(
         packed, duration, rtol=rtol, parameters=values, times=grid if times is None else times, keep=times is not None,
@@ -235,7 +233,7 @@ def _one_by_one(
     def one(index: int) -> tuple[Metrics, Any]:
         seeded = plant.replace(seed=plant.seed + index) if isinstance(plant, Plant) else plant
         run = simulate(vehicle, bound, starts[index], duration, plant=seeded, rtol=rtol, engine=engine)
-        return metrics(run, criterion), run.states[-1].packed()
+        return metrics(run, criterion), run.packed[-1]
 
     chunks = [range(i, min(i + CHUNK, len(starts))) for i in range(0, len(starts), CHUNK)]
     if count == 1 or len(chunks) == 1:

@@ -10,7 +10,7 @@ from flypend import errors, plants
 from flypend.compile import ClosedLoop, close_loop
 from flypend.compile.numeric import as_numpy
 from flypend.integrate import Integration, integrate
-from flypend.kernels import ideal_kernel
+from flypend.kernels import ideal_kernel, method_for
 from flypend.kernels.single import Solution, flown_by_kernel
 from flypend.laws import Controller, Law
 from flypend.laws.references import sampled
@@ -53,7 +53,8 @@ def simulate(
         lag and sampling, integrated by the package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011"
         (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
-        Tolerances of the adaptive step (DOP853); atol defaults to rtol (state entries are of order one in SI units).
+        Tolerances of the adaptive step (DOP853; from 1e-6 on DP5, which is faster there); atol defaults to rtol, since
+        state entries are of order one in SI units.
         Used by the ideal plant; a sampled flight takes steps of 1 ms or less.
     times : (n,) increasing, optional
         Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends
@@ -120,7 +121,9 @@ def _ideal(
 
 
 def _by_kernel(loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, _: Any) -> tuple[Solution, Any]:
-    solution = Solution(ideal_kernel(loop.vehicle, loop.law), start, duration, rtol, atol)
+    solution = Solution(
+        ideal_kernel(loop.vehicle, loop.law, method=method_for(rtol, loop.law)), start, duration, rtol, atol
+    )
     return solution, solution.drift
 
 

@@ -93,6 +93,12 @@ class Trajectory:
         return self.R[..., :, 2]
 
     @property
+    def packed(self) -> Any:
+        """The sampled states (n, 24) in the order of `State.packed`, as the integrator left them."""
+        rows = [getattr(self, name).reshape(len(self.t), -1) for name in _STATE]
+        return np.concatenate(rows, axis=1)
+
+    @property
     def states(self) -> State:
         """The sampled states as one batch."""
         return State(**{name: getattr(self, name) for name in _STATE})

@@ -58,21 +58,26 @@ def source_digest() -> str:
     return digest.hexdigest()
 
 
-class Machine:
-    """Machine code in memory; `address` of a function by its name. It lives as long as this object."""
+class Native:
+    """A compiled function: called with numbers and addresses, it lets other Python threads run meanwhile.
 
-    def __init__(self, code: bytes, exported: Sequence[str]) -> None:
-        builder = llvm.JITLibraryBuilder().add_object_img(code).add_current_process()
-        for name in exported:
-            builder.export_symbol(name)
+    It can be sent to another process of the same machine.
+    """
+
+    def __init__(self, code: bytes, name: str, arguments: tuple[Any, ...]) -> None:
+        self._made_of = (code, name, arguments)
+        builder = llvm.JITLibraryBuilder().add_object_img(code).add_current_process().export_symbol(name)
         with _lock:
             self._library = builder.link(_jit(), f"flypend{next(_names)}")
+        self._call = ctypes.CFUNCTYPE(None, *arguments)(self._library[name])
 
-    def function(self, name: str, arguments: Sequence[Any]) -> Callable[..., None]:
-        """The function `name` with `arguments`, ctypes; it lets other Python threads run while it does."""
-        made: Callable[..., None] = ctypes.CFUNCTYPE(None, *arguments)(self._library[name])
-        made.machine = self  # type: ignore[attr-defined]  # keeps the code alive
-        return made
+    def __call__(self, *values: Any) -> None:
+        """Call it."""
+        self._call(*values)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """By its machine code."""
+        return Native, self._made_of
 
 
 @lru_cache(maxsize=1)
@@ -80,18 +85,19 @@ def _jit() -> Any:
     return llvm.create_lljit_compiler(_machine()[0])
 
 
-def build(key: str, module: Callable[[], Any], exported: Sequence[str]) -> Machine:
-    """Machine code for the LLVM module that `module()` writes, from the cache if an entry for `key` is sound.
+def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[Any]) -> Native:
+    """The function `name` of the LLVM module that `module()` writes, from the cache if an entry for `key` is sound.
 
-    `key` must determine the module; processor, versions and the generators' source are added to it here.
+    `key` must determine the module; processor, versions and the generators' source are added to it here. `arguments`
+    are the ctypes of its arguments.
     """
-    name = hashlib.sha256("\n".join([key, _machine()[1], source_digest()]).encode()).hexdigest()
-    path = cache_folder() / f"{name}.o"
+    entry = hashlib.sha256("\n".join([key, _machine()[1], source_digest()]).encode()).hexdigest()
+    path = cache_folder() / f"{entry}.o"
     code = _read(path)
     if code is None:
         code = compiled(module())
         _write(path, code)
-    return Machine(code, exported)
+    return Native(code, name, tuple(arguments))
 
 
 def compiled(module: Any) -> bytes:

@@ -81,8 +81,7 @@ def normals(seed: int, ticks: int) -> Any:
 
 @lru_cache(maxsize=1)
 def _compiled() -> Any:
-    machine = jit.build("normals", _module, ["normals_of_ticks"])
-    return machine.function("normals_of_ticks", [ctypes.c_uint64, ctypes.c_int64, ctypes.c_void_p])
+    return jit.build("normals", _module, "normals_of_ticks", [ctypes.c_uint64, ctypes.c_int64, ctypes.c_void_p])
 
 
 def _module() -> ir.Module:

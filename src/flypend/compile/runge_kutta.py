@@ -92,6 +92,7 @@ class _Kernel:
         self.run, self.ended = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
         self.next, self.left = code.reserve(1, I64), code.reserve(1, I64)
         self.dense = code.reserve(7 * n)
+        self.low = code.reserve(1)
         self.samples = Reductions(code, problem.observe, problem.reductions) if problem.observe else None
         self.cursor = code.reserve(lanes.width, I64)
 
@@ -109,6 +110,7 @@ class _Kernel:
         code.store(0.0, self.active)
         with code.count(self.lanes.width) as lane:
             code.put(ir.Constant(I64, -1), self.run, lane)
+            code.put(zero, self.cursor, lane)
             self._load_next(lane)
         self._evaluate(self.t, self.S, 0)
         with code.loop(lambda: builder.icmp_signed(">", builder.load(self.left, typ=I64), zero)):
@@ -144,7 +146,9 @@ class _Kernel:
             code.call(self.margin, self.when, self.Y, self.P, margin)
             guarded = accepted & ~(code.load(margin) > 0.0)
             accepted = accepted & ~guarded
-        self._finish_step(t, h, t_new, error, accepted, guarded, active)
+        accepted = accepted & ~(code.load(self.low) > 0.0)
+        lost = accepted & ~(self._largest(self.Y) < MAX_STATE)
+        self._finish_step(t, h, t_new, error, accepted & ~lost, guarded, lost, active)
 
     def _trial_step(self, t: Value) -> Value:
         """The step to try: that of the controller, or for a new run a cautious one from the sizes of s and its rate."""
@@ -152,7 +156,12 @@ class _Kernel:
         size, rate = code.reserve(1), code.reserve(1)
         h = code.load(self.h)
         new = h <= 0.0
+        code.store(0.0, self.low)
         with code.when(code.any(new)):
+            if self.margin is not None:
+                margin = code.reserve(1)
+                code.call(self.margin, self.t, self.S, self.P, margin)
+                code.store(code.select(new & ~(code.load(margin) > 0.0), 1.0, 0.0), self.low)
             code.store(0.0, size)
             code.store(0.0, rate)
             with code.count(n) as i:
@@ -220,7 +229,15 @@ class _Kernel:
         return code.least(code.most(SAFETY / root, LEAST_FACTOR), MOST_FACTOR)
 
     def _finish_step(
-        self, t: Value, h: Value, t_new: Value, error: Value, accepted: Value, guarded: Value | None, active: Value
+        self,
+        t: Value,
+        h: Value,
+        t_new: Value,
+        error: Value,
+        accepted: Value,
+        guarded: Value | None,
+        lost: Value,
+        active: Value,
     ) -> None:
         code, n = self.code, self.problem.size
         if self.method.errors[0][-1] != 0:  # f at the end is known, up to the projection
@@ -230,14 +247,9 @@ class _Kernel:
             code.store(t_new, self.when)
             code.call(self.rates, self.when, self.Y, self.P, after)
         self._sample(t, h, t_new, accepted, after)
-        peak = code.reserve(1)
-        code.store(0.0, peak)
         with code.count(n) as i:
-            new = code.load(self.Y, i)
-            state = code.select(accepted, new, code.load(self.S, i))
-            code.store(state, self.S, i)
+            code.store(code.select(accepted, code.load(self.Y, i), code.load(self.S, i)), self.S, i)
             code.store(code.select(accepted, code.load(after, i), code.load(self.K, i)), self.K, i)
-            code.store(code.most(code.fabs(state), code.load(peak)), peak)
         self._record_knot(t_new, accepted)
 
         count = code.load(self.count) + 1.0
@@ -253,12 +265,28 @@ class _Kernel:
         code.store(code.select(accepted, 0.0, 1.0), self.limit)
         h_next = code.select(active, h * factor, h)
         code.store(h_next, self.h)
-        self._end_runs(t_now, h_next, count, guarded, accepted, active, code.load(peak))
+        self._end_runs(t_now, h_next, count, guarded, lost, accepted, active)
+
+    def _largest(self, state: ir.Value) -> Value:
+        """Largest size of an entry of `state`."""
+        code = self.code
+        peak = code.reserve(1)
+        code.store(0.0, peak)
+        with code.count(self.problem.size) as i:
+            code.store(code.most(code.fabs(code.load(state, i)), code.load(peak)), peak)
+        return code.load(peak)
 
     # Ends of runs ---------------------------------------------------------------------------------------------
 
     def _end_runs(
-        self, t: Value, h: Value, count: Value, guarded: Value | None, accepted: Value, active: Value, peak: Value
+        self,
+        t: Value,
+        h: Value,
+        count: Value,
+        guarded: Value | None,
+        lost: Value,
+        accepted: Value,
+        active: Value,
     ) -> None:
         code, builder = self.code, self.code.builder
         status, steps_left = code.reserve(1), self._max_steps()
@@ -268,8 +296,9 @@ class _Kernel:
         value = code.select(stuck, float(TOO_SMALL), value)
         if guarded is not None:
             value = code.select(stuck & guarded, float(SINGULAR), value)
-        value = code.select(peak < MAX_STATE, value, float(DIVERGED))
-        value = code.select(accepted & (t >= self.duration) & (peak < MAX_STATE), float(COMPLETED), value)
+            value = code.select(code.load(self.low) > 0.0, float(SINGULAR), value)
+        value = code.select(lost, float(DIVERGED), value)
+        value = code.select(accepted & (t >= self.duration), float(COMPLETED), value)
         value = code.select(self._first_rate_undefined(), float(UNDEFINED), value)
         value = code.select(active, value, -1.0)
         code.store(value, status)

@@ -1,7 +1,7 @@
 """Compiled kernels for a vehicle, a law and a plant: thousands of closed-loop runs a second on every core."""
 
 from flypend.kernels.flown import STATUS, Flown
-from flypend.kernels.ideal import IdealKernel, ideal_kernel
+from flypend.kernels.ideal import IdealKernel, ideal_kernel, method_for
 from flypend.kernels.sampled import SampledKernel, sampled_kernel
 
-__all__ = ["STATUS", "Flown", "IdealKernel", "SampledKernel", "ideal_kernel", "sampled_kernel"]
+__all__ = ["STATUS", "Flown", "IdealKernel", "SampledKernel", "ideal_kernel", "method_for", "sampled_kernel"]

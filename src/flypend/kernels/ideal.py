@@ -27,6 +27,8 @@ from flypend.model.state import project_symbolic
 
 LANES = {"double": 8, "float": 16}
 MAX_STEPS = 1_000_000
+# From this tolerance on the method of order 5 is the faster one.
+LOOSE = 1e-6
 PIECE = 1024
 
 
@@ -91,20 +93,9 @@ class IdealKernel:
         atol = rtol if atol is None else atol
 
         def fly(part: slice) -> Flown:
-            return self._call(starts[part], values[part], duration, rtol, atol, moments, keep, None)
+            return integrate(self.function, starts[part], values[part], duration, rtol, atol, moments, keep=keep)
 
         return in_pieces(fly, len(starts), PIECE, workers, progress)
-
-    def fly_one(self, start: Any, duration: float, rtol: float, atol: float, times: Any) -> tuple[Flown, Any]:
-        """One run from `start` (24,), and the drift (k, 3) from the manifold before each of its k projections."""
-        knots = np.empty(1 + 4 * MAX_STEPS)
-        knots[0] = 0
-        row = np.ascontiguousarray(start, dtype=float)[None]
-        flown = self._call(
-            row, self._values(None, 1), duration, rtol, atol, np.ascontiguousarray(times, dtype=float), True, knots
-        )
-        count = int(knots[0])
-        return flown, knots[1 : 1 + 4 * count].reshape(count, 4)[:, 1:].copy()
 
     def _values(self, parameters: Any, runs: int) -> Any:
         if parameters is None:
@@ -115,20 +106,35 @@ class IdealKernel:
             raise InputError("parameters", f"an array of shape {(runs, len(self.parameters))}", f"shape {given.shape}")
         return given
 
-    def _call(
-        self, starts: Any, values: Any, duration: float, rtol: float, atol: float, times: Any, keep: bool, knots: Any
-    ) -> Flown:
-        n, count = len(starts), len(times)
-        final, end = np.empty_like(starts), np.empty(n)
-        code, steps = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-        reductions = np.empty((n, len(REDUCTIONS)))
-        samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
-        self.function(
-            address(starts), address(values), n, duration, rtol, atol, MAX_STEPS, address(times), count,
-            address(samples), address(reductions), address(final), address(end), address(code), address(steps),
-            address(knots),
-        )  # fmt: skip
-        return Flown(final, end, code, reductions, samples, steps)
+
+def integrate(
+    function: jit.Native,
+    starts: Any,
+    values: Any,
+    duration: float,
+    rtol: float,
+    atol: float,
+    times: Any,
+    *,
+    keep: bool,
+    knots: Any = None,
+) -> Flown:
+    """Call a compiled ideal kernel for contiguous `starts` (n, 24) and parameter `values` (n, k).
+
+    `duration` (s), `rtol`, `atol`, `times` and `keep` as in `IdealKernel.fly`. `knots`, for one run only, receives the
+    number of accepted steps and four numbers for each: its time, and the drift from the manifold.
+    """
+    n, count = len(starts), len(times)
+    final, end = np.empty_like(starts), np.empty(n)
+    code, steps = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    reductions = np.empty((n, len(REDUCTIONS)))
+    samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
+    function(
+        address(starts), address(values), n, duration, rtol, atol, MAX_STEPS, address(times), count,
+        address(samples), address(reductions), address(final), address(end), address(code), address(steps),
+        address(knots),
+    )  # fmt: skip
+    return Flown(final, end, code, reductions, samples, steps)
 
 
 @lru_cache(maxsize=64)
@@ -169,13 +175,20 @@ def ideal_kernel(
         write_kernel(lanes, problem, table)
         return lanes.module
 
-    key = f"ideal {method} {precision} {problem!r}"
-    machine = jit.build(key, module, ["kernel"])
     kinds = [
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    return IdealKernel(vehicle, law, criterion, parameters, machine.function("kernel", kinds), key)
+    key = f"ideal {method} {precision} {problem!r}"
+    return IdealKernel(vehicle, law, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
+
+
+def method_for(rtol: float, law: Law) -> str:
+    """The Runge-Kutta method for a tolerance `rtol`: the faster one, but DOP853 where `law` can be singular.
+
+    The error estimate of order 5 steps over a narrow singularity that the other notices.
+    """
+    return "dp5" if rtol >= LOOSE and law.guard is None else "dop853"
 
 
 def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:

@@ -152,10 +152,9 @@ def sampled_kernel(
         write_kernel(lanes, problem)
         return lanes.module
 
-    key = f"sampled {problem!r}"
-    machine = jit.build(key, module, ["kernel"])
     kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    return SampledKernel(vehicle, law, plant, criterion, parameters, machine.function("kernel", kinds), key)
+    key = f"sampled {problem!r}"
+    return SampledKernel(vehicle, law, plant, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
 
 
 def sampled_problem(

@@ -8,11 +8,12 @@ import numpy as np
 
 from flypend.compile import runge_kutta
 from flypend.integrate import MAX_STATE, MAX_STEPS, Outcome
-from flypend.kernels.ideal import IdealKernel
+from flypend.kernels.flown import STATUS, Flown
+from flypend.kernels.ideal import IdealKernel, integrate
 from flypend.kernels.sampled import sampled_kernel
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE
+from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.flight import LEFT, NOT_FINITE, Samples
 from flypend.plants.plant import Plant
 
@@ -25,34 +26,41 @@ REASONS = {
 
 
 class Solution:
-    """A run of the ideal plant: its `outcome`, its `drift`, and its states at any times.
+    """A run of the ideal plant: its `outcome`, and its states at any times.
 
+    `knots` (k+1,) are the times of its k accepted steps, `drift` (k, 3) says how far off the manifold each step ended.
     The same steps are taken whichever times are asked for, so that every answer belongs to one solution.
     """
 
     def __init__(self, kernel: IdealKernel, start: Any, duration: float, rtol: float, atol: float) -> None:
-        self._kernel, self._start, self._setting = kernel, start, (duration, rtol, atol)
-        flown, self.drift = kernel.fly_one(start, *self._setting, np.zeros(0))
+        self._function = kernel.function
+        self._start = np.ascontiguousarray(start, dtype=float)
+        self._setting = (duration, rtol, atol)
+        room = np.empty(1 + 4 * MAX_STEPS)
+        room[0] = 0
+        flown = self._fly(np.zeros(0), room)
+        steps = room[1 : 1 + 4 * int(room[0])].reshape(-1, 4)
+        self.knots, self.drift = np.append(0.0, steps[:, 0]), steps[:, 1:].copy()
         self._final = flown.final[0]
-        self.outcome = self._judge(int(flown.code[0]), float(flown.end[0]))
+        self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), kernel)
 
-    def _judge(self, code: int, end: float) -> Outcome:
-        guard = self._kernel.law.guard
-        reason = guard.reason if code == runge_kutta.SINGULAR and guard is not None else REASONS.get(code, "")
-        words = {
-            runge_kutta.COMPLETED: "completed",
-            runge_kutta.SINGULAR: "singular",
-            runge_kutta.UNDEFINED: "singular",
-        }
-        return Outcome(words.get(code, "diverged"), end, reason)  # type: ignore[arg-type]
+    def _fly(self, times: Any, room: Any = None) -> Flown:
+        none = np.zeros((1, 0))
+        return integrate(self._function, self._start[None], none, *self._setting, times, keep=True, knots=room)
 
     def __call__(self, t: Any) -> Any:
         """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""
         times, place = np.unique(np.atleast_1d(np.asarray(t, dtype=float)), return_inverse=True)
-        samples = self._kernel.fly_one(self._start, *self._setting, times)[0].samples[0]
+        samples = self._fly(times).samples[0]
         samples[times <= 0] = self._start
         samples[times >= self.outcome.time] = self._final
         return samples[place]
+
+
+def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:
+    guard = kernel.law.guard
+    reason = guard.reason if code == runge_kutta.SINGULAR and guard is not None else REASONS.get(code, "")
+    return Outcome(str(STATUS[code]), end, reason)  # type: ignore[arg-type]
 
 
 def flown_by_kernel(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant, ticks: Any) -> Samples:
@@ -67,4 +75,5 @@ def flown_by_kernel(vehicle: Vehicle, law: Law, start: State, duration: float, p
         outcome = Outcome("singular" if singular else "diverged", end, NOT_FINITE if singular else LEFT)
     t, samples = ticks / plant.rate, flown.samples[0]
     kept = t <= end + 1e-9
-    return Samples(t[kept], samples[kept, :SIZE], samples[kept, SIZE:], outcome)
+    packed = samples[kept, :SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    return Samples(t[kept], packed, samples[kept, SIZE:], outcome)

@@ -112,7 +112,12 @@ class State:
         """Members of a batch: `index` applies to the batch axes."""
         if not self.batch_shape:
             raise IndexError("a single state has no members; only a batch of states can be indexed")
-        return State(**{name: getattr(self, name)[index] for name in SHAPES})
+        member = object.__new__(type(self))  # what is on the manifold stays as it is, to the last bit
+        for name in SHAPES:
+            part = np.array(getattr(self, name)[index])
+            part.setflags(write=False)
+            object.__setattr__(member, name, part)
+        return member
 
     def __len__(self) -> int:
         """Length of the first batch axis."""

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from flypend.criterion import PARTS
-from flypend.ensemble import LOOSE, fly_packed
-from flypend.kernels import Flown, ideal_kernel, sampled_kernel
+from flypend.ensemble import fly_packed
+from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
 from flypend.metrics import judged
 from flypend.plants import Plant
 from flypend.sweep import cube
@@ -64,7 +64,7 @@ def program_digest(study: Study) -> str:
         if isinstance(plant, Plant):
             kernel: Any = sampled_kernel(study.vehicle, study.law, plant.replace(seed=0), study.criterion, study.gains)
         else:
-            method = "dp5" if study.rtol >= LOOSE else "dop853"
+            method = method_for(study.rtol, study.law)
             kernel = ideal_kernel(
                 study.vehicle, study.law, study.criterion, study.gains, method=method, precision=study.precision
             )

@@ -86,7 +86,12 @@ def _client(scheduler: str | None, workers: int | None, processes: bool) -> Iter
         )
         with (
             LocalCluster(
-                processes=processes, dashboard_address=None, memory_limit=0, silence_logs=50, **size
+                processes=processes,
+                dashboard_address="127.0.0.1:0",
+                worker_dashboard_address="127.0.0.1:0",
+                memory_limit=0,
+                silence_logs=50,
+                **size,
             ) as cluster,
             Client(cluster) as client,
         ):

@@ -47,6 +47,7 @@ ORDER = [
     "page",
     "stop_motion",
     "figures",
+    "maps",
     "lettering",
     "frames",
     "animate",
@@ -157,6 +158,7 @@ PUBLIC = (
     "stop_motion",
     "figures",
     "animate",
+    "maps",
 )
 
 # Records of the package: a parameter called as its class in small letters and annotated with it is documented there.

@@ -179,7 +179,8 @@ def fly_packed(
 ) -> Flown:
     """What `simulate_ensemble` flies with a kernel, from `packed` states (n, 24) that are trusted, a `law` being bound.
 
-    Raises InputError as `simulate_ensemble` does.
+    duration, plant, rtol, criterion, gains, times, judge_period, method, precision, workers, progress are those of
+    `simulate_ensemble`, and so is what raises InputError.
     """
     names = tuple(gains or ())
     columns = [_column(name, value, len(packed)) for name, value in (gains or {}).items()]

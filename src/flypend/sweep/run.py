@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from flypend.sweep.chunk import fly_range, program_digest
 from flypend.sweep.cluster import flown_chunks
@@ -98,13 +97,4 @@ def dataset(path: str | Path) -> xarray.Dataset:
 
 def versions() -> dict[str, str]:
     """Versions of everything that the numbers of a run depend on."""
-    import casadi
-    import llvmlite
-    import scipy
-
-    from flypend import __version__
-
-    return {
-        "flypend": __version__, "casadi": casadi.__version__, "llvmlite": llvmlite.__version__,
-        "numpy": np.__version__, "scipy": scipy.__version__,
-    }  # fmt: skip
+    return {name: metadata.version(name) for name in ("flypend", "casadi", "llvmlite", "numpy", "scipy")}

@@ -29,6 +29,7 @@ app = typer.Typer(
 console = Console()
 
 app.command()(cli_studies.sweep)
+app.command("map")(cli_studies.draw_map)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -53,6 +53,66 @@ def sweep(
     with run_counter(made.law.name) as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in [bold]{escape(str(out))}[/bold].")
+
+
+def draw_map(
+    what: Annotated[
+        Path | None, typer.Argument(help="Store of a sweep (.zarr), or the TOML file of a study, which is flown first.")
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Picture: .png, .pdf or .svg.")] = Path("map.png"),
+    x: Annotated[
+        str | None, typer.Option("--x", help="Quantity along the plane, such as tilt, rate or gains.k_d.")
+    ] = None,
+    y: Annotated[str | None, typer.Option("--y", help="Quantity up the plane.")] = None,
+    law: Annotated[
+        str | None, typer.Option("--law", help="In place of a store: fly this law from random starts.")
+    ] = None,
+    vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: name of a vehicle.")] = None,
+    plant: Annotated[str, typer.Option("--plant", help="With --law: ideal, rotors or hehn2011.")] = "ideal",
+    runs: Annotated[int, typer.Option("--runs", min=1, help="With --law: number of runs.")] = 100_000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="With --law: seed of the starts.")] = 1,
+    duration: Annotated[float | None, typer.Option("--duration", help="With --law: seconds per run.")] = None,
+    workers: Workers = None,
+    force: Force = False,
+) -> None:
+    """Draw where the rod may start: success, settling time, excursion, causes of failure, on the sphere and in a plane.
+
+    With a study or --law the runs are kept in a store beside the picture, so that a run that is stopped goes on.
+    """
+    from flypend.errors import InputError
+    from flypend.files import FIGURES, save_figure
+    from flypend.maps import map_figure
+    from flypend.sweep import study as study_from
+    from flypend.sweep.study import standard
+
+    if (what is None) == (law is None):
+        raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
+    if out.suffix.lower() not in FIGURES:
+        raise InputError("--out", "a file name ending in " + " or ".join(FIGURES), str(out))
+    if law is not None:
+        content = standard(law, vehicle, plant, runs, seed, duration)
+    elif what is not None and what.suffix == ".toml":
+        content = study_from(what).settings
+    else:
+        content = None
+    store = what
+    if content is not None:
+        store = out.with_suffix(".zarr")
+        sweep_into(store, content, workers, force)
+    assert store is not None
+    save_figure(map_figure(store, x=x, y=y), out)
+    console.print(f"The map is in [bold]{escape(str(out))}[/bold].")
+
+
+def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force: bool) -> None:
+    """Fly the study with this `content` into `store`, with a progress bar, and say what came of it."""
+    from flypend.sweep import study as study_from
+    from flypend.sweep import sweep as fly
+
+    made = study_from(content)
+    with run_counter(made.law.name) as tell:
+        flown = fly(made, store, workers=workers, force=force, progress=tell)
+    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in [bold]{escape(str(store))}[/bold].")
 
 
 def told(successes: int, runs: int) -> str:

@@ -27,6 +27,7 @@ EMPTY = "#e4e4e4"
 # An interval this wide says little: the cell is hatched.
 WIDE = 0.2
 RINGS = (30, 60)
+HATCH = "//////"
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +106,7 @@ def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tupl
         titles = ("rod above the horizon", "rod below the horizon")
         panels = [_Panel(title, gathered[0], (line, line), part) for part, title in enumerate(titles)]
     if edges is not None:
-        panels.append(_Panel("plane", gathered[-1], edges))
+        panels.append(_Panel("all runs", gathered[-1], edges))
     return panels, names
 
 
@@ -150,15 +151,22 @@ def _scale(values: Sequence[Any]) -> Normalize:
 
 def _hatch(axis: Any, panel: _Panel) -> None:
     """Hatch the cells whose success rate is not known well."""
-    unsure = panel.square((panel.cells.width > WIDE) & (panel.cells.runs > 0))
+    unsure = panel.square(_unsure(panel))
     if np.any(unsure):
         cover = np.ma.masked_where(~unsure, np.zeros(unsure.shape))
-        _clip(axis, panel, axis.pcolor(*panel.edges, cover, hatch="////", alpha=0.0, edgecolor=INK, linewidth=0))
+        clear = ListedColormap([(1.0, 1.0, 1.0, 0.0)])
+        style = {"cmap": clear, "hatch": HATCH, "edgecolor": "#808080", "linewidth": 0.0}
+        _clip(axis, panel, axis.pcolor(*panel.edges, cover, **style))
+
+
+def _unsure(panel: _Panel) -> Any:
+    return (panel.cells.width > WIDE) & (panel.cells.runs > 0)
 
 
 def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -> None:
     """The most frequent cause of failure in each cell; white where nothing failed."""
     colours = ListedColormap(["#ffffff", *CAUSE_COLOURS.values()])
+    image = None
     for axis, panel in zip(axes, panels, strict=True):
         failures = panel.cells.causes[1:]
         most = np.where(failures.sum(axis=0) > 0, 1 + np.argmax(failures, axis=0), 0)
@@ -166,18 +174,16 @@ def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -
         image = axis.pcolormesh(*panel.edges, shown, cmap=colours, vmin=-0.5, vmax=len(CAUSES) - 0.5, rasterized=True)
         _clip(axis, panel, image)
     failed = max(float(total.causes[1:].sum()), 1.0)
-    handles = [
-        Patch(facecolor=colour, label=f"{name}: {100 * total.causes[code].sum() / failed:.3g} % of failures")
-        for code, (name, colour) in enumerate(CAUSE_COLOURS.items(), start=1)
-        if total.causes[code].sum()
-    ]
-    handles.append(Patch(facecolor="white", edgecolor=INK, label="no failure"))
-    handles.append(Patch(facecolor=EMPTY, label="no runs"))
-    handles.append(
-        Patch(facecolor="white", edgecolor=INK, hatch="////", label=f"interval wider than {100 * WIDE:.0f} %")
-    )
-    figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False,
-                  title="most frequent cause of failure in a cell (last row)", title_fontsize=SMALL)  # fmt: skip
+    bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
+    shares = [f"{name} {100 * total.causes[code].sum() / failed:.3g} %" for code, name in enumerate(CAUSES)][1:]
+    bar.set_ticks(range(len(CAUSES)), labels=["none", *shares])
+    bar.ax.tick_params(labelsize=SMALL, length=0)
+    bar.set_label("most frequent cause of failure", fontsize=LABEL)
+    handles = [Patch(facecolor=EMPTY, label="no runs")]
+    if any(np.any(_unsure(panel)) for panel in panels):
+        words = f"interval of the success rate wider than {100 * WIDE:.0f} %"
+        handles.append(Patch(facecolor="white", edgecolor=INK, hatch=HATCH, label=words))
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=SMALL, frameon=False)
 
 
 def _clip(axis: Any, panel: _Panel, image: Any) -> None:

@@ -260,3 +260,26 @@ def _check_plants(made: Study) -> None:
     step = int(np.prod(made.shape[len(axes_) :], dtype=object))
     for place in range(plants if axes_ else 0):
         made.plant_at(place * step)
+
+
+def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, duration: float | None) -> dict[str, Any]:
+    """The study of a law from the starts of `State.random`: y on S², R on SO(3), rates and velocities in balls.
+
+    A law of the paper's is to bring the rod to its e₃, anywhere, in 6.5 s; others invert it at their reference in 10 s.
+    """
+    papers = law in ("printed", "corrected")
+    return {
+        "vehicle": vehicle or ("nayak2018" if papers else "hehn2011"),
+        "law": {"name": law},
+        "plant": plant,
+        "duration": duration if duration is not None else 6.5 if papers else 10.0,
+        "judge_period": 0.1,
+        "runs": runs,
+        "seed": seed,
+        "criterion": {"target": "e3", "position": float("inf")} if papers else {},
+        "vary": {
+            "start": {
+                "y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 3.0}, "x_dot": {"ball": 2.0}
+            }
+        },
+    }  # fmt: skip

@@ -7,6 +7,7 @@ from flypend.integrate import Outcome
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.plants import Noise, Plant, Wind
+from flypend.sensitivity import Sensitivity, sensitivity
 from flypend.simulate import simulate
 from flypend.sweep import Study, study, sweep
 from flypend.trajectory import Trajectory, load
@@ -21,6 +22,7 @@ __all__ = [
     "Noise",
     "Outcome",
     "Plant",
+    "Sensitivity",
     "State",
     "Study",
     "Trajectory",
@@ -29,6 +31,7 @@ __all__ = [
     "Wrench",
     "laws",
     "load",
+    "sensitivity",
     "simulate",
     "simulate_ensemble",
     "study",

@@ -50,7 +50,8 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     """Success, settling time, excursion and causes of failure of the runs of a store, one row each.
 
     On the sphere of initial rods, if the study varies them, in Lambert's equal-area projection of both hemispheres;
-    and in a plane. Cells without runs are grey; those whose Wilson interval (95 %) is wider than 20 % are hatched.
+    and in a plane. Cells without runs are grey; in the row of success, those
+    whose Wilson interval (95 %) is wider than 20 % are hatched.
 
     Parameters
     ----------
@@ -73,12 +74,14 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     rows = figure.subplots(4, len(panels), squeeze=False, width_ratios=[1] * (len(panels) - 1) + [1.15])
     total = panels[-1].cells
     _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", Normalize(0, 100))
+    for axis, panel in zip(rows[0], panels, strict=True):
+        _hatch(axis, panel)
     _row(figure, rows[1], panels, "mean settling time (s)", lambda c: c.settling, "viridis", None)
     _row(figure, rows[2], panels, "mean excursion (m)", lambda c: c.excursion, "viridis", None)
     _causes(figure, rows[3], panels, total)
-    for row in rows:
+    for place, row in enumerate(rows):
         for axis, panel in zip(row, panels, strict=True):
-            _frame(axis, panel, names, last=row is rows[-1])
+            _frame(axis, panel, names, last=place == len(rows) - 1)
     for axis, panel in zip(rows[0], panels, strict=True):
         axis.set_title(panel.name, fontsize=LABEL)
     return figure
@@ -134,7 +137,6 @@ def _row(
         values = np.ma.masked_invalid(panel.square(of(panel.cells)))
         image = axis.pcolormesh(*panel.edges, values, cmap=colours, norm=norm, rasterized=True)
         _clip(axis, panel, image)
-        _hatch(axis, panel)
     bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
     bar.set_label(words, fontsize=LABEL)
     bar.ax.tick_params(labelsize=SMALL)
@@ -179,7 +181,7 @@ def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -
     bar.set_ticks(range(len(CAUSES)), labels=["none", *shares])
     bar.ax.tick_params(labelsize=SMALL, length=0)
     bar.set_label("most frequent cause of failure", fontsize=LABEL)
-    handles = [Patch(facecolor=EMPTY, label="no runs")]
+    handles = [Patch(facecolor=EMPTY, label="no runs, or none that settles")]
     if any(np.any(_unsure(panel)) for panel in panels):
         words = f"interval of the success rate wider than {100 * WIDE:.0f} %"
         handles.append(Patch(facecolor="white", edgecolor=INK, hatch=HATCH, label=words))

@@ -11,6 +11,7 @@ from flypend.sensitivity import Sensitivity, sensitivity
 from flypend.simulate import simulate
 from flypend.sweep import Study, study, sweep
 from flypend.trajectory import Trajectory, load
+from flypend.tune import Objective, Tuned, tune
 
 __version__ = "0.1.0"
 
@@ -20,12 +21,14 @@ __all__ = [
     "InputError",
     "Law",
     "Noise",
+    "Objective",
     "Outcome",
     "Plant",
     "Sensitivity",
     "State",
     "Study",
     "Trajectory",
+    "Tuned",
     "Vehicle",
     "Wind",
     "Wrench",
@@ -36,5 +39,6 @@ __all__ = [
     "simulate_ensemble",
     "study",
     "sweep",
+    "tune",
     "vehicle",
 ]

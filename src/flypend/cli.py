@@ -30,6 +30,7 @@ console = Console()
 
 app.command()(cli_studies.sweep)
 app.command("map")(cli_studies.draw_map)
+app.command()(cli_studies.tune)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 

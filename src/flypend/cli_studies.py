@@ -104,6 +104,32 @@ def draw_map(
     console.print(f"The map is in [bold]{escape(str(out))}[/bold].")
 
 
+def tune(
+    study: StudyFile,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")] = Path("tune-out"),
+    workers: Workers = None,
+) -> None:
+    """Improve gains on the objective of a study, by CMA-ES; report on starts that were not tuned on.
+
+    Writes tuned.toml, which [bold]flypend run[/bold] takes, and the history of the search with its picture.
+    """
+    from flypend.report.staging import check_writable
+    from flypend.report.tuning import told as told_of
+    from flypend.report.tuning import write_tuned
+    from flypend.sweep import study as study_from
+    from flypend.tune import tune as search
+
+    made = study_from(study)
+    check_writable(out)
+    with run_counter("generations") as tell:
+        result = search(made, workers=workers, progress=tell)
+    write_tuned(result, out)
+    console.print(f"before: {told_of(result.before)}", markup=False)
+    console.print(f"after:  {told_of(result.after)}", markup=False)
+    console.print(", ".join(f"{name} = {value:g}" for name, value in result.gains.items()), markup=False)
+    console.print(f"Results are in [bold]{escape(str(out))}[/bold].")
+
+
 def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force: bool) -> None:
     """Fly the study with this `content` into `store`, with a progress bar, and say what came of it."""
     from flypend.sweep import study as study_from

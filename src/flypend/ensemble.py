@@ -13,6 +13,7 @@ from joblib import Parallel, delayed
 
 from flypend import errors
 from flypend.criterion import Criterion
+from flypend.integrate import MAX_STEPS
 from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
 from flypend.laws import Controller, Law
 from flypend.metrics import Metrics, judged, metrics, wilson
@@ -174,11 +175,13 @@ def fly_packed(
     judge_period: float = SAMPLE_PERIOD,
     method: str | None = None,
     precision: str = "double",
+    max_steps: int = MAX_STEPS,
     workers: int | None = None,
     progress: Callable[[int, int], Any] = lambda *_: None,
 ) -> Flown:
     """What `simulate_ensemble` flies with a kernel, from `packed` states (n, 24) that are trusted, a `law` being bound.
 
+    A run that needs more than `max_steps` steps is given up as diverged. The others of
     duration, plant, rtol, criterion, gains, times, judge_period, method, precision, workers, progress are those of
     `simulate_ensemble`, and so is what raises InputError.
     """
@@ -200,7 +203,7 @@ def fly_packed(
     kernel = ideal_kernel(vehicle, law, criterion, names, method=chosen, precision=precision)
     return kernel.fly(
         packed, duration, rtol=rtol, parameters=values, times=grid if times is None else times, keep=times is not None,
-        workers=workers, progress=progress,
+        max_steps=max_steps, workers=workers, progress=progress,
     )  # fmt: skip
 
 

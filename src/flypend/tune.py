@@ -203,7 +203,8 @@ class _Task:
             plant = plant.replace(seed=plant.seed + 2**32)
         flown = fly_packed(
             study.vehicle, study.law, packed, study.duration, plant=plant, rtol=study.rtol, gains=columns,
-            criterion=study.criterion, judge_period=study.judge_period, precision=study.precision, workers=workers,
+            criterion=study.criterion, judge_period=study.judge_period, precision=study.precision,
+            max_steps=study.max_steps, workers=workers,
         )  # fmt: skip
         return judged(flown.reductions, flown.status, flown.end, study.vehicle, study.criterion)
 

@@ -65,6 +65,7 @@ class IdealKernel:
         parameters: Any = None,
         times: Any = (),
         keep: bool = False,
+        max_steps: int = MAX_STEPS,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -82,6 +83,8 @@ class IdealKernel:
             Increasing times, s, at which a run is judged.
         keep : bool
             Whether the states at these times are kept, too.
+        max_steps : int
+            A run that needs more is given up as diverged.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -93,7 +96,9 @@ class IdealKernel:
         atol = rtol if atol is None else atol
 
         def fly(part: slice) -> Flown:
-            return integrate(self.function, starts[part], values[part], duration, rtol, atol, moments, keep=keep)
+            return integrate(
+                self.function, starts[part], values[part], duration, rtol, atol, moments, keep=keep, max_steps=max_steps
+            )
 
         return in_pieces(fly, len(starts), PIECE, workers, progress)
 
@@ -117,12 +122,13 @@ def integrate(
     times: Any,
     *,
     keep: bool,
+    max_steps: int = MAX_STEPS,
     knots: Any = None,
 ) -> Flown:
     """Call a compiled ideal kernel for contiguous `starts` (n, 24) and parameter `values` (n, k).
 
-    `duration` (s), `rtol`, `atol`, `times` and `keep` as in `IdealKernel.fly`. `knots`, for one run only, receives the
-    number of accepted steps and four numbers for each: its time, and the drift from the manifold.
+    `duration` (s), `rtol`, `atol`, `times`, `keep` and `max_steps` as in `IdealKernel.fly`. `knots`, for one run
+    only, receives the number of accepted steps and four numbers for each: its time, and the drift from the manifold.
     """
     n, count = len(starts), len(times)
     final, end = np.empty_like(starts), np.empty(n)
@@ -130,7 +136,7 @@ def integrate(
     reductions = np.empty((n, len(REDUCTIONS)))
     samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
     function(
-        address(starts), address(values), n, duration, rtol, atol, MAX_STEPS, address(times), count,
+        address(starts), address(values), n, duration, rtol, atol, max_steps, address(times), count,
         address(samples), address(reductions), address(final), address(end), address(code), address(steps),
         address(knots),
     )  # fmt: skip

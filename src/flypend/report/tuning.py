@@ -69,7 +69,7 @@ def history_figure(result: Tuned) -> Figure:
     for axis in (left, right):
         axis.set_yscale("log")
         axis.set_xlabel("runs flown", fontsize=LABEL)
-        axis.tick_params(labelsize=SMALL)
+        axis.tick_params(which="both", labelsize=SMALL)
         axis.grid(visible=True, color="#e3e3e3", linewidth=0.5)
         axis.legend(fontsize=SMALL, frameon=False)
     return figure

@@ -101,5 +101,6 @@ def _fly_part(study: Study, drawn: Design, part: slice, first: int) -> Flown:
         gains={name: value[part] for name, value in drawn.gains.items()},
         judge_period=study.judge_period,
         precision=study.precision,
+        max_steps=study.max_steps,
         workers=1,
     )

@@ -26,11 +26,13 @@ from flypend.sweep.axes import Axis, axes, integer
 from flypend.sweep.cube import SAMPLINGS, check_size
 
 KEYS = (
-    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "runs", "sampling", "seed", "chunk",
-    "final", "criterion", "start", "vary", "tune",
+    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs", "sampling", "seed",
+    "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
 # Runs per chunk, in the ideal plant and in a sampled flight: a second or so of one core.
 CHUNK, CHUNK_SAMPLED = 32_768, 2_048
+# A run takes some hundreds of steps; one that takes this many is chattering.
+STEPS = 20_000
 MOST_CHUNK = 1_000_000
 MOST_RUNS = 10**9
 MOST_PLANTS = 32
@@ -50,6 +52,8 @@ class Study:
         Every so often a run is judged, s.
     precision : "double" or "float"
         Of the ideal plant.
+    max_steps : int
+        A run in the ideal plant that needs more is given up as diverged: gains that make the motion stiff.
     start : State
         Where runs start, in the frame of the law, but for what varies.
     axes : tuple of Axis
@@ -78,6 +82,7 @@ class Study:
     criterion: Criterion
     judge_period: float
     precision: str
+    max_steps: int
     start: State
     axes: tuple[Axis, ...]
     samples: int
@@ -178,6 +183,7 @@ def _build(given: dict[str, Any]) -> Study:
         criterion=_criterion(given),
         judge_period=errors.number("judge_period", given.get("judge_period", SAMPLE_PERIOD), above=0, unit="s"),
         precision=errors.one_of("precision", given.get("precision", "double"), LANES),
+        max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
         start=_fixed(start, vary),
         axes=found,
         samples=integer("runs", given.get("runs", 1), 1),
@@ -191,6 +197,7 @@ def _build(given: dict[str, Any]) -> Study:
     _check(made)
     settings = {
         "duration": made.duration, "rtol": made.rtol, "judge_period": made.judge_period, "precision": made.precision,
+        "max_steps": made.max_steps,
         "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
         "vehicle": vehicle.to_dict(), "law": law_table, "plant": _plant_table(given.get("plant", "ideal")),
         "criterion": asdict(made.criterion), "start": start, "vary": vary,

@@ -147,13 +147,19 @@ def toml_text(settings: Mapping[str, Any], name: str = "") -> str:
 
 
 def _toml_key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _toml_word(key)
 
 
 def _toml_value(value: Any) -> str:
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_toml_value, value))}]"
-    return json.dumps(value) if isinstance(value, bool | str) else repr(value)
+    if isinstance(value, str):
+        return _toml_word(value)
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+def _toml_word(word: str) -> str:
+    return json.dumps(word, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def plant_of(value: Any) -> str | Plant:

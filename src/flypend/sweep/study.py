@@ -172,8 +172,9 @@ def _build(given: dict[str, Any]) -> Study:
         raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
     start, vary = _start(given)
     found = axes(vary, law.numbers, plant != "ideal")
+    # Not in the order of the file: what is drawn depends on what is said, not on where.
     order = {"plant": 0, "gains": 1, "start": 2}
-    found = tuple(sorted(found, key=lambda axis: order[axis.group]))
+    found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
     made = Study(
         vehicle=vehicle,
         law=law,

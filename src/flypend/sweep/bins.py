@@ -14,7 +14,7 @@ import numpy as np
 from flypend.errors import InputError, one_of
 from flypend.geometry import norm
 from flypend.metrics import wilson_bounds
-from flypend.sweep.axes import Axis
+from flypend.sweep.axes import ANGLES
 from flypend.sweep.chunk import CAUSES
 from flypend.sweep.store import existing
 from flypend.sweep.study import Study, study
@@ -175,9 +175,9 @@ QUANTITIES = {
 def quantities(runs: Runs) -> list[str]:
     """Names of what a plane can be drawn against."""
     by_vector = [name for name, (column, _) in QUANTITIES.items() if column in runs.names and name not in runs.names]
-    numbers = [axis.name for axis in runs.study.axes if axis.group == "start" and axis.name in runs.names]
+    angles = [name for name in ANGLES if name in runs.names]
     others = [f"{axis.group}.{axis.name}" for axis in runs.study.axes if axis.group != "start"]
-    return by_vector + [name for name in numbers if name not in QUANTITIES or name in ("tilt", "rate")] + others
+    return by_vector + angles + others
 
 
 def label(name: str) -> str:
@@ -217,17 +217,15 @@ def _values(chunk: dict[str, Any], name: str, study: Study) -> Any:
 
 
 def _edges(study: Study, name: str, cells: int) -> Any:
+    """Edges of the cells along a quantity, in the unit of its axis."""
+    group, _, key = name.partition(".") if name.startswith(("gains.", "plant.")) else ("start", "", name)
+    varied = {axis.name: axis for axis in study.axes if axis.group == group}
+    if key == "body_tilt" or (key == "tilt" and key not in varied):
+        return np.linspace(0.0, 180.0, cells + 1)
+    axis = varied[key] if key in varied else varied[QUANTITIES[key][0]]
     unit = 180 / np.pi if name == "tilt" else 1.0
-    group, _, bare = (
-        name.rpartition(".") if "." in name and name.split(".")[0] in ("gains", "plant") else ("", "", name)
-    )
-    key = name.split(".", 1)[1] if group else bare
-    column = QUANTITIES[name][0] if name in QUANTITIES else key
-    axis = next(axis for axis in study.axes if axis.name in (key, column))
     if axis.values:
         return _between(np.unique(axis.values) * unit)
-    if name in ("tilt", "body_tilt") and axis.name != "tilt":
-        return np.linspace(0.0, 180.0, cells + 1)
     return unit * axis.at(np.linspace(0.0, 1.0, cells + 1))
 
 
@@ -245,8 +243,3 @@ def default_plane(runs: Runs) -> tuple[str, str] | None:
     if {"tilt", "rate"} <= set(known):
         return ("tilt", "rate")
     return (known[0], known[1]) if len(known) > 1 else None
-
-
-def grid_axes(study: Study) -> tuple[Axis, ...]:
-    """The axes of `study` that are gone through."""
-    return study.grid

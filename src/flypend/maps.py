@@ -73,7 +73,7 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     figure.suptitle(_headline(runs, panels[-1].cells), fontsize=LABEL + 1)
     rows = figure.subplots(4, len(panels), squeeze=False, width_ratios=[1] * (len(panels) - 1) + [1.15])
     total = panels[-1].cells
-    _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", Normalize(0, 100))
+    _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", _rates(panels))
     for axis, panel in zip(rows[0], panels, strict=True):
         _hatch(axis, panel)
     _row(figure, rows[1], panels, "mean settling time (s)", lambda c: c.settling, "viridis", None)
@@ -140,6 +140,13 @@ def _row(
     bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
     bar.set_label(words, fontsize=LABEL)
     bar.ax.tick_params(labelsize=SMALL)
+
+
+def _rates(panels: Sequence[_Panel]) -> Normalize:
+    """From 0 to 100 %, or to what nearly all cells stay below where that is less than half."""
+    known = np.concatenate([panel.cells.rate[panel.cells.runs > 0] for panel in panels])
+    most = float(np.percentile(100 * known, 99))
+    return Normalize(0, 100 if most > 50 else max(10.0, 10 * np.ceil(most / 10)))
 
 
 def _scale(values: Sequence[Any]) -> Normalize:

@@ -20,7 +20,7 @@ from flypend.sweep.store import existing
 from flypend.sweep.study import Study, study
 
 # Runs that a cell should hold, and bounds of the number of cells along a side.
-PER_CELL, LEAST, MOST = 150, 8, 64
+PER_CELL, LEAST, MOST = 400, 8, 64
 # Radius of a hemisphere in Lambert's projection.
 EDGE = float(np.sqrt(2))
 

@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= paper-out
 
-.PHONY: setup paper test lint lock clean
+.PHONY: setup paper test test-tools web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -24,8 +24,17 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-test: lint
+test: lint test-tools
 	$(BIN)/pytest -n 2
+
+# What the tests of the pages need beyond Python: a browser without a screen, and npm, which rebuilds the bundle.
+test-tools:
+	command -v chromium >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 chromium; }
+	command -v npm >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 npm; }
+
+# Bundles web/ into src/flypend/web, which is tracked: whoever installs flypend needs no npm.
+web:
+	cd web && npm ci --silent && npm run --silent build
 
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 lock:
@@ -33,4 +42,4 @@ lock:
 	    --custom-compile-command "make lock" --group dev pyproject.toml --upgrade --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) paper-out .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) web/node_modules paper-out .pytest_cache .mypy_cache .ruff_cache

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend import animate, cli, figures, runfile
+from flypend import animate, cli, figures, files, runfile
 from flypend.experiments import experiment
 from flypend.experiments.claims import SETTLED, theorem_claims
 from flypend.report import paper
@@ -64,13 +64,14 @@ def test_help_of_the_script_tells_what_there_is(tmp_path):
     assert script.exists()
     done = subprocess.run([script, "--help"], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=True)
     assert done.stderr == ""
-    for words in ("Spherical pendulum on a quadrotor", "--version", "paper", "run", "compare", "ladder"):
+    commands = ("paper", "run", "compare", "ladder", "replay", "movie", "figures")
+    for words in ("Spherical pendulum on a quadrotor", "--version", *commands):
         assert words in done.stdout
     assert "…" not in done.stdout  # nothing cut off at 80 columns
     assert content(tmp_path) == {}
 
 
-@pytest.mark.parametrize("command", ["paper", "run", "compare", "ladder"])
+@pytest.mark.parametrize("command", ["paper", "run", "compare", "ladder", "replay", "movie", "figures"])
 def test_help_of_a_command(call, command):
     code, told, complaints = call(command, "--help")
     assert (code, complaints) == (0, "")
@@ -172,14 +173,14 @@ def test_a_file_of_ones_own_is_flown(call, tmp_path):
 
 
 REPORTS = ["report.json", "report.md", "run.nc"]
-PICTURES = ["full.png", "stop-motion.png", "y3-z3.png"]
+PICTURES = [f"{kind}.{suffix}" for kind in ("full", "stop-motion", "y3-z3") for suffix in ("pdf", "png")]
 MOVIES = ["movie-axis.mp4", "movie-side.mp4"]
 
 
 @pytest.fixture
 def sketches(monkeypatch):
     """Pictures and movies as files of a word, which take no time."""
-    monkeypatch.setattr(figures, "save_figure", lambda figure, path: path.write_text("picture"))
+    monkeypatch.setattr(files, "save_figure", lambda figure, path: path.write_text("picture"))
     monkeypatch.setattr(animate, "movie", lambda run, path, **options: path.write_text(f"{options}"))
 
 
@@ -187,7 +188,8 @@ def test_pictures_are_drawn(call, tmp_path):
     assert call("run", "4", "--set", "duration=0.2", "--out", "out", "--quick")[0] == 0
     assert list(content(tmp_path / "out")) == sorted(REPORTS + PICTURES)
     for name in PICTURES:
-        assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG")
+        head = b"\x89PNG" if name.endswith("png") else b"%PDF"
+        assert (tmp_path / "out" / name).read_bytes().startswith(head)
 
 
 @pytest.mark.parametrize(
@@ -440,7 +442,7 @@ def fail(*_, **__):
     raise RuntimeError("out of ink")
 
 
-@pytest.mark.parametrize("module_and_name", [(figures, "full_figure"), (figures, "save_figure"), (animate, "movie")])
+@pytest.mark.parametrize("module_and_name", [(figures, "full_figure"), (files, "save_figure"), (animate, "movie")])
 @pytest.mark.parametrize("out", ["out", "new"])
 def test_a_figure_that_fails_leaves_nothing_new(call, old, sketches, monkeypatch, module_and_name, out):
     monkeypatch.setattr(*module_and_name, fail)

@@ -2,18 +2,22 @@
 
 import dataclasses
 import itertools
+import re
 import subprocess
 import sys
+from pathlib import Path
 
+import matplotlib.colors
 import matplotlib.text
 import numpy as np
 import pytest
 from matplotlib.patches import Circle
 
 import flypend as fp
-from flypend import drawing, figures, geometry, page
+from flypend import drawing, figures, geometry, page, palette
 from flypend.experiments import experiment
 from flypend.model import gravity_vector
+from flypend.style import STYLES
 
 ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces")
 
@@ -390,3 +394,69 @@ def test_an_unknown_view_is_refused(run):
 def test_no_window_and_no_pyplot_state():
     code = "import sys, flypend.animate; assert 'matplotlib.pyplot' not in sys.modules and 'tkinter' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+# One set ------------------------------------------------------------------------------------------------------------
+
+SET = [figures.paper_figure, figures.full_figure, figures.stop_motion]
+
+
+@pytest.mark.parametrize("style", list(STYLES))
+@pytest.mark.parametrize("figure", SET)
+def test_a_style_sets_the_format_and_nothing_is_cut_off(run, figure, style):
+    drawn, form = figure(run, style=style), STYLES[style]
+    width, height = drawn.get_size_inches()
+    assert width == pytest.approx(form.half[0] if figure is figures.paper_figure else form.full[0])
+    if style == "slides" and figure is figures.full_figure:
+        assert width / height == pytest.approx(16 / 9, rel=1e-3)
+    drawn.canvas.draw()
+    used = drawn.get_tightbbox()
+    assert min(used.x0, used.y0) > -0.02
+    assert used.x1 < width + 0.02
+    assert used.y1 < height + 0.02
+
+
+@pytest.mark.parametrize("figure", SET)
+def test_letters_are_as_large_in_print_as_captions_are(run, figure):
+    sizes = [text.get_fontsize() for text in figure(run).findobj(matplotlib.text.Text) if text.get_text()]
+    assert min(sizes) >= 6
+    assert max(sizes) <= 9
+
+
+@pytest.mark.parametrize("figure", SET)
+def test_an_unknown_style_is_refused(run, figure):
+    with pytest.raises(fp.InputError, match="--style: expected one of paper, slides, got 'poster'"):
+        figure(run, style="poster")
+
+
+def test_every_colour_comes_from_the_one_palette():
+    """A hue anywhere else in the package would be a second palette; greys are free."""
+    found = {}
+    for path in Path(figures.__file__).parent.rglob("*.py"):
+        for colour in re.findall(r"#([0-9a-fA-F]{6})\b", path.read_text(encoding="utf-8")):
+            if path.name != "palette.py" and len({colour[:2], colour[2:4], colour[4:]}) > 1:
+                found.setdefault(path.name, []).append(colour)
+    assert not found
+
+
+def luminance(colour):
+    """Relative luminance as WCAG defines it."""
+    c = np.array(matplotlib.colors.to_rgb(colour))
+    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4) @ [0.2126, 0.7152, 0.0722]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("ground", ["paper", "sky"])
+def test_lines_and_words_of_a_page_stand_out_from_its_background(theme, ground):
+    colours = palette.PAGE[theme]
+    assert colours.keys() == palette.PAGE["light"].keys()
+
+    def contrast(role):
+        low, high = sorted((luminance(colours[role]), luminance(colours[ground])))
+        return (high + 0.05) / (low + 0.05)
+
+    assert contrast("ink") > 7  # the levels of WCAG: enhanced, and for small letters
+    assert contrast("muted") > 4.5
+    # Graphics; green and pink of Okabe and Ito are a little paler on white than the 3 of WCAG.
+    assert min(contrast(role) for role in ("rod", "trail", "thrust", "reference", "ghost", "rotor1", "rotor2")) > 3
+    assert min(contrast(role) for role in ("rotor3", "rotor4")) > 2.5

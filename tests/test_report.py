@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 import flypend as fp
-from flypend import figures
+from flypend import files
 from flypend.experiments import experiment, experiment_names
 from flypend.experiments.claims import SETTLED, Verdict, theorem_claims
 from flypend.experiments.defects import DEFECTS, Finding, Runs, findings
@@ -413,7 +413,8 @@ def short():
 def test_a_flight_leaves_its_file_its_figures_and_its_reports(short, tmp_path):
     verdicts = write_flight(short, {"experiment": "5"}, tmp_path / "out", with_movies=False)
     assert sorted(content(tmp_path / "out")) == [
-        "full.png", "report.json", "report.md", "run.nc", "stop-motion.png", "y3-z3.png",
+        "full.pdf", "full.png", "report.json", "report.md", "run.nc", "stop-motion.pdf", "stop-motion.png",
+        "y3-z3.pdf", "y3-z3.png",
     ]  # fmt: skip
     np.testing.assert_array_equal(fp.load(tmp_path / "out" / "run.nc").y, short.y)
     assert verdicts == theorem_claims(short)
@@ -435,7 +436,7 @@ def test_the_limit_is_read_on_the_longer_run(short, tmp_path):
 
 
 def test_progress_is_given_the_tasks_by_name_and_runs_them(short, tmp_path, monkeypatch):
-    monkeypatch.setattr(figures, "save_figure", lambda figure, path: path.write_text("drawn"))
+    monkeypatch.setattr(files, "save_figure", lambda figure, path: path.write_text("drawn"))
     seen = []
 
     def progress(tasks):
@@ -445,7 +446,9 @@ def test_progress_is_given_the_tasks_by_name_and_runs_them(short, tmp_path, monk
 
     write_flight(short, {}, tmp_path / "out", progress=progress)
     assert seen == ["y3-z3", "full"]
-    assert sorted(content(tmp_path / "out")) == ["full.png", "report.json", "report.md", "run.nc", "y3-z3.png"]
+    assert sorted(content(tmp_path / "out")) == [
+        "full.pdf", "full.png", "report.json", "report.md", "run.nc", "y3-z3.pdf", "y3-z3.png",
+    ]  # fmt: skip
 
 
 def test_movies_are_from_the_side_and_along_e3(short, tmp_path):
@@ -513,6 +516,7 @@ def test_the_folder_holds_every_figure_and_run_and_nothing_else(reproduced):
         wanted |= {run.format(group, name) for group in ("printed", "without-beta", "corrected", "corrected-singular")}
     wanted |= {figure.format(name, "stop-motion") for name in ("2", "4", "5")}
     wanted |= {f"figures/swing-up-{kind}.png" for kind in ("y3-z3", "full", "stop-motion")}
+    wanted |= {name.removesuffix(".png") + ".pdf" for name in wanted if name.endswith(".png")}
     wanted |= {"runs/inverted-swing-up.nc"}
     written = content(folder)
     assert set(written) == wanted  # no movies: it was quick
@@ -520,6 +524,8 @@ def test_the_folder_holds_every_figure_and_run_and_nothing_else(reproduced):
         if name.endswith(".png"):
             assert data.startswith(b"\x89PNG")
             assert data.rstrip(b"\0").endswith(b"IEND\xaeB`\x82")
+        if name.endswith(".pdf"):
+            assert data.startswith(b"%PDF")
     assert os.listdir(folder.parent) == ["out"]  # noqa: PTH208
 
 
@@ -653,7 +659,7 @@ def test_a_picture_that_fails_leaves_nothing_of_the_reproduction(runs, tmp_path,
     monkeypatch.setattr(paper, "fly_all", lambda progress: runs)
     monkeypatch.setattr(paper, "simulate", lambda *_, **__: runs.corrected["4"])
     monkeypatch.setattr(paper, "_pictures", lambda *_: [("one that fails", task)])
-    monkeypatch.setattr(paper, "figure_tasks", lambda *_: [])
+    monkeypatch.setattr(paper, "figure_tasks", lambda *_, **__: [])
     key = ("corrected", "1")
     monkeypatch.setattr(paper, "_judge", lambda _, swing_up: Reproduction({key: [verdict()]}, {key: ""}, [], swing_up))
     with pytest.raises(error):

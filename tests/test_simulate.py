@@ -9,8 +9,9 @@ import pytest
 import flypend as fp
 from flypend import geometry as geo
 from flypend.experiments import experiment
-from flypend.integrate import MAX_STATE, integrate
+from flypend.integrate import integrate
 from flypend.laws import Control, Guard
+from flypend.outcome import MAX_STATE
 
 VEHICLE = fp.vehicle("hehn2011")
 TUMBLING = fp.State(x_dot=(0.5, 0, 0), omega=(0.3, 2.0, 0.1), y=(0.6, 0, 0.8), y_dot=(0, 2.0, 0))

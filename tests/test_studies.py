@@ -12,7 +12,7 @@ import pytest
 from rich.console import Console
 
 import flypend as fp
-from flypend import Plant, figures, geometry
+from flypend import Plant, figures, files, geometry
 from flypend.ensemble import Ensemble
 from flypend.laws import Controller, Law, inverted
 from flypend.metrics import Metrics, wilson
@@ -481,7 +481,8 @@ def test_markdown_is_well_formed(wides):
 def test_a_report_of_a_comparison_is_whole(wides, tmp_path):
     settings = {"laws": list(RATES), "seed": 1}
     write_comparison(wides, settings, tmp_path / "out")
-    assert sorted(path.name for path in tmp_path.rglob("*")) == ["comparison.png", "out", "report.json", "report.md"]
+    names = ["comparison.pdf", "comparison.png", "out", "report.json", "report.md"]
+    assert sorted(path.name for path in tmp_path.rglob("*")) == names
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert report["settings"] == settings
     assert report["flypend"] == fp.__version__
@@ -498,7 +499,8 @@ def test_a_report_of_a_comparison_is_whole(wides, tmp_path):
 def test_a_report_of_a_ladder_is_whole(climbed, tmp_path):
     result, _ = climbed
     write_ladder(result, {"runs": 4}, tmp_path / "out")
-    assert sorted(path.name for path in tmp_path.rglob("*")) == ["ladder.png", "out", "report.json", "report.md"]
+    names = ["ladder.pdf", "ladder.png", "out", "report.json", "report.md"]
+    assert sorted(path.name for path in tmp_path.rglob("*")) == names
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert list(report["rungs"]) == list(CLIMBED)
     for rung, comparison in result.rungs.items():
@@ -521,7 +523,7 @@ def test_a_report_that_fails_leaves_nothing_new(wides, tmp_path, monkeypatch, ki
     if there:
         out.mkdir()
         (out / "report.md").write_text("old")
-    monkeypatch.setattr(figures, "save_figure", fail)
+    monkeypatch.setattr(files, "save_figure", fail)
     write, result = (write_comparison, wides) if kind == "comparison" else (write_ladder, Ladder({"one": wides}))
     with pytest.raises(RuntimeError, match="out of ink"):
         write(result, {}, out)

@@ -3,9 +3,9 @@
 from flypend import laws
 from flypend.ensemble import Ensemble, simulate_ensemble
 from flypend.errors import InputError
-from flypend.integrate import Outcome
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
+from flypend.outcome import Outcome
 from flypend.plants import Noise, Plant, Wind
 from flypend.sensitivity import Sensitivity, sensitivity
 from flypend.simulate import simulate

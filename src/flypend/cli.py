@@ -5,19 +5,18 @@ from __future__ import annotations
 import io
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from typer.exceptions import TyperException
 
-from flypend import __version__, cli_studies
+from flypend import __version__, cli_studies, viewing
 from flypend.errors import InputError
+from flypend.terminal import bold, console, counter, progress
+from flypend.viewing import Style
 
 app = typer.Typer(
     help="Spherical pendulum on a quadrotor: reproduce the paper, fly experiments, see what holds.",
@@ -26,11 +25,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
-console = Console()
-
-app.command()(cli_studies.sweep)
-app.command("map")(cli_studies.draw_map)
-app.command()(cli_studies.tune)
+app.add_typer(viewing.app)
+app.add_typer(cli_studies.app)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 
@@ -54,6 +50,7 @@ def _root(
 def paper(
     out: Out = Path("paper-out"),
     quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out: seconds instead of a minute.")] = False,
+    style: Style = "paper",
 ) -> None:
     """Fly the paper's five experiments and say for every claim whether it holds.
 
@@ -62,12 +59,12 @@ def paper(
     from flypend.report.paper import reproduce
     from flypend.report.text import findings_table, judgement, summary_table
 
-    with _counter() as tell:
-        result = reproduce(out, quick=quick, progress=tell)
+    with counter() as tell:
+        result = reproduce(out, quick=quick, style=style, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(findings_table(result.findings))
     console.print(f"The promise kept by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
-    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {_bold(out)}; read report.md first.")
+    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; read report.md first.")
 
 
 @app.command()
@@ -84,6 +81,10 @@ def run(
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out.")] = False,
     figures: Annotated[bool, typer.Option(help="Draw the figures (--no-figures leaves movies out as well).")] = True,
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Write the replay, a page for any browser, as well.")
+    ] = None,
+    style: Style = "paper",
 ) -> None:
     """Fly one experiment, or one's own vehicle, law, gains and start.
 
@@ -93,11 +94,16 @@ def run(
     plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
     """
     from flypend.experiments.claims import SETTLED
+    from flypend.files import check_file
     from flypend.report.staging import check_writable
     from flypend.runfile import flight
+    from flypend.style import style_named
 
     chosen = flight(what, override or ())
+    style_named(style)
     check_writable(out)
+    if html is not None:
+        check_file(html, (".html",))
     trajectory = chosen.fly()
     # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
     settled = chosen.fly(max(SETTLED, chosen.duration)) if trajectory.law == "corrected" else None
@@ -111,13 +117,16 @@ def run(
         settled=settled,
         with_figures=figures,
         with_movies=figures and not quick,
+        style=style,
         progress=_run_tasks,
     )
+    if html is not None:
+        trajectory.to_html(html)
     console.print(f"{trajectory.law} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False)
     console.print(f"inverted: {judgement(trajectory)}")
     if verdicts:
         console.print(summary_table({(trajectory.law, what): verdicts}))
-    console.print(f"Results are in {_bold(out)}.")
+    console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
 
 
 Laws = Annotated[
@@ -154,11 +163,11 @@ def compare(
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
     settings = {**settings, "plant": plant}
     check_writable(out)
-    with _counter() as tell:
+    with counter() as tell:
         result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
     write_comparison(result, settings, out)
     console.print(comparison_table(result))
-    console.print(f"Report and figure are in {_bold(out)}.")
+    console.print(f"Report and figure are in {bold(out)}.")
 
 
 @app.command()
@@ -166,7 +175,7 @@ def ladder(
     law: Laws = None,
     out: Out = Path("ladder-out"),
     starts: Starts = "random",
-    runs: Runs = 24,
+    runs: Runs = 100,
     seed: Seed = 1,
     vehicle: VehicleName = "hehn2011",
     duration: Duration = 10.0,
@@ -182,11 +191,11 @@ def ladder(
     laws, batch, machine, settings = _study(law or ["inverted", "lqr"], starts, runs, seed, vehicle, duration)
     chosen = {errors.one_of("--rung", name, RUNGS): RUNGS[name] for name in rung or RUNGS}
     check_writable(out)
-    with _counter() as tell:
+    with counter() as tell:
         result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
     write_ladder(result, settings, out)
     console.print(ladder_table(result))
-    console.print(f"Report and figure are in {_bold(out)}.")
+    console.print(f"Report and figure are in {bold(out)}.")
 
 
 @app.command()
@@ -222,27 +231,9 @@ def _plant(name: str) -> Any:
     return errors.one_of("--plant", name, ("ideal", *PRESETS))
 
 
-@contextmanager
-def _counter() -> Iterator[Callable[[str, int, int], None]]:
-    """A progress bar that is told what is done, of how many, under which name."""
-    with _progress() as bar:
-        task = bar.add_task("starting", total=None)
-        yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
-
-
-def _bold(out: Path) -> str:
-    return f"[bold]{escape(str(out))}[/bold]"
-
-
-def _progress() -> Progress:
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    on = Console(stderr=True)
-    return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
-
-
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
     listed = list(tasks)
-    with _progress() as bar:
+    with progress() as bar:
         shown = bar.add_task("", total=len(listed))
         for name, task in listed:
             bar.update(shown, description=f"drawing {name}")

@@ -22,7 +22,9 @@ from rich.progress import (
 )
 from rich.text import Text
 
-console = Console()
+from flypend.terminal import bold, console
+
+app = typer.Typer()
 
 StudyFile = Annotated[Path, typer.Argument(help="TOML file of the study; docs/studies.md lists its keys.")]
 Store = Annotated[Path, typer.Option("--out", "-o", help="Zarr store that receives the runs, ending in .zarr.")]
@@ -34,6 +36,7 @@ Processes = Annotated[bool, typer.Option("--processes", help="Use worker process
 Force = Annotated[bool, typer.Option("--force", help="Begin anew, whatever a sweep has left there.")]
 
 
+@app.command()
 def sweep(
     study: StudyFile,
     out: Store,
@@ -52,9 +55,10 @@ def sweep(
     made = study_from(study)
     with run_counter(made.law.name) as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
-    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in [bold]{escape(str(out))}[/bold].")
+    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
 
+@app.command("map")
 def draw_map(
     what: Annotated[
         Path | None, typer.Argument(help="Store of a sweep (.zarr), or the TOML file of a study, which is flown first.")
@@ -101,9 +105,10 @@ def draw_map(
         sweep_into(store, content, workers, force)
     assert store is not None
     save_figure(map_figure(store, x=x, y=y), out)
-    console.print(f"The map is in [bold]{escape(str(out))}[/bold].")
+    console.print(f"The map is in {bold(out)}.")
 
 
+@app.command()
 def tune(
     study: StudyFile,
     out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")] = Path("tune-out"),
@@ -127,7 +132,7 @@ def tune(
     console.print(f"before: {told_of(result.before)}", markup=False)
     console.print(f"after:  {told_of(result.after)}", markup=False)
     console.print(", ".join(f"{name} = {value:g}" for name, value in result.gains.items()), markup=False)
-    console.print(f"Results are in [bold]{escape(str(out))}[/bold].")
+    console.print(f"Results are in {bold(out)}.")
 
 
 def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force: bool) -> None:
@@ -138,7 +143,7 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
     made = study_from(content)
     with run_counter(made.law.name) as tell:
         flown = fly(made, store, workers=workers, force=force, progress=tell)
-    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in [bold]{escape(str(store))}[/bold].")
+    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 
 
 def told(successes: int, runs: int) -> str:

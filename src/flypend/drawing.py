@@ -1,116 +1,51 @@
-"""What a picture shows, before any picture: quadrotor, rod, bob and thrust as points in space, and the camera.
+"""What figures and movies share: the cameras of a run, its states at any time, and the machine drawn into axes.
 
-Figures and movies draw the same points through the same cameras. Everything here is in the frame with e₃ up, whatever
-the frame of the run, so gravity points down every picture that looks horizontally (`axis` looks along it).
+Both draw the same points (`flypend.sketch`) through the same cameras. Everything here is in the frame with e₃ up,
+whatever the frame of the run, so gravity points down every picture that looks horizontally (`axis` looks along it).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Circle
+from matplotlib.patheffects import withStroke
 
 from flypend import errors, geometry
+from flypend import sketch as sketched
 from flypend.camera import Camera, depth, magnification, project
-from flypend.model import State, Vehicle
+from flypend.model import State
 from flypend.model.state import project as project_states
+from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
+from flypend.sketch import BOB_SHARE, Sketch, disc_radius, reach, sketch
 from flypend.trajectory import Trajectory
+
+__all__ = [
+    "BOB_SHARE",
+    "Sketch",
+    "camera_for",
+    "disc_radius",
+    "draw",
+    "gravity_symbol",
+    "main_direction",
+    "reach",
+    "sketch",
+    "states_at",
+    "thrust_at",
+    "upright",
+]
 
 VIEWS = ("side", "axis")
 
-# Okabe and Ito's palette, which colour-blind readers can tell apart; used with line styles and widths, for print.
-INK, GREY, BLUE, RED, GREEN, ORANGE = "#1a1a1a", "#8c8c8c", "#0072b2", "#d55e00", "#009e73", "#e69f00"
-
-ROD: dict[str, Any] = {"color": RED, "linewidth": 2.2, "solid_capstyle": "round"}
+ROD: dict[str, Any] = {"color": RED, "linewidth": 3.0, "solid_capstyle": "round"}
 TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1))}
 THRUST: dict[str, Any] = {"color": GREEN, "linewidth": 1.1}
-REAR = "#d9d9d9"  # rotors; the front ones are orange
 
 EYE = 8.0  # distance of the camera of a picture, over the reach of the drawing
 ELEVATION = np.deg2rad(12.0)  # of the side camera, so that a level rotor is a thin ellipse and not a line
-DISC_POINTS = 25
-DISC_SHARE = 0.28  # radius of a drawn rotor over the distance to its neighbour; the vehicle does not state one
-BOB_SHARE = 0.08  # radius of the drawn bob over the length of the rod; a point mass has none
-HOVER_ARROW = 0.7  # length of the thrust arrow in hover, and its largest length, over the length of the rod
-LONGEST_ARROW = 1.1
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Sketch:
-    """Points of the drawing of one state, or of a batch (`...`), in the world with e₃ up; m.
-
-    Parameters
-    ----------
-    pivot, bob : (..., 3)
-        Ends of the rod.
-    arms : (..., n, 2, 3)
-        From the pivot to each of the n rotors.
-    discs : (..., n, k, 3)
-        Closed circles in the plane of the body around the rotors.
-    front : (n,) bool
-        Which rotors are foremost in the body frame.
-    thrust : (..., 2, 3)
-        Arrow from the pivot along the force of the rotors: 0.7 of the rod in hover, at most 1.1.
-    """
-
-    pivot: Any
-    bob: Any
-    arms: Any
-    discs: Any
-    front: Any
-    thrust: Any
-
-    @property
-    def rod(self) -> Any:
-        """The rod as a segment (..., 2, 3)."""
-        return np.stack([self.pivot, self.bob], axis=-2)
-
-
-def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
-    """The drawing of `state`.
-
-    Parameters
-    ----------
-    state : State
-        One state or a batch, in the frame with e₃ up.
-    vehicle : Vehicle
-        Its rotors and rod are drawn.
-    thrust : (...)
-        Force along z = R e₃, N; the length of the arrow.
-    """
-    rotors = vehicle.rotor_positions
-    radius, angle = disc_radius(vehicle), np.linspace(0.0, 2 * np.pi, DISC_POINTS)
-    circle = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
-    pivot = state.x
-    ends = pivot[..., None, :] + np.einsum("...ij,nj->...ni", state.R, rotors)
-    discs = pivot[..., None, None, :] + np.einsum("...ij,nkj->...nki", state.R, rotors[:, None] + circle)
-    hover = max(vehicle.weight, 1e-9)  # without gravity there is no hover, and every force draws the longest arrow
-    length = np.clip(HOVER_ARROW * np.asarray(thrust, dtype=float) / hover, -LONGEST_ARROW, LONGEST_ARROW)
-    tip = pivot + geometry.scale(vehicle.rod_length * length, state.z)
-    return Sketch(
-        pivot=pivot,
-        bob=pivot + vehicle.rod_length * state.y,
-        arms=np.stack([np.broadcast_to(pivot[..., None, :], ends.shape), ends], axis=-2),
-        discs=discs,
-        front=rotors[:, 0] > rotors[:, 0].max() - 1e-9,
-        thrust=np.stack([pivot, tip], axis=-2),
-    )
-
-
-def disc_radius(vehicle: Vehicle) -> float:
-    """Radius of a drawn rotor of `vehicle`, m."""
-    rotors = vehicle.rotor_positions
-    gaps = np.linalg.norm(rotors[:, None] - rotors[None], axis=-1) + np.diag(np.full(len(rotors), np.inf))
-    return float(DISC_SHARE * gaps.min())
-
-
-def reach(vehicle: Vehicle) -> float:
-    """Distance from the pivot within which the drawing of `vehicle` stays, arrow included; m."""
-    rotors = float(np.linalg.norm(vehicle.rotor_positions, axis=-1).max()) + disc_radius(vehicle)
-    return max(rotors, vehicle.rod_length * max(1 + BOB_SHARE, LONGEST_ARROW))
 
 
 def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, distance: float = np.inf) -> Camera:
@@ -143,21 +78,8 @@ def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, dist
 
 
 def main_direction(run: Trajectory) -> Any:
-    """Horizontal unit vector (3,), e₃ up, along which the rod moves most; the vehicle, if the rod stays vertical.
-
-    Of the two senses, the one in which the vehicle travels.
-    """
-    states = upright(run.states, run)
-    travel = states.x[-1] - states.x[0]
-    axis = np.array([1.0, 0.0])
-    for points in (states.y[:, :2], states.x[:, :2] - states.x[0, :2]):
-        values, vectors = np.linalg.eigh(points.T @ points / len(points))
-        if values[-1] > 1e-6:
-            axis = vectors[:, -1]
-            break
-    along = float(travel[:2] @ axis)
-    sense = along if abs(along) > 1e-9 else axis[np.argmax(np.abs(axis))]
-    return np.array([*(axis if sense > 0 else -axis), 0.0])
+    """Horizontal unit vector (3,), e₃ up, along which the rod of `run` moves most; see `flypend.sketch`."""
+    return sketched.main_direction(upright(run.states, run))
 
 
 def upright(state: State, run: Trajectory) -> State:
@@ -228,7 +150,8 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         ax.add_collection(PolyCollection(list(screen(shape.discs[shape.front == front])), **style))
     ax.add_collection(LineCollection(list(screen(shape.arms)), color=INK, linewidth=1.6, zorder=3.1))
     if np.linalg.norm(np.diff(project(camera, shape.thrust), axis=0)) > 0.1 * vehicle.rod_length:  # else only a head
-        _arrow(ax, *screen(shape.thrust), **THRUST, zorder=4.2)
+        rim = [withStroke(linewidth=1.9, foreground="white")]  # so that an arrow along the rod is seen in grey
+        _arrow(ax, *screen(shape.thrust), **THRUST, path_effects=rim, zorder=4.2)
     ax.plot(*screen(shape.rod).T, **ROD, zorder=2 if behind else 4)
     radius = BOB_SHARE * vehicle.rod_length * float(magnification(camera, shape.bob))
     ball = {"facecolor": RED, "edgecolor": INK, "linewidth": 0.7, "zorder": 2.1 if behind else 4.1}

@@ -9,7 +9,6 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from flypend import errors
 from flypend.criterion import Criterion
@@ -228,6 +227,8 @@ def _one_by_one(
     progress: Callable[[int, int], Any],
 ) -> Ensemble:
     """As `simulate_ensemble`, by single runs in one process per core."""
+    from joblib import Parallel, delayed  # processes, which a kernel does not wait for
+
     count = workers or os.cpu_count() or 1
     bound = law.bound(vehicle)
 

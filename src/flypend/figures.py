@@ -12,10 +12,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend import geometry
-from flypend.drawing import BLUE, GREEN, GREY, INK, RED
 from flypend.files import save_figure
-from flypend.page import COLUMN, LABEL, PAGE, SMALL, decimals, new_figure, title
+from flypend.page import LABEL, SMALL, decimals, new_figure, title
+from flypend.palette import BLUE, GREEN, GREY, INK, RED
 from flypend.stop_motion import snapshot_times, stop_motion
+from flypend.style import style_named
 from flypend.trajectory import Trajectory
 
 __all__ = ["full_figure", "paper_figure", "save_figure", "snapshot_times", "stop_motion"]
@@ -23,9 +24,13 @@ __all__ = ["full_figure", "paper_figure", "save_figure", "snapshot_times", "stop
 COMPONENTS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))  # of a vector; the line style tells them apart in grey
 
 
-def paper_figure(run: Trajectory) -> Figure:
-    """The paper's figure: y₃ and z₃ of `run` against time, in the frame of the run, one column wide."""
-    figure = new_figure(COLUMN, 3.3)
+def paper_figure(run: Trajectory, *, style: str = "paper") -> Figure:
+    """The paper's figure: y₃ and z₃ of `run` against time, in the frame of the run, one column wide.
+
+    `style` is "paper" or "slides"; another raises InputError.
+    """
+    form = style_named(style)
+    figure = new_figure(*form.half, form.dpi)
     rows = figure.subplots(2, 1, sharex=True, squeeze=False)
     t, vectors = _unit_vectors(run)
     for ax, name in zip(rows[:, 0], "yz", strict=True):
@@ -37,30 +42,33 @@ def paper_figure(run: Trajectory) -> Figure:
     return figure
 
 
-def full_figure(run: Trajectory) -> Figure:
+def full_figure(run: Trajectory, *, style: str = "paper") -> Figure:
     """Every quantity of `run` against time: y, z, x, thrust, moment and the Lyapunov functions, two columns wide.
 
-    A run of a law without Lyapunov functions shows the rate of the rod in their place.
+    A run of a law without Lyapunov functions shows the rate of the rod in their place. `style` is "paper" or "slides";
+    another raises InputError.
     """
-    figure = new_figure(PAGE, 6.4)
-    rows = figure.subplots(3, 2, sharex=True)
+    form = style_named(style)
+    figure = new_figure(*form.full, form.dpi)
+    rows = figure.subplots(6 // form.columns, form.columns, sharex=True)
+    panels = rows.ravel()
     t, vectors = _unit_vectors(run)
-    for ax, name in zip(rows[0], "yz", strict=True):
+    for ax, name in zip(panels[:2], "yz", strict=True):
         _between_poles(ax, run, name)
         _components(ax, t, name, vectors[name], "–")
-    _components(rows[1, 0], run.t, "x", run.x, "m", word="position ")
-    rows[1, 1].plot(run.t, run.thrust, color=BLUE, label="$f$", **_line(run.t))
+    _components(panels[2], run.t, "x", run.x, "m", word="position ")
+    panels[3].plot(run.t, run.thrust, color=BLUE, label="$f$", **_line(run.t))
     hover = run.vehicle.weight if run.e3 == "up" else -run.vehicle.weight
-    rows[1, 1].axhline(hover, color=INK, linewidth=0.8, linestyle=":", label="hover")
-    rows[1, 1].set_ylabel("thrust $f$ (N)", fontsize=LABEL)
-    _components(rows[2, 0], run.t, r"\tau", run.moment, "N m", word="moment ")
+    panels[3].axhline(hover, color=INK, linewidth=0.8, linestyle=":", label="hover")
+    panels[3].set_ylabel("thrust $f$ (N)", fontsize=LABEL)
+    _components(panels[4], run.t, r"\tau", run.moment, "N m", word="moment ")
     if "V" in run.signals:
-        _lyapunov(rows[2, 1], run)
+        _lyapunov(panels[5], run)
     else:
-        _components(rows[2, 1], run.t, r"\dot{y}", run.y_dot, "1/s")
-    _mind_spikes(rows[1, 1], run.thrust, "N")
-    _mind_spikes(rows[2, 0], run.moment, "N m")
-    for ax in rows.flat:  # above the axes, where no curve can run into it
+        _components(panels[5], run.t, r"\dot{y}", run.y_dot, "1/s")
+    _mind_spikes(panels[3], run.thrust, "N")
+    _mind_spikes(panels[4], run.moment, "N m")
+    for ax in panels:  # above the axes, where no curve can run into it
         at = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "borderpad": 0.1}
         ax.legend(fontsize=SMALL, ncols=3, frameon=False, columnspacing=1.2, **at)
     along = "along" if run.e3 == "down" else "against"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 from uuid import uuid4
@@ -18,7 +18,7 @@ FIGURES = (".png", ".pdf", ".svg")
 
 
 def save_figure(figure: Figure, path: str | Path) -> None:
-    """Write `figure` to `path` (.png at 200 dots per inch, .pdf or .svg), whole or not at all.
+    """Write `figure` to `path` (.png at its dots per inch, .pdf or .svg), whole or not at all.
 
     Raises InputError for another suffix or a file that cannot be written.
     """
@@ -28,7 +28,23 @@ def save_figure(figure: Figure, path: str | Path) -> None:
         # Type 42 keeps text in a PDF as text, which publishers ask for; no dates, so equal figures are equal files.
         metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(partial.suffix.lower())
         with mpl.rc_context({"pdf.fonttype": 42, "svg.hashsalt": "flypend"}):
-            figure.savefig(partial, dpi=200, metadata=metadata)
+            figure.savefig(partial, dpi="figure", metadata=metadata)
+
+
+def save_both(figure: Figure, path: Path) -> None:
+    """Write `figure` to files called `path`, as vectors (.pdf) and as .png. Raises InputError as `save_figure`."""
+    for suffix in (".png", ".pdf"):
+        save_figure(figure, path.with_name(path.name + suffix))
+
+
+def check_file(path: str | Path, suffixes: Sequence[str]) -> None:
+    """Raise InputError if `path` ends in none of `suffixes` or cannot be written. Leaves what is there as it is."""
+    with suppress(_DroppedError), whole_file(path, suffixes):
+        raise _DroppedError
+
+
+class _DroppedError(Exception):
+    """Leaves `whole_file` without a file."""
 
 
 @contextmanager

@@ -20,8 +20,9 @@ from matplotlib.patches import Polygon
 
 from flypend import drawing, geometry, lettering
 from flypend.camera import Camera, depth, magnification, project
-from flypend.drawing import BLUE, GREEN, INK, ORANGE, REAR, RED, Sketch
 from flypend.model import State
+from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
+from flypend.sketch import Sketch
 from flypend.trajectory import Trajectory
 
 Frame = Any  # memoryview of (height, width, 4) bytes, valid until the next frame is drawn

@@ -4,42 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from flypend.model.state import project
+from flypend.outcome import MAX_STATE, Outcome
 
 MAX_STEPS = 1_000_000
-# A state this large has left every machine that the model could describe (m, m/s, rad/s).
-MAX_STATE = 1e6
 
 Rates = Callable[[float, Any], Any]
 Margin = Callable[[float, Any], float]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How a run ended.
-
-    Parameters
-    ----------
-    status : "completed", "diverged" or "singular"
-        Whether the duration was reached, the state left every bound, or the law stopped being defined.
-    time : float
-        When, s.
-    reason : str
-        Why, and what to do about it; empty for a completed run.
-    """
-
-    status: Literal["completed", "diverged", "singular"]
-    time: float
-    reason: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.status} at {self.time:.4g} s" + (f": {self.reason}" if self.reason else "")
 
 
 @dataclass(frozen=True)

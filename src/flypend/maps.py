@@ -12,17 +12,16 @@ from matplotlib.colors import ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch
 
-from flypend.drawing import INK
 from flypend.errors import InputError
 from flypend.metrics import wilson
-from flypend.page import LABEL, PAGE, SMALL, new_figure
+from flypend.page import LABEL, SMALL, new_figure
+from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED
 from flypend.sweep.bins import EDGE, Cells, Runs, default_plane, label, plane, side, sphere
 from flypend.sweep.chunk import CAUSES
 
-# Okabe and Ito, one colour per cause of a failure; success is left white.
-CAUSE_COLOURS = {
-    "rod": "#0072B2", "axis": "#E69F00", "position": "#009E73", "diverged": "#D55E00", "singular": "#CC79A7"
-}  # fmt: skip
+WIDTH = 7.16  # of two columns of a paper, in
+# One colour per cause of a failure; success is left white.
+CAUSE_COLOURS = {"rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK}
 EMPTY = "#e4e4e4"
 # An interval this wide says little: the cell is hatched.
 WIDE = 0.2
@@ -69,7 +68,7 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     """
     runs = Runs(store)
     panels, names = _panels(runs, x, y, cells)
-    figure = new_figure(PAGE if len(panels) > 1 else 0.6 * PAGE, 9.2)
+    figure = new_figure(WIDTH if len(panels) > 1 else 0.6 * WIDTH, 9.2)
     figure.suptitle(_headline(runs, panels[-1].cells), fontsize=LABEL + 1)
     rows = figure.subplots(4, len(panels), squeeze=False, width_ratios=[1] * (len(panels) - 1) + [1.15])
     total = panels[-1].cells

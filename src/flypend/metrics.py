@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import binomtest
 
 from flypend.criterion import PARTS, Criterion, lean
 from flypend.geometry import norm
@@ -130,5 +129,7 @@ def wilson_bounds(successes: Any, runs: Any) -> tuple[Any, Any]:
 
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:
     """Wilson interval of a success rate: `successes` out of `runs`, at `confidence`."""
+    from scipy.stats import binomtest  # takes half a second, which a single run does not wait for
+
     interval = binomtest(int(successes), int(runs)).proportion_ci(confidence, method="wilson")
     return float(interval.low), float(interval.high)

@@ -1,4 +1,4 @@
-"""What the figures on a page share: widths and font sizes, an empty figure, and the words that name a run."""
+"""What all figures share: letters, an empty figure, and the words that name a run."""
 
 from __future__ import annotations
 
@@ -8,13 +8,12 @@ from matplotlib.figure import Figure
 
 from flypend.trajectory import Trajectory
 
-COLUMN, PAGE = 3.4, 7.16  # widths of one and of two columns of a paper, in
 LABEL, SMALL = 8.0, 7.0  # font sizes, pt
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of `width` × `height` inches on the Agg canvas, known to no pyplot state."""
-    figure = Figure(figsize=(width, height), dpi=150, layout="constrained", facecolor="white")
+def new_figure(width: float, height: float, dpi: float = 200) -> Figure:
+    """An empty figure of `width` × `height` inches at `dpi`, on the Agg canvas, known to no pyplot state."""
+    figure = Figure(figsize=(width, height), dpi=dpi, layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
     return figure
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from flypend import errors, plants
 from flypend.compile import ClosedLoop, close_loop
 from flypend.compile.numeric import as_numpy
-from flypend.integrate import Integration, integrate
 from flypend.kernels import ideal_kernel, method_for
 from flypend.kernels.single import Solution, flown_by_kernel
 from flypend.laws import Controller, Law
@@ -19,6 +18,9 @@ from flypend.model.state import FLIP_PACKED, split
 from flypend.plants import Plant
 from flypend.plants.flight import fly, nearest_ticks
 from flypend.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from flypend.integrate import Integration
 
 SAMPLE_PERIOD = 0.01
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
@@ -130,6 +132,8 @@ def _by_kernel(loop: ClosedLoop, start: Any, duration: float, rtol: float, atol:
 def _by_scipy(
     loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, outputs: Any
 ) -> tuple[Integration, Any]:
+    from flypend.integrate import integrate  # brings SciPy's integrators, which a kernel does not wait for
+
     guard, margin, reason = loop.law.guard, None, ""
     if guard is not None:
         errors.one_of("law.guard", guard.signal, loop.signal_names)

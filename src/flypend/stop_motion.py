@@ -10,14 +10,16 @@ from matplotlib.figure import Figure
 
 from flypend import drawing, errors, geometry
 from flypend.camera import project
-from flypend.drawing import GREY, INK, ORANGE, RED, THRUST, TRAIL
-from flypend.page import LABEL, PAGE, SMALL, decimals, new_figure, title
+from flypend.drawing import THRUST, TRAIL
+from flypend.page import LABEL, SMALL, decimals, new_figure, title
+from flypend.palette import GREY, INK, ORANGE, RED
+from flypend.style import style_named
 from flypend.trajectory import Trajectory
 
-PICTURES = 5.2  # width of the stop-motion pictures on the page, in
+PICTURES = 0.726  # share of the width that the stop-motion pictures take
 
 
-def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side") -> Figure:
+def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: str = "paper") -> Figure:
     """The motion of `run` in `count` pictures, and where on its path each was taken; two columns wide.
 
     The vehicle may travel a hundred metres while a rod of half a metre turns over. So the pictures follow the pivot;
@@ -33,22 +35,25 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side") -> Figu
         Number of pictures, >= 1. A run that ends where it starts has one.
     view : "side" or "axis"
         Camera of the pictures, see `flypend.drawing.camera_for`.
+    style : "paper" or "slides"
+        Format.
 
     Raises
     ------
     InputError
-        For an unknown view or a count below 1.
+        For an unknown view or style, or a count below 1.
     """
+    form = style_named(style)
     count = int(errors.number("count", count, at_least=1))
     reach = drawing.reach(run.vehicle)
     camera = drawing.camera_for(run, view, distance=drawing.EYE * reach)
     times = snapshot_times(run, count)
-    columns = max(int(np.ceil(np.sqrt(4 / 3 * len(times)))), 3)
+    columns = max(int(np.ceil(np.sqrt(form.wide * len(times)))), 3)
     rows = -(-len(times) // columns)
     width, height = 2.3 * reach, 2.55 * reach
-    inch = columns * width / PICTURES  # metres of the pictures per inch of paper
-    figure = new_figure(PAGE, max(2.8, rows * height / inch + 0.6))
-    path, pictures = figure.subplots(1, 2, width_ratios=(PAGE - PICTURES, PICTURES))
+    inch = columns * width / (PICTURES * form.full[0])  # metres of the pictures per inch of paper
+    figure = new_figure(form.full[0], max(2.8, rows * height / inch + 0.6), form.dpi)
+    path, pictures = figure.subplots(1, 2, width_ratios=(1 - PICTURES, PICTURES))
     pictures.set_axis_off()
     pictures.set(xlim=(0, columns * width), ylim=(-rows * height - 0.4 * inch, 0), aspect="equal", anchor="N")
     for i, t in enumerate(times):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flypend import errors
-from flypend.integrate import Outcome
+from flypend.files import whole_file
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP, SHAPES, E3Direction
+from flypend.outcome import Outcome
 
 if TYPE_CHECKING:
     import xarray
@@ -182,6 +183,57 @@ class Trajectory:
         finally:
             if path.parent.is_dir():
                 partial.unlink(missing_ok=True)
+
+    def to_html(
+        self,
+        path: str | Path | None = None,
+        *,
+        ghost: Trajectory | Sequence[Trajectory] = (),
+        title: str | None = None,
+        layout: str = "overlay",
+        speed: float = 1.0,
+    ) -> str:
+        """The replay of this run: one HTML page that opens from disk, offline, in any browser.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            An .html file to write the page to, whole or not at all.
+        ghost : Trajectory, or up to three of them
+            Runs to see beside this one.
+        title : str, optional
+            Default the laws and vehicles.
+        layout : "overlay" or "beside"
+            The others as ghosts in one picture, or a picture for each; a button of the page changes it.
+        speed : float
+            Time of the flight over time of playback at the beginning, > 0; a menu of the page changes it.
+
+        Returns
+        -------
+        str
+            The page.
+
+        Raises
+        ------
+        InputError
+            For more than four runs, an unknown layout, a speed that is not positive, a file that cannot be written.
+        """
+        from flypend import replay  # here, for the many runs that nobody looks at
+
+        others = [ghost] if isinstance(ghost, Trajectory) else ghost
+        if not (isinstance(others, Sequence) and all(isinstance(other, Trajectory) for other in others)):
+            raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
+        text = replay.page([self, *others], title=title, layout=layout, speed=speed)
+        if path is not None:
+            with whole_file(path, (".html",)) as partial:
+                partial.write_text(text, encoding="utf-8")
+        return text
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the replay, in a frame of its own."""
+        from flypend import replay
+
+        return replay.frame(self.to_html())
 
 
 def load(path: str | Path) -> Trajectory:

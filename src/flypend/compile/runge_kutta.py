@@ -15,11 +15,10 @@ from flypend.compile.methods import Method
 from flypend.compile.program import Program
 from flypend.compile.reductions import Reductions
 from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
+from flypend.outcome import MAX_STATE
 
 COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY = range(6)
 SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.9, 0.2, 10.0
-# A state this large has left every machine that the model could describe (m, m/s, rad/s).
-MAX_STATE = 1e6
 # Shortest step, s: below it the time no longer moves, or a singularity has been located.
 SHORTEST = 1e-13
 

@@ -14,8 +14,9 @@ from llvmlite import ir
 from flypend.compile.program import Program
 from flypend.compile.random import PER_TICK, define_normals
 from flypend.compile.reductions import Reductions
-from flypend.compile.runge_kutta import COMPLETED, DIVERGED, MAX_STATE, UNDEFINED
+from flypend.compile.runge_kutta import COMPLETED, DIVERGED, UNDEFINED
 from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
+from flypend.outcome import MAX_STATE
 
 ARGUMENTS = (
     "starts", "parameters", "seeds", "runs", "ticks", "sample_ticks", "sample_count",

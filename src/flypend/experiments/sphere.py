@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from flypend.geometry import cross, dot, hat_squared, scale, unit
 from flypend.laws.sphere import acceleration, regulation, tracking, velocity_error
@@ -29,6 +28,8 @@ def fly(force: Callable[[float, Any, Any], Any], start: Any, start_rate: Any, ti
 
     def rates(t: float, s: Any) -> Any:
         return np.concatenate([s[3:], acceleration(s[:3], s[3:], force(t, s[:3], s[3:]))])
+
+    from scipy.integrate import solve_ivp  # for those who ask for the defects
 
     start = np.concatenate([start, start_rate])
     solution = solve_ivp(rates, (0, times[-1]), start, "DOP853", times, rtol=1e-10, atol=1e-12)

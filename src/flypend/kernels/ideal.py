@@ -14,6 +14,7 @@ from llvmlite import ir
 
 from flypend.compile import jit
 from flypend.compile.closed_loop import SymbolicLoop, symbolic_loop
+from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
 from flypend.compile.program import lower
 from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, Problem, write_kernel
@@ -174,11 +175,11 @@ def ideal_kernel(
     criterion = criterion or Criterion()
     one_of("precision", precision, LANES)
     problem = ideal_problem(vehicle, law, criterion, parameters)
-    table = method_named(method)
+    one_of("method", method, METHODS)
 
     def module() -> ir.Module:
         lanes = Lanes(ir.Module("flypend"), LANES[precision], precision)
-        write_kernel(lanes, problem, table)
+        write_kernel(lanes, problem, method_named(method))
         return lanes.module
 
     kinds = [

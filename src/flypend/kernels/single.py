@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from flypend.compile import runge_kutta
-from flypend.integrate import MAX_STATE, MAX_STEPS, Outcome
 from flypend.kernels.flown import STATUS, Flown
-from flypend.kernels.ideal import IdealKernel, integrate
+from flypend.kernels.ideal import MAX_STEPS, IdealKernel, integrate
 from flypend.kernels.sampled import sampled_kernel
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
+from flypend.outcome import MAX_STATE, Outcome
 from flypend.plants.flight import LEFT, NOT_FINITE, Samples
 from flypend.plants.plant import Plant
 

@@ -25,7 +25,7 @@ from flypend.laws.inverted_gains import BOUNDS, Gains, computer_of, gains_for
 from flypend.laws.law import Control, Law
 from flypend.laws.references import Reference, hover
 from flypend.laws.sphere import velocity_error
-from flypend.laws.throw import bob_reference, coasted, largest_thrust, rod_force
+from flypend.laws.throw import bob_reference, coasted, largest_thrust, lifted, limited_force, rod_force
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
 
@@ -91,7 +91,8 @@ def inverted_control(
 
     # The thrust is for the rod as it is; its axis is for the rod after coasting over the time that turning takes.
     f = ca.fmin(ca.fmax(dot(force(state.y, state.y_dot), z), 0), largest_thrust(vehicle))
-    wanted = force(*coasted(state.y, state.y_dot, k.coast_time)) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
+    wanted = lifted(force(*coasted(state.y, state.y_dot, k.coast_time)), k.tilt_limit)
+    wanted = wanted + 0.028 * vehicle.weight * E3  # ε e₃: off zero
     z_d = scale(1 / smooth_norm(wanted, 0.006 * vehicle.weight), wanted)
 
     wrench = Wrench(f, ca.SX.sym("moment", 3))
@@ -99,7 +100,9 @@ def inverted_control(
     z_d_dot = lie_derivative(z_d, state, rates, t)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
     spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π
-    u_z = k.attitude_bandwidth**2 * spring - 2 * k.attitude_damping * k.attitude_bandwidth * v_e
+    stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
+    # No faster than the vehicle can stop: the spring alone would turn it at stiffness / damping per radian.
+    u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
 
     # z̈ = −|ż|² z + u_z with R ω̇ = z × u_z across z, the paper's (setmu) solved for ω̇; the yaw rate is damped.
     turn = apply(state.R.T, cross(z, u_z) + state.omega[2] * z_dot)

@@ -30,10 +30,16 @@ class Gains:
         Position errors are softly limited to this length, m.
     descent_limit : float
         Largest downward acceleration asked of the bob, m/s²; below g, so that the rod's target never turns over.
+    level_limit : float
+        Largest horizontal acceleration asked of the bob, m/s².
     rod_bandwidth, rod_damping : float
         Rod on S², rad/s and ratio.
     attitude_bandwidth, attitude_damping : float
         Thrust axis on S², rad/s and ratio.
+    turn_rate : float
+        The thrust axis is turned towards its target no faster than this, rad/s.
+    tilt_limit : float
+        The thrust axis is never asked to lean further than this from e₃, rad; near π for no limit.
     rate_feedforward : float
         Share of the rate of the desired thrust axis that is fed forward.
     coast_time : float
@@ -45,6 +51,9 @@ class Gains:
         upward speed of the bob, h (m) the height of the pivot above its reference, in a band of flip_width (m/s).
     hanging_share : float
         Until then the rod is held hanging with this share of its gain.
+    pump_share, pump_rate : float
+        Share of a swing-up by the energy of the rod while it is low, for a vehicle too slow to throw and flip, and how
+        fast that energy is brought to its value upright, 1/s.
     low_below, high_above : float
         y₃ below which a rod is low and above which it is not at all.
     yaw_damping : float
@@ -61,10 +70,13 @@ class Gains:
     height_damping: float
     position_reach: float
     descent_limit: float
+    level_limit: float
     rod_bandwidth: float
     rod_damping: float
     attitude_bandwidth: float
     attitude_damping: float
+    turn_rate: float
+    tilt_limit: float
     rate_feedforward: float
     coast_time: float
     throw_speed: float
@@ -73,6 +85,8 @@ class Gains:
     flip_by_height: float
     flip_width: float
     hanging_share: float
+    pump_share: float
+    pump_rate: float
     low_below: float
     high_above: float
     yaw_damping: float
@@ -95,23 +109,30 @@ class Gains:
 
 # Least value of each gain; those of the flip may have either sign.
 _SIGNED = {"flip_speed", "flip_by_rod", "flip_by_height", "low_below", "high_above"}
-_POSITIVE = {"flip_width", "coast_time", "position_reach", "descent_limit", "thrust_share"} | {
-    entry.name for entry in fields(Gains) if entry.name.endswith(("_bandwidth", "_damping"))
-}
+_POSITIVE = {
+    "level_limit",
+    "turn_rate",
+    "tilt_limit",
+    "flip_width",
+    "coast_time",
+    "position_reach",
+    "descent_limit",
+    "thrust_share",
+} | {entry.name for entry in fields(Gains) if entry.name.endswith(("_bandwidth", "_damping"))}
 BOUNDS: Mapping[str, float | None] = MappingProxyType(
     {entry.name: None if entry.name in _SIGNED else 1e-9 if entry.name in _POSITIVE else 0.0 for entry in fields(Gains)}
 )
 
 # Pure numbers, found by CMA-ES on the success and the excursion of random starts of hehn2011 (see docs/inverted.md).
 # Times are in √(l/g), speeds in √(g l), lengths in l, the attitude bandwidth in the root of the angular acceleration
-# that the rotors can give.
+# that the rotors can give, as is the rate of turning.
 NUMBERS: Mapping[str, float] = MappingProxyType(
     {
         "position_bandwidth": 0.56, "position_damping": 1.0, "height_bandwidth": 0.74, "height_damping": 0.82,
         "rod_bandwidth": 1.8, "rod_damping": 0.40, "attitude_bandwidth": 1.4, "attitude_damping": 0.87,
-        "rate_feedforward": 0.64, "coast": 1.2, "latency": 0.46, "lead": 2.1, "throw_speed": 0.90,
+        "turn_rate": 1.8, "rate_feedforward": 0.64, "coast": 1.2, "latency": 0.46, "lead": 2.1, "throw_speed": 0.90,
         "flip_speed": 0.51, "flip_by_rod": 0.84, "flip_by_height": 0.46, "flip_width": 0.20, "hanging_share": 0.64,
-        "low_below": 0.80, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9,
+        "low_below": 0.80, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9, "level": 6.0,
     }
 )  # fmt: skip
 
@@ -135,10 +156,13 @@ def gains_for(vehicle: Vehicle, **given: float) -> Gains:
         "height_damping": n["height_damping"],
         "position_reach": n["position_reach"] * vehicle.l,
         "descent_limit": n["descent"] * vehicle.g,
+        "level_limit": n["level"] * vehicle.g,
         "rod_bandwidth": n["rod_bandwidth"] / time,
         "rod_damping": n["rod_damping"],
         "attitude_bandwidth": attitude,
         "attitude_damping": n["attitude_damping"],
+        "turn_rate": n["turn_rate"] * np.sqrt(angular_authority(vehicle)),
+        "tilt_limit": 3.1,
         "rate_feedforward": n["rate_feedforward"],
         "coast_time": n["coast"] / attitude,
         "throw_speed": n["throw_speed"] * speed,
@@ -147,6 +171,8 @@ def gains_for(vehicle: Vehicle, **given: float) -> Gains:
         "flip_by_height": n["flip_by_height"] / time,
         "flip_width": n["flip_width"] * speed,
         "hanging_share": n["hanging_share"],
+        "pump_share": 0.0,
+        "pump_rate": 1.0 / time,
         "low_below": n["low_below"],
         "high_above": n["high_above"],
         "yaw_damping": 5.0,

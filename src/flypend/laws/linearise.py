@@ -16,7 +16,6 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, hat, project_tangent, unit
@@ -192,6 +191,8 @@ def tangent_basis(at: State) -> Any:
 
 def retract(at: State, xi: Any) -> State:
     """The state with coordinates `xi` (16,) about `at`, a single state with ω = 0 and ẏ = 0; |ξ_y| < 1."""
+    from scipy.spatial.transform import Rotation  # for those who linearise
+
     b, xi = _plane(at.y), np.asarray(xi, dtype=float)
     height = np.sqrt(1 - xi[12:14] @ xi[12:14])
     return State(

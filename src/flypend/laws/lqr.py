@@ -16,7 +16,6 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from scipy.linalg import solve_continuous_are
 
 from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, norm, scale
@@ -97,6 +96,8 @@ def _unbound(*_: Any) -> Control:
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     """K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its column of the heading is zero."""
     A, B = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
+    from scipy.linalg import solve_continuous_are  # for those who fly this law
+
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
     A, B = A[np.ix_(keep, keep)], B[keep]

@@ -51,7 +51,7 @@ def bob_acceleration(e: Any, v: Any, y: Any, k: Gains) -> Any:
     up = -(k.height_bandwidth**2) * limited[2] - 2 * k.height_damping * k.height_bandwidth * (v[2] - throw)
     vertical = ca.fmax(up, 0) + soft(ca.fmin(up, 0), k.descent_limit)
     horizontal = -(k.position_bandwidth**2) * limited[:2] - 2 * k.position_damping * k.position_bandwidth * v[:2]
-    return ca.vertcat(horizontal, vertical)
+    return ca.vertcat(soft(horizontal, k.level_limit), vertical)
 
 
 def flip_permission(y: Any, height: Any, climb: Any, k: Gains) -> Any:
@@ -112,7 +112,22 @@ def rod_force(
 
     difference = on_bob / m - on_vehicle / M
     F = -M * l * u + scale((M + m) * dot(A, y) + M * l * dot(y_dot, y_dot), y) + M * difference
+    swing = k.pump_share * low
+    F = (1 - swing) * F + swing * pumping_force(A, y, y_dot, vehicle, k)
     return limited_force(F, k.thrust_share * largest_thrust(vehicle))
+
+
+def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Gains) -> Any:
+    """Force on the quadrotor (3, 1), N, that carries everything as `A` asks and swings the rod up by its energy.
+
+    Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy
+    E = |ẏ|²/2 + w² y₃ and E = w² upright at rest. The rest of F, M l κ (E/w² − 1) ẏ, makes Ė = −κ (E/w² − 1) |ẏ|².
+    """
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    w_squared = vehicle.weight / (M * l)
+    missing = 1 - (dot(y_dot, y_dot) / 2 / w_squared + y[2])
+    push = y_dot + ANTIPODE_SHIFT * ca.sqrt(w_squared) * E1  # off the rest that hangs, where people start
+    return (M + m) * A - scale(M * l * k.pump_rate * missing, push)
 
 
 def _demand(
@@ -140,6 +155,12 @@ def limited_force(F: Any, limit: Any) -> Any:
     """F/(1 + (|F|/limit)⁸)^(1/8): a saturation of high order, because a soft one would shift hover."""
     ratio = dot(F, F) / limit**2
     return F / ca.sqrt(ca.sqrt(ca.sqrt(1 + ratio**4)))
+
+
+def lifted(F: Any, tilt: Any) -> Any:
+    """F with its vertical part raised until it is no further than `tilt` (rad, below π) from e₃."""
+    level = ca.sqrt(F[0] ** 2 + F[1] ** 2 + 1e-12)
+    return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
 
 
 def soft(value: Any, limit: Any) -> Any:

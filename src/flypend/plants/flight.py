@@ -14,10 +14,10 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.compile.random import normals
-from flypend.integrate import MAX_STATE, Outcome
 from flypend.laws.law import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED
+from flypend.outcome import MAX_STATE, Outcome
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.computer import Commands, FlightComputer, idle_command
 from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from flypend import __version__
+from flypend import __version__, files
 from flypend.experiments.claims import Verdict, theorem_claims
 from flypend.metrics import metrics
 from flypend.report import text
@@ -19,17 +19,21 @@ MOVIE_SPEED = 0.25
 Task = Callable[[], Any]
 
 
-def figure_tasks(run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True) -> list[tuple[str, Task]]:
-    """Named tasks that draw the figures of `run` into `folder`, file names beginning with `prefix`."""
+def figure_tasks(
+    run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True, style: str = "paper"
+) -> list[tuple[str, Task]]:
+    """Named tasks that draw the figures of `run` in a `style` into `folder`, file names beginning with `prefix`."""
     from flypend import figures  # brings matplotlib, which a run without figures does not wait for
 
-    kinds: list[tuple[str, Callable[[Trajectory], Any]]] = [
+    kinds: list[tuple[str, Callable[..., Any]]] = [
         ("y3-z3", figures.paper_figure),
         ("full", figures.full_figure),
     ]
     if stop_motion:
         kinds.append(("stop-motion", figures.stop_motion))
-    return [(f"{prefix}{kind}", partial(draw, figure, run, folder / f"{prefix}{kind}.png")) for kind, figure in kinds]
+    return [
+        (f"{prefix}{kind}", partial(draw, figure, run, folder / f"{prefix}{kind}", style)) for kind, figure in kinds
+    ]
 
 
 def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
@@ -45,11 +49,9 @@ def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[s
     ]
 
 
-def draw(figure: Callable[[Trajectory], Any], run: Trajectory, path: Path) -> None:
-    """Draw one `figure` of `run` into the file `path`."""
-    from flypend import figures
-
-    figures.save_figure(figure(run), path)
+def draw(figure: Callable[..., Any], run: Trajectory, path: Path, style: str = "paper") -> None:
+    """Draw one `figure` of `run` in a `style` into files called `path`, as vectors (.pdf) and as .png."""
+    files.save_both(figure(run, style=style), path)
 
 
 def write_flight(
@@ -60,6 +62,7 @@ def write_flight(
     settled: Trajectory | None = None,
     with_figures: bool = True,
     with_movies: bool = True,
+    style: str = "paper",
     progress: Callable[[Iterable[tuple[str, Task]]], Any] | None = None,
 ) -> list[Verdict]:
     """Write run.nc, figures, movies, report.md and report.json of `run` into the folder `out`, whole or not at all.
@@ -76,6 +79,8 @@ def write_flight(
         The same flight over a longer time, on which the limit ẍ → 0 is read; default `run`.
     with_figures, with_movies : bool
         Whether to draw and to film.
+    style : "paper" or "slides"
+        Format of the figures.
     progress : callable, optional
         Runs an iterable of named tasks and shows how far they are; default runs them in silence.
 
@@ -92,7 +97,7 @@ def write_flight(
     verdicts = theorem_claims(run, settled) if "V" in run.signals else []
     with staged(out) as folder:
         run.save(folder / "run.nc")
-        tasks = figure_tasks(run, folder) if with_figures else []
+        tasks = figure_tasks(run, folder, style=style) if with_figures else []
         tasks += movie_tasks(run, folder) if with_movies else []
         if progress is not None:
             progress(tasks)

@@ -20,6 +20,7 @@ from flypend.report import text
 from flypend.report.flight import Task, figure_tasks, movie_tasks
 from flypend.report.staging import staged
 from flypend.simulate import simulate
+from flypend.style import style_named
 from flypend.trajectory import Trajectory
 
 STOP_MOTION = ("2", "4", "5")
@@ -48,7 +49,9 @@ class Reproduction:
     swing_up: Trajectory
 
 
-def reproduce(out: str | Path, *, quick: bool = False, progress: Progress = lambda *_: None) -> Reproduction:
+def reproduce(
+    out: str | Path, *, quick: bool = False, style: str = "paper", progress: Progress = lambda *_: None
+) -> Reproduction:
     """Fly the paper's experiments and write figures, movies, runs, report.md and report.json into the folder `out`.
 
     Parameters
@@ -57,14 +60,17 @@ def reproduce(out: str | Path, *, quick: bool = False, progress: Progress = lamb
         The folder; made if it does not exist. It receives everything or, if something fails, nothing.
     quick : bool
         Leave the movies out.
+    style : "paper" or "slides"
+        Format of the figures.
     progress : callable
         Told `(what, done, total)` as the work goes on.
 
     Raises
     ------
     InputError
-        If `out` cannot be written.
+        If `out` cannot be written, or for an unknown style.
     """
+    style_named(style)
     with staged(out) as folder:
         for name in ("runs", "figures", "movies"):
             if not (quick and name == "movies"):
@@ -73,7 +79,8 @@ def reproduce(out: str | Path, *, quick: bool = False, progress: Progress = lamb
         flown = iter(range(total))
         runs = fly_all(lambda what: progress(f"flying {what}", next(flown), total))
         swing_up = simulate(vehicle("hehn2011"), inverted(), State(y=(0.0, 0.0, -1.0)), 6.0, plant="rotors")
-        tasks = _pictures(runs, folder, quick) + figure_tasks(swing_up, folder / "figures", "swing-up-")
+        tasks = _pictures(runs, folder, quick, style)
+        tasks += figure_tasks(swing_up, folder / "figures", "swing-up-", style=style)
         if not quick:
             tasks = movie_tasks(swing_up, folder / "movies", "swing-up-")[:1] + tasks
         with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
@@ -89,17 +96,17 @@ def reproduce(out: str | Path, *, quick: bool = False, progress: Progress = lamb
     return result
 
 
-def _pictures(runs: Runs, folder: Path, quick: bool) -> list[tuple[str, Task]]:
+def _pictures(runs: Runs, folder: Path, quick: bool, style: str = "paper") -> list[tuple[str, Task]]:
     """Named tasks for all pictures, the long ones (movies) first, so that they start first."""
     tasks: list[tuple[str, Task]] = []
     if not quick:
         for name in MOVIES:
             tasks += movie_tasks(runs.corrected[name], folder / "movies", f"experiment-{name}-")
     for name, run in runs.corrected.items():
-        tasks += figure_tasks(run, folder / "figures", f"experiment-{name}-", stop_motion=name in STOP_MOTION)
+        tasks += figure_tasks(run, folder / "figures", f"experiment-{name}-", name in STOP_MOTION, style)
     for name, run in runs.without_beta.items():
         prefix = f"experiment-{name}-printed-without-beta-"
-        tasks += figure_tasks(run, folder / "figures", prefix, stop_motion=False)[:1]
+        tasks += figure_tasks(run, folder / "figures", prefix, False, style)[:1]
     return tasks
 
 

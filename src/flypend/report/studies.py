@@ -61,8 +61,8 @@ def comparison_markdown(comparison: Comparison) -> str:
 
 
 def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str | Path) -> None:
-    """Write report.md, report.json (with `settings`) and comparison.png of `comparison` into the folder `out`."""
-    from flypend.figures import save_figure
+    """Write report.md, report.json (with `settings`), comparison.pdf and .png of `comparison` into the folder `out`."""
+    from flypend.files import save_both
     from flypend.studies.pictures import comparison_figure
 
     with staged(out) as folder:
@@ -70,7 +70,7 @@ def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str 
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {"flypend": __version__, "settings": settings, "laws": comparison.rows()}
         write_json(folder / "report.json", content)
-        save_figure(comparison_figure(comparison), folder / "comparison.png")
+        save_both(comparison_figure(comparison), folder / "comparison")
 
 
 def ladder_rows(ladder: Ladder) -> list[list[str]]:
@@ -100,8 +100,8 @@ def ladder_table(ladder: Ladder) -> Table:
 
 
 def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> None:
-    """Write report.md, report.json (with `settings`) and ladder.png of `ladder` into the folder `out`."""
-    from flypend.figures import save_figure
+    """Write report.md, report.json (with `settings`), ladder.pdf and .png of `ladder` into the folder `out`."""
+    from flypend.files import save_both
     from flypend.studies.pictures import ladder_figure
 
     laws = list(next(iter(ladder.rungs.values())).ensembles)
@@ -109,15 +109,17 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     lines += ["| " + " | ".join(row) + " |" for row in ladder_rows(ladder)]
     table = "\n".join(lines)
     broken = "\n".join(f"- {law}: {_broken(ladder, law)}" for law in laws)
+    failures = "\n".join(_failures(ladder)) or "none"
     with staged(out) as folder:
         text = f"# Reality ladder\n\n{_told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
+        text += f"\nFailures by cause (what was out of tolerance in the last second):\n\n{failures}\n"
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {
             rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}
             for rung, comparison in ladder.rungs.items()
         }
         write_json(folder / "report.json", {"flypend": __version__, "settings": settings, "rungs": content})
-        save_figure(ladder_figure(ladder), folder / "ladder.png")
+        save_both(ladder_figure(ladder), folder / "ladder")
 
 
 def tracking_table(results: Iterable[Tracking]) -> Table:
@@ -131,6 +133,17 @@ def tracking_table(results: Iterable[Tracking]) -> Table:
     table.caption = "50 Hz, 30 ms, noise of a motion capture, 2 % of error in mass and rod; published: their experiment"
     table.caption_justify = "left"
     return table
+
+
+def _failures(ladder: Ladder) -> list[str]:
+    """One line per rung and law with failures: how many of each cause."""
+    lines = []
+    for rung, comparison in ladder.rungs.items():
+        for law, ensemble in comparison.ensembles.items():
+            causes = summary(ensemble)["causes"]
+            told = ", ".join(f"{cause} {count}" for cause, count in causes.items())
+            lines += [f"- {rung}, {law}: {told} (of {len(ensemble)})"] if causes else []
+    return lines
 
 
 def _broken(ladder: Ladder, law: str) -> str:

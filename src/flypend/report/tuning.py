@@ -9,14 +9,15 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend import __version__
-from flypend.drawing import BLUE, GREEN, GREY, ORANGE, RED
 from flypend.files import save_figure
-from flypend.page import LABEL, PAGE, SMALL, new_figure
+from flypend.page import LABEL, SMALL, new_figure
+from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
 from flypend.report.staging import staged
 from flypend.report.text import write_json
 from flypend.runfile import toml_text
 from flypend.tune import Tuned
 
+WIDTH = 7.16  # of two columns of a paper, in
 STYLES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (ORANGE, ":"), (GREY, (0, (5, 1, 1, 1, 1, 1))))
 
 
@@ -52,7 +53,7 @@ def told(report: dict[str, Any]) -> str:
 
 def history_figure(result: Tuned) -> Figure:
     """Cost against runs flown, beside the cost before and after on the study's own starts; and gains at the centre."""
-    figure = new_figure(PAGE, 2.9)
+    figure = new_figure(WIDTH, 2.9)
     left, right = figure.subplots(1, 2)
     runs = np.array([entry["runs"] for entry in result.history])
     left.plot(runs, [entry["best"] for entry in result.history], color=BLUE, label="best so far, starts tuned on")

@@ -1,0 +1,31 @@
+"""How a run ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+# A state this large has left every machine that the model could describe (m, m/s, rad/s).
+MAX_STATE = 1e6
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended.
+
+    Parameters
+    ----------
+    status : "completed", "diverged" or "singular"
+        Whether the duration was reached, the state left every bound, or the law stopped being defined.
+    time : float
+        When, s.
+    reason : str
+        Why, and what to do about it; empty for a completed run.
+    """
+
+    status: Literal["completed", "diverged", "singular"]
+    time: float
+    reason: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.status} at {self.time:.4g} s" + (f": {self.reason}" if self.reason else "")

@@ -1,0 +1,25 @@
+"""The colours of every picture, movie and page, which readers of every kind of colour vision can tell apart."""
+
+from __future__ import annotations
+
+from typing import Any
+
+# Okabe and Ito's palette; lines differ in style and width as well, for print in grey.
+INK, GREY = "#1a1a1a", "#8c8c8c"
+BLUE, RED, GREEN, ORANGE, SKY, PINK = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#56b4e9", "#cc79a7"
+SERIES = (BLUE, RED, GREEN, PINK, ORANGE, SKY, "#000000")  # of laws or members that stand side by side
+REAR = "#d9d9d9"  # rotors; the front ones are orange
+
+_LIGHT = {
+    "paper": "#ffffff", "panel": "#ffffff", "sky": "#f3f5f7", "ink": INK, "muted": "#5f6368", "line": "#e1e4e8",
+    "grid": "#8a94a0", "body": "#3a3f45", "front": ORANGE, "rear": "#9aa1a9", "rod": RED, "thrust": GREEN,
+    "trail": BLUE, "reference": "#a0568a", "ghost": "#4b6a88",
+    "rotor1": BLUE, "rotor2": RED, "rotor3": GREEN, "rotor4": PINK,
+}  # fmt: skip
+_DARK = {
+    "paper": "#14171b", "panel": "#1d2126", "sky": "#1a1e23", "ink": "#eceff2", "muted": "#a3abb5", "line": "#2f353c",
+    "grid": "#66707c", "body": "#aab2bb", "front": ORANGE, "rear": "#7c858f", "rod": "#f0803c", "thrust": "#1fc296",
+    "trail": SKY, "reference": "#dc93bb", "ghost": "#8fb0d0",
+    "rotor1": SKY, "rotor2": "#f0803c", "rotor3": "#1fc296", "rotor4": "#dc93bb",
+}  # fmt: skip
+PAGE: dict[str, Any] = {"light": _LIGHT, "dark": _DARK}  # colours of roles, for pages in a browser

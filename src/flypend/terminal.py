@@ -1,0 +1,33 @@
+"""What commands share: the console, progress bars, and how a path is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+console = Console()
+
+
+@contextmanager
+def counter() -> Iterator[Callable[[str, int, int], None]]:
+    """A progress bar that is told what is done, of how many, under which name."""
+    with progress() as bar:
+        task = bar.add_task("starting", total=None)
+        yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
+
+
+def progress() -> Progress:
+    """An empty progress bar, on stderr if that is a terminal and nowhere else."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    on = Console(stderr=True)
+    return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
+
+
+def bold(path: Path) -> str:
+    """`path` in bold, whatever is in its name."""
+    return f"[bold]{escape(str(path))}[/bold]"

@@ -1,0 +1,55 @@
+// Words over the pictures: which flight, its height and speed, how it ended; the key; the compass of each.
+
+import { norm } from "./numbers.js";
+import { Compass } from "./scene/compass.js";
+
+const KEY = [["front", "front rotor"], ["thrust", "thrust"], ["trail", "bob"], ["ink", "vehicle"], ["reference", "reference"]];
+
+export class Captions {
+  /** Over the element `parent`. */
+  constructor(parent) {
+    Object.assign(this, { parent, views: [] });
+    const key = document.createElement("p");
+    key.className = "key";
+    key.innerHTML = KEY.map(([role, words]) => `<span><i style="background:var(--${role})"></i>${words}</span>`).join("")
+      + `<span class="grid"></span>`;
+    parent.append(key);
+    this.grid = key.querySelector(".grid");
+  }
+
+  /** For other `flights`. */
+  load(flights) {
+    this.several = flights.length > 1;
+    for (const view of this.views) view.root.remove();
+    this.views = flights.map((flight) => {
+      const root = document.createElement("div");
+      root.className = "view";
+      root.innerHTML = `<p class="motion"></p><p class="ended"></p>`;
+      this.parent.append(root);
+      return { flight, root, motion: root.querySelector(".motion"), ended: root.querySelector(".ended"), compass: new Compass(root) };
+    });
+  }
+
+  /** For the pictures of `stage` as last drawn, at the time `t`. */
+  show(stage, t, colours) {
+    this.views.forEach((view, i) => {
+      const picture = stage.views[i], { flight } = view;
+      view.root.hidden = !picture;
+      if (!picture) return;
+      const { left, top, width, height } = picture;
+      Object.assign(view.root.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+      view.compass.draw(picture, flight.e3, colours);
+      const { x, x_dot } = stage.flyers[i].pose;
+      const rise = (x[2] - stage.flyers[i].pivots[0][2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
+      const name = this.several ? `${flight.title}: ` : "";
+      put(view.motion, `${name}height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
+      put(view.ended, t >= flight.end && flight.outcome.status !== "completed" ? flight.outcome.text : "");
+    });
+    const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
+    put(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
+  }
+}
+
+function put(element, words) {
+  if (element.textContent !== words) element.textContent = words;
+}

@@ -1,0 +1,108 @@
+// A run as the page knows it: columns of samples, and the pose at any time between them.
+//
+// A pose holds, in the frame of the run and in SI units: t, x, x_dot, quat_xyzw (body to world), y, y_dot, thrust (along
+// the body's e3), rotor_forces, x_ref, and `turned`, the angle of each drawn rotor in radians.
+
+import { clamp, dot, hermite, indexBefore, matrix, mix, slerp, unit } from "./numbers.js";
+
+const TURNS_IN_HOVER = 2.5; // drawn turns of a rotor per second of flight that carries its share of the weight
+const QUARTER_TURN = Math.cos(Math.PI / 4); // |<q, q'>| of a quarter turn: beyond it nothing can be interpolated
+
+/** Little-endian 32-bit floats from base64 text. */
+export function floats(base64) {
+  const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  return new Float32Array(bytes.buffer);
+}
+
+export class Flight {
+  /** `record` is one entry of `runs` that flypend.replay writes: facts about the run, and `columns` in base64. */
+  constructor(record) {
+    const { columns, ...facts } = record;
+    Object.assign(this, facts);
+    this.columns = Object.fromEntries(Object.entries(columns).map(([name, text]) => [name, floats(text)]));
+    this.t = this.columns.t;
+    this.rotors = this.vehicle.rotor_positions.length;
+    this.turned = angles(this);
+  }
+
+  get start() {
+    return this.t[0];
+  }
+
+  get end() {
+    return this.t[this.t.length - 1];
+  }
+
+  /** The sample `i` of a column with `width` numbers to a sample, as an array. */
+  sample(name, i, width = 3) {
+    return Array.from(this.columns[name].subarray(i * width, (i + 1) * width));
+  }
+
+  /** The pose at the time `t`; before the start and after the end, the first and the last. */
+  at(t) {
+    const time = clamp(t, this.start, this.end);
+    const i = Math.min(indexBefore(this.t, time), Math.max(this.t.length - 2, 0));
+    const j = Math.min(i + 1, this.t.length - 1);
+    const step = this.t[j] - this.t[i];
+    let share = step > 0 ? (time - this.t[i]) / step : 0;
+    const [q, q1] = [this.sample("quat_xyzw", i, 4), this.sample("quat_xyzw", j, 4)];
+    const [y, y1] = [this.sample("y", i), this.sample("y", j)];
+    if (Math.abs(dot(q, q1)) < QUARTER_TURN || dot(y, y1) < 0) share = Math.round(share);
+    const between = (name, width) => this.sample(name, i, width).map((value, k) =>
+      mix(value, this.columns[name][j * width + k], share));
+    const curve = (name, rate) =>
+      hermite(this.sample(name, i), this.sample(rate, i), this.sample(name, j), this.sample(rate, j), step, share);
+    return {
+      t: time,
+      x: curve("x", "x_dot"),
+      x_dot: between("x_dot", 3),
+      quat_xyzw: slerp(q, q1, share),
+      y: unit(curve("y", "y_dot")),
+      y_dot: between("y_dot", 3),
+      thrust: between("thrust", 1)[0],
+      rotor_forces: between("rotor_forces", this.rotors),
+      x_ref: between("x_ref", 3),
+      turned: this.turned[i].map((value, k) => mix(value, this.turned[j][k], share)),
+    };
+  }
+
+  /** Values to plot over `t`: "y3", "z3", "thrust", "distance" from the reference, or "rotor k". */
+  series(name) {
+    const rotor = /^rotor (\d+)$/.exec(name);
+    const read = {
+      y3: (i) => this.columns.y[3 * i + 2],
+      z3: (i) => matrix(this.sample("quat_xyzw", i, 4))[2][2],
+      thrust: (i) => this.columns.thrust[i],
+      distance: (i) => Math.hypot(...this.sample("x", i).map((value, k) => value - this.columns.x_ref[3 * i + k])),
+    }[name] ?? ((i) => this.columns.rotor_forces[this.rotors * i + Number(rotor[1]) - 1]);
+    return Float32Array.from(this.t, (_, i) => read(i));
+  }
+}
+
+/** Angle of every rotor at every sample, so that the picture at a time does not depend on how one got there. */
+function angles(flight) {
+  const { t, rotors, columns, vehicle } = flight;
+  const share = vehicle.weight > 0 ? vehicle.weight / rotors : 1;
+  const rate = (i, k) => {
+    const force = columns.rotor_forces[i * rotors + k] / share;
+    return 2 * Math.PI * TURNS_IN_HOVER * Math.sign(force) * Math.sqrt(Math.min(Math.abs(force), 9));
+  };
+  const turned = [new Array(rotors).fill(0)];
+  for (let i = 1; i < t.length; i++) {
+    turned.push(turned[i - 1].map((angle, k) => angle + (t[i] - t[i - 1]) * (rate(i, k) + rate(i - 1, k)) / 2));
+  }
+  return turned;
+}
+
+/** A pose in the frame with e3 up, turned by a half turn about e1 if the run has e3 down; what a scene draws. */
+export function upright(pose, e3) {
+  if (e3 === "up") return pose;
+  const turn = ([a, b, c]) => [a, -b, -c];
+  const [x, y, z, w] = pose.quat_xyzw;
+  return {
+    ...pose,
+    x: turn(pose.x), x_dot: turn(pose.x_dot), y: turn(pose.y), y_dot: turn(pose.y_dot), x_ref: turn(pose.x_ref),
+    quat_xyzw: [x, -y, -z, w],
+    thrust: -pose.thrust,
+  };
+}

@@ -1,0 +1,195 @@
+// The replay: puts scene, plots and player together for the runs in the page, and offers `window.flypend`.
+//
+// window.flypend: play(), pause(), seek(t), time(), duration(), playing(), speed(s), load(runs), camera(name),
+// layout(name), theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, screen(i) with the pixels of pivot and bob,
+// frames() with the number of frames drawn and the milliseconds that the last sixty took to draw.
+
+import css from "./replay.css";
+import { Captions } from "./captions.js";
+import { Clock } from "./clock.js";
+import { Choice, Player, keys } from "./controls.js";
+import { Flight } from "./flight.js";
+import { frame, legend } from "./layout.js";
+import { matrix } from "./numbers.js";
+import { Plot } from "./plots.js";
+import { plots } from "./series.js";
+import { steer } from "./scene/pointers.js";
+import { PRESETS } from "./scene/rig.js";
+import { LAYOUTS, Stage } from "./scene/stage.js";
+import { Theme } from "./theme.js";
+
+const STEP = 1 / 30; // s, of the arrow keys
+
+class Replay {
+  constructor({ runs, palette, title, layout, speed }) {
+    this.parts = frame(css, title);
+    this.drawn = { count: 0, cost: [] };
+    this.clock = new Clock(0, 0, () => this.wake());
+    this.clock.speed = speed;
+    this.player = new Player(this.parts.player, this.clock);
+    this.plots = [];
+    this.theme = new Theme(palette, (colours) => this.#paint(colours));
+    this.#choices();
+    this.load(runs);
+    this.theme.set(this.theme.name);
+    this.cameras.show(this.stage?.rig.preset);
+    this.layout(layout);
+    this.#keys();
+    new ResizeObserver(() => this.#resize()).observe(this.parts.scene);
+    new ResizeObserver(() => this.#redraw()).observe(this.parts.plots);
+    this.#resize();
+    this.last = null;
+  }
+
+  /** Show other runs, packed as in the page; the clock stays where it is as far as they last, the camera as it looks. */
+  load(runs) {
+    this.flights = runs.map((record) => new Flight(record));
+    const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
+    this.clock.span(Math.min(...starts), Math.max(...ends));
+    legend(this.parts.legend, this.flights);
+    plots(this.flights).forEach((options, i) => {
+      if (this.plots[i]) this.plots[i].load(options);
+      else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
+    });
+    this.#stage();
+    this.layouts.root.hidden = this.flights.length < 2;
+    if (this.flights.length < 2) this.layout("overlay");
+    this.#redraw();
+    this.wake();
+  }
+
+  #stage() {
+    try {
+      if (this.stage) this.stage.load(this.flights);
+      else {
+        this.stage = new Stage(this.parts.canvas, this.flights);
+        this.captions = new Captions(this.parts.scene);
+        steer(this.parts.canvas, this.stage.rig, () => this.wake());
+      }
+      this.captions.load(this.flights);
+    } catch (error) {
+      this.parts.scene.classList.add("none");
+      this.parts.note.textContent = "This browser shows no 3-D graphics (WebGL is off); the plots work without.";
+    }
+  }
+
+  #choices() {
+    const cameras = [
+      ["overview", "Overview", "The whole flight (1)"], ["side", "Side", "Level, beside the vehicle (2)"],
+      ["follow", "Follow", "Behind the vehicle (3)"], ["axis", "Above", "From above, along gravity: the paper's camera on its −e₃ axis (4)"],
+    ];
+    this.cameras = new Choice(this.parts.choices, "Camera", cameras, (name) => this.camera(name));
+    const layouts = [["overlay", "Overlay", "One picture, the others as ghosts (g)"], ["beside", "Side by side", "A picture for each (g)"]];
+    this.layouts = new Choice(this.parts.choices, "Layout", layouts, (name) => this.layout(name));
+    const themes = [["toggle", "◐", "Light or dark (t)"]];
+    this.themes = new Choice(this.parts.choices, "Theme", themes, () => this.theme.toggle());
+  }
+
+  #keys() {
+    const { clock } = this;
+    keys({
+      " ": () => clock.toggle(),
+      ArrowLeft: (far) => clock.seek(clock.time - (far ? 1 : STEP)),
+      ArrowRight: (far) => clock.seek(clock.time + (far ? 1 : STEP)),
+      ArrowUp: () => clock.shift(1),
+      ArrowDown: () => clock.shift(-1),
+      Home: () => clock.seek(clock.start),
+      End: () => clock.seek(clock.end),
+      g: () => this.layout(this.stage?.layout === "overlay" ? "beside" : "overlay"),
+      t: () => this.theme.toggle(),
+      ...Object.fromEntries(PRESETS.map((name, i) => [String(i + 1), () => this.camera(name)])),
+    });
+  }
+
+  camera(name) {
+    if (!this.stage?.rig.choose(name)) return false;
+    this.cameras.show(name);
+    this.wake();
+    return true;
+  }
+
+  layout(name) {
+    if (!this.stage || !LAYOUTS.includes(name) || (name === "beside" && this.flights.length < 2)) return false;
+    this.stage.layout = name;
+    this.layouts.show(name);
+    this.parts.scene.dataset.layout = name;
+    this.wake();
+    return true;
+  }
+
+  #paint(colours) {
+    this.stage?.colour(colours);
+    this.#redraw();
+    this.wake();
+  }
+
+  #resize() {
+    const { clientWidth, clientHeight } = this.parts.scene;
+    if (!clientWidth || !clientHeight) return;
+    this.stage?.resize(clientWidth, clientHeight, Math.min(window.devicePixelRatio || 1, 2));
+    this.#frame(0);
+  }
+
+  #redraw() {
+    for (const plot of this.plots) {
+      plot.draw(this.theme.colours);
+      plot.show(this.clock.time);
+    }
+  }
+
+  /** Draw a frame soon: nothing is drawn while nothing changes. */
+  wake() {
+    this.dirty = true;
+    this.waiting ??= requestAnimationFrame((now) => this.#tick(now));
+  }
+
+  #tick(now) {
+    this.waiting = undefined;
+    const elapsed = this.last === null ? 0 : Math.min((now - this.last) / 1000, 0.25);
+    this.dirty = false;
+    this.clock.tick(elapsed);
+    const moving = this.#frame(elapsed);
+    const going = this.clock.playing || moving || this.dirty;
+    this.last = going ? now : null;
+    if (going) this.wake();
+  }
+
+  #frame(elapsed) {
+    const started = performance.now(), { stage, clock } = this;
+    let moving = false;
+    if (stage?.width) {
+      stage.show(this.flights.map((flight) => flight.at(clock.time)));
+      moving = stage.render(elapsed || 1 / 60);
+      this.captions.show(stage, clock.time, this.theme.colours);
+    }
+    this.player.show();
+    for (const plot of this.plots) plot.show(clock.time);
+    this.drawn.count += 1;
+    this.drawn.cost = [...this.drawn.cost.slice(-59), performance.now() - started];
+    return moving;
+  }
+
+  /** What tests and other pages may use. */
+  offer() {
+    const { clock } = this;
+    return Object.freeze({
+      play: () => clock.play(), pause: () => clock.pause(), seek: (t) => clock.seek(t), speed: (value) => clock.setSpeed(value),
+      time: () => clock.time, duration: () => clock.end - clock.start, playing: () => clock.playing,
+      load: (runs) => this.load(runs),
+      camera: (name) => this.camera(name), layout: (name) => this.layout(name), theme: (name) => this.theme.set(name),
+      pose: (i = 0) => {
+        const pose = this.flights[i].at(clock.time);
+        return { ...pose, R: matrix(pose.quat_xyzw) };
+      },
+      screen: (i = 0) => {
+        if (!this.stage) return null;
+        this.#frame(0);
+        return this.stage.screen(i);
+      },
+      frames: () => ({ count: this.drawn.count, milliseconds: [...this.drawn.cost] }),
+    });
+  }
+}
+
+const data = JSON.parse(document.getElementById("flypend-data").textContent);
+window.flypend = new Replay(data).offer();

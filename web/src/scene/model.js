@@ -1,0 +1,153 @@
+// The machine: hub, arms, rotors, thrust arrows, rod and bob, as a group that takes poses with e3 up. Metres.
+
+import {
+  CircleGeometry, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial,
+  RingGeometry, Shape, ShapeGeometry, SphereGeometry, Vector3,
+} from "three";
+
+const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
+const Z = new Vector3(0, 0, 1);
+const HOVER_ARROW = 0.7, LONGEST_ARROW = 1.1; // lengths of the thrust arrow over the rod, as in the figures
+const ROTOR_ARROW = 0.32; // the same for one rotor that carries its share
+
+/** Where the parts of the machine get their colours; a ghost is translucent, casts no shadow, and has one colour. */
+function paints(ghost) {
+  const roles = ["body", "front", "rear", "rod", "thrust"];
+  return Object.fromEntries(roles.map((role) => {
+    const paint = new MeshStandardMaterial({ roughness: 0.55, metalness: 0.05 });
+    if (ghost) Object.assign(paint, { transparent: true, opacity: 0.38, depthWrite: false });
+    return [role, paint];
+  }));
+}
+
+function solid(geometry, paint, ghost) {
+  const mesh = new Mesh(geometry, paint);
+  mesh.castShadow = !ghost;
+  return mesh;
+}
+
+function rotor(radius, paint, ghost, height) {
+  const group = new Group();
+  const blade = new Shape();
+  blade.moveTo(0, -0.05).quadraticCurveTo(0.35, -0.16, 1, -0.05).lineTo(0.98, 0.06).quadraticCurveTo(0.4, 0.07, 0, 0.05);
+  const blades = new Group();
+  for (const turn of [0, Math.PI]) {
+    const mesh = solid(new ShapeGeometry(blade), paint.blade, ghost);
+    mesh.scale.setScalar(0.96 * radius);
+    mesh.rotation.z = turn;
+    blades.add(mesh);
+  }
+  const disc = new Mesh(new CircleGeometry(radius, 48), paint.disc);
+  const rim = new Mesh(new RingGeometry(0.965 * radius, radius, 64), paint.blade);
+  const motor = solid(new CylinderGeometry(0.16 * radius, 0.19 * radius, height, 20), paint.body, ghost);
+  motor.rotation.x = Math.PI / 2;
+  motor.position.z = -height / 2;
+  group.add(blades, disc, rim, motor);
+  group.userData.blades = blades;
+  return group;
+}
+
+/** An arrow along +z of its group, of length 1 before `stretch`. */
+class Arrow extends Group {
+  constructor(width, paint, ghost) {
+    super();
+    this.width = width;
+    this.shaft = solid(new CylinderGeometry(0.5, 0.5, 1, 14), paint, ghost);
+    this.head = solid(new ConeGeometry(1.5, 1, 20), paint, ghost);
+    this.add(this.shaft, this.head);
+    for (const part of [this.shaft, this.head]) part.rotation.x = Math.PI / 2;
+  }
+
+  stretch(length) {
+    const size = Math.abs(length), head = Math.min(4.5 * this.width, 0.6 * size);
+    this.visible = size > 0.4 * this.width;
+    this.rotation.x = length < 0 ? Math.PI : 0;
+    this.shaft.scale.set(this.width, Math.max(size - head, 1e-6), this.width);
+    this.shaft.position.z = (size - head) / 2;
+    this.head.scale.set(this.width, Math.max(head, 1e-6), this.width);
+    this.head.position.z = size - head / 2;
+  }
+}
+
+export class Model extends Group {
+  /** `vehicle` has rod_length, weight, rotor_positions, rotor_spins, rotor_radius (SI, body frame front-left-up). */
+  constructor(vehicle, { ghost = false } = {}) {
+    super();
+    Object.assign(this, { vehicle, ghost, paint: paints(ghost) });
+    const rod = vehicle.rod_length;
+    const span = Math.max(...vehicle.rotor_positions.map((position) => Math.hypot(...position)));
+    this.body = new Group();
+    this.add(this.body, this.#rod(rod));
+    this.#frame(span);
+    this.thrust = new Arrow(0.035 * rod, this.paint.thrust, ghost);
+    this.body.add(this.thrust);
+  }
+
+  #frame(span) {
+    const { vehicle, paint, ghost } = this;
+    const hub = solid(new SphereGeometry(0.2 * span, 32, 20), paint.body, ghost);
+    hub.scale.z = 0.45;
+    this.body.add(hub);
+    const front = Math.max(...vehicle.rotor_positions.map((position) => position[0])) - 1e-9;
+    const lift = 0.13 * span;
+    this.glass = { front: this.#disc(), rear: this.#disc() };
+    this.rotors = vehicle.rotor_positions.map((position) => {
+      const side = position[0] > front ? "front" : "rear";
+      const end = new Vector3(...position);
+      const arm = solid(new CylinderGeometry(0.03 * span, 0.045 * span, end.length(), 14), paint.body, ghost);
+      arm.quaternion.setFromUnitVectors(UP, end.clone().normalize());
+      arm.position.copy(end).multiplyScalar(0.5);
+      const parts = { blade: paint[side], disc: this.glass[side], body: paint.body };
+      const turning = rotor(vehicle.rotor_radius, parts, ghost, lift);
+      turning.position.copy(end).add(new Vector3(0, 0, lift));
+      const arrow = new Arrow(0.02 * vehicle.rod_length, paint.thrust, ghost);
+      arrow.position.copy(turning.position);
+      this.body.add(arm, turning, arrow);
+      return { blades: turning.userData.blades, arrow };
+    });
+  }
+
+  #disc() {
+    return new MeshBasicMaterial({ transparent: true, opacity: this.ghost ? 0.1 : 0.22, side: DoubleSide, depthWrite: false });
+  }
+
+  #rod(length) {
+    const { paint, ghost } = this;
+    this.pole = new Group();
+    const stick = solid(new CylinderGeometry(0.016 * length, 0.016 * length, length, 16), paint.rod, ghost);
+    stick.rotation.x = Math.PI / 2;
+    stick.position.z = length / 2;
+    const bob = solid(new SphereGeometry(0.08 * length, 36, 24), paint.rod, ghost);
+    bob.position.z = length;
+    this.pole.add(stick, bob, solid(new SphereGeometry(0.032 * length, 20, 14), paint.rod, ghost));
+    return this.pole;
+  }
+
+  /** Show `pose`, in the frame with e3 up. */
+  show(pose) {
+    const { vehicle } = this, hover = Math.max(vehicle.weight, 1e-9);
+    const length = (force, share, scale) => {
+      const relative = scale * force / share;
+      return vehicle.rod_length * Math.max(Math.min(relative, scale * LONGEST_ARROW / HOVER_ARROW), -scale * LONGEST_ARROW / HOVER_ARROW);
+    };
+    this.position.set(...pose.x);
+    this.body.quaternion.set(...pose.quat_xyzw);
+    this.pole.quaternion.setFromUnitVectors(Z, new Vector3(...pose.y));
+    this.thrust.stretch(length(pose.thrust, hover, HOVER_ARROW));
+    this.rotors.forEach(({ blades, arrow }, k) => {
+      // A rotor with spin +1 turns clockwise seen from above, which is a negative angle about the body's third axis.
+      blades.rotation.z = -vehicle.rotor_spins[k] * pose.turned[k];
+      arrow.stretch(length(pose.rotor_forces[k], hover / this.rotors.length, ROTOR_ARROW));
+    });
+  }
+
+  /** Take the colours of a theme: an object from roles (body, front, rear, rod, thrust, ghost) to CSS colours. */
+  colour(colours) {
+    for (const [role, paint] of Object.entries(this.paint)) {
+      paint.color.set(this.ghost ? colours.ghost : colours[role]);
+      paint.side = DoubleSide;
+    }
+    for (const [side, glass] of Object.entries(this.glass)) glass.color.set(this.ghost ? colours.ghost : colours[side]);
+  }
+}
+

@@ -1,0 +1,136 @@
+// The scene on a canvas: flyers, world, camera; all in one picture, the others as ghosts, or side by side.
+
+import { PerspectiveCamera, PCFShadowMap, Scene, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
+
+import { norm, roundUp } from "../numbers.js";
+import { Flyer } from "./flyer.js";
+import { Rig } from "./rig.js";
+import { World } from "./world.js";
+
+const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
+
+export const LAYOUTS = ["overlay", "beside"];
+
+export class Stage {
+  /** On `canvas`, with `flights` as in `load`. Throws where WebGL is missing. */
+  constructor(canvas, flights) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap });
+    Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [] });
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera();
+    this.camera.matrixAutoUpdate = false;
+    this.load(flights);
+  }
+
+  /** Show other `flights` (flight.js); the camera follows the first, from where it is if there was one before. */
+  load(flights) {
+    for (const thing of this.#things()) {
+      this.scene.remove(thing);
+      thing.traverse((part) => {
+        part.geometry?.dispose();
+        part.material?.dispose();
+        part.dispose?.(); // lights hold the map of their shadow
+      });
+    }
+    // A flight that can be a ghost has two machines, one of each kind; only one of them is seen at a time.
+    this.flyers = flights.map((flight) => new Flyer(flight, false));
+    this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true) : null));
+    const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
+    const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
+    this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
+    if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box });
+    else {
+      this.rig = new Rig(flights[0].direction, reach, box);
+      this.rig.choose(Math.max(...box.half) < 4 * reach ? "overview" : "follow");
+    }
+    this.scene.add(...this.#things());
+    if (this.colours) this.colour(this.colours);
+  }
+
+  #things() {
+    return [this.world, ...this.flyers, ...this.ghosts].filter(Boolean);
+  }
+
+  /** Colours of a theme, see `Model.colour`. */
+  colour(colours) {
+    this.colours = colours;
+    for (const thing of this.#things()) thing.colour(colours);
+  }
+
+  /** Put every flyer to its pose (in the frame of its run). */
+  show(poses) {
+    poses.forEach((pose, i) => {
+      this.flyers[i].show(pose);
+      this.ghosts[i]?.show(pose);
+    });
+  }
+
+  resize(width, height, ratio) {
+    Object.assign(this, { width, height, ratio });
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+  }
+
+  /** The rectangles of the picture, CSS pixels from the upper left, and which flyers each shows. */
+  viewports() {
+    const { width, height, flyers } = this;
+    if (this.layout === "overlay") return [{ left: 0, top: 0, width, height, main: 0 }];
+    const upright = height > 1.15 * width; // narrow pictures go below each other
+    const [w, h] = upright ? [width, height / flyers.length] : [width / flyers.length, height];
+    return flyers.map((_, main) => ({ left: upright ? 0 : main * w, top: upright ? main * h : 0, width: w, height: h, main }));
+  }
+
+  /** Draw, `elapsed` seconds after the last time; true while the camera is on its way. */
+  render(elapsed) {
+    const { renderer, rig } = this;
+    const ports = this.viewports();
+    rig.aspect = ports[0].width / ports[0].height;
+    const moving = rig.glide(elapsed);
+    renderer.setScissorTest(true);
+    this.views = ports.map((port) => {
+      const { left, top, width, height, main } = port;
+      const pivot = this.flyers[main].pose.x;
+      const seen = rig.apply(this.camera, pivot, width / height);
+      const away = norm(pivot.map((value, k) => value - this.camera.position.getComponent(k)));
+      this.factor = roundUp(Math.max(1, LEAST * away / this.world.reach));
+      this.#select(main, width, height);
+      const above = this.camera.position.z - this.world.ground;
+      this.spacing = roundUp(Math.max(seen.distance, above) / 9);
+      this.world.surround(pivot, seen, this.spacing, 2.4 * this.ratio);
+      const bottom = this.height - top - height;
+      renderer.setViewport(left, bottom, width, height);
+      renderer.setScissor(left, bottom, width, height);
+      renderer.render(this.scene, this.camera);
+      return { ...port, ...seen, camera: this.camera.clone() };
+    });
+    return moving;
+  }
+
+  #select(main, width, height) {
+    const beside = this.layout === "beside";
+    this.flyers.forEach((flyer, i) => {
+      flyer.visible = i === main;
+      if (this.ghosts[i]) this.ghosts[i].visible = !beside;
+      (flyer.visible ? flyer : this.ghosts[i])?.draw(width, height, this.factor);
+    });
+  }
+
+  /** Where pivot and bob of a flyer are drawn: CSS pixels from the upper left of the canvas. */
+  screen(which) {
+    const view = this.views.find((port) => port.main === which) ?? this.views[0];
+    const { x, y } = this.flyers[which].pose, rod = this.flyers[which].flight.vehicle.rod_length;
+    const place = (point) => {
+      const { x: across, y: up } = new Vector3(...point).project(view.camera);
+      return [view.left + (across + 1) / 2 * view.width, view.top + (1 - up) / 2 * view.height];
+    };
+    return { pivot: place(x), bob: place(x.map((value, k) => value + rod * y[k])) };
+  }
+}
+
+function bounds(points) {
+  const range = [0, 1, 2].map((k) => points.reduce(([low, high], point) =>
+    [Math.min(low, point[k]), Math.max(high, point[k])], [Infinity, -Infinity]));
+  return { centre: range.map(([low, high]) => (low + high) / 2), half: range.map(([low, high]) => (high - low) / 2) };
+}

@@ -12,8 +12,8 @@ import numpy as np
 
 from flypend import errors
 from flypend.criterion import Criterion
-from flypend.integrate import MAX_STEPS
 from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
+from flypend.kernels.ideal import MAX_STEPS
 from flypend.laws import Controller, Law
 from flypend.metrics import Metrics, judged, metrics, wilson
 from flypend.model import State, Vehicle

@@ -155,7 +155,8 @@ def test_a_command_that_is_named_can_be_typed(at_home, line):
     if name == "run":
         chosen = flight(options["what"], options["override"] or ())
         assert chosen.duration > 0
-    for law in options.get("law") or ():
+    laws = options.get("law") or ()
+    for law in [laws] if isinstance(laws, str) else laws:
         assert law_named(law).bound(VEHICLE)
 
 

@@ -1,10 +1,14 @@
 """The file of a study: every text is a study or is refused in one line, and says the same when it is written again."""
 
 import math
+import re
+import shlex
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
+import typer
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -235,3 +239,50 @@ def test_a_run_file_may_be_written_from_settings(tmp_path):
         encoding="utf-8",
     )
     np.testing.assert_allclose(flight(str(tmp_path / "a.toml")).start.y, [0, 0.6, 0.8])
+
+
+# The page about studies -----------------------------------------------------------------------------------------------
+
+PAGE = (Path(__file__).parents[1] / "docs" / "studies.md").read_text(encoding="utf-8")
+
+
+def block(language):
+    (found,) = re.findall(rf"^```{language}\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
+    return found
+
+
+def test_the_study_of_the_page_is_one():
+    study = fp.study(tomllib.loads(block("toml")))
+    assert (study.shape, study.samples) == ((5,), 1_000_000)
+    assert {axis.name for axis in study.axes} == {"y", "R", "omega", "y_dot", "k_d", "k_1"}
+
+
+def test_the_python_of_the_page_runs(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    exec(compile(block("python"), "studies.md", "exec"), {})
+    assert 0 < float(capsys.readouterr().out) < 1
+
+
+def test_the_table_of_the_page_has_the_defaults():
+    study = fp.study(standard("lqr", None, "rotors", 1, 1, None) | {"judge_period": 0.01})
+    rows = dict(re.findall(r"^\| `(\w+)` \| ([^|]*) \|", PAGE, flags=re.MULTILINE))
+    assert set(rows) == {"rtol", "judge_period", "precision", "max_steps", "sampling", "seed", "chunk", "final"}
+    for key, told in rows.items():
+        given = re.sub(r"(?<=\d) (?=\d)", "", told).replace('"', "").replace(" s", " ")
+        assert str(fp.study(STUDY).settings[key] if key == "judge_period" else study.settings[key]).lower() in (
+            given.lower().replace("1e-6", "1e-06")
+        ), key
+
+
+def test_its_commands_can_be_typed(monkeypatch):
+    monkeypatch.chdir(Path(__file__).parents[1])
+    lines = re.findall(r"^    (flypend .*)$", PAGE, flags=re.MULTILINE)
+    assert len(lines) >= 5
+    for line in lines:
+        _, *arguments = shlex.split(line, comments=True)
+        group = typer.main.get_command(cli.app)
+        with group.make_context("flypend", list(arguments)) as context:
+            name, found, rest = group.resolve_command(context, arguments)
+            with found.make_context(name, rest, parent=context) as inner:
+                if name in ("sweep", "tune"):
+                    assert fp.study(inner.params["study"]).runs > 0

@@ -24,6 +24,7 @@ from flypend.sweep.study import study as study_from
 KEYS = ("gains", "objective", "runs", "generations", "population", "seed", "step")
 # Of a run that fails, the settling time counts as this many durations, and the excursion as at most that of `FAR`, m.
 LATE, FAR = 2.0, 100.0
+MOST_REPORTED = 20_000
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +74,7 @@ class Tuned:
         The best gains.
     before, after : dict
         Cost, success rate with its interval, settling time and excursion of the old and the new gains, on the starts
-        of the study, none of which was tuned on.
+        of the study (at most 20 000), none of which was tuned on.
     history : list of dict
         By generation: runs flown so far, best and median cost on the starts tuned on, and the centre of the search.
     """
@@ -176,8 +177,8 @@ class _Task:
         return self.objective.cost(columns, self.study.duration).reshape(len(points), self.runs).mean(axis=1)
 
     def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
-        """What these gains do on the starts of the study."""
-        runs = self.study.samples
+        """What these gains do on the starts of the study, the first `MOST_REPORTED` of them."""
+        runs = min(self.study.samples, MOST_REPORTED)
         columns = self._flown(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
         success = columns["success"]
         low, high = wilson(int(success.sum()), runs)

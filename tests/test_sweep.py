@@ -368,3 +368,34 @@ def test_the_paper_s_starts_succeed_and_a_torn_gain_does_not(tmp_path):
     }  # fmt: skip
     data = fp.sweep(table, tmp_path / "a.zarr", workers=1)
     assert data.success.values.tolist() == [True, False]
+
+
+def test_a_worker_that_knows_other_equations_is_not_believed():
+    from flypend.sweep.chunk import fly_chunk, program_digest
+
+    study = fp.study(SHORT)
+    same(fly_chunk(study.text(), 0, program_digest(study)), fly_range(study, 0, 40))
+    with pytest.raises(fp.InputError, match=r"^scheduler: expected workers with the flypend of this process"):
+        fly_chunk(study.text(), 0, "0" * 64)
+
+
+def test_a_cluster_that_is_lost_is_told_and_the_store_goes_on(tmp_path, uninterrupted):
+    """The scheduler closes under the sweep: one line; the same sweep on this machine then completes the store."""
+    from distributed import LocalCluster
+
+    path = tmp_path / "b.zarr"
+    with LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, protocol="tcp", host="127.0.0.1",
+        dashboard_address=None, memory_limit=0, silence_logs=50,
+    ) as cluster:  # fmt: skip
+
+        def tell(done, total):
+            if done == 2000:
+                cluster.close()
+
+        with pytest.raises(fp.InputError) as caught:
+            fp.sweep(LONG, path, scheduler=cluster.scheduler_address, progress=tell)
+    assert str(caught.value).startswith("scheduler: expected a cluster that stays")
+    assert not (content(path).keys() >= content(uninterrupted).keys())
+    fp.sweep(LONG, path, workers=1)
+    assert content(path) == content(uninterrupted)

@@ -11,6 +11,7 @@ import numpy as np
 
 from flypend.criterion import PARTS
 from flypend.ensemble import fly_packed
+from flypend.errors import InputError
 from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
 from flypend.metrics import judged
 from flypend.plants import Plant
@@ -31,8 +32,18 @@ def study_of(text: str) -> Study:
     return study(tomllib.loads(text))
 
 
-def fly_chunk(text: str, number: int) -> dict[str, Any]:
-    """The columns of chunk `number` of the study that `text` says, on one core."""
+@lru_cache(maxsize=4)
+def _program_of(text: str) -> str:
+    return program_digest(study_of(text))
+
+
+def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
+    """The columns of chunk `number` of the study that `text` says, on one core.
+
+    Raises InputError where that study is not the `program` (a digest) that it is for the caller.
+    """
+    if _program_of(text) != program:
+        raise InputError("scheduler", "workers with the flypend of this process", "one with other equations")
     made = study_of(text)
     first = number * made.chunk
     return fly_range(made, first, min(first + made.chunk, made.runs))

@@ -16,14 +16,20 @@ CONNECT = 10.0
 
 
 def flown_chunks(
-    text: str, numbers: Iterable[int], *, scheduler: str | None, workers: int | None, processes: bool
+    text: str,
+    program: str,
+    numbers: Iterable[int],
+    *,
+    scheduler: str | None,
+    workers: int | None,
+    processes: bool,
 ) -> Iterator[tuple[int, dict[str, Any]]]:
     """Chunks `numbers` of the study that `text` says, with their columns, as they come in.
 
     Parameters
     ----------
-    text, numbers
-        The study as TOML; which of its chunks.
+    text, program, numbers
+        The study as TOML; the digest of what it flies; which of its chunks.
     scheduler : str, optional
         Address of a Dask scheduler; default a cluster of this machine.
     workers : int, optional
@@ -34,7 +40,7 @@ def flown_chunks(
     Raises
     ------
     InputError
-        For a scheduler that does not answer, or is lost.
+        For a scheduler that does not answer or is lost, and workers that die again and again or know other equations.
     """
     import distributed
 
@@ -45,17 +51,31 @@ def flown_chunks(
         cores = sum(client.nthreads().values()) or 1
 
         def submit(number: int) -> Any:
-            return client.submit(fly_chunk, text, number, key=f"flypend-{number}-{hash(text)}", pure=False)
+            return client.submit(fly_chunk, text, number, program, key=f"flypend-{number}-{hash(text)}", pure=False)
 
         futures = {submit(number): number for _, number in zip(range(AHEAD * cores), waiting, strict=False)}
         coming = as_completed(futures)
         for future in coming:
-            yield futures.pop(future), future.result()
+            yield futures.pop(future), _result(future)
             number = next(waiting, None)
             if number is not None:
                 following = submit(number)
                 futures[following] = number
                 coming.add(following)
+
+
+def _result(future: Any) -> dict[str, Any]:
+    """What came of a chunk. Raises InputError if its cluster is lost, or its workers die."""
+    from concurrent.futures import CancelledError
+
+    import distributed
+
+    try:
+        columns: dict[str, Any] = future.result()
+    except (CancelledError, OSError, distributed.KilledWorker) as error:
+        told = str(error).split(". ")[0] or type(error).__name__
+        raise InputError("scheduler", "a cluster that stays (the same command goes on)", told) from None
+    return columns
 
 
 @contextmanager

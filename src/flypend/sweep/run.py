@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flypend.sweep.chunk import fly_range, program_digest
 from flypend.sweep.cluster import flown_chunks
-from flypend.sweep.store import Store, alone, opened, removed
+from flypend.sweep.store import alone, opened, removed
 from flypend.sweep.study import Study
 from flypend.sweep.study import study as study_from
 
@@ -61,26 +61,21 @@ def sweep(
     if force:
         removed(store)
     like = fly_range(made, 0, 1)
-    kept = opened(store, made, program_digest(made), versions(), like)
+    program = program_digest(made)
+    kept = opened(store, made, program, versions(), like)
     with alone(kept):
-        _complete(made, kept, scheduler, workers, processes, progress)
+        missing = [number for number in range(made.chunks) if not kept.whole(number, verify=True)]
+        done = made.runs - sum(_length(made, number) for number in missing)
+        progress(done, made.runs)
+        if missing:
+            flown = flown_chunks(
+                made.text(), program, missing, scheduler=scheduler, workers=workers, processes=processes
+            )
+            for number, columns in flown:
+                kept.write(number, columns)
+                done += _length(made, number)
+                progress(done, made.runs)
     return dataset(kept.path)
-
-
-def _complete(
-    study: Study, store: Store, scheduler: str | None, workers: int | None, processes: bool, progress: Progress
-) -> None:
-    missing = [number for number in range(study.chunks) if not store.whole(number, verify=True)]
-    done = study.runs - sum(_length(study, number) for number in missing)
-    progress(done, study.runs)
-    if not missing:
-        return
-    for number, columns in flown_chunks(
-        study.text(), missing, scheduler=scheduler, workers=workers, processes=processes
-    ):
-        store.write(number, columns)
-        done += _length(study, number)
-        progress(done, study.runs)
 
 
 def _length(study: Study, number: int) -> int:

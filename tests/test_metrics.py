@@ -8,9 +8,9 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.integrate import Outcome
 from flypend.metrics import Metrics, metrics, wilson
 from flypend.model import equations_of_motion
+from flypend.outcome import Outcome
 
 VEHICLE = fp.vehicle("hehn2011")
 SHARE = VEHICLE.weight / 4  # of one rotor in hover, N

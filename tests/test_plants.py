@@ -9,10 +9,11 @@ from scipy.spatial.transform import Rotation
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.integrate import MAX_STATE, integrate
+from flypend.integrate import integrate
 from flypend.laws import Computer
 from flypend.model import disturbed_motion, linear_momentum, total_energy
 from flypend.model.state import FLIP_PACKED
+from flypend.outcome import MAX_STATE
 from flypend.plants import MOTION_CAPTURE, PRESETS, Noise, Plant, Wind, flight, plant
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.plant import MISMATCHED

@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= paper-out
 
-.PHONY: setup paper test test-tools web lint lock clean
+.PHONY: setup paper test test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -27,14 +27,24 @@ lint: setup
 test: lint test-tools
 	$(BIN)/pytest -n 2
 
-# What the tests of the pages need beyond Python: a browser without a screen, and npm, which rebuilds the bundle.
+# What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
+# rebuilds the bundle of the pages.
+TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake
+AS_ROOT := $(shell test "$$(id -u)" = 0 || echo sudo)
+
 test-tools:
+	dpkg -s $(TEST_PACKAGES) >/dev/null 2>&1 || { $(AS_ROOT) apt-get update --quiet=2 \
+	    && $(AS_ROOT) apt-get install --yes --quiet=2 --no-install-recommends $(TEST_PACKAGES); }
 	command -v chromium >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 chromium; }
 	command -v npm >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 npm; }
 
 # Bundles web/ into src/flypend/web, which is tracked: whoever installs flypend needs no npm.
 web:
 	cd web && npm ci --silent && npm run --silent build
+
+# A minute of libFuzzer per law and precision under ASan and UBSan, and cppcheck on each.
+fuzz: test-tools setup
+	$(BIN)/pytest -m slow tests/test_c_tools.py
 
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 lock:

@@ -26,6 +26,7 @@ SOURCE = Path(flypend.__file__).parent
 ORDER = [
     "errors",
     "files",
+    "staging",
     "palette",
     "style",
     "geometry",
@@ -35,6 +36,7 @@ ORDER = [
     "compile",
     "integrate",
     "plants",
+    "export",
     "criterion",
     "kernels",
     "sketch",
@@ -156,6 +158,7 @@ PUBLIC = (
     "model",
     "laws",
     "plants",
+    "export",
     "simulate",
     "trajectory",
     "metrics",

@@ -25,7 +25,7 @@ from flypend.geometry import norm
 from flypend.report import paper, text
 from flypend.report.flight import movie_tasks, write_flight
 from flypend.report.paper import Reproduction, reproduce
-from flypend.report.staging import check_writable, staged
+from flypend.staging import check_writable, staged
 
 LAWS = ("printed", "without beta", "corrected")
 GROUPS = {"printed": "printed", "without beta": "without-beta", "corrected": "corrected"}

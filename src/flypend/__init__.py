@@ -3,6 +3,7 @@
 from flypend import laws
 from flypend.ensemble import Ensemble, simulate_ensemble
 from flypend.errors import InputError
+from flypend.export import export_c
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.outcome import Outcome
@@ -32,6 +33,7 @@ __all__ = [
     "Vehicle",
     "Wind",
     "Wrench",
+    "export_c",
     "laws",
     "load",
     "sensitivity",

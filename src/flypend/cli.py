@@ -81,6 +81,9 @@ def run(
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out.")] = False,
     figures: Annotated[bool, typer.Option(help="Draw the figures (--no-figures leaves movies out as well).")] = True,
+    controller: Annotated[
+        str | None, typer.Option(help="python, or the law exported and compiled: c (double) or c-float.")
+    ] = None,
     html: Annotated[
         Path | None, typer.Option("--html", metavar="FILE", help="Write the replay, a page for any browser, as well.")
     ] = None,
@@ -92,14 +95,15 @@ def run(
     [bold]start[/bold] (x, x_dot, R, omega, y, y_dot), [bold]duration[/bold] in seconds, and optionally
     [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]experiment[/bold], which brings all but the
     plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
+    [bold]controller[/bold] = "c" flies the law as exported C, in the plants rotors and mujoco.
     """
     from flypend.experiments.claims import SETTLED
     from flypend.files import check_file
-    from flypend.report.staging import check_writable
     from flypend.runfile import flight
+    from flypend.staging import check_writable
     from flypend.style import style_named
 
-    chosen = flight(what, override or ())
+    chosen = flight(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
     style_named(style)
     check_writable(out)
     if html is not None:
@@ -155,8 +159,8 @@ def compare(
 
     Success is to stand inverted within 0.05 and 0.2 m of the reference during the last second.
     """
-    from flypend.report.staging import check_writable
     from flypend.report.studies import comparison_table, write_comparison
+    from flypend.staging import check_writable
     from flypend.studies import compare as fly
 
     names = law or ["inverted", "lqr", "corrected", "detuned"]
@@ -183,8 +187,8 @@ def ladder(
 ) -> None:
     """See which step towards reality breaks which law: limits, lag, sampling, delay, noise, mismatch, pivot offset."""
     from flypend import errors
-    from flypend.report.staging import check_writable
     from flypend.report.studies import ladder_table, write_ladder
+    from flypend.staging import check_writable
     from flypend.studies import ladder as climb
     from flypend.studies.ladder import RUNGS
 
@@ -205,6 +209,32 @@ def circles(law: Laws = None, seed: Seed = 1) -> None:
     from flypend.studies.hehn import hehn2011
 
     console.print(tracking_table(hehn2011(tuple(law or ("inverted", "lqr")), seed)))
+
+
+@app.command("export-c")
+def export_c(
+    law: Annotated[str, typer.Option("--law", help="inverted, lqr, corrected, printed, or module:name.")] = "inverted",
+    vehicle: VehicleName = "hehn2011",
+    out: Out = Path("c-out"),
+    precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
+    light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
+) -> None:
+    """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export.md."""
+    from flypend import errors
+    from flypend.compile.c99 import PRECISIONS
+    from flypend.export import export_c as write
+    from flypend.laws import Law, inverted
+    from flypend.runfile import vehicle_named
+    from flypend.studies import law_named
+
+    if light:
+        errors.one_of("--law", law, ("inverted",))
+    chosen = inverted(form="light") if light else law_named(law)
+    if not isinstance(chosen, Law):
+        raise InputError("--law", "a law written in symbols", repr(law))
+    kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
+    write(chosen, vehicle_named(vehicle), out, precision=kind)
+    console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
 
 
 def _study(

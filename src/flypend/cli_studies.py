@@ -118,9 +118,9 @@ def tune(
 
     Writes tuned.toml, which [bold]flypend run[/bold] takes, and the history of the search with its picture.
     """
-    from flypend.report.staging import check_writable
     from flypend.report.tuning import told as told_of
     from flypend.report.tuning import write_tuned
+    from flypend.staging import check_writable
     from flypend.sweep import study as study_from
     from flypend.tune import tune as search
 

@@ -13,7 +13,6 @@ import numpy as np
 from flypend import errors
 from flypend.criterion import Criterion
 from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
-from flypend.kernels.ideal import MAX_STEPS
 from flypend.laws import Controller, Law
 from flypend.metrics import Metrics, judged, metrics, wilson
 from flypend.model import State, Vehicle
@@ -174,7 +173,7 @@ def fly_packed(
     judge_period: float = SAMPLE_PERIOD,
     method: str | None = None,
     precision: str = "double",
-    max_steps: int = MAX_STEPS,
+    max_steps: int | None = None,
     workers: int | None = None,
     progress: Callable[[int, int], Any] = lambda *_: None,
 ) -> Flown:

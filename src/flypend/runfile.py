@@ -16,7 +16,8 @@ import numpy as np
 from flypend import errors
 from flypend.errors import InputError
 from flypend.experiments import experiment, experiment_names
-from flypend.laws import Law
+from flypend.export import compiled
+from flypend.laws import Controller, Law
 from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
@@ -25,7 +26,7 @@ from flypend.plants import PRESETS, Noise, Plant, Wind, plant
 from flypend.simulate import simulate
 from flypend.trajectory import Trajectory
 
-KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment")
+KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Flight:
     """One run to make: what flies, under which law, from where, how long, on which plant; and what said so."""
 
     vehicle: Vehicle
-    law: Law
+    law: Law | Controller
     start: State
     duration: float
     plant: str | Plant
@@ -178,6 +179,13 @@ def plant_of(value: Any) -> str | Plant:
     return base.replace(**given)
 
 
+def _controller(law: Law, vehicle: Vehicle, kind: Any) -> Law | Controller:
+    """The law itself, or its exported C, compiled: `kind` is "python", "c" (double precision) or "c-float"."""
+    if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
+        return law
+    return compiled(law, vehicle, "double" if kind == "c" else "float")
+
+
 def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
     """The table called `key` of `settings`, empty if there is none; `field` for messages. Raises InputError."""
     value = settings.get(key, {})
@@ -210,9 +218,10 @@ def _override(settings: dict[str, Any], text: str) -> None:
 
 def _build(settings: dict[str, Any]) -> Flight:
     errors.only_known("", settings, KEYS)
+    vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
     return Flight(
-        vehicle=Vehicle.from_dict(table_at(settings, "vehicle")),
-        law=law_from_dict(table_at(settings, "law")),
+        vehicle=vehicle,
+        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")),
         start=start_of(table_at(settings, "start")),
         duration=errors.number("duration", settings["duration"], above=0, unit="s"),
         plant=plant_of(settings.get("plant", "ideal")),

@@ -65,7 +65,7 @@ def figures(
 ) -> None:
     """Draw the figures of a saved run, each as vectors (.pdf) and as .png."""
     from flypend.report.flight import figure_tasks
-    from flypend.report.staging import check_writable, staged
+    from flypend.staging import check_writable, staged
     from flypend.style import style_named
     from flypend.trajectory import load
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from flypend import errors
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
-from flypend.model.state import SIZE
+from flypend.model.state import FLIP_PACKED, SIZE
 
 
 @dataclass(frozen=True)
@@ -92,3 +93,24 @@ def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
         outputs=ca.Function("outputs", [loop.t, loop.s], [outputs], ["t", "s"], ["outputs"]),
         signal_names=tuple(loop.signals),
     )
+
+
+def upright_wrench(
+    law: Law, t: Any, packed: Any, vehicle: Vehicle, external: Any, gains: Mapping[str, Any] | None = None
+) -> Any:
+    """Thrust and moment (4, 1) of `law` with e₃ up, whatever its own frame, for symbols.
+
+    Parameters
+    ----------
+    law, vehicle
+        What commands, and what it flies.
+    t, packed, external : SX
+        Time, packed state (24, 1) with e₃ up, external forces on vehicle and bob (6, 1).
+    gains : dict, optional
+        Symbols that stand for some of the law's numbers.
+    """
+    wrench = law.evaluate(t, State.symbolic(packed), vehicle, (external[:3], external[3:]), gains).wrench
+    stacked = ca.densify(ca.vertcat(wrench.thrust, wrench.moment))
+    if law.e3 == "up":
+        return stacked
+    return ca.substitute(stacked, packed, packed * FLIP_PACKED) * np.array([-1.0, 1.0, -1.0, -1.0])

@@ -66,7 +66,7 @@ class IdealKernel:
         parameters: Any = None,
         times: Any = (),
         keep: bool = False,
-        max_steps: int = MAX_STEPS,
+        max_steps: int | None = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -85,7 +85,7 @@ class IdealKernel:
         keep : bool
             Whether the states at these times are kept, too.
         max_steps : int
-            A run that needs more is given up as diverged.
+            A run that needs more is given up as diverged; default a million.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -123,7 +123,7 @@ def integrate(
     times: Any,
     *,
     keep: bool,
-    max_steps: int = MAX_STEPS,
+    max_steps: int | None = None,
     knots: Any = None,
 ) -> Flown:
     """Call a compiled ideal kernel for contiguous `starts` (n, 24) and parameter `values` (n, k).
@@ -137,7 +137,7 @@ def integrate(
     reductions = np.empty((n, len(REDUCTIONS)))
     samples = np.full((n, count, starts.shape[1]), np.nan) if keep else None
     function(
-        address(starts), address(values), n, duration, rtol, atol, max_steps, address(times), count,
+        address(starts), address(values), n, duration, rtol, atol, max_steps or MAX_STEPS, address(times), count,
         address(samples), address(reductions), address(final), address(end), address(code), address(steps),
         address(knots),
     )  # fmt: skip

@@ -23,81 +23,123 @@ from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.inverted_gains import BOUNDS, Gains, computer_of, gains_for
 from flypend.laws.law import Control, Law
-from flypend.laws.references import Reference, hover
+from flypend.laws.references import Path, Reference, hover
 from flypend.laws.sphere import velocity_error
-from flypend.laws.throw import bob_reference, coasted, largest_thrust, lifted, limited_force, rod_force
+from flypend.laws.throw import (
+    Demand,
+    carrying,
+    coasted,
+    demand,
+    derivatives,
+    largest_thrust,
+    lifted,
+    limited_force,
+    rod_force,
+    steering_force,
+)
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
+FORMS = ("full", "light")
 
-def inverted(reference: Reference | None = None, **gains: float) -> Law:
+
+def inverted(reference: Reference | None = None, *, form: str = "full", **gains: float) -> Law:
     """The inverted law, about a `reference` of the pivot, with the gains of `gains_for` unless given.
 
     Parameters
     ----------
     reference : callable, optional
         Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
+    form : "full" or "light"
+        "light" takes the thrust, too, for the rod after coasting, and turns the target of the axis with a demand whose
+        direction turns steadily: two thirds of the operations, for processors that are short of time.
     **gains : float
         Any field of `Gains`, in its unit; the others are proposed for the vehicle that flies.
 
     Raises
     ------
     InputError
-        For an unknown gain, one out of range, or bandwidths that are not separated.
+        For an unknown gain or form, a gain out of range, or bandwidths that are not separated.
     """
+    errors.one_of("form", form, FORMS)
     errors.only_known("", gains, BOUNDS)
     given = {name: errors.number(name, value, at_least=BOUNDS[name]) for name, value in gains.items()}
+    options = {} if form == "full" else {"form": form}
 
     @cache
     def for_vehicle(vehicle: Vehicle) -> Law:
-        return _law(gains_for(vehicle, **given), reference or hover())
+        followed = reference or hover()
+        return _law(gains_for(vehicle, **given), options, followed, carrying(followed))
 
-    return Law(name="inverted", e3="up", gains=given, control=_unbound, for_vehicle=for_vehicle)
+    return Law(name="inverted", e3="up", gains={**given, **options}, control=_unbound, for_vehicle=for_vehicle)
 
 
 def _unbound(*_: Any) -> Control:
     raise TypeError("the inverted law takes its gains from the vehicle: use law.bound(vehicle)")
 
 
-def _law(gains: Gains, reference: Reference) -> Law:
+def _law(gains: Gains, options: dict[str, str], reference: Reference, path: Path) -> Law:
     def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
-        return inverted_control(t, state, vehicle, k, reference, forces)
+        return inverted_control(t, state, vehicle, k, path, forces, light="form" in options)
 
     return Law(
         name="inverted",
         e3="up",
-        gains=vars(gains),
+        gains={**vars(gains), **options},
         control=control,
         computer=computer_of(gains),
         uses_forces=True,
         reference=reference,
+        along=lambda other: _law(gains, options, reference, other),
     )
 
 
 def inverted_control(
-    t: Any, state: State, vehicle: Vehicle, k: Gains, reference: Reference, forces: tuple[Any, Any]
+    t: Any,
+    state: State,
+    vehicle: Vehicle,
+    k: Gains,
+    path: Path,
+    forces: tuple[Any, Any],
+    *,
+    light: bool = False,
 ) -> Control:
     """The law for symbols of `t` (s) and `state`.
 
-    `vehicle`, gains `k` and `reference` as in `inverted`; `forces` are the estimated external forces on vehicle and
-    bob, each (3, 1), N.
+    `vehicle` and gains `k` as in `inverted`; `path` is what pivot and bob follow; `forces` are the estimated external
+    forces on vehicle and bob, each (3, 1), N; `light` chooses the form.
     """
     z, z_dot = state.z, apply(state.R, cross(state.omega, E3))
-    p_ref, v_ref, a_ref, jerk_ref, y_ref = bob_reference(t, reference, vehicle, forces[1])
-    height = state.x[2] - reference(t)[2]
+    x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
+    v_ref, a_ref, jerk_ref = derivatives(p_ref, t, 3)
+    height = state.x[2] - x_ref[2]
+
+    def errors_at(y: Any, y_dot: Any) -> tuple[Any, Any]:
+        return state.x + vehicle.l * y - p_ref, state.x_dot + vehicle.l * y_dot - v_ref
 
     def force(y: Any, y_dot: Any) -> Any:
-        e, v = state.x + vehicle.l * y - p_ref, state.x_dot + vehicle.l * y_dot - v_ref
-        return rod_force(e, v, a_ref, jerk_ref, y, y_dot, height, forces, vehicle, k)
+        return rod_force(*errors_at(y, y_dot), a_ref, jerk_ref, y, y_dot, height, forces, vehicle, k)
 
     # The thrust is for the rod as it is; its axis is for the rod after coasting over the time that turning takes.
-    f = ca.fmin(ca.fmax(dot(force(state.y, state.y_dot), z), 0), largest_thrust(vehicle))
-    wanted = lifted(force(*coasted(state.y, state.y_dot, k.coast_time)), k.tilt_limit)
-    wanted = wanted + 0.028 * vehicle.weight * E3  # ε e₃: off zero
+    ahead = coasted(state.y, state.y_dot, k.coast_time)
+    held, values = [], []
+    if light:  # one force for both, of a demand that is held while the rest is differentiated
+        e, v = errors_at(*ahead)
+        wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
+        held, values = [ca.SX.sym(name, 3) for name in Demand._fields], list(wish)
+        turned = present = steering_force(Demand(*held), v[2], *ahead, height, forces, vehicle, k)
+    else:
+        present, turned = force(state.y, state.y_dot), force(*ahead)
+    f = ca.fmin(ca.fmax(dot(present, z), 0), largest_thrust(vehicle))
+    wanted = lifted(turned, k.tilt_limit) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
     z_d = scale(1 / smooth_norm(wanted, 0.006 * vehicle.weight), wanted)
 
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
     z_d_dot = lie_derivative(z_d, state, rates, t)
+    if light:  # the demand's own rates, its direction turning steadily: d̈ = 0
+        A, d, A_dot, d_dot = held
+        z_d_dot = z_d_dot + ca.jtimes(z_d, ca.vertcat(A, d), ca.vertcat(A_dot, d_dot))
+        f, z_d, z_d_dot = ca.substitute([f, z_d, ca.densify(z_d_dot)], held, values)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
     spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π
     stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
@@ -113,4 +155,4 @@ def inverted_control(
 
 
 inverted.gains_for = lambda vehicle: vars(gains_for(vehicle)).copy()  # type: ignore[attr-defined]
-inverted.known_gains = tuple(BOUNDS)  # type: ignore[attr-defined]
+inverted.known_gains = (*BOUNDS, "form")  # type: ignore[attr-defined]

@@ -12,6 +12,7 @@ from typing import Any
 import casadi as ca
 
 from flypend import errors
+from flypend.laws.references import Path
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
 
@@ -99,6 +100,8 @@ class Law:
         Position (3, 1) of the pivot that the law holds or follows, as a CasADi function of time; None for none.
     for_vehicle : callable, optional
         For a law that takes its gains from the vehicle: the law with the gains for a vehicle.
+    along : callable, optional
+        For a bound law that follows a path: the same law along another path (see `laws.references.Path`).
     """
 
     name: str
@@ -110,6 +113,7 @@ class Law:
     uses_forces: bool = False
     reference: Callable[[Any], Any] | None = None
     for_vehicle: Callable[[Vehicle], Law] | None = None
+    along: Callable[[Path], Law] | None = None
 
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))
@@ -161,6 +165,9 @@ class Controller:
         Numbers to keep with the run.
     computer : Computer
         Lead, prediction and observer around it in a sampled flight.
+    source : callable, optional
+        `source(vehicle, lead)` gives a function (t, packed state (24,) with e₃ up, modelled rotor forces (n,), external
+        forces (6,)) → rotor commands (n,) that stands for law, allocation and lead in a plant with limits.
     """
 
     name: str
@@ -170,6 +177,7 @@ class Controller:
     reference: Callable[[Any], Any] | None = None
     gains: Mapping[str, Any] = field(default_factory=dict)
     computer: Computer = field(default_factory=Computer)
+    source: Callable[[Vehicle, float], Callable[..., Any]] | None = None
 
     def __post_init__(self) -> None:
         errors.one_of("controller.e3", self.e3, ("up", "down"))

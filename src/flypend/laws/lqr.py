@@ -21,8 +21,8 @@ from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, norm, scale
 from flypend.laws.law import Control, Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
-from flypend.laws.references import Reference, hover
-from flypend.laws.throw import bob_reference
+from flypend.laws.references import Path, Reference, hover
+from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle, Wrench
 
 # (1 + cos θ)/2 in the size of an error never counts as less than this: it has a direction up to the antipode only.
@@ -79,14 +79,20 @@ def lqr(
 
     @cache
     def for_vehicle(vehicle: Vehicle) -> Law:
-        K = gain_matrix(vehicle, given)
-
-        def control(t: Any, state: State, vehicle: Vehicle, _: Any) -> Control:
-            return lqr_control(t, state, vehicle, K, followed)
-
-        return Law(name="lqr", e3="up", gains=given, control=control, reference=followed)
+        return _law(given, gain_matrix(vehicle, given), followed, carrying(followed))
 
     return Law(name="lqr", e3="up", gains=given, control=_unbound, reference=followed, for_vehicle=for_vehicle)
+
+
+def _law(gains: Any, K: Any, reference: Reference, path: Path) -> Law:
+    return Law(
+        name="lqr",
+        e3="up",
+        gains=gains,
+        control=lambda t, state, vehicle, _: lqr_control(t, state, vehicle, K, path),
+        reference=reference,
+        along=lambda other: _law(gains, K, reference, other),
+    )
 
 
 def _unbound(*_: Any) -> Control:
@@ -120,13 +126,13 @@ def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
     return np.diag(1 / np.array(state) ** 2), np.diag(1 / wrench**2)
 
 
-def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, reference: Reference) -> Control:
-    """The law with the gain matrix `K` (4, 16), for symbols of `t` (s) and `state` of `vehicle`, along `reference`.
+def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, path: Path) -> Control:
+    """The law with the gain matrix `K` (4, 16), for symbols of `t` (s) and `state` of `vehicle`, along `path`.
 
-    The reference wrench is the one that carries rod and vehicle along the reference; for hover it is the weight.
+    The reference wrench is the one that carries rod and vehicle along the path; for hover it is the weight.
     """
     I = vehicle.I
-    x_ref, v_ref, y_ref, z_ref, f_ref = flat_reference(t, reference, vehicle)
+    x_ref, v_ref, y_ref, z_ref, f_ref = flat_reference(t, path, vehicle)
     y_ref_dot = ca.jacobian(y_ref, t)
     turn = cross(z_ref, ca.jacobian(z_ref, t))  # angular velocity of z_ref, world frame
     omega_ref, alpha_ref = apply(state.R.T, turn), apply(state.R.T, ca.jacobian(turn, t))
@@ -170,14 +176,13 @@ def errors_of(state: State, x_ref: Any, v_ref: Any, z_ref: Any, omega_ref: Any, 
     return ca.vertcat(seen(e), e[2], seen(v), v[2], tilt, rates)
 
 
-def flat_reference(t: Any, reference: Reference, vehicle: Vehicle) -> tuple[Any, Any, Any, Any, Any]:
-    """Position and velocity of the pivot, rod, thrust axis and thrust with which `vehicle` follows `reference`(`t`).
+def flat_reference(t: Any, path: Path, vehicle: Vehicle) -> tuple[Any, Any, Any, Any, Any]:
+    """Position and velocity of the pivot, rod, thrust axis and thrust with which `vehicle` follows `path` at `t`.
 
     The force on both bodies together is F = M (ẍ + g e₃) + m (p̈ + g e₃) with p = x + l y the bob.
     """
-    _, _, p_ddot, _, y_ref = bob_reference(t, reference, vehicle, ca.SX.zeros(3))
-    x_ref = reference(t)
-    v_ref = ca.jacobian(x_ref, t)
-    F = vehicle.M * ca.jacobian(v_ref, t) + vehicle.m * p_ddot + vehicle.weight * E3
+    x_ref, p_ref, y_ref = path(t, vehicle, ca.SX.zeros(3))
+    v_ref, a_ref = derivatives(x_ref, t, 2)
+    F = vehicle.M * a_ref + vehicle.m * derivatives(p_ref, t, 2)[-1] + vehicle.weight * E3
     f_ref = norm(F)
     return x_ref, v_ref, y_ref, scale(1 / f_ref, F), f_ref

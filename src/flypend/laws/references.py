@@ -11,6 +11,9 @@ import numpy as np
 from flypend import errors
 
 Reference = Callable[[Any], Any]
+# What a law follows once the rod is in it: (t, vehicle, external force on the bob) → positions of pivot and bob, and
+# direction of the rod, each (3, 1) and a function of time.
+Path = Callable[[Any, Any, Any], tuple[Any, Any, Any]]
 
 
 def hover(x: Any = (0.0, 0.0, 0.0)) -> Reference:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E1, E3, cross, dot, scale, tangent_part, unit
+from flypend.geometry import E1, E3, cross, dot, norm, scale, tangent_part, unit
 from flypend.laws.inverted_gains import Gains
-from flypend.laws.references import Reference
+from flypend.laws.references import Path, Reference
 from flypend.laws.sphere import velocity_error
 from flypend.model import Vehicle
 
@@ -17,23 +17,36 @@ from flypend.model import Vehicle
 ANTIPODE_SHIFT = 0.03
 
 
+def carrying(reference: Reference) -> Path:
+    """The path of a bob carried so that the pivot is at `reference`(t).
+
+    The rod leans along g e₃ − F_b/m + p̈ with p = x_ref + l y, which is solved by two fixed-point steps; each shrinks
+    the error by (rate of the reference)² l/g.
+    """
+
+    def path(t: Any, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any]:
+        x_ref = reference(t)
+        support = vehicle.g * E3 - on_bob / vehicle.m
+        y = unit(support)
+        for _ in range(2):
+            acceleration = derivatives(x_ref + vehicle.l * y, t, 2)[-1]
+            y = unit(support + acceleration)
+        return x_ref, x_ref + vehicle.l * y, y
+
+    return path
+
+
 def bob_reference(t: Any, reference: Reference, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any, Any, Any]:
     """Position of the bob, its first three derivatives, and rod direction, for the pivot to be at `reference`(`t`).
 
-    The rod leans along g e₃ − F_b/m + p̈ with p = x_ref + l y, which is solved by two fixed-point steps; each shrinks
-    the error by (rate of the reference)² l/g. `on_bob` is the external force F_b on the bob of `vehicle`, N.
+    `on_bob` is the external force F_b on the bob of `vehicle`, N. See `carrying`.
     """
-    x_ref = reference(t)
-    support = vehicle.g * E3 - on_bob / vehicle.m
-    y = unit(support)
-    for _ in range(2):
-        acceleration = _derivatives(x_ref + vehicle.l * y, t, 2)[-1]
-        y = unit(support + acceleration)
-    position = x_ref + vehicle.l * y
-    return position, *_derivatives(position, t, 3), y
+    _, position, y = carrying(reference)(t, vehicle, on_bob)
+    return position, *derivatives(position, t, 3), y
 
 
-def _derivatives(value: Any, t: Any, count: int) -> list[Any]:
+def derivatives(value: Any, t: Any, count: int) -> list[Any]:
+    """The first `count` derivatives of the expression `value` with respect to the symbol `t`."""
     out = []
     for _ in range(count):
         value = ca.jacobian(value, t)
@@ -96,16 +109,51 @@ def rod_force(
     vehicle, k
         The vehicle and the gains.
     """  # fmt: skip
+    wish = demand(e, v, a_ref, jerk_ref, y, y_dot, vehicle.g * E3 - on[1] / vehicle.m, k)
+    return steering_force(wish, v[2], y, y_dot, height, on, vehicle, k)
+
+
+class Demand(NamedTuple):
+    """What the bob asks of the rod, each (3, 1): A, its direction d, and the rates of both."""
+
+    A: Any
+    d: Any
+    A_dot: Any
+    d_dot: Any
+
+
+def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Gains) -> Demand:
+    """A, d = A/|A|, Ȧ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ḋ = P_d Ȧ/|A|.
+
+    The law is a function of errors that are expressions themselves, so the derivative is taken on symbols of its own.
+    Arguments as in `rod_force`.
+    """
+    at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
+    asked = weight + at[2] + bob_acceleration(at[0], at[1], at[3], k)
+    rates = ca.vertcat(at[1], scale(dot(asked, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
+    rate = ca.jtimes(asked, ca.vertcat(*at), rates)
+    A, A_dot = ca.substitute([asked, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
+    length = norm(A)
+    d = A / length
+    return Demand(A, d, A_dot, tangent_part(d, A_dot) / length)
+
+
+def steering_force(
+    wish: Demand, climb: Any, y: Any, y_dot: Any, height: Any, on: tuple[Any, Any], vehicle: Vehicle, k: Gains
+) -> Any:
+    """Force on the quadrotor (3, 1), N, that turns the rod to the demand `wish` of a bob rising at `climb` m/s.
+
+    Other arguments as in `rod_force`.
+    """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     on_vehicle, on_bob = on
-    weight = vehicle.g * E3 - on_bob / m
-    A, d, d_dot = _demand(e, v, a_ref, jerk_ref, y, y_dot, weight, k)
+    A, d, _, d_dot = wish
 
     # Rod on S²: Lemma 2 towards d without the acceleration of d, its stiffness turned round until the flip is allowed.
     omega_d = cross(d, d_dot)
     v_e = velocity_error(y, y_dot, d, d_dot)
     low = low_rod(y, k)
-    share = 1 - low * (1 - flip_permission(y, height, v[2], k)) * (1 + k.hanging_share)
+    share = 1 - low * (1 - flip_permission(y, height, climb, k)) * (1 + k.hanging_share)
     pull = tangent_part(y, d + ANTIPODE_SHIFT * low * E1)
     u = share * k.rod_bandwidth**2 * pull - 2 * k.rod_damping * k.rod_bandwidth * v_e
     u = u + scale(dot(y, omega_d), cross(y, y_dot))
@@ -130,25 +178,9 @@ def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Gains) -> Any
     return (M + m) * A - scale(M * l * k.pump_rate * missing, push)
 
 
-def _demand(
-    e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Gains
-) -> tuple[Any, Any, Any]:
-    """A, its direction d, and ḋ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`.
-
-    The law is a function of errors that are expressions themselves, so the derivative is taken on symbols of its own.
-    """
-    at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
-    demand = weight + at[2] + bob_acceleration(at[0], at[1], at[3], k)
-    direction = unit(demand)
-    rates = ca.vertcat(at[1], scale(dot(demand, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
-    rate = ca.jtimes(direction, ca.vertcat(*at), rates)
-    A, d, d_dot = ca.substitute([demand, direction, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
-    return A, d, d_dot
-
-
-def largest_thrust(vehicle: Vehicle) -> float:
+def largest_thrust(vehicle: Vehicle) -> Any:
     """Sum of the largest rotor forces, N."""
-    return float(vehicle.rotor_limits[1] * len(vehicle.rotor_spins))
+    return vehicle.rotor_limits[1] * len(vehicle.rotor_spins)
 
 
 def limited_force(F: Any, limit: Any) -> Any:

@@ -39,12 +39,22 @@ def allocate(thrust: Any, moment: Any, vehicle: Vehicle) -> Any:
     per_thrust, per_yaw = unmixing[:, 0], unmixing[:, 3]
     if not (np.allclose(per_thrust, 1 / n) and np.allclose(np.abs(per_yaw), np.abs(per_yaw[0]))):
         raise InputError("rotor_positions", "rotors that share thrust and yaw equally", "an asymmetric vehicle")
-    low, high = vehicle.rotor_limits
-    asked = ca.mtimes(unmixing[:, 1:3], moment[:2])
+    return within(thrust, moment, unmixing[:, 1:3], np.abs(per_yaw[0]), np.sign(per_yaw), vehicle.rotor_limits)
+
+
+def within(thrust: Any, moment: Any, tilting: Any, yawing: Any, spins: Any, limits: Any) -> Any:
+    """The same from numbers or symbols of the vehicle: `thrust` and `moment` as in `allocate`.
+
+    `tilting` (n, 2) are the forces per moment of roll and pitch, `yawing` the size of those of yaw, 1/m; `spins` (n,)
+    the signs of the latter, as numbers; `limits` the least and the largest force, N.
+    """
+    n = len(spins)
+    low, high = limits[0], limits[1]
+    asked = ca.mtimes(tilting, moment[:2])
     scaled: dict[int, Any] = {}
     reach: dict[int, tuple[Any, Any]] = {}
     for spin in (1, -1):
-        members = [int(i) for i in np.flatnonzero(np.sign(per_yaw) == spin)]
+        members = [int(i) for i in np.flatnonzero(spins == spin)]
         most = reduce(ca.fmax, [asked[i] for i in members])
         least = reduce(ca.fmin, [asked[i] for i in members])
         factor = ca.fmin(1, (high - low) / ca.fmax(most - least, 1e-9 * high))
@@ -52,10 +62,8 @@ def allocate(thrust: Any, moment: Any, vehicle: Vehicle) -> Any:
         reach[spin] = (low - factor * least, high - factor * most)
     (a_low, a_high), (b_low, b_high) = reach[1], reach[-1]
     mean = _clip(thrust / n, (a_low + b_low) / 2, (a_high + b_high) / 2)
-    q = _clip(
-        np.abs(per_yaw[0]) * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low)
-    )
-    forces = ca.vertcat(*(scaled[i] + mean + np.sign(per_yaw[i]) * q for i in range(n)))
+    q = _clip(yawing * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low))
+    forces = ca.vertcat(*(scaled[i] + mean + spins[i] * q for i in range(n)))
     return _clip(forces, low, high)  # roundoff
 
 

@@ -9,10 +9,12 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.compile.closed_loop import upright_wrench
 from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
 from flypend.geometry import apply, cross
 from flypend.laws.law import Controller, Law
-from flypend.model import State, Vehicle, Wrench
+from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.actuation import Actuation, rotor_forces
 from flypend.plants.equations import EquationsEngine
@@ -97,6 +99,11 @@ def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Cal
     setting = (vehicle, plant.limits, plant.interface, plant.rate_loop_gain, usable_lead(law, vehicle, plant))
     if isinstance(law, Law):
         return _compiled_command(law, *setting)
+    if law.source is not None:
+        if plant.interface != "wrench" or not plant.limits:
+            expected = f"rotor forces within limits, such as rotors or mujoco, for {law.name}"
+            raise InputError("plant", expected, "another")
+        return law.source(vehicle, usable_lead(law, vehicle, plant))
     finish, sign = _finish_command(*setting), 1.0 if law.e3 == "up" else FLIP_PACKED
 
     def call(t: float, state: Any, rotors: Any, _: Any) -> Any:
@@ -140,12 +147,8 @@ def law_command(
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
     rotors, external = ca.SX.sym("r", len(vehicle.rotor_spins)), ca.SX.sym("F", 6)
     gains = {name: p[i] for i, name in enumerate(parameters)}
-    wrench: Wrench = law.evaluate(t, State.symbolic(packed), vehicle, (external[:3], external[3:]), gains).wrench
-    stacked = ca.vertcat(wrench.thrust, wrench.moment)
-    if law.e3 == "down":
-        own = ca.Function("wrench", [t, packed, external, p], [stacked])
-        stacked = own(t, packed * FLIP_PACKED, external, p) * np.array([-1.0, 1.0, -1.0, -1.0])
-    command = _finish(stacked, packed, rotors, vehicle, limits, interface, rate_gain, lead)
+    wrench = upright_wrench(law, t, packed, vehicle, external, gains)
+    command = _finish(wrench, packed, rotors, vehicle, limits, interface, rate_gain, lead)
     return ca.Function("command", [t, packed, rotors, external, p], [ca.cse(ca.densify(command))])
 
 
@@ -166,7 +169,12 @@ def _finish(
         omega = State.symbolic(packed).omega
         free = moment - cross(omega, apply(vehicle.I, omega))
         return ca.vertcat(thrust, omega + apply(vehicle.I_inv, free) / rate_gain)
-    command = rotors + lead * (rotor_forces(thrust, moment, vehicle, limits) - rotors)
+    command = led(rotor_forces(thrust, moment, vehicle, limits), rotors, lead)
     if limits:
         command = ca.fmin(ca.fmax(command, vehicle.rotor_limits[0]), vehicle.rotor_limits[1])
     return ca.if_else(ca.norm_1(wrench) < np.inf, command, np.nan)
+
+
+def led(wanted: Any, rotors: Any, lead: Any) -> Any:
+    """Commands (n,), N, that bring `rotors`, modelled forces (n,), to the `wanted` forces; `lead` as in `Computer`."""
+    return rotors + lead * (wanted - rotors)

@@ -11,7 +11,7 @@ from flypend import __version__, files
 from flypend.experiments.claims import Verdict, theorem_claims
 from flypend.metrics import metrics
 from flypend.report import text
-from flypend.report.staging import staged
+from flypend.staging import staged
 from flypend.trajectory import Trajectory
 
 VIEWS = ("side", "axis")

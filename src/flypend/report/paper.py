@@ -18,8 +18,8 @@ from flypend.metrics import metrics
 from flypend.model import State, vehicle
 from flypend.report import text
 from flypend.report.flight import Task, figure_tasks, movie_tasks
-from flypend.report.staging import staged
 from flypend.simulate import simulate
+from flypend.staging import staged
 from flypend.style import style_named
 from flypend.trajectory import Trajectory
 

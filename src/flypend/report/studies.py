@@ -12,8 +12,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from flypend import __version__
-from flypend.report.staging import staged
 from flypend.report.text import write_json
+from flypend.staging import staged
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
 from flypend.studies.hehn import Tracking

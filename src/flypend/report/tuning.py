@@ -12,9 +12,9 @@ from flypend import __version__
 from flypend.files import save_figure
 from flypend.page import LABEL, SMALL, new_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
-from flypend.report.staging import staged
 from flypend.report.text import write_json
 from flypend.runfile import toml_text
+from flypend.staging import staged
 from flypend.tune import Tuned
 
 WIDTH = 7.16  # of two columns of a paper, in

@@ -1,0 +1,71 @@
+"""Flights of the exported law beside the Python one, and of the light form beside the full one.
+
+    python benchmarks/export_flights.py --runs 500 --plant mujoco
+    python benchmarks/export_flights.py --forms --runs 1000 --seed 2024
+
+prints success, excursion and settling of the same random starts: under the Python law and its C in both precisions, or
+under both forms of the law in harder and harder plants.
+"""
+
+import argparse
+
+import flypend as fp
+from flypend.export import compiled
+from flypend.plants.plant import MOTION_CAPTURE
+from flypend.studies.starts import random_starts
+
+
+def main() -> None:
+    """Fly and print one line per controller."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--runs", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--plant", default="rotors")
+    parser.add_argument("--vehicle", default="hehn2011")
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--forms", action="store_true")
+    parser.add_argument("--only", help="part of the name of a controller")
+    given = parser.parse_args()
+    vehicle = fp.vehicle(given.vehicle)
+    starts = random_starts(given.runs, given.seed)
+    for name, make, plant in forms() if given.forms else controllers(vehicle, given.plant):
+        if given.only and given.only not in name:
+            continue
+        runs = fp.simulate_ensemble(vehicle, make(), starts, 10.0, plant=plant, workers=given.workers)
+        low, high = runs.interval
+        print(
+            f"{name:28} success {runs.rate:.1%} of {len(runs)} (95 % {low:.1%} to {high:.1%}), "
+            f"excursion p50 {runs.percentile('excursion', 50):.2f} p95 {runs.percentile('excursion', 95):.2f} m, "
+            f"settling p50 {runs.percentile('settling', 50):.2f} p95 {runs.percentile('settling', 95):.2f} s",
+            flush=True,
+        )
+
+
+def controllers(vehicle, plant):
+    """Python and C in one plant."""
+    law = fp.laws.inverted()
+    return [
+        ("Python", lambda: law, plant),
+        ("C double", lambda: compiled(law, vehicle), plant),
+        ("C float", lambda: compiled(law, vehicle, "float"), plant),
+    ]
+
+
+def forms():
+    """Both forms of the law in harder and harder plants."""
+    off = {"mass": 1.1, "bob_mass": 0.9, "rod_length": 1.1, "inertia": 1.1}
+    hard = {
+        "rotors": "rotors",
+        "40 ms lag, 100 Hz, 10 ms": fp.Plant(lag=0.04, rate=100.0, delay=0.01),
+        "10 % mismatch": fp.Plant(mismatch=off),
+        "motion capture noise": fp.Plant(noise=MOTION_CAPTURE),
+    }
+    return [
+        (f"{plant}, {form}", lambda form=form: fp.laws.inverted(form=form), hard[plant])
+        for plant in hard
+        for form in ("full", "light")
+    ]
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,6 @@
+"""The law as C99 for a flight computer, its adapters, and the compiled law flown in the loop."""
+
+from flypend.export.library import compiled
+from flypend.export.write import export_c
+
+__all__ = ["compiled", "export_c"]

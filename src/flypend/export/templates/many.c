@@ -1,0 +1,18 @@
+/* Many states in one call, for tests and measurements. */
+#include "flypend_law.h"
+
+void flypend_many(int count, const flypend_state *state, const flypend_reference *reference,
+                  const flypend_gains *gains, const flypend_params *params, flypend_wrench *wrench,
+                  flypend_rotors *rotors, int *status);
+
+void flypend_many(int count, const flypend_state *state, const flypend_reference *reference,
+                  const flypend_gains *gains, const flypend_params *params, flypend_wrench *wrench,
+                  flypend_rotors *rotors, int *status)
+{
+    for (int i = 0; i < count; i++) {
+        status[i] = (int)flypend_step(&state[i], &reference[i], gains, params, &wrench[i]);
+        if (status[i] == (int)FLYPEND_OK) {
+            status[i] = (int)flypend_mix(&wrench[i], params, &rotors[i]);
+        }
+    }
+}

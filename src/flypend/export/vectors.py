@@ -1,0 +1,82 @@
+"""Test vectors: what the law and the mixing answer in Python, from the equations with the vehicle's own numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.compile.c99 import Precision
+from flypend.export import records
+from flypend.export.interface import followed, streamed_wrench
+from flypend.laws.law import Law
+from flypend.model import State, Vehicle
+from flypend.plants.allocation import allocate
+
+COUNT, SEED = 100, 1
+# Spread of the random inputs: the pivot's path and its derivatives, m, m/s and so on; the external forces, weights.
+PATH_SPREAD, FORCE_SPREAD = 0.5, 0.05
+
+
+@dataclass(frozen=True)
+class Vectors:
+    """Inputs and outputs, each (n, length of its record)."""
+
+    state: Any
+    reference: Any
+    wrench: Any
+    rotors: Any
+
+
+def vectors(law: Law, vehicle: Vehicle, count: int, seed: int, precision: Precision) -> Vectors:
+    """`count` random states and references for the bound `law` of `vehicle`, and what Python answers.
+
+    Inputs are rounded to `precision` first; the answers are computed in double precision.
+    """
+    state, reference = random_inputs(vehicle, count, seed, precision)
+    answer = answers(law, vehicle)
+    wrench, rotors = (np.array(value).T for value in answer(state.T, reference.T))
+    return Vectors(state, reference, wrench, rotors)
+
+
+def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision) -> tuple[Any, Any]:
+    """Random numbers of `records.STATE`, and of `records.REFERENCE` on random paths, rounded to `precision`."""
+    rng = np.random.default_rng(seed)
+    start = State.random(rng, count)
+    packed = start.packed()
+    packed[:, :3] = rng.uniform(-2, 2, (count, 3))
+    forces = FORCE_SPREAD * vehicle.weight * rng.uniform(-1, 1, (count, 6))
+    state = records.state_numbers(packed, forces)
+    path = PATH_SPREAD * rng.uniform(-1, 1, (count, records.PATH.length))
+    reference = np.array(path_reference(vehicle)(path.T, state.T)).T
+    return rounded(state, precision), rounded(reference, precision)
+
+
+def rounded(values: Any, precision: Precision) -> Any:
+    """`values` as a number of `precision` holds them, in double precision."""
+    return values.astype(np.float32).astype(float) if precision == "float" else values
+
+
+@lru_cache(maxsize=16)
+def answers(law: Law, vehicle: Vehicle) -> Any:
+    """The CasADi function (state (30), reference (30)) → wrench (4), rotor forces (n) of the bound `law`."""
+    state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
+    wrench = streamed_wrench(law, vehicle, state, reference)
+    rotors = ca.densify(allocate(wrench[0], wrench[1:], vehicle))
+    return ca.Function("answers", [state, reference], ca.cse([wrench, rotors]))
+
+
+@lru_cache(maxsize=16)
+def path_reference(vehicle: Vehicle) -> Any:
+    """The CasADi function (path (27), state (30)) → numbers of `records.REFERENCE`."""
+    path, state = ca.SX.sym("path", records.PATH.length), ca.SX.sym("state", records.STATE.length)
+    return ca.Function("path_reference", [path, state], [ca.cse(followed(vehicle, path, state))])
+
+
+def scales(vehicle: Vehicle) -> tuple[float, float]:
+    """Thrust (N) and moment (N m) below which a difference counts absolutely: hover, and its lever."""
+    arm = float(np.sqrt(np.mean(np.sum(vehicle.rotor_positions[:, :2] ** 2, axis=1))))
+    return vehicle.weight, vehicle.weight * arm

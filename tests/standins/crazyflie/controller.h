@@ -1,0 +1,12 @@
+/* Stand-in: the functions that the firmware calls of an out-of-tree controller. */
+#ifndef STANDIN_CONTROLLER_H
+#define STANDIN_CONTROLLER_H
+#include <stdbool.h>
+
+#include "stabilizer_types.h"
+
+void controllerOutOfTreeInit(void);
+bool controllerOutOfTreeTest(void);
+void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
+                         const state_t *state, const stabilizerStep_t stabilizerStep);
+#endif

@@ -1,0 +1,2 @@
+// Stand-in: see uorb.hpp.
+#include <uORB/uorb.hpp>

@@ -1,0 +1,2 @@
+// Stand-in: see messages.hpp.
+#include <geometry_msgs/msg/messages.hpp>

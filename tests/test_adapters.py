@@ -1,0 +1,172 @@
+"""The adapters of the exported law, compiled against stand-in headers and flown on numbers converted in Python."""
+
+import ctypes
+
+import numpy as np
+import pytest
+from cbuild import STANDINS, build, run
+from scipy.spatial.transform import Rotation
+
+import flypend as fp
+from flypend import geometry as geo
+from flypend.export import records, vectors
+
+VEHICLE = fp.vehicle("hehn2011")
+LAW = fp.laws.inverted().bound(VEHICLE)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return fp.export_c(LAW, VEHICLE, tmp_path_factory.mktemp("adapters"))
+
+
+@pytest.fixture(scope="module")
+def single(tmp_path_factory):
+    return fp.export_c(LAW, VEHICLE, tmp_path_factory.mktemp("single"), precision="float")
+
+
+@pytest.fixture(scope="module")
+def frames(folder):
+    sources = ("adapters/flypend_frames.c",)
+    return ctypes.CDLL(str(build(folder, sources, "frames.so", flags=("-shared", "-fPIC", "-I."))))
+
+
+def _pointer(array):
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+def _states(count=20, seed=3):
+    rng = np.random.default_rng(seed)
+    start = fp.State.random(rng, count)
+    return fp.State(x=rng.uniform(-2, 2, (count, 3)), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)  # fmt: skip  # noqa: E501
+
+
+def _bob(state):
+    return state.x + VEHICLE.l * state.y, state.x_dot + VEHICLE.l * state.y_dot
+
+
+def _quat_xyzw(R):
+    return Rotation.from_matrix(R).as_quat()
+
+
+def _hover_wrench(state, target):
+    """What Python answers at a single state that is to hover at `target`."""
+    path = np.zeros(records.PATH.length)
+    path[:3] = target
+    numbers = records.state_numbers(state.packed(), np.zeros(6))
+    reference = vectors.path_reference(VEHICLE)(path, numbers)
+    wrench, rotors = vectors.answers(LAW, VEHICLE)(numbers, reference)
+    return np.array(wrench).ravel(), np.array(rotors).ravel()
+
+
+def _lines(text):
+    return [np.array(line.split(), dtype=float) for line in text.splitlines()]
+
+
+# Frames and units -----------------------------------------------------------------------------------------------
+
+
+def test_quaternions_degrees_and_rods_are_those_of_python(frames):
+    frames.flypend_radians.restype = ctypes.c_double
+    assert frames.flypend_radians(ctypes.c_double(-90.0)) == pytest.approx(-np.pi / 2, rel=1e-15)
+    states, R, y, y_dot = _states(), np.empty(9), np.empty(3), np.empty(3)
+    for state in states:
+        x, y_, z, w = 1.7 * _quat_xyzw(state.R)  # of any length
+        frames.flypend_rotation_of_wxyz(*(ctypes.c_double(value) for value in (w, x, y_, z)), _pointer(R))
+        assert np.allclose(R.reshape(3, 3), geo.rotation_from_quat_xyzw([x, y_, z, w]), atol=1e-14)
+        assert np.allclose(R.reshape(3, 3), state.R, atol=1e-14)
+        inputs = [np.array(value) for value in (state.x, state.x_dot, *_bob(state))]
+        frames.flypend_rod(*map(_pointer, inputs), _pointer(y), _pointer(y_dot))
+        assert np.allclose(y, state.y, atol=1e-14)
+        assert np.allclose(y_dot, state.y_dot, atol=1e-13)
+
+
+def test_a_bob_at_the_pivot_and_no_quaternion_give_zeros_that_the_law_refuses(frames):
+    zero, y, y_dot, R = np.zeros(3), np.ones(3), np.ones(3), np.ones(9)
+    frames.flypend_rod(*[_pointer(zero)] * 4, _pointer(y), _pointer(y_dot))
+    frames.flypend_rotation_of_wxyz(*[ctypes.c_double(0)] * 4, _pointer(R))
+    assert not np.any([*y, *y_dot, *R])
+
+
+def test_what_goes_along_the_rod_is_dropped(frames):
+    state, y, y_dot = _states(1)[0], np.empty(3), np.empty(3)
+    bob, bob_dot = _bob(state)
+    inputs = [np.array(v) for v in (state.x, state.x_dot, bob, bob_dot + 0.7 * state.y)]
+    frames.flypend_rod(*map(_pointer, inputs), _pointer(y), _pointer(y_dot))
+    assert np.allclose(y_dot, state.y_dot, atol=1e-13)
+
+
+def test_north_east_down_is_the_flipped_state_of_python(frames):
+    for state in _states(5):
+        other, R = state.flipped(), np.empty(9)
+        for name in ("x", "x_dot", "omega", "y", "y_dot"):
+            to = np.array(getattr(other, name))
+            frames.flypend_flip(_pointer(to), _pointer(to))
+            assert np.allclose(to, getattr(state, name), rtol=0, atol=1e-15)
+        frames.flypend_flip_rotation(_pointer(np.ascontiguousarray(other.R)), _pointer(R))
+        assert np.allclose(R.reshape(3, 3), state.R, rtol=0, atol=1e-15)
+
+
+# Adapters -------------------------------------------------------------------------------------------------------
+
+
+def test_the_crazyflie_controller_asks_for_the_wrench_of_the_law(single):
+    sources = ("flypend_law.c", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c")
+    flags = ("-I.", f"-I{STANDINS / 'crazyflie'}")
+    program = build(single, (*sources, STANDINS / "fly_crazyflie.c"), "fly_crazyflie", flags=flags)
+    state, target = _states(1)[0], np.array([0.3, -0.2, 0.4])
+    bob, bob_dot = _bob(state)
+    numbers = [*state.x, *state.x_dot, *_quat_xyzw(state.R), *np.degrees(state.omega), *bob, *bob_dot, *target]
+    first, skipped, still, old = _lines(
+        run([str(program)], given=" ".join(map(repr, map(float, [*numbers, *[0.0] * 6]))))
+    )
+    wrench, _ = _hover_wrench(state, target)
+    assert np.allclose(first[:4], wrench, rtol=1e-4, atol=1e-5)
+    assert first[4] == 1  # controlModeForceTorque
+    assert np.array_equal(skipped, [-1, -1, -1, -1, 0])  # 500 of 1000 steps
+    assert np.array_equal(still, first)
+    assert np.array_equal(old, [0, 0, 0, 0, 1])  # nobody saw the bob for 102 ms: no thrust
+
+
+def test_the_px4_module_sees_the_state_and_commands_the_rotors(folder):
+    sources = ("flypend_law.c", "adapters/flypend_frames.c")
+    objects = [f"{name.split('/')[-1]}.o" for name in sources]
+    for name, target in zip(sources, objects, strict=True):
+        build(folder, (name,), target, flags=("-c", "-I."))
+    flags = ("-I.", "-Iadapters", f"-I{STANDINS / 'px4'}")
+    sources = (*objects, "adapters/flypend_px4.cpp", STANDINS / "fly_px4.cpp")
+    program = build(folder, sources, "fly_px4", "g++", flags)
+    state, target = _states(1)[0], np.array([0.3, -0.2, 0.4])
+    ned = state.flipped()
+    flip = np.array([1.0, -1.0, -1.0])
+    x, y, z, w = _quat_xyzw(ned.R)
+    bob, bob_dot = _bob(ned)
+    numbers = [*ned.x, *ned.x_dot, w, x, y, z, *ned.omega, *bob, *bob_dot, *(flip * target)]
+    seen, path, motors, late = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    assert np.allclose(seen, state.packed(), atol=2e-6)  # PX4 speaks single precision
+    assert np.allclose(path, [*target, *[0.0] * 24], atol=1e-6)  # and open entries, NaN, count as 0
+    _, rotors = _hover_wrench(state, target)
+    assert np.allclose(motors, rotors / VEHICLE.rotor_limits[1], atol=1e-4)
+    least, largest = VEHICLE.rotor_limits
+    assert np.allclose(late, least / largest, atol=1e-6)  # a bob that is 0.2 s old is no bob
+
+
+def test_the_ros_2_function_answers_in_newtons(folder):
+    for name, target in (("flypend_law.c", "law.o"), ("adapters/flypend_frames.c", "frames.o")):
+        build(folder, (name,), target, flags=("-c", "-I."))
+    flags = ("-I.", "-Iadapters", f"-I{STANDINS / 'ros2'}")
+    sources = ("law.o", "frames.o", "adapters/flypend_ros2.cpp", STANDINS / "fly_ros2.cpp")
+    program = build(folder, sources, "fly_ros2", "g++", flags)
+    state, target = _states(1)[0], np.array([0.3, -0.2, 0.4])
+    bob, bob_dot = _bob(state)
+    twist = state.R.T @ state.x_dot  # of an odometry, in the body frame
+    numbers = [*state.x, *_quat_xyzw(state.R), *twist, *state.omega, *bob, *bob_dot, *target]
+    seen, answer = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    assert np.allclose(seen, state.packed(), atol=1e-13)
+    wrench, _ = _hover_wrench(state, target)
+    assert np.allclose(answer[:4], wrench, rtol=1e-10)
+    assert answer[4] == 0
+    numbers[3:7] = [0.0] * 4  # no attitude
+    _, answer = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    assert answer[4] != 0
+    assert np.allclose(answer[:4], [4 * VEHICLE.rotor_limits[0], 0, 0, 0])

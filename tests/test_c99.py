@@ -1,0 +1,94 @@
+"""Scalar programs as C99: each operation, literals, order."""
+
+import ctypes
+
+import casadi as ca
+import numpy as np
+import pytest
+from cbuild import build
+
+import flypend as fp
+from flypend.compile.c99 import literal, statements
+from flypend.compile.program import Operation, Program, lower
+
+
+def _compiled(program, folder, precision="double"):
+    """The C function of `program` with one input and one output vector, on NumPy arrays."""
+    inputs = [[f"in[{i}]" for i in range(program.inputs[0])]]
+    outputs = [[f"out[{i}]" for i in range(len(program.outputs[0]))]]
+    body = "\n".join(statements(program, inputs, outputs, precision))
+    head = f"#include <math.h>\ntypedef {precision} flypend_real;\nvoid f(const flypend_real *in, flypend_real *out);\n"
+    (folder / "f.c").write_text(f"{head}void f(const flypend_real *in, flypend_real *out)\n{{\n{body}\n}}\n")
+    library = ctypes.CDLL(str(build(folder, ("f.c",), "f.so", flags=("-shared", "-fPIC"))))
+    real = np.float64 if precision == "double" else np.float32
+
+    def call(values):
+        given, found = np.array(values, dtype=real), np.empty(len(program.outputs[0]), dtype=real)
+        library.f(given.ctypes.data_as(ctypes.c_void_p), found.ctypes.data_as(ctypes.c_void_p))
+        return found
+
+    return call
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_every_operation_means_what_casadi_means(tmp_path, precision):
+    a, b = ca.SX.sym("a"), ca.SX.sym("b")
+    x = ca.vertcat(a, b)
+    values = ca.vertcat(
+        a + b, a - b, a * b, a / b, -a, ca.sqrt(a * a + 1), ca.fabs(a), ca.fmin(a, b), ca.fmax(a, b), ca.sign(a),
+        a < b, a <= b, ca.eq(a, b), ca.ne(a, b), ca.logic_not(a), ca.logic_and(a, b), ca.logic_or(a, b),
+        ca.if_else(a < b, a, 2), a**3, b**-2, 3 * (-2.5 - a),
+    )  # fmt: skip
+    function = ca.Function("f", [x], [ca.densify(values)])
+    program = lower(function)
+    assert {
+        "fabs",
+        "fmin",
+        "fmax",
+        "sign",
+        "lt",
+        "le",
+        "eq",
+        "ne",
+        "not",
+        "and",
+        "or",
+        "sqrt",
+    } <= program.counts().keys()
+    call = _compiled(program, tmp_path, precision)
+    tolerance = 1e-15 if precision == "double" else 5e-7
+    for pair in [(1.0, 1.0), (0.0, 2.0), (-1.5, 0.5), (2.0, -3.0), (0.0, -0.25), (-2.0, -2.0)]:
+        wanted = np.array(function(pair)).ravel()
+        assert np.allclose(call(pair), wanted, rtol=tolerance, atol=tolerance), pair
+
+
+def test_other_functions_of_the_library_are_refused():
+    x = ca.SX.sym("x")
+    program = lower(ca.Function("f", [x], [ca.sin(x)]))
+    with pytest.raises(fp.InputError, match="law: expected no function of the C library but the square root, got sin"):
+        statements(program, [["x"]], [["*y"]], "double")
+
+
+def test_literals_are_exact_in_their_precision():
+    rng = np.random.default_rng(1)
+    for value in [0.0, 1.0, -2.0, 1e-9, 1e30, *np.exp(rng.uniform(-60, 60, 50))]:
+        assert float(literal(value, "double")) == value
+        text = literal(value, "float")
+        assert text.endswith("f")
+        assert np.float32(text[:-1]) == np.float32(value)
+    for value in (1e39, 1e-60, np.nan):
+        with pytest.raises(fp.InputError, match="precision: expected finite numbers that it can hold"):
+            literal(value, "float")
+    with pytest.raises(fp.InputError, match="precision"):
+        literal(np.inf, "double")
+
+
+def test_a_constant_below_zero_keeps_its_sign_behind_a_minus():
+    # 1 - -2 without a space, or with --2, would not compile or decrement.
+    program = Program("f", (1,), (Operation("input", (0, 0)), Operation("constant", (), -2.0), Operation("sub", (0, 1)),
+                                  Operation("neg", (2,))), ((3,),))  # fmt: skip
+    assert statements(program, [["x"]], [["y"]], "double") == [
+        "const flypend_real v0 = x - (-2.0);",
+        "const flypend_real v1 = -v0;",
+        "y = v1;",
+    ]

@@ -38,14 +38,14 @@ bench: setup
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
 # rebuilds the bundle of the pages.
-TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake
+TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake chromium
 AS_ROOT := $(shell test "$$(id -u)" = 0 || echo sudo)
 
+INSTALL := $(AS_ROOT) apt-get update --quiet=2 && $(AS_ROOT) apt-get install --yes --quiet=2 --no-install-recommends
+
 test-tools:
-	dpkg -s $(TEST_PACKAGES) >/dev/null 2>&1 || { $(AS_ROOT) apt-get update --quiet=2 \
-	    && $(AS_ROOT) apt-get install --yes --quiet=2 --no-install-recommends $(TEST_PACKAGES); }
-	command -v chromium >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 chromium; }
-	command -v npm >/dev/null || { apt-get update --quiet=2 && apt-get install --yes --quiet=2 npm; }
+	dpkg -s $(TEST_PACKAGES) >/dev/null 2>&1 || { $(INSTALL) $(TEST_PACKAGES); }
+	command -v npm >/dev/null || { $(INSTALL) npm; }
 
 # Bundles web/ into src/flypend/web, which is tracked: whoever installs flypend needs no npm.
 web:

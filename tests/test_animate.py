@@ -85,10 +85,12 @@ def test_seen_along_gravity_the_rod_shrinks_to_the_middle(run):
 
 def test_both_frames_give_the_same_movie(run):
     times = run.t[[0, 30, 60, 90, 300]]
-    one, other = pictures(run, times), pictures(run.flipped(), times)
+    # Both from the samples: the flipped run has no dense output.
+    sampled = dataclasses.replace(run, interpolant=None)
+    one, other = pictures(sampled, times), pictures(run.flipped(), times)
     scene = slice(0, round(640 * (1 - 0.215)))  # below it the legend names the poles of y₃: hanging or inverted
     difference = np.abs(one.astype(int) - other)
-    assert difference[:, scene].max() <= 8  # of 255: rounding at the edges of lines, which may fall on another pixel
+    assert difference[:, scene].max() <= 3  # of 255: rounding at the edges of lines
     assert difference[:, scene.stop :].max() > 100
 
 

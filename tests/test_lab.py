@@ -116,7 +116,7 @@ def test_the_verdict_names_what_the_law_is_to_do():
     told = verdict(fly(setting), tuned(setting.flight))
     judged = fp.metrics.metrics(fly(setting))
     assert told["good"] is judged.success is True
-    assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {judged.excursion:.3g} m"
+    assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])
     told = verdict(fly(preset), tuned(preset.flight))
     assert "which hangs" in told["words"]

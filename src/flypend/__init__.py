@@ -8,8 +8,11 @@ from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.outcome import Outcome
 from flypend.plants import Noise, Plant, Wind
+from flypend.sensitivity import Sensitivity, sensitivity
 from flypend.simulate import simulate
+from flypend.sweep import Study, study, sweep
 from flypend.trajectory import Trajectory, load
+from flypend.tune import Objective, Tuned, tune
 
 __version__ = "0.1.0"
 
@@ -19,17 +22,25 @@ __all__ = [
     "InputError",
     "Law",
     "Noise",
+    "Objective",
     "Outcome",
     "Plant",
+    "Sensitivity",
     "State",
+    "Study",
     "Trajectory",
+    "Tuned",
     "Vehicle",
     "Wind",
     "Wrench",
     "export_c",
     "laws",
     "load",
+    "sensitivity",
     "simulate",
     "simulate_ensemble",
+    "study",
+    "sweep",
+    "tune",
     "vehicle",
 ]

@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 from typer.exceptions import TyperException
 
-from flypend import __version__, viewing
+from flypend import __version__, cli_studies, viewing
 from flypend.errors import InputError
 from flypend.terminal import bold, console, counter, progress
 from flypend.viewing import Style
@@ -26,6 +26,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
 )
 app.add_typer(viewing.app)
+app.add_typer(cli_studies.app)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 

@@ -146,30 +146,63 @@ def simulate_ensemble(
                 raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
         return _one_by_one(vehicle, law, starts, duration, plant, rtol, criterion, engine, workers, progress)
 
-    bound, names = law.bound(vehicle), tuple(gains or ())
-    columns = [_column(name, value, len(starts)) for name, value in (gains or {}).items()]
+    bound = law.bound(vehicle)
+    kept = None if times is None else errors.array("times", times, (None,))
+    flown = fly_packed(
+        vehicle, bound, starts.packed(), duration, plant=plant, rtol=rtol, gains=gains, criterion=criterion,
+        times=kept, judge_period=judge_period, method=method, precision=precision, workers=workers, progress=progress,
+    )  # fmt: skip
+    columns = judged(flown.reductions, flown.status, flown.end, vehicle, criterion)
+    return Ensemble(
+        starts=starts, final=flown.final, law=bound.name, vehicle=vehicle.name, times=kept, samples=flown.samples,
+        **columns,
+    )  # fmt: skip
+
+
+def fly_packed(
+    vehicle: Vehicle,
+    law: Law,
+    packed: Any,
+    duration: float,
+    *,
+    plant: str | Plant,
+    rtol: float,
+    criterion: Criterion,
+    gains: Mapping[str, Any] | None = None,
+    times: Any = None,
+    judge_period: float = SAMPLE_PERIOD,
+    method: str | None = None,
+    precision: str = "double",
+    max_steps: int | None = None,
+    workers: int | None = None,
+    progress: Callable[[int, int], Any] = lambda *_: None,
+) -> Flown:
+    """What `simulate_ensemble` flies with a kernel, from `packed` states (n, 24) that are trusted, a `law` being bound.
+
+    A run that needs more than `max_steps` steps is given up as diverged. The others of
+    duration, plant, rtol, criterion, gains, times, judge_period, method, precision, workers, progress are those of
+    `simulate_ensemble`, and so is what raises InputError.
+    """
+    names = tuple(gains or ())
+    columns = [_column(name, value, len(packed)) for name, value in (gains or {}).items()]
     values = np.stack(columns, axis=1) if columns else None
     duration = errors.number("duration", duration, above=0, unit="s")
     period = errors.number("judge_period", judge_period, above=0, unit="s")
     grid = np.linspace(0.0, duration, max(2, round(duration / period) + 1))
-    packed = starts.packed()
     if isinstance(plant, Plant):
         if times is not None or method is not None or precision != "double":
             raise errors.InputError("times, method, precision", "nothing, in a sampled flight", "a value")
-        flown = sampled_kernel(vehicle, bound, plant.replace(seed=0), criterion, names).fly(
+        return sampled_kernel(vehicle, law, plant.replace(seed=0), criterion, names).fly(
             packed, duration, ticks=nearest_ticks(grid, plant, duration), first_seed=plant.seed, parameters=values,
             workers=workers, progress=progress,
         )  # fmt: skip
-        return _ensemble(flown, starts, vehicle, bound, criterion)
     rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
-    chosen = method or method_for(rtol, bound)
-    kernel = ideal_kernel(vehicle, bound, criterion, names, method=chosen, precision=precision)
-    kept = None if times is None else errors.array("times", times, (None,))
-    flown = kernel.fly(
-        packed, duration, rtol=rtol, parameters=values, times=grid if kept is None else kept, keep=kept is not None,
-        workers=workers, progress=progress,
+    chosen = method or method_for(rtol, law)
+    kernel = ideal_kernel(vehicle, law, criterion, names, method=chosen, precision=precision)
+    return kernel.fly(
+        packed, duration, rtol=rtol, parameters=values, times=grid if times is None else times, keep=times is not None,
+        max_steps=max_steps, workers=workers, progress=progress,
     )  # fmt: skip
-    return _ensemble(flown, starts, vehicle, bound, criterion, kept)
 
 
 def _column(name: str, value: Any, runs: int) -> Any:
@@ -178,21 +211,6 @@ def _column(name: str, value: Any, runs: int) -> Any:
     if given.shape not in ((), (runs,)):
         raise errors.InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")
     return np.broadcast_to(given, (runs,))
-
-
-def _ensemble(
-    flown: Flown, starts: State, vehicle: Vehicle, law: Law, criterion: Criterion, times: Any = None
-) -> Ensemble:
-    columns = judged(flown.reductions, flown.status, flown.end, vehicle, criterion)
-    return Ensemble(
-        starts=starts,
-        final=flown.final,
-        law=law.name,
-        vehicle=vehicle.name,
-        times=times,
-        samples=flown.samples,
-        **columns,
-    )
 
 
 def _one_by_one(

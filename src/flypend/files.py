@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+FIGURES = (".png", ".pdf", ".svg")
+
+
 def save_figure(figure: Figure, path: str | Path) -> None:
     """Write `figure` to `path` (.png at its dots per inch, .pdf or .svg), whole or not at all.
 
@@ -21,7 +24,7 @@ def save_figure(figure: Figure, path: str | Path) -> None:
     """
     import matplotlib as mpl  # here, for those who write other files
 
-    with whole_file(path, (".png", ".pdf", ".svg")) as partial:
+    with whole_file(path, FIGURES) as partial:
         # Type 42 keeps text in a PDF as text, which publishers ask for; no dates, so equal figures are equal files.
         metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(partial.suffix.lower())
         with mpl.rc_context({"pdf.fonttype": 42, "svg.hashsalt": "flypend"}):

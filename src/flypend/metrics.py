@@ -117,6 +117,16 @@ def _since(t: Any, bad: Any) -> float:
     return float(t[place]) if place < len(t) else float("inf")
 
 
+def wilson_bounds(successes: Any, runs: Any) -> tuple[Any, Any]:
+    """Wilson intervals (n,), 95 %, of many success rates: `successes` (n,) out of `runs` (n,); 0 to 1 for no runs."""
+    n, z = np.maximum(runs, 1), 1.959963984540054
+    share = np.asarray(successes) / n
+    middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
+    half = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
+    none = np.asarray(runs) == 0
+    return np.where(none, 0.0, np.maximum(middle - half, 0)), np.where(none, 1.0, np.minimum(middle + half, 1))
+
+
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:
     """Wilson interval of a success rate: `successes` out of `runs`, at `confidence`."""
     from scipy.stats import binomtest  # takes half a second, which a single run does not wait for

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, fields
 from typing import Any
@@ -65,7 +67,7 @@ def flight_of(settings: dict[str, Any]) -> Flight:
     """The flight that `settings`, the content of a TOML file, describe. Raises InputError as `flight`."""
     try:
         for key, value in settings.items():
-            _check_plain(key, value)
+            check_plain(key, value)
         with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
             return _build(_complete(settings))
     except RecursionError:
@@ -80,18 +82,18 @@ def _read(what: str) -> dict[str, Any]:
     raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
 
 
-def _check_plain(key: str, value: Any) -> None:
+def check_plain(key: str, value: Any) -> None:
     """Refuse what TOML can say and no setting is: a date, an integer beyond 64 bits, a list of anything but numbers."""
     if not key.isprintable():
         raise InputError("run", "printable keys", repr(key))
     if isinstance(value, dict):
         for name, entry in value.items():
-            _check_plain(f"{key}.{name}", entry)
+            check_plain(f"{key}.{name}", entry)
     elif isinstance(value, list):
         for entry in value:
             if isinstance(entry, bool | str | dict):
                 raise InputError(key, "a list of numbers", repr(value))
-            _check_plain(key, entry)
+            check_plain(key, entry)
     elif not isinstance(value, bool | int | float | str):
         raise InputError(key, "a number, a word, a list or a table", value)
     elif isinstance(value, int) and not -(2**63) <= value < 2**63:
@@ -112,23 +114,65 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     if "experiment" in out:
         row = experiment(str(out["experiment"]))
         start = {name: getattr(row.start, name).tolist() for name in SHAPES}
-        out["start"] = start | _table(out, "start")
-        law = {"name": "corrected"} | _table(out, "law")
+        out["start"] = start | table_at(out, "start")
+        law = {"name": "corrected"} | table_at(out, "law")
         gains = dict(row.gains) if law["name"] in ("printed", "corrected") else {}
-        out["law"] = law | {"gains": gains | _table(law, "gains", "law.gains")}
-        out["vehicle"] = {"base": row.vehicle.name} | _table(out, "vehicle")
+        out["law"] = law | {"gains": gains | table_at(law, "gains", "law.gains")}
+        out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")
         out["duration"] = out.get("duration", row.duration)
     for key in ("vehicle", "law", "start", "duration"):
         if key not in out:
             raise InputError(key, "a value (or `experiment`, which brings one)", "nothing")
-    chosen = _table(out, "vehicle")
-    if "base" in chosen:
-        chosen = vehicle(chosen.pop("base")).to_dict() | chosen
-    out["vehicle"] = chosen
+    out["vehicle"] = vehicle_table(out["vehicle"])
     return out
 
 
-def _plant(value: Any) -> str | Plant:
+def vehicle_table(value: Any) -> dict[str, Any]:
+    """All fields of the vehicle that a name, or a table of fields on top of `base`, stands for. Raises InputError."""
+    chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
+    if "base" in chosen:
+        chosen = vehicle(chosen.pop("base")).to_dict() | chosen
+    return chosen
+
+
+def start_of(table: dict[str, Any]) -> State:
+    """The single state that a table of fields says; messages begin with `start`. Raises InputError."""
+    errors.only_known("start", table, SHAPES)
+    if "y" not in table:
+        raise InputError("start.y", "a unit vector", "nothing")
+    try:
+        state = State(**table)
+    except InputError as error:
+        raise InputError(f"start.{error.field}", error.expected, error.got) from None
+    if state.batch_shape:
+        raise InputError("start", "a single state", f"a batch of shape {state.batch_shape}")
+    return state
+
+
+def toml_text(settings: Mapping[str, Any], name: str = "") -> str:
+    """`settings` (numbers, words, lists of them, tables) as TOML that reads back as the same."""
+    plain = [f"{_toml_key(key)} = {_toml_value(v)}\n" for key, v in settings.items() if not isinstance(v, Mapping)]
+    tables = [(f"{name}.{_toml_key(key)}".lstrip("."), v) for key, v in settings.items() if isinstance(v, Mapping)]
+    return "".join([*plain, *(f"\n[{path}]\n{toml_text(v, path)}" for path, v in tables)])
+
+
+def _toml_key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _toml_word(key)
+
+
+def _toml_value(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_toml_value, value))}]"
+    if isinstance(value, str):
+        return _toml_word(value)
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+def _toml_word(word: str) -> str:
+    return json.dumps(word, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def plant_of(value: Any) -> str | Plant:
     """A plant by name, or as a table of its fields on top of `base` (default "rotors"), noise and wind as tables."""
     if isinstance(value, str):
         return errors.one_of("plant", value, ("ideal", *PRESETS))
@@ -138,7 +182,7 @@ def _plant(value: Any) -> str | Plant:
     base = plant(given.pop("base", "rotors"))
     for key, kind in (("noise", Noise), ("wind", Wind)):
         if key in given:
-            table = _table(given, key)
+            table = table_at(given, key)
             errors.only_known(f"plant.{key}", table, [entry.name for entry in fields(kind)])
             given[key] = kind(**table)
     return base.replace(**given)
@@ -151,7 +195,8 @@ def _controller(law: Law, vehicle: Vehicle, kind: Any) -> Law | Controller:
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 
-def _table(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
+def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
+    """The table called `key` of `settings`, empty if there is none; `field` for messages. Raises InputError."""
     value = settings.get(key, {})
     if not isinstance(value, dict):
         raise InputError(field or key, "a table", repr(value))
@@ -182,23 +227,13 @@ def _override(settings: dict[str, Any], text: str) -> None:
 
 def _build(settings: dict[str, Any]) -> Flight:
     errors.only_known("", settings, KEYS)
-    start = _table(settings, "start")
-    errors.only_known("start", start, SHAPES)
-    if "y" not in start:
-        raise InputError("start.y", "a unit vector", "nothing")
-    try:
-        state = State(**start)
-    except InputError as error:
-        raise InputError(f"start.{error.field}", error.expected, error.got) from None
-    if state.batch_shape:
-        raise InputError("start", "a single state", f"a batch of shape {state.batch_shape}")
-    vehicle = Vehicle.from_dict(_table(settings, "vehicle"))
+    vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
     return Flight(
         vehicle=vehicle,
-        law=_controller(law_from_dict(_table(settings, "law")), vehicle, settings.get("controller", "python")),
-        start=state,
+        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")),
+        start=start_of(table_at(settings, "start")),
         duration=errors.number("duration", settings["duration"], above=0, unit="s"),
-        plant=_plant(settings.get("plant", "ideal")),
+        plant=plant_of(settings.get("plant", "ideal")),
         rtol=errors.number("rtol", settings.get("rtol", 1e-9), above=0),
         settings=settings,
     )

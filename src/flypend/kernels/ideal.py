@@ -49,6 +49,8 @@ class IdealKernel:
         Gains that may differ from run to run.
     function : callable
         The compiled kernel.
+    key : str
+        What determines the kernel, processor and versions apart.
     """
 
     vehicle: Vehicle
@@ -56,6 +58,7 @@ class IdealKernel:
     criterion: Criterion
     parameters: tuple[str, ...]
     function: Any
+    key: str
 
     def fly(
         self,
@@ -68,6 +71,7 @@ class IdealKernel:
         times: Any = (),
         keep: bool = False,
         judge: bool = True,
+        max_steps: int | None = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -87,6 +91,8 @@ class IdealKernel:
             Whether the states at these times are kept, too.
         judge : bool
             Whether the runs are judged; without it `Flown.reductions` is None.
+        max_steps : int
+            A run that needs more is given up as diverged; default a million.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -94,11 +100,11 @@ class IdealKernel:
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = self.values(parameters, len(starts))
-        moments = _closed(times)
-        atol = rtol if atol is None else atol
+        moments = closed(times)
+        setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
         def fly(part: slice, out: Flown) -> None:
-            _call(self.function, starts[part], values[part], (duration, rtol, atol), moments, out)
+            call(self.function, starts[part], values[part], setting, moments, out)
 
         return in_pieces(fly, _memory(len(starts), moments, keep, judge), PIECE, workers, progress)
 
@@ -134,13 +140,13 @@ def integrate(
     `values` (1, k) are those of its parameters, `duration` (s), `rtol`, `atol` and `times` as in `IdealKernel.fly`.
     `knots` receives the number of accepted steps and four numbers for each: its time, and the drift from the manifold.
     """
-    moments = _closed(times)
+    moments = closed(times)
     out = _memory(1, moments, True, False)
-    _call(function, start[None], values, (duration, rtol, atol), moments, out, knots)
+    call(function, start[None], values, (duration, rtol, atol, MAX_STEPS), moments, out, knots)
     return out
 
 
-def _closed(times: Any) -> Any:
+def closed(times: Any) -> Any:
     """`times` with infinity at the end, where a kernel stops looking for the next."""
     return np.append(np.asarray(times, dtype=float), np.inf)
 
@@ -149,18 +155,22 @@ def _memory(runs: int, moments: Any, keep: bool, judge: bool) -> Flown:
     return Flown.of_size(runs, SIZE, samples=(len(moments) - 1, SIZE) if keep else None, steps=True, judged=judge)
 
 
-def _call(
+def call(
     function: jit.Native,
     starts: Any,
     values: Any,
-    setting: tuple[float, float, float],
+    setting: tuple[float, float, float, int],
     moments: Any,
     out: Flown,
     knots: Any = None,
 ) -> None:
-    """Call `function` for contiguous arrays: `setting` is duration, rtol and atol, and `out` is written."""
+    """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
+
+    `setting` is duration (s), rtol, atol and the most steps; `moments` are sample times as `closed` gives them; `out`
+    is written, and `knots` as in `integrate`.
+    """
     function(
-        address(starts), address(values), len(starts), *setting, MAX_STEPS, address(moments), len(moments) - 1,
+        address(starts), address(values), len(starts), *setting, address(moments), len(moments) - 1,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         address(out.steps), address(knots),
     )  # fmt: skip
@@ -208,8 +218,8 @@ def ideal_kernel(
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    function = jit.build(f"ideal {method} {precision} {problem!r}", module, "kernel", kinds)
-    return IdealKernel(vehicle, law, criterion, parameters, function)
+    key = f"ideal {method} {precision} {problem!r}"
+    return IdealKernel(vehicle, law, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
 
 
 def method_for(rtol: float, law: Law) -> str:

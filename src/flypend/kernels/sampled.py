@@ -47,6 +47,8 @@ class SampledKernel:
         Gains that may differ from run to run.
     function : callable
         The compiled kernel.
+    key : str
+        What determines the kernel, processor and versions apart.
     """
 
     vehicle: Vehicle
@@ -55,6 +57,7 @@ class SampledKernel:
     criterion: Criterion
     parameters: tuple[str, ...]
     function: Any
+    key: str
 
     def fly(
         self,
@@ -158,8 +161,8 @@ def sampled_kernel(
         return lanes.module
 
     kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    function = jit.build(f"sampled {problem!r}", module, "kernel", kinds)
-    return SampledKernel(vehicle, law, plant, criterion, parameters, function)
+    key = f"sampled {problem!r}"
+    return SampledKernel(vehicle, law, plant, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
 
 
 def sampled_problem(

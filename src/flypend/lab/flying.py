@@ -72,7 +72,7 @@ def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
 def verdict(run: Trajectory, machine: Tuned) -> dict[str, Any]:
     """Whether `run` does what its law is to do: words, whether it is good, and the numbers."""
     judged = metrics(run, machine.criterion)
-    distance = f"excursion {judged.excursion:.3g} m"
+    distance = f"excursion {round(judged.excursion, 2):.3g} m"
     if run.outcome.status != "completed":
         words = f"{run.outcome.status} after {run.outcome.time:.3g} s"
     elif judged.success:

@@ -175,13 +175,17 @@ def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> t
 
 
 def tangent_basis(at: State) -> Any:
-    """E = ∂s/∂ξ (24, 16): the columns span the tangent space at `at`, a single state with ω = 0 and ẏ = 0."""
+    """E = ∂s/∂ξ (24, 16): the columns span the tangent space at `at`, a single state.
+
+    Where the rod moves, its ẏ turns with y: b moves y, and −(b·ẏ) y keeps ẏ tangent.
+    """
     b = _plane(at.y)
     E = np.zeros((SIZE, len(COORDINATES)))
     E[0:6, 0:6] = np.eye(6)
     E[6:15, 6:9] = (at.R @ hat(np.eye(3))).reshape(3, 9).T
     E[15:18, 9:12] = np.eye(3)
     E[18:21, 12:14] = E[21:24, 14:16] = b.T
+    E[21:24, 12:14] = -np.outer(at.y, b @ at.y_dot)
     return E
 
 

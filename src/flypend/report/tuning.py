@@ -1,0 +1,76 @@
+"""What `flypend tune` leaves behind: gains to fly with, the history of the search, and its picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from flypend import __version__
+from flypend.files import save_figure
+from flypend.page import LABEL, SMALL, new_figure
+from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
+from flypend.report.text import write_json
+from flypend.runfile import toml_text
+from flypend.staging import staged
+from flypend.tune import Tuned
+
+WIDTH = 7.16  # of two columns of a paper, in
+STYLES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (ORANGE, ":"), (GREY, (0, (5, 1, 1, 1, 1, 1))))
+
+
+def write_tuned(result: Tuned, out: str | Path) -> None:
+    """Write tuned.toml (for `flypend run`), history.json and history.png of `result` into the folder `out`.
+
+    Raises InputError if it cannot be written.
+    """
+    with staged(out) as folder:
+        words = f"# {told(result.before)} before,\n# {told(result.after)} with these gains.\n"
+        (folder / "tuned.toml").write_text(words + toml_text(result.settings()), encoding="utf-8")
+        content = {
+            "flypend": __version__,
+            "study": result.study.text(),
+            "tune": result.study.tune,
+            "before": result.before,
+            "after": result.after,
+            "history": result.history,
+        }
+        write_json(folder / "history.json", content)
+        save_figure(history_figure(result), folder / "history.png")
+
+
+def told(report: dict[str, Any]) -> str:
+    """Success and settling time of `report`, which is `Tuned.before` or `Tuned.after`, in words."""
+    settling = "-" if report["settling_p50"] is None else f"{report['settling_p50']:.3g} s"
+    return (
+        f"{100 * report['success']:.4g} % of {report['runs']} runs succeed "
+        f"({100 * report['wilson_low']:.4g} to {100 * report['wilson_high']:.4g} %), median settling {settling}, "
+        f"cost {report['cost']:.4g}"
+    )
+
+
+def history_figure(result: Tuned) -> Figure:
+    """Cost against runs flown, beside the cost before and after on the study's own starts; and gains at the centre."""
+    figure = new_figure(WIDTH, 2.9)
+    left, right = figure.subplots(1, 2)
+    runs = np.array([entry["runs"] for entry in result.history])
+    left.plot(runs, [entry["best"] for entry in result.history], color=BLUE, label="best so far, starts tuned on")
+    left.plot(runs, [entry["median"] for entry in result.history], color=GREY, ls="--", label="median of a generation")
+    left.axhline(result.before["cost"], color=RED, ls=":", label="before, starts of the study")
+    left.axhline(result.after["cost"], color=GREEN, ls="-.", label="after, starts of the study")
+    left.set_ylabel("cost (–)", fontsize=LABEL)
+    for i, name in enumerate(result.gains):
+        colour, style = STYLES[i % len(STYLES)]
+        values = np.array([entry["centre"][name] for entry in result.history]) / result.before["gains"][name]
+        right.plot(runs, values, color=colour, ls=style, label=f"{name} = {result.gains[name]:g}")
+    right.axhline(1.0, color=GREY, lw=0.6)
+    right.set_ylabel("gain over the one before (–)", fontsize=LABEL)
+    for axis in (left, right):
+        axis.set_yscale("log")
+        axis.set_xlabel("runs flown", fontsize=LABEL)
+        axis.tick_params(which="both", labelsize=SMALL)
+        axis.grid(visible=True, color="#e3e3e3", linewidth=0.5)
+        axis.legend(fontsize=SMALL, frameon=False)
+    return figure

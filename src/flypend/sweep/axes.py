@@ -1,0 +1,156 @@
+"""What varies in a study, as data: a range that is drawn from, a list that is gone through, or a uniform law."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+
+# Unit vectors and rotations are uniform; vectors uniform in a ball, rates of the rod in a disc; numbers have ranges.
+UNIFORM = {"y": 2, "R": 3}
+BALLS = {"x": ("ball", 3), "x_dot": ("ball", 3), "omega": ("ball", 3), "y_dot": ("disc", 2)}
+# The rod by angles, with e₃ up: tilt from inverted, azimuth, size of its rate, and heading of it (0: the tilt grows).
+ANGLES = ("tilt", "azimuth", "rate", "heading")
+MOST_POINTS = 100_000
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One thing that varies.
+
+    Parameters
+    ----------
+    group : "start", "gains" or "plant"
+        What it belongs to.
+    name : str
+        A field of the start or an angle, a gain, or a number of the plant ("mismatch.mass").
+    dimensions : int
+        Numbers that are drawn for it; 0 on a grid.
+    low, high : float
+        A range; of a ball or a disc, 0 and its radius.
+    log : bool
+        Whether the range is divided evenly in the logarithm.
+    values : tuple of float
+        Points of a grid.
+    """
+
+    group: str
+    name: str
+    dimensions: int
+    low: float = 0.0
+    high: float = 0.0
+    log: bool = False
+    values: tuple[float, ...] = ()
+
+    def at(self, u: Any) -> Any:
+        """Numbers of the range at shares u (n,) of it."""
+        if self.log:
+            return self.low * (self.high / self.low) ** u
+        return self.low + (self.high - self.low) * u
+
+
+def axes(table: Mapping[str, Any], gains: Mapping[str, float], plant: bool) -> tuple[Axis, ...]:
+    """What the table `vary` of a study says, for a law with `gains`, under a sampled `plant` or the ideal one.
+
+    Raises InputError for what is unknown or out of range.
+    """
+    errors.only_known("vary", table, ("start", "gains", "plant"))
+    found = []
+    for name, value in _table(table, "plant").items():
+        found += _plant_axes(name, value, plant)
+    for name, value in _table(table, "gains").items():
+        errors.only_known("vary.gains", [name], gains)
+        found.append(_range("gains", name, value))
+    start = _table(table, "start")
+    errors.only_known("vary.start", start, (*UNIFORM, *BALLS, *ANGLES))
+    for two, one in ((("tilt", "azimuth"), "y"), (("rate", "heading"), "y_dot")):
+        if one in start and set(two) & set(start):
+            raise InputError("vary.start", f"{one}, or " + " and ".join(two), "both")
+    if set(ANGLES[2:]) & set(start) and "y" in start:
+        raise InputError("vary.start", "rate and heading with tilt and azimuth", "them with y")
+    found += [_start_axis(name, value) for name, value in start.items()]
+    return tuple(found)
+
+
+def _table(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    value = table.get(key, {})
+    if not isinstance(value, Mapping):
+        raise InputError(f"vary.{key}", "a table", repr(value))
+    return value
+
+
+def _start_axis(name: str, value: Any) -> Axis:
+    if name in ANGLES:
+        axis = _range("start", name, value)
+        numbers = axis.values or (axis.low, axis.high)
+        if name == "tilt" and not (min(numbers) >= 0 and max(numbers) <= np.pi * (1 + 1e-9)):
+            raise InputError("vary.start.tilt", "angles from 0 (inverted) to pi (hanging), rad", numbers)
+        if name == "rate" and min(numbers) < 0:
+            raise InputError("vary.start.rate", "rates >= 0, 1/s", numbers)
+        return axis
+    if name in UNIFORM:
+        if value != "uniform":
+            raise InputError(f"vary.start.{name}", "'uniform'", repr(value))
+        return Axis("start", name, UNIFORM[name])
+    kind, dimensions = BALLS[name]
+    if not isinstance(value, Mapping) or set(value) != {kind}:
+        raise InputError(f"vary.start.{name}", f"{{ {kind} = radius }}", repr(value))
+    radius = errors.number(f"vary.start.{name}.{kind}", value[kind], above=0)
+    return Axis("start", name, dimensions, 0.0, radius)
+
+
+def _plant_axes(name: str, value: Any, sampled: bool) -> list[Axis]:
+    """Numbers of the plant, and those in its tables; each on a grid, since every value is a kernel of its own."""
+    if not sampled:
+        raise InputError("vary.plant", "a plant with numbers, such as 'rotors'", "the ideal plant")
+    if isinstance(value, Mapping) and not set(value) & {"from", "to", "points", "values", "scale"}:
+        return [axis for inner, entry in value.items() for axis in _plant_axes(f"{name}.{inner}", entry, sampled)]
+    axis = _range("plant", name, value)
+    if not axis.values:
+        raise InputError(f"vary.plant.{name}", "a grid (points or values): each is a program of its own", repr(value))
+    return [axis]
+
+
+def _range(group: str, name: str, value: Any) -> Axis:
+    """{from, to} to be drawn from, with {points} or {values} a grid; scale = "log" for ratios."""
+    field = f"vary.{group}.{name}"
+    if not isinstance(value, Mapping):
+        raise InputError(field, "{ from, to }, { from, to, points } or { values }", repr(value))
+    errors.only_known(field, value, ("from", "to", "points", "scale", "values"))
+    if "values" in value:
+        if len(value) > 1:
+            raise InputError(field, "values alone", repr(dict(value)))
+        listed = errors.array(f"{field}.values", value["values"], (None,))
+        _check_points(field, len(listed), 1)
+        return Axis(group, name, 0, values=tuple(listed.tolist()))
+    for key in ("from", "to"):
+        if key not in value:
+            raise InputError(f"{field}.{key}", "a number", "nothing")
+    log = errors.one_of(f"{field}.scale", value.get("scale", "linear"), ("linear", "log")) == "log"
+    low = errors.number(f"{field}.from", value["from"], above=0 if log else None)
+    high = errors.number(f"{field}.to", value["to"], above=low)
+    if not np.isfinite(high - low):
+        raise InputError(field, "a range whose length is a number", f"{low:g} to {high:g}")
+    if "points" not in value:
+        return Axis(group, name, 1, low, high, log)
+    points = integer(f"{field}.points", value["points"], 2)
+    _check_points(field, points, 2)
+    spaced = np.geomspace(low, high, points) if log else np.linspace(low, high, points)
+    return Axis(group, name, 0, values=tuple(spaced.tolist()))
+
+
+def _check_points(field: str, points: int, least: int) -> None:
+    if not least <= points <= MOST_POINTS:
+        raise InputError(f"{field}", f"{least} to {MOST_POINTS} points", points)
+
+
+def integer(field: str, value: Any, least: int) -> int:
+    """`value` as an integer of at least `least`. Raises InputError."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise InputError(field, f"an integer >= {least}", repr(value))
+    return value

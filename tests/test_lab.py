@@ -191,7 +191,12 @@ WRONG = [
     (asked("inverse"), "law.name"),
     (asked(gains={"rod_bandwith": 1}), "law.gains.rod_bandwith"),
     (asked(gains={"rod_bandwidth": float("nan")}), "law.gains.rod_bandwidth"),
-    (asked(gains={"rod_bandwidth": 1e9}), "law.gains.bandwidths"),
+    (asked(gains={"rod_bandwidth": 60.0}), "law.gains.bandwidths"),
+    (asked(gains={"rod_bandwidth": 1e9}), "law.gains.rod_bandwidth"),
+    (asked("lqr", gains={"rod_error": 1e-300}), "law.gains.rod_error"),
+    (asked(gains={"latency": 1e9}), "law.gains.latency"),
+    (asked(start={"y": [0, 0, 1], "omega": [1e5, 0, 0]}), "start.omega"),
+    (asked(start={"y": [0, 0, 1], "x": [1e300, 0, 0]}), "start.x"),
     (asked(gains={"rod_bandwidth": [1, 2]}), "law.gains.rod_bandwidth"),
     (asked(plant="mujoco"), "plant.engine"),
     (asked(plant={"base": "rotors", "rate": 1e9}), "plant.rate"),
@@ -314,6 +319,32 @@ def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
     assert len(begun) < 20
     assert sent[-1] == {"number": 200, "part": 1}
     assert threading.active_count() == 1 or not [t for t in threading.enumerate() if t.name.startswith("ThreadPool")]
+
+
+def test_what_nobody_foresaw_is_answered_and_the_next_question_too(caplog):
+    sent = []
+
+    def work(message, _):
+        if message["number"] == 1:
+            raise ZeroDivisionError("so it is")
+        yield {"number": message["number"]}
+
+    async def scenario():
+        with ThreadPoolExecutor(1) as pool:
+
+            async def send(reply):
+                sent.append(reply)
+
+            slot = Slot(pool, work, send)
+            for number in (1, 2):
+                slot.put({"number": number})
+                await slot.task
+
+    asyncio.run(scenario())
+    assert (sent[0]["kind"], sent[0]["number"]) == ("error", 1)
+    assert "ZeroDivisionError: so it is" in sent[0]["message"]
+    assert sent[1] == {"number": 2}
+    assert "ZeroDivisionError" in caplog.text
 
 
 # The server ---------------------------------------------------------------------------------------------------------

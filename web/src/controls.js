@@ -73,7 +73,8 @@ export function keys(actions) {
   document.addEventListener("keydown", (event) => {
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.target.closest("select, textarea, [data-keys]")) return; // who has keys of its own keeps them
+    if (event.target.closest("select, textarea")) return;
+    if (event.target.closest("[data-keys]") && event.key.length > 1) return; // a control with arrow keys of its own
     if (event.key === " " && event.target.closest("button")) event.target.blur();
     event.preventDefault();
     action(event.shiftKey);

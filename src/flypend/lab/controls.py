@@ -2,46 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict
-from functools import lru_cache
 from typing import Any
 
 from flypend.experiments import experiment, experiment_names
+from flypend.lab.gains import GAINS, gains_of, proposed_gains
 from flypend.lab.setting import LONGEST, law_of, plain
-from flypend.laws import Law
-from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
 from flypend.plants import MOTION_CAPTURE, Noise, Plant, Wind
 from flypend.plants import plant as plant_named
 from flypend.runfile import Flight
 
-# Gains that have sliders: words and unit.
-GAINS: Mapping[str, Mapping[str, tuple[str, str]]] = {
-    "inverted": {
-        "position_bandwidth": ("position", "rad/s"),
-        "height_bandwidth": ("height", "rad/s"),
-        "rod_bandwidth": ("rod", "rad/s"),
-        "rod_damping": ("rod damping", ""),
-        "attitude_bandwidth": ("attitude", "rad/s"),
-        "attitude_damping": ("attitude damping", ""),
-        "throw_speed": ("throw speed", "m/s"),
-        "coast_time": ("look ahead", "s"),
-    },
-    "lqr": {
-        "position_error": ("position error", "m"),
-        "velocity_error": ("velocity error", "m/s"),
-        "attitude_error": ("attitude error", "rad"),
-        "rate_error": ("rate error", "rad/s"),
-        "rod_error": ("rod error", "rad"),
-        "rod_rate_error": ("rod rate error", "rad/s"),
-        "thrust_deviation": ("thrust", "weights"),
-        "moment_deviation": ("moment", "weights"),
-    },
-    "corrected": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
-    "printed": {"k_d": ("k_d", "1/s"), "k_1": ("k_1", "1/s²"), "k_2": ("k_2", "1/s")},
-}
 PLANTS = {"ideal": "ideal", "rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 FACTOR = 4.0  # of a gain's slider, either way
@@ -94,18 +66,6 @@ def sliders(flight: Flight) -> list[dict[str, Any]]:
     if flight.plant != "ideal":
         out += _plant_sliders(plant_named(flight.plant), flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
-
-
-def gains_of(law: Law, vehicle: Vehicle) -> Mapping[str, Any]:
-    """The gains with which `law` flies `vehicle`."""
-    # The regulator knows its weights without its vehicle, and need not solve its equation for them.
-    return law.gains if law.name == "lqr" else law.bound(vehicle).gains
-
-
-@lru_cache(maxsize=64)
-def proposed_gains(name: str, vehicle: Vehicle) -> Mapping[str, Any]:
-    """The gains of the law called `name` for `vehicle` where nobody sets them."""
-    return gains_of(law_from_dict({"name": name}), vehicle)
 
 
 def _plant_sliders(plant: Plant, vehicle: Vehicle) -> list[dict[str, Any]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from flypend.kernels import IdealKernel, SampledKernel
 from flypend.kernels.single import Solution, sampled_samples
-from flypend.lab.controls import gains_of
+from flypend.lab.gains import gains_of
 from flypend.lab.setting import Poke, Setting, in_frame, law_of
 from flypend.lab.tuning import Tell, Tuned, tuned, values
 from flypend.metrics import metrics
@@ -82,7 +82,8 @@ def verdict(run: Trajectory, machine: Tuned) -> dict[str, Any]:
         missed = {"rod": "rod not settled", "axis": "vehicle not level", "position": "away from its place"}
         words = f"{missed.get(judged.cause, judged.cause)} during the last second, {distance}"
     settling = judged.settling if judged.success else None
-    return {"words": words, "good": bool(judged.success), "settling": settling, "excursion": judged.excursion}
+    excursion = judged.excursion if np.isfinite(judged.excursion) else None
+    return {"words": words, "good": bool(judged.success), "settling": settling, "excursion": excursion}
 
 
 def _seed(setting: Setting) -> int:

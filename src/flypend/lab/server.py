@@ -11,6 +11,7 @@ import ipaddress
 import json
 import signal
 import socket
+import threading
 import webbrowser
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -206,7 +207,7 @@ async def _serve(listening: socket.socket, host: str, browser: bool, announce: C
     url = address(host, listening.getsockname()[1])
     announce(url)
     if browser:
-        webbrowser.open(url)
+        threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()  # some wait for their user
     try:
         await stop.wait()
     finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import time
 from collections.abc import Awaitable, Callable, Iterator
 from concurrent.futures import Executor
@@ -18,6 +19,7 @@ from flypend.lab.map import region
 from flypend.lab.setting import plain, setting_of
 from flypend.lab.tuning import tuned
 
+log = logging.getLogger(__name__)
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands exhaust the parser
 KINDS = ("fly", "map", "stop")
 Send = Callable[[dict[str, Any]], Awaitable[Any]]
@@ -35,7 +37,6 @@ class Slot:
         self.pool, self.work, self.send = pool, work, send
         self.pending: Any = None
         self.task: asyncio.Task[None] | None = None
-        self.done = 0
 
     def put(self, message: Any) -> None:
         """Ask for `message`, instead of whatever waits."""
@@ -61,8 +62,15 @@ class Slot:
 
         replies = self.work(message, tell)
         while True:
-            reply = await loop.run_in_executor(self.pool, next, replies, None)
-            self.done += 1
+            try:
+                reply = await loop.run_in_executor(self.pool, next, replies, None)
+            except Exception as error:  # a page waits for an answer, and others for the server
+                log.exception("a setting could not be flown")
+                reason = f"{type(error).__name__}: {error}"
+                await self.send(
+                    refusal(InputError("setting", "one that can be computed", reason), message.get("number"))
+                )
+                return
             if reply is None or self.pending is False:
                 return
             await self.send(reply)

@@ -14,6 +14,7 @@ import numpy as np
 
 from flypend import errors, geometry
 from flypend.errors import InputError
+from flypend.lab.gains import GAINS, proposed_gains
 from flypend.laws import Law
 from flypend.model import State
 from flypend.model.state import FLIP, SHAPES
@@ -30,6 +31,9 @@ TABLES: Mapping[str, tuple[str, ...]] = {
 LONGEST, MOST_POKES = 30.0, 20
 # Bounds of what makes a flight long to compute: (least, largest).
 BOUNDS = {"rate": (20.0, 2000.0), "delay": (0.0, 0.2), "lag": (0.0, 1.0)}
+FURTHEST = 100.0  # of a gain from the one proposed, as a factor
+# Largest entries of a start, SI.
+LARGEST = {"x": 1e3, "x_dot": 1e3, "omega": 100.0, "y_dot": 100.0}
 BODIES = ("bob", "vehicle")
 
 
@@ -67,6 +71,8 @@ def setting_of(asked: Any) -> Setting:
     law = given.get("law")
     down = isinstance(law, dict) and law.get("name") in ("printed", "corrected")
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
+    if isinstance(law, dict) and law.get("name") in GAINS and isinstance(law.get("gains"), dict):
+        errors.only_known("law.gains", law["gains"], GAINS[law["name"]])
     flight = flight_of(given)
     _check_size(flight)
     _check_gains(flight)
@@ -92,9 +98,14 @@ def _start(given: Any) -> State:
         fields["y"] = y / length  # a page that drags the rod keeps neither length nor tangency
         y_dot = errors.array("y_dot", fields.get("y_dot", (0.0, 0.0, 0.0)), (3,))
         fields["y_dot"] = geometry.project_tangent(fields["y"], y_dot)
-        return State(**fields)
+        start = State(**fields)
     except InputError as error:
         raise InputError(f"start.{error.field}", error.expected, error.got) from None
+    for name, most in LARGEST.items():
+        largest = float(np.max(np.abs(getattr(start, name))))
+        if largest > most:
+            raise InputError(f"start.{name}", f"at most {most:g}", f"{largest:g}")
+    return start
 
 
 def _pokes(given: Any) -> tuple[Poke, ...]:
@@ -133,13 +144,18 @@ def _check_size(flight: Flight) -> None:
 
 
 def _check_gains(flight: Flight) -> None:
-    """Whether the law takes its gains for this vehicle, too."""
-    if law_of(flight).name == "lqr":  # each of its weights is one by itself, and its equation takes a while
-        return
-    try:
-        law_of(flight).bound(flight.vehicle)
-    except InputError as error:
-        raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
+    """Whether the law takes its gains for this vehicle, and its loops are no faster than steps can follow."""
+    law = law_of(flight)
+    proposed = proposed_gains(law.name, flight.vehicle)
+    for name, value in law.gains.items():
+        if name in GAINS[law.name] and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
+            expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
+            raise InputError(f"law.gains.{name}", expected, f"{value:g}")
+    if law.name != "lqr":  # each of its weights is one by itself, and its equation takes a while
+        try:
+            law.bound(flight.vehicle)
+        except InputError as error:
+            raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 
 
 def law_of(flight: Flight) -> Law:

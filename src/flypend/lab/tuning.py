@@ -15,7 +15,7 @@ import numpy as np
 from flypend.compile.closed_loop import symbolic_loop
 from flypend.criterion import Criterion
 from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel
-from flypend.lab.controls import GAINS, gains_of
+from flypend.lab.gains import GAINS, gains_of
 from flypend.lab.setting import law_of
 from flypend.laws import Law
 from flypend.laws.law import law_from_dict

@@ -66,4 +66,5 @@ def whole_file(path: str | Path, suffixes: Sequence[str]) -> Iterator[Path]:
     except OSError as error:
         raise errors.InputError(str(path), "a file that can be written", error.strerror or error) from None
     finally:
-        partial.unlink(missing_ok=True)
+        if path.parent.is_dir():
+            partial.unlink(missing_ok=True)

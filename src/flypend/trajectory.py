@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -170,19 +169,8 @@ class Trajectory:
 
         The file appears whole or not at all. Raises InputError if it cannot be written.
         """
-        path = Path(path)
-        if path.suffix != ".nc":
-            raise errors.InputError("path", "a file name ending in .nc", str(path))
-        dataset = self.to_xarray()
-        partial = path.with_name(f".{path.stem}.{os.getpid()}.partial.nc")
-        try:
-            dataset.to_netcdf(partial, engine="scipy")
-            partial.replace(path)
-        except OSError as error:
-            raise errors.InputError(str(path), "a file that can be written", error.strerror or error) from None
-        finally:
-            if path.parent.is_dir():
-                partial.unlink(missing_ok=True)
+        with whole_file(path, [".nc"]) as partial:
+            self.to_xarray().to_netcdf(partial, engine="scipy")
 
     def to_html(
         self,

@@ -28,7 +28,9 @@ def comparison_figure(comparison: Comparison) -> Figure:
             axis.step(values, share, where="post", color=SERIES[i % len(SERIES)], label=label, ls=_dash(i))
     axes[0].set(xlabel="time (s)", ylabel="runs settled by then (%)", ylim=(0, 102))
     axes[1].set(xlabel="largest distance from the reference (m)", ylabel="runs settled within (%)")
-    axes[0].legend(fontsize=SMALL, loc="lower right", frameon=False)
+    figure.legend(
+        *axes[0].get_legend_handles_labels(), fontsize=SMALL, loc="outside upper left", ncols=2, frameon=False
+    )
     for axis in axes:
         axis.set_xlim(left=0)
     _finish(axes)

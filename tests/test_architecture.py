@@ -173,6 +173,7 @@ PUBLIC = (
     "figures",
     "animate",
     "maps",
+    "lab",
 )
 
 # Records of the package: a parameter called as its class in small letters and annotated with it is documented there.

@@ -360,7 +360,7 @@ def test_an_unknown_key_is_refused_with_the_nearest_name():
         fp.Vehicle.from_dict({**GOOD, "bob_mas": 1})
     with refused("vehicle.rotor_spin", got="did you mean 'rotor_spins'?"):
         fp.vehicle("hehn2011").replace(rotor_spin=[1, -1, 1, -1])
-    with refused("vehicle", expected="one of hehn2011", got="'hehn2012' (did you mean 'hehn2011'?)"):
+    with refused("vehicle", expected="one of crazyflie, hehn2011", got="'hehn2012' (did you mean 'hehn2011'?)"):
         fp.vehicle("hehn2012")
     with refused("vehicle", got="'zzz'") as caught:
         fp.vehicle("zzz")

@@ -143,7 +143,7 @@ SLOW: Mapping[str, float] = MappingProxyType(
         "position_bandwidth": 0.30, "position_damping": 0.79, "height_bandwidth": 0.25, "height_damping": 0.79,
         "rod_bandwidth": 0.55, "rod_damping": 0.63, "attitude_bandwidth": 2.4, "attitude_damping": 0.67,
         "turn_rate": 1.15, "rate_feedforward": 0.26, "coast": 1.05, "throw_speed": 0.046,
-        "low_below": 0.51, "high_above": 0.88, "position_reach": 22.0, "descent": 0.15, "level": 0.53,
+        "low_below": 0.51, "high_above": 0.88, "position_reach": 22.0, "descent": 0.152, "level": 0.53,
         "tilt_limit": 0.80, "pump_share": 1.0, "pump_rate": 2.0,
     }
 )  # fmt: skip

@@ -16,8 +16,9 @@ from flypend.compile import jit
 from flypend.compile.closed_loop import SymbolicLoop, symbolic_loop
 from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
+from flypend.compile.problem import Problem
 from flypend.compile.program import lower
-from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, Problem, write_kernel
+from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
 from flypend.compile.vector import Lanes
 from flypend.criterion import REDUCTIONS, Criterion, observed
 from flypend.errors import InputError, one_of

@@ -14,7 +14,8 @@ from llvmlite import ir
 
 from flypend.compile import jit
 from flypend.compile.program import Program, lower
-from flypend.compile.sampled import ARGUMENTS, INTEGERS, SampledProblem, Stretch, write_kernel
+from flypend.compile.sampled import ARGUMENTS, INTEGERS, write_kernel
+from flypend.compile.sampled_problem import SampledProblem, Stretch
 from flypend.compile.vector import Lanes
 from flypend.criterion import REDUCTIONS, Criterion, observed
 from flypend.errors import InputError, array

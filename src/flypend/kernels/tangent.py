@@ -17,8 +17,9 @@ from llvmlite import ir
 from flypend.compile import jit
 from flypend.compile.closed_loop import symbolic_loop
 from flypend.compile.methods import method as method_named
+from flypend.compile.problem import Problem
 from flypend.compile.program import lower
-from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, Problem, write_kernel
+from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
 from flypend.compile.vector import Lanes
 from flypend.kernels.flown import Flown
 from flypend.kernels.ideal import MAX_STEPS, call, closed, lane_count

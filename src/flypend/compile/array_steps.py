@@ -13,6 +13,7 @@ import numpy as np
 
 from flypend.compile.arrays import Function, as_jax
 from flypend.compile.methods import Method
+from flypend.compile.problem import Problem
 from flypend.compile.runge_kutta import (
     COMPLETED,
     DIVERGED,
@@ -24,7 +25,6 @@ from flypend.compile.runge_kutta import (
     TOO_MANY,
     TOO_SMALL,
     UNDEFINED,
-    Problem,
 )
 from flypend.outcome import MAX_STATE
 

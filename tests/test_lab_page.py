@@ -1,14 +1,11 @@
 """The laboratory in a real browser without a screen: sliders, rod, pokes, presets, reload, tabs, map, export."""
 
 import json
-import shutil
 import time
 
 import numpy as np
 import pytest
-from playwright.sync_api import sync_playwright
 from test_lab import Lab
-from test_replay_page import OPTIONS
 
 from flypend.lab.flying import fly
 from flypend.lab.setting import setting_of
@@ -22,16 +19,6 @@ def server():
     server = Lab()
     yield server
     assert server.stop() == (0, "")
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    program = shutil.which("chromium")
-    assert program, "make test-tools installs chromium"
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, args=OPTIONS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -2,37 +2,19 @@
 
 import dataclasses
 import itertools
-import shutil
 import time
 from io import BytesIO
 
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import sync_playwright
 
 import flypend as fp
 from flypend import replay
 from flypend.experiments import experiment
 
-# Drawn in software, and nothing that the browser itself would send out.
-OPTIONS = [
-    "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync",
-]  # fmt: skip
 WIDE, NARROW = {"width": 1280, "height": 720}, {"width": 390, "height": 844}
 SMALL = {"width": 900, "height": 520}  # drawn fast enough in software
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    program = shutil.which("chromium")
-    assert program, "make test-tools installs chromium"
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, args=OPTIONS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

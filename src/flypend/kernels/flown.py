@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from typing import Any
@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from flypend.criterion import REDUCTIONS
+from flypend.errors import InputError
+from flypend.laws.law import Law
 
 Progress = Callable[[int, int], Any]
 
@@ -105,6 +107,16 @@ def in_pieces(
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return out
+
+
+def inputs_of(law: Law, names: Sequence[str], given: Any, runs: int) -> Any:
+    """The inputs (runs, k) of a kernel whose gains `names` may vary: `given`, or for None those of the `law`."""
+    if given is None:
+        given = np.broadcast_to([law.numbers[name] for name in names], (runs, len(names)))
+    values = np.ascontiguousarray(given, dtype=float)
+    if values.shape != (runs, len(names)):
+        raise InputError("parameters", f"an array of shape {(runs, len(names))}", f"shape {values.shape}")
+    return values
 
 
 def address(array: Any) -> int | None:

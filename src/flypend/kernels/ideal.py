@@ -21,8 +21,8 @@ from flypend.compile.program import lower
 from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
 from flypend.compile.vector import Lanes
 from flypend.criterion import REDUCTIONS, Criterion, observed
-from flypend.errors import InputError, one_of
-from flypend.kernels.flown import Flown, Progress, address, in_pieces
+from flypend.errors import one_of
+from flypend.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, project_symbolic
@@ -100,7 +100,7 @@ class IdealKernel:
             Told `(done, runs)`.
         """
         starts = np.ascontiguousarray(starts, dtype=float)
-        values = self.values(parameters, len(starts))
+        values = inputs_of(self.law, self.parameters, parameters, len(starts))
         moments = closed(times)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
@@ -108,16 +108,6 @@ class IdealKernel:
             call(self.function, starts[part], values[part], setting, moments, out)
 
         return in_pieces(fly, _memory(len(starts), moments, keep, judge), PIECE, workers, progress)
-
-    def values(self, parameters: Any, runs: int) -> Any:
-        """The inputs (runs, k) of the kernel for `parameters` as in `fly`."""
-        if parameters is None:
-            own = [self.law.numbers[name] for name in self.parameters]
-            return np.ascontiguousarray(np.broadcast_to(own, (runs, len(own))), dtype=float)
-        given = np.ascontiguousarray(parameters, dtype=float)
-        if given.shape != (runs, len(self.parameters)):
-            raise InputError("parameters", f"an array of shape {(runs, len(self.parameters))}", f"shape {given.shape}")
-        return given
 
 
 def lane_count(problem: Problem, precision: str) -> int:

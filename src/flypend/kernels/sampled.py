@@ -18,8 +18,8 @@ from flypend.compile.sampled import ARGUMENTS, INTEGERS, write_kernel
 from flypend.compile.sampled_problem import SampledProblem, Stretch
 from flypend.compile.vector import Lanes
 from flypend.criterion import REDUCTIONS, Criterion, observed
-from flypend.errors import InputError, array
-from flypend.kernels.flown import Flown, Progress, address, in_pieces
+from flypend.errors import array
+from flypend.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
@@ -99,11 +99,7 @@ class SampledKernel:
         seeds = (first_seed + np.arange(len(packed))).astype(np.int64)
         judged = np.ascontiguousarray(ticks, dtype=np.int64)
         count = number_of_ticks(duration, self.plant)
-        own = [self.law.numbers[name] for name in self.parameters]
-        values = np.broadcast_to(own, (len(packed), len(own))) if parameters is None else np.asarray(parameters, float)
-        if values.shape != (len(packed), len(self.parameters)):
-            raise InputError("parameters", f"shape {(len(packed), len(self.parameters))}", f"shape {values.shape}")
-
+        values = inputs_of(self.law, self.parameters, parameters, len(packed))
         least = np.full((len(packed), len(self.vehicle.rotor_spins)), self.vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
 
@@ -113,7 +109,7 @@ class SampledKernel:
         )
 
         def fly(part: slice, out: Flown) -> None:
-            self._call(packed[part], np.ascontiguousarray(values[part], float), seeds[part], count, judged, out)
+            self._call(packed[part], values[part], seeds[part], count, judged, out)
 
         flown = in_pieces(fly, memory, PIECE, workers, progress)
         if self.law.e3 == "down":

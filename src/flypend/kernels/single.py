@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from flypend.compile import runge_kutta
-from flypend.kernels.flown import STATUS, Flown
+from flypend.kernels.flown import STATUS, Flown, inputs_of
 from flypend.kernels.ideal import MAX_STEPS, IdealKernel, integrate
 from flypend.kernels.sampled import SampledKernel, sampled_kernel
 from flypend.laws.law import Law
@@ -39,7 +39,9 @@ class Solution:
         self._function = kernel.function
         self._start = np.ascontiguousarray(start, dtype=float)
         self._setting = (duration, rtol, atol)
-        self._values = kernel.values(None if parameters is None else np.asarray(parameters)[None], 1)
+        self._values = inputs_of(
+            kernel.law, kernel.parameters, None if parameters is None else np.asarray(parameters)[None], 1
+        )
         room = np.empty(1 + 4 * MAX_STEPS)
         room[0] = 0
         flown = self._fly(np.zeros(0), room)

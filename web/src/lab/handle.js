@@ -36,6 +36,7 @@ export class Handle {
     if (this.root.hidden) return;
     const [left, top] = viewer.stage.screen(0, viewer.stage.factor).bob;
     if (!this.held) this.y = flyer.pose.y;
+    this.pivot = flyer.pose.x;
     this.root.style.transform = `translate(${left}px, ${top}px)`;
   }
 
@@ -52,7 +53,8 @@ export class Handle {
     const across = (event.clientX - area.left - view.left) / view.width, down = (event.clientY - area.top - view.top) / view.height;
     this.ray.setFromCamera(new Vector2(2 * across - 1, 1 - 2 * down), view.camera);
     const from = this.ray.ray.origin.toArray(), way = this.ray.ray.direction.toArray();
-    const pivot = flyer.pose.x, radius = flyer.flight.vehicle.rod_length * viewer.stage.factor;
+    // A flight that has just come has no pose before its first frame; its pivot starts where that of the last did.
+    const pivot = flyer.pose?.x ?? this.pivot, radius = flyer.flight.vehicle.rod_length * viewer.stage.factor;
     this.y = nearest(from.map((value, k) => (value - pivot[k]) / radius), way, this.y);
     this.moved(this.y);
   }

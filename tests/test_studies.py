@@ -556,7 +556,7 @@ def test_the_figure_of_a_comparison_counts_those_that_stand():
         np.testing.assert_allclose(x[shown], unit * np.arange(1, 9))
         np.testing.assert_allclose(y[shown], 10 * np.arange(1, 9))
         assert not np.any(np.isfinite(none.get_xdata()))  # who does not stand is on no curve
-    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels == ["a: 80.0 % of 10", "b: 0.0 % of 3"]
 
 

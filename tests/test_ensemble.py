@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import casadi as ca
 import numpy as np
 import pytest
 from joblib.externals.loky import get_reusable_executor
@@ -155,6 +156,17 @@ def test_processes_change_nothing_and_the_order_is_that_of_the_starts(starts, sm
         assert told[1] == told[2] == [(2, 5), (4, 5), (5, 5)]
         seeded = plant if isinstance(plant, str) else plant.replace(seed=plant.seed + 4)
         is_the_single_run(two, 4, law, starts[4], 0.2, seeded)
+
+
+def test_a_law_that_no_other_process_can_have_is_flown_in_this_one(starts, small_tasks):
+    held = ca.SX.sym("held")  # CasADi's symbols cannot be pickled, no more than a loaded C library
+
+    def function(t, state):
+        return fp.Wrench(VEHICLE.weight + 0.0 * held.numel(), -0.01 * state.omega)
+
+    law = Controller(name="bound to this process", function=function, rate=50.0)
+    one, two = (simulate_ensemble(VEHICLE, law, starts, 0.1, workers=n) for n in (1, 2))
+    np.testing.assert_array_equal(one.final, two.final)
 
 
 def test_results_come_in_the_order_of_the_starts_though_the_first_take_longest(small_tasks):

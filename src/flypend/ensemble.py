@@ -124,7 +124,8 @@ def simulate_ensemble(
     engine : "kernel" or "scipy"
         As in `simulate`.
     workers : int, optional
-        Threads, or processes for the engine "scipy"; default one per core.
+        Threads, or processes for the engine "scipy"; default one per core. A law that cannot be sent to another process
+        is flown in this one.
     progress : callable
         Told `(done, total)` as runs come in.
 
@@ -213,6 +214,17 @@ def _column(name: str, value: Any, runs: int) -> Any:
     return np.broadcast_to(given, (runs,))
 
 
+def _can_be_sent(law: Law | Controller) -> bool:
+    """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
+    import cloudpickle
+
+    try:
+        cloudpickle.dumps(law)
+    except Exception:  # CasADi raises no narrower one
+        return False
+    return True
+
+
 def _one_by_one(
     vehicle: Vehicle,
     law: Law | Controller,
@@ -240,7 +252,7 @@ def _one_by_one(
         return metrics(run, criterion), run.packed[-1]
 
     chunks = [range(i, min(i + CHUNK, len(starts))) for i in range(0, len(starts), CHUNK)]
-    if count == 1 or len(chunks) == 1:
+    if count == 1 or len(chunks) == 1 or not _can_be_sent(bound):
         parts: Any = (chunk(indices) for indices in chunks)
     else:
         parts = Parallel(n_jobs=count, return_as="generator")(delayed(chunk)(indices) for indices in chunks)

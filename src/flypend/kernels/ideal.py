@@ -199,6 +199,12 @@ def ideal_kernel(
     one_of("precision", precision, BYTES)
     problem = ideal_problem(vehicle, law, criterion, parameters)
     one_of("method", method, METHODS)
+    key = f"ideal {method} {precision} {problem!r}"
+    return IdealKernel(vehicle, law, criterion, parameters, compiled(key, problem, method, precision), key)
+
+
+def compiled(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
+    """The kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
 
     def module() -> ir.Module:
         lanes = Lanes(ir.Module("flypend"), lane_count(problem, precision), precision)
@@ -209,8 +215,7 @@ def ideal_kernel(
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    key = f"ideal {method} {precision} {problem!r}"
-    return IdealKernel(vehicle, law, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
+    return jit.build(key, module, "kernel", kinds)
 
 
 def method_for(rtol: float, law: Law) -> str:

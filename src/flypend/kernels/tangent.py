@@ -6,23 +6,18 @@ derivatives of the same program.
 
 from __future__ import annotations
 
-import ctypes
 from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
-from llvmlite import ir
 
 from flypend.compile import jit
 from flypend.compile.closed_loop import symbolic_loop
-from flypend.compile.methods import method as method_named
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
-from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
-from flypend.compile.vector import Lanes
 from flypend.kernels.flown import Flown
-from flypend.kernels.ideal import MAX_STEPS, call, closed, lane_count
+from flypend.kernels.ideal import MAX_STEPS, call, closed, compiled
 from flypend.laws.law import Law
 from flypend.model import Vehicle
 from flypend.model.state import SIZE, project_symbolic
@@ -62,17 +57,7 @@ def fly_tangents(
 @lru_cache(maxsize=16)
 def _kernel(vehicle: Vehicle, law: Law, gains: tuple[str, ...]) -> jit.Native:
     problem = tangent_problem(vehicle, law, gains)
-
-    def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), lane_count(problem, "double"), "double")
-        write_kernel(lanes, problem, method_named("dop853"))
-        return lanes.module
-
-    kinds = [
-        ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
-        for name in ARGUMENTS
-    ]
-    return jit.build(f"tangent {problem!r}", module, "kernel", kinds)
+    return compiled(f"tangent {problem!r}", problem, "dop853")
 
 
 def tangent_problem(vehicle: Vehicle, law: Law, gains: tuple[str, ...]) -> Problem:

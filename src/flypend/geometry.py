@@ -126,8 +126,8 @@ def hat_squared(y: Vector, v: Vector) -> Vector:
 
 
 def tangent_part(y: Vector, v: Vector) -> Vector:
-    """P_y v = −ŷ² v, the part of v tangent to S² at the unit vector y."""
-    return -hat_squared(y, v)
+    """P_y v = v − (y·v) y, the part of v tangent to S² at the unit vector y; see `hat_squared` for the dynamics."""
+    return v - scale(dot(y, v), y)
 
 
 def apply(m: Matrix, v: Vector) -> Vector:

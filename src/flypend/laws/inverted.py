@@ -119,7 +119,8 @@ def inverted_control(
     def force(y: Any, y_dot: Any) -> Any:
         return rod_force(*errors_at(y, y_dot), a_ref, jerk_ref, y, y_dot, height, forces, vehicle, k)
 
-    # The thrust is for the rod as it is; its axis is for the rod after coasting over the time that turning takes.
+    # The axis is for the rod after coasting over the time that turning takes; the thrust after a share of it, the
+    # whole of which makes both forces one.
     ahead = coasted(state.y, state.y_dot, k.coast_time)
     held, values = [], []
     if light:  # one force for both, of a demand that is held while the rest is differentiated
@@ -128,18 +129,22 @@ def inverted_control(
         held, values = [ca.SX.sym(name, 3) for name in Demand._fields], list(wish)
         turned = present = steering_force(Demand(*held), v[2], *ahead, height, forces, vehicle, k)
     else:
-        present, turned = force(state.y, state.y_dot), force(*ahead)
+        present = force(*coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time))
+        turned = force(*ahead)
     f = ca.fmin(ca.fmax(dot(present, z), 0), largest_thrust(vehicle))
     wanted = lifted(turned, k.tilt_limit) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
-    z_d = scale(1 / smooth_norm(wanted, 0.006 * vehicle.weight), wanted)
+    per_length = 1 / smooth_norm(wanted, 0.006 * vehicle.weight)
 
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
-    z_d_dot = lie_derivative(z_d, state, rates, t)
-    if light:  # the demand's own rates, its direction turning steadily: d̈ = 0
-        A, d, A_dot, d_dot = held
-        z_d_dot = z_d_dot + ca.jtimes(z_d, ca.vertcat(A, d), ca.vertcat(A_dot, d_dot))
-        f, z_d, z_d_dot = ca.substitute([f, z_d, ca.densify(z_d_dot)], held, values)
+    wanted_dot = lie_derivative(wanted, state, rates, t)
+    if light:  # the demand's own rates, its direction turning steadily: ω̇_d = 0
+        A, d, A_dot, omega_d = held
+        wanted_dot = wanted_dot + ca.jtimes(wanted, ca.vertcat(A, d), ca.vertcat(A_dot, cross(omega_d, d)))
+        held_in = [f, wanted, ca.densify(wanted_dot), per_length]
+        f, wanted, wanted_dot, per_length = ca.substitute(held_in, held, values)
+    # ż_d up to a part along z_d, which the transport of Lemma 2 does not see.
+    z_d, z_d_dot = scale(per_length, wanted), scale(per_length, wanted_dot)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
     spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π
     stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth

@@ -42,8 +42,9 @@ class Gains:
         The thrust axis is never asked to lean further than this from e₃, rad; near π for no limit.
     rate_feedforward : float
         Share of the rate of the desired thrust axis that is fed forward.
-    coast_time : float
-        The desired thrust axis is that for the rod this much later, s.
+    coast_time, thrust_coast_share : float
+        The desired thrust axis is that for the rod this much later, s; the thrust that for the rod after this share of
+        that time.
     throw_speed : float
         Upward speed of the bob asked for while the rod hangs, m/s.
     flip_speed, flip_by_rod, flip_by_height, flip_width : float
@@ -79,6 +80,7 @@ class Gains:
     tilt_limit: float
     rate_feedforward: float
     coast_time: float
+    thrust_coast_share: float
     throw_speed: float
     flip_speed: float
     flip_by_rod: float
@@ -130,10 +132,10 @@ AGILE: Mapping[str, float] = MappingProxyType(
     {
         "position_bandwidth": 0.56, "position_damping": 1.0, "height_bandwidth": 0.74, "height_damping": 0.82,
         "rod_bandwidth": 1.8, "rod_damping": 0.40, "attitude_bandwidth": 1.4, "attitude_damping": 0.87,
-        "turn_rate": 1.8, "rate_feedforward": 0.64, "coast": 1.2, "latency": 0.46, "lead": 2.1, "throw_speed": 0.90,
-        "flip_speed": 0.51, "flip_by_rod": 0.84, "flip_by_height": 0.46, "flip_width": 0.20, "hanging_share": 0.64,
-        "low_below": 0.80, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9, "level": 6.0,
-        "tilt_limit": 3.1, "pump_share": 0.0, "pump_rate": 1.0,
+        "turn_rate": 1.8, "rate_feedforward": 0.64, "coast": 1.2, "thrust_coast": 1.0, "latency": 0.46, "lead": 2.1,
+        "throw_speed": 0.90, "flip_speed": 0.51, "flip_by_rod": 0.84, "flip_by_height": 0.46, "flip_width": 0.20,
+        "hanging_share": 0.64, "low_below": 0.80, "high_above": 0.97, "position_reach": 6.0, "descent": 0.9,
+        "level": 6.0, "tilt_limit": 3.1, "pump_share": 0.0, "pump_rate": 1.0,
     }
 )  # fmt: skip
 # For a vehicle that turns too slowly to flip its rod, found in the same way on nayak2018: level, pump, catch.
@@ -142,7 +144,7 @@ SLOW: Mapping[str, float] = MappingProxyType(
         **AGILE,
         "position_bandwidth": 0.30, "position_damping": 0.79, "height_bandwidth": 0.25, "height_damping": 0.79,
         "rod_bandwidth": 0.55, "rod_damping": 0.63, "attitude_bandwidth": 2.4, "attitude_damping": 0.67,
-        "turn_rate": 1.15, "rate_feedforward": 0.26, "coast": 1.05, "throw_speed": 0.046,
+        "turn_rate": 1.15, "rate_feedforward": 0.26, "coast": 1.05, "thrust_coast": 0.0, "throw_speed": 0.046,
         "low_below": 0.51, "high_above": 0.88, "position_reach": 22.0, "descent": 0.152, "level": 0.53,
         "tilt_limit": 0.80, "pump_share": 1.0, "pump_rate": 2.0,
     }
@@ -179,6 +181,7 @@ def gains_for(vehicle: Vehicle, **given: float) -> Gains:
         "tilt_limit": n["tilt_limit"],
         "rate_feedforward": n["rate_feedforward"],
         "coast_time": n["coast"] / attitude,
+        "thrust_coast_share": n["thrust_coast"],
         "throw_speed": n["throw_speed"] * speed,
         "flip_speed": n["flip_speed"] * speed,
         "flip_by_rod": n["flip_by_rod"] * speed,

@@ -9,7 +9,6 @@ import casadi as ca
 from flypend.geometry import E1, E3, cross, dot, norm, scale, tangent_part, unit
 from flypend.laws.inverted_gains import Gains
 from flypend.laws.references import Path, Reference
-from flypend.laws.sphere import velocity_error
 from flypend.model import Vehicle
 
 # A continuous pull on S² vanishes somewhere opposite to its aim. Not at rest hanging, where people start: the point is
@@ -114,16 +113,16 @@ def rod_force(
 
 
 class Demand(NamedTuple):
-    """What the bob asks of the rod, each (3, 1): A, its direction d, and the rates of both."""
+    """What the bob asks of the rod, each (3, 1): A, its direction d = A/|A|, Ȧ, and ω_d = d × ḋ."""
 
     A: Any
     d: Any
     A_dot: Any
-    d_dot: Any
+    omega_d: Any
 
 
 def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Gains) -> Demand:
-    """A, d = A/|A|, Ȧ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ḋ = P_d Ȧ/|A|.
+    """A, d = A/|A|, Ȧ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ω_d = d × Ȧ/|A|.
 
     The law is a function of errors that are expressions themselves, so the derivative is taken on symbols of its own.
     Arguments as in `rod_force`.
@@ -133,9 +132,9 @@ def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight
     rates = ca.vertcat(at[1], scale(dot(asked, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
     rate = ca.jtimes(asked, ca.vertcat(*at), rates)
     A, A_dot = ca.substitute([asked, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
-    length = norm(A)
-    d = A / length
-    return Demand(A, d, A_dot, tangent_part(d, A_dot) / length)
+    per_length = 1 / norm(A)
+    d = scale(per_length, A)
+    return Demand(A, d, A_dot, cross(d, scale(per_length, A_dot)))  # ḋ = P_d Ȧ/|A|, and d × P_d = d ×
 
 
 def steering_force(
@@ -147,11 +146,10 @@ def steering_force(
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     on_vehicle, on_bob = on
-    A, d, _, d_dot = wish
+    A, d, _, omega_d = wish
 
     # Rod on S²: Lemma 2 towards d without the acceleration of d, its stiffness turned round until the flip is allowed.
-    omega_d = cross(d, d_dot)
-    v_e = velocity_error(y, y_dot, d, d_dot)
+    v_e = y_dot - cross(omega_d, y)  # τ(y, d) ḋ = ω_d × y
     low = low_rod(y, k)
     share = 1 - low * (1 - flip_permission(y, height, climb, k)) * (1 + k.hanging_share)
     pull = tangent_part(y, d + ANTIPODE_SHIFT * low * E1)
@@ -201,9 +199,9 @@ def soft(value: Any, limit: Any) -> Any:
 
 
 def smooth_step(q: Any) -> Any:
-    """0 below q = 0, 1 above q = 1, once continuously differentiable between: exactly constant outside."""
+    """0 below q = 0, 1 above q = 1, exactly, and twice differentiable, so that ż_d does not jump."""
     q = ca.fmin(ca.fmax(q, 0), 1)
-    return q * q * (3 - 2 * q)
+    return q * q * q * (10 - q * (15 - 6 * q))
 
 
 def coasted(y: Any, y_dot: Any, time: Any) -> tuple[Any, Any]:

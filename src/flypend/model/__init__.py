@@ -16,11 +16,9 @@ gravity, so f ≤ 0 carries the vehicle, y = e₃ hangs, and its moment μ enter
 the world and of the body takes one frame to the other (`State.flipped`, `Wrench.flipped`).
 """
 
-from flypend.model.disturbed import disturbed_motion
 from flypend.model.dynamics import (
     Rates,
     bob_position,
-    equations_of_motion,
     gravity_vector,
     kinetic_energy,
     lie_derivative,
@@ -29,6 +27,7 @@ from flypend.model.dynamics import (
     rod_tension,
     total_energy,
 )
+from flypend.model.motion import disturbed_motion, equations_of_motion
 from flypend.model.state import State, Wrench
 from flypend.model.vehicle import Vehicle, vehicle
 

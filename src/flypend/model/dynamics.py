@@ -1,9 +1,4 @@
-"""Equations of motion, energies and momentum; each formula works on NumPy batches and CasADi symbols.
-
-    M ẍ = M g⃗ + f z + T y,   m (ẍ + l ÿ) = m g⃗ − T y,   Ṙ = R ω̂,   I ω̇ + ω × I ω = τ
-
-are the paper's (xeqn_txt), (ddty_notfin) and (Rfin) with τ = −μ and T the tension of the rod.
-"""
+"""Rates of a state, derivatives along the flow, energies, momentum and tension, on NumPy batches and CasADi symbols."""
 
 from __future__ import annotations
 
@@ -13,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import E3, apply, cross, dot, hat, hat_squared, is_symbolic, scale
+from flypend.geometry import E3, apply, dot, is_symbolic
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
 
@@ -40,17 +35,6 @@ class Rates(NamedTuple):
 def gravity_vector(vehicle: Vehicle, e3: E3Direction) -> Any:
     """Gravity g⃗ in the world frame, m/s²: −g e₃ for `e3` "up", +g e₃ for "down" (the paper's frame)."""
     return (-vehicle.g if errors.one_of("e3", e3, ("up", "down")) == "up" else vehicle.g) * E3
-
-
-def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Rates:
-    """Rates of `state` of `vehicle` under `wrench`, in the frame whose third axis points `e3` ("up" or "down")."""
-    M, m, l = vehicle.M, vehicle.m, vehicle.l
-    vehicle, f, z = vehicle.seen(e3), wrench.thrust, state.z
-    y_ddot = scale(f / (M * l), hat_squared(state.y, z)) - scale(dot(state.y_dot, state.y_dot), state.y)  # (ddty)
-    x_ddot = gravity_vector(vehicle, e3) + scale(f / (M + m), z) - m * l / (M + m) * y_ddot  # (xeqn_txt)
-    gyroscopic = cross(state.omega, apply(vehicle.I, state.omega))
-    omega_dot = apply(vehicle.I_inv, wrench.moment - gyroscopic)  # (Rfin), τ = −μ
-    return Rates(state.x_dot, x_ddot, state.R @ hat(state.omega), omega_dot, state.y_dot, y_ddot)
 
 
 def lie_derivative(h: Any, state: State, rates: Rates, t: Any = None) -> Any:

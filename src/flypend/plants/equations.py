@@ -11,7 +11,7 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.disturbed import disturbed_motion
+from flypend.model.motion import disturbed_motion
 from flypend.model.state import SIZE, project_symbolic
 
 

@@ -1,4 +1,7 @@
-"""The motion with what the laws do not know of: forces from outside, and a pivot beside the centre of mass."""
+"""The equations of motion, as the paper has them and with what the laws do not know of: one formula for both.
+
+Each works on NumPy batches and on CasADi symbols.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,16 @@ from flypend.geometry import apply, cross, dot, hat, hat_squared, is_symbolic, s
 from flypend.model.dynamics import Rates, gravity_vector
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
+
+
+def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Rates:
+    """Rates of `state` of `vehicle` under `wrench`, in the frame whose third axis points `e3` ("up" or "down").
+
+        M ẍ = M g⃗ + f z + T y,   m (ẍ + l ÿ) = m g⃗ − T y,   Ṙ = R ω̂,   I ω̇ + ω × I ω = τ
+
+    are the paper's (xeqn_txt), (ddty_notfin) and (Rfin) with τ = −μ and T the tension of the rod.
+    """
+    return disturbed_motion(state, wrench, vehicle, e3)
 
 
 def disturbed_motion(
@@ -29,16 +42,16 @@ def disturbed_motion(
         M c̈ = M g⃗ + f z + F_v + T y,   m (ẍ + l ÿ) = m g⃗ + F_b − T y                              (1), (2)
         I ω̇ + ω × I ω = τ + o × Rᵀ(T y),   ẍ = c̈ + s,   s = R (ω̇ × o + ω × (ω × o))               (3), (4)
 
-    (3) splits ω̇ = α + T a and with it s = s₀ + T R (a × o), where a = I⁻¹(o × Rᵀy). (2)/m − (1)/M − (4) is
+    (3) splits ω̇ = α + T a and with it s = s₀ + T R (a × o), where a = I⁻¹(o × Rᵀy). (1)/M + (4) − (2)/m is
 
-        l ÿ = h − T (1/m + 1/M) y,   h = F_b/m − (f z + F_v)/M − s,                                       (5)
+        −l ÿ = f z/M + h + T (1/m + 1/M) y,   h = F_v/M − F_b/m + s,                                      (5)
 
     in which gravity cancels. Its part along y, with y · ÿ = −|ẏ|², gives T; what multiplies T on the left is positive:
 
-        T (1/m + 1/M + (o × Rᵀy) · a) = l |ẏ|² + y · h₀,   h₀ = F_b/m − (f z + F_v)/M − s₀                  (6)
+        T (1/m + 1/M + (o × Rᵀy) · a) = l |ẏ|² − y · (f z/M + h₀),   h₀ = F_v/M − F_b/m + s₀                (6)
 
-    The part of (5) tangent to S² gives ÿ, and M (4) + (1) + (2) gives ẍ. With F_v = F_b = o = 0 these are
-    `flypend.model.equations_of_motion`, line by line.
+    The part of (5) tangent to S² gives ÿ, and M (4) + (1) + (2) gives ẍ. With F_v = F_b = o = 0 these are the paper's
+    (ddty), (xeqn_txt) and (Rfin).
 
     Parameters
     ----------
@@ -64,19 +77,21 @@ def disturbed_motion(
     M, m, l, I = vehicle.M, vehicle.m, vehicle.l, vehicle.I
     R, omega, y, o = state.R, state.omega, state.y, pivot_offset
     F_b = scale(1.0, force_on_bob)
-    F = scale(wrench.thrust, state.z) + scale(1.0, force_on_vehicle)  # f z + F_v
+    f, z, F_v = wrench.thrust, state.z, scale(1.0, force_on_vehicle)
     speed_squared = dot(state.y_dot, state.y_dot)
 
     arm = cross(o, apply(_transposed(R), y))  # moment per tension, body frame
     a = apply(vehicle.I_inv, arm)  # (3)
     alpha = apply(vehicle.I_inv, wrench.moment - cross(omega, apply(I, omega)))
     s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
-    h_0 = F_b / m - F / M - s_0
-    T = (l * speed_squared + dot(y, h_0)) / (1 / m + 1 / M + dot(arm, a))  # (6)
+    h_0 = F_v / M - F_b / m + s_0
+    T = (l * speed_squared - f / M * dot(y, z) - dot(y, h_0)) / (1 / m + 1 / M + dot(arm, a))  # (6)
 
     s_T = scale(T, apply(R, cross(a, o)))
-    y_ddot = -hat_squared(y, h_0 - s_T) / l - scale(speed_squared, y)  # (5)
-    x_ddot = gravity_vector(vehicle, e3) + (F + F_b + M * (s_0 + s_T) - m * l * y_ddot) / (M + m)
+    y_ddot = scale(f / (M * l), hat_squared(y, z)) - scale(speed_squared, y)  # (5), (ddty)
+    y_ddot = y_ddot + hat_squared(y, (h_0 + s_T) / l)
+    x_ddot = gravity_vector(vehicle, e3) + scale(f / (M + m), z) - m * l / (M + m) * y_ddot  # (xeqn_txt)
+    x_ddot = x_ddot + (F_v + F_b + M * (s_0 + s_T)) / (M + m)
     return Rates(state.x_dot, x_ddot, R @ hat(omega), alpha + scale(T, a), state.y_dot, y_ddot)
 
 

@@ -211,7 +211,7 @@ def test_samples_after_the_end_are_nan():
 @pytest.mark.parametrize("rtol", [1e-4, 1e-8])
 def test_a_run_is_the_same_in_any_company(method, rtol):
     """Bit by bit: alone, in a batch, in another order, on one thread or three."""
-    starts = random_starts(1300, seed=4)  # three pieces
+    starts = random_starts(1300, seed=4)
     kernel = ideal_kernel(NAYAK, CORRECTED, method=method)
     times = np.linspace(0, 2, 9)
     together = kernel.fly(starts, 2.0, rtol=rtol, times=times, keep=True, workers=3)
@@ -249,6 +249,25 @@ def test_other_python_threads_run_during_a_call():
             time.sleep(1e-3)
     # It is one call: one that held the lock would let this thread run before and after.
     assert len([tick for tick in ticks if tick < flying.result()]) > 30
+
+
+def test_an_interruption_leaves_the_queue_empty_and_is_raised_soon():
+    starts, told = random_starts(200_000), []
+    kernel = ideal_kernel(NAYAK, CORRECTED)
+
+    def interrupted(taken, runs):
+        told.append((taken, runs))
+        raise KeyboardInterrupt
+
+    begin = time.perf_counter()
+    kernel.fly(starts[:256], DURATION, rtol=1e-9)
+    for_256 = time.perf_counter() - begin
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        kernel.fly(starts, DURATION, rtol=1e-9, progress=interrupted)
+    (taken, runs) = told[0]
+    assert 0 < taken < runs == 200_000
+    assert time.perf_counter() - begin < 1 + for_256  # all of them would take some hundred times that
 
 
 # Sampled flights: the kernel does what the flight in Python does ----------------------------------------------------

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from llvmlite import ir
 
-from flypend.compile.vector import I64, Code, Lanes
+from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value
 
 # Lanes and components that are turned at a time, in registers.
 BLOCK = 8
 DOUBLES = ir.VectorType(ir.DoubleType(), BLOCK)
+_I32 = ir.IntType(32)
 
 
 def define_turn(lanes: Lanes, length: int) -> ir.Function:
@@ -61,7 +62,7 @@ def _mask(places: object) -> ir.Constant:
 
 
 def copy_row(code: Code, source: ir.Value, here: ir.Value, target: ir.Value, there: ir.Value, length: int) -> None:
-    """Copy row `here` of `length` doubles of `source` to row `there` of `target`."""
+    """Copy row `here` of `length` doubles of `source` to row `there` of `target`, where the next row will be next."""
     builder = code.builder
     first, second = (builder.mul(row, ir.Constant(I64, length)) for row in (here, there))
 
@@ -69,12 +70,38 @@ def copy_row(code: Code, source: ir.Value, here: ir.Value, target: ir.Value, the
         step = ir.Constant(I64, offset)
         value = builder.load(code.scalar_at(source, builder.add(first, step), ir.DoubleType()), typ=kind)
         value.align = 8
-        builder.store(value, code.scalar_at(target, builder.add(second, step), ir.DoubleType())).align = 8
+        place = builder.add(second, step)
+        builder.store(value, code.scalar_at(target, place, ir.DoubleType())).align = 8
+        _fetch(code, code.scalar_at(target, builder.add(place, ir.Constant(I64, length)), ir.DoubleType()))
 
     for offset in range(0, length - length % BLOCK, BLOCK):
         move(offset, DOUBLES)
     for offset in range(length - length % BLOCK, length):
         move(offset, ir.DoubleType())
+
+
+def _fetch(code: Code, place: ir.Value) -> None:
+    """Have the memory at `place` brought near, to be written; it need not be ours."""
+    kind = ir.FunctionType(VOID, [POINTER, _I32, _I32, _I32])
+    write, keep, data = (ir.Constant(_I32, value) for value in (1, 3, 1))
+    code.builder.call(code.lanes.declared("llvm.prefetch.p0", kind), [place, write, keep, data])
+
+
+def gathered(code: Code, memory: ir.Value, places: ir.Value, mask: Value) -> Value:
+    """The doubles of `memory` at `places` (a vector of i64), in the lanes of `mask`; 0 in the others."""
+    builder, lanes = code.builder, code.lanes
+    integers, pointers = ir.VectorType(I64, lanes.width), ir.VectorType(POINTER, lanes.width)
+    doubles = ir.VectorType(ir.DoubleType(), lanes.width)
+    none = ir.Constant(integers, ir.Undefined)
+    base = builder.insert_element(none, builder.ptrtoint(memory, I64), ir.Constant(_I32, 0))
+    base = builder.shuffle_vector(base, none, ir.Constant(ir.VectorType(_I32, lanes.width), [0] * lanes.width))
+    offsets = builder.shl(places, ir.Constant(integers, [3] * lanes.width))  # of 8 bytes
+    addresses = builder.inttoptr(builder.add(base, offsets), pointers)
+    kind = ir.FunctionType(doubles, [pointers, _I32, lanes.mask, doubles])
+    gather = lanes.declared(f"llvm.masked.gather.v{lanes.width}f64.v{lanes.width}p0", kind)
+    align, zeros = ir.Constant(_I32, 8), ir.Constant(doubles, [0.0] * lanes.width)
+    found = builder.call(gather, [addresses, align, mask.raw, zeros])
+    return Value(code, found if lanes.precision == "double" else builder.fptrunc(found, lanes.vector))
 
 
 def as_double(code: Code, value: ir.Value) -> ir.Value:

@@ -1,7 +1,8 @@
 """The kernel of the ideal plant: embedded Runge-Kutta steps in vectors of lanes, one run per lane.
 
-Every lane has its own time and step. When its run ends (completed, diverged, singular) the next start is loaded into
-it, so that no lane waits for another, and what a run gives does not depend on its neighbours.
+Every lane has its own time and step. When its run ends (completed, diverged, singular) it takes the next start from a
+queue, which is the number of the next run and which calls in other threads may share. So no lane waits for another, and
+what a run gives does not depend on its neighbours.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
 SHORTEST = 1e-13
 
 ARGUMENTS = (
-    "starts", "parameters", "runs", "duration", "rtol", "atol", "max_steps", "times", "time_count",
+    "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps", "times", "time_count",
     "samples", "reductions", "final", "end", "status", "steps", "knots",
 )  # fmt: skip
 INTEGERS, REALS = ("runs", "max_steps", "time_count"), ("duration", "rtol", "atol")
@@ -54,7 +55,7 @@ class _Kernel:
         self.t, self.h, self.count, self.limit = (code.reserve(1) for _ in range(4))
         self.active, self.when, self.drift = code.reserve(1), code.reserve(1), code.reserve(3)
         self.run, self.ended = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
-        self.next, self.left = code.reserve(1, I64), code.reserve(1, I64)
+        self.left = code.reserve(1, I64)
         reductions = Reductions(code, problem.observe, problem.reductions)
         onto = define(lanes, without_drift(problem.project))
         self.sampler = Sampler(code, method, n, self.at, onto, reductions)
@@ -64,7 +65,6 @@ class _Kernel:
     def write(self) -> None:
         code, builder = self.code, self.code.builder
         zero = ir.Constant(I64, 0)
-        builder.store(zero, self.next)
         builder.store(ir.Constant(I64, self.lanes.width), self.left)
         self.duration, self.rtol, self.atol = (code.value(self._real(name)) for name in REALS)
         for memory, length in ((self.S, self.problem.size), (self.P, self.problem.parameters)):
@@ -93,7 +93,7 @@ class _Kernel:
         h = self._trial_step(t)
         last = t + 1.0001 * h >= self.duration
         h = code.select(last, self.duration - t, h)
-        error = self.stages.attempt(t, h, self.rtol, self.atol)
+        error, largest = self.stages.attempt(t, h, self.rtol, self.atol)
         t_new = code.select(last, self.duration, t + h)
         accepted = (error <= 1.0) & active
         code.call(self.project, self.Y, self.Y, self.drift)
@@ -105,7 +105,7 @@ class _Kernel:
             guarded = accepted & ~(code.load(margin) > 0.0)
             accepted = accepted & ~guarded
         accepted = accepted & ~(code.load(self.low) > 0.0)
-        lost = accepted & ~(self._largest(self.Y) < MAX_STATE)
+        lost = accepted & ~(largest < MAX_STATE)
         self._finish_step(t, h, t_new, error, accepted & ~lost, guarded, lost, active)
 
     def _trial_step(self, t: Value) -> Value:
@@ -179,15 +179,6 @@ class _Kernel:
         code.store(h_next, self.h)
         self._end_runs(t_now, h_next, count, guarded, lost, accepted, active)
 
-    def _largest(self, state: ir.Value) -> Value:
-        """Largest size of an entry of `state`."""
-        code = self.code
-        peak = code.reserve(1)
-        code.store(0.0, peak)
-        with code.count(self.problem.size) as i:
-            code.store(code.most(code.fabs(code.load(state, i)), code.load(peak)), peak)
-        return code.load(peak)
-
     # Ends of runs ---------------------------------------------------------------------------------------------
 
     def _end_runs(
@@ -215,11 +206,9 @@ class _Kernel:
         value = code.select(active, value, -1.0)
         code.store(value, status)
         with code.when(code.any(value >= 0.0)):
-            with code.count(self.lanes.width) as lane:
-                code_number = code.builder.fptosi(code.scalar(status, lane), I64)
-                with code.when(builder.icmp_signed(">=", code_number, ir.Constant(I64, 0))):
-                    self._store_result(lane, code_number)
-                    self._load_next(lane)
+            with code.each(value >= 0.0) as lane:
+                self._store_result(lane, builder.fptosi(code.scalar(status, lane), I64))
+                self._load_next(lane)
             self._first_rates()
 
     def _first_rates(self) -> None:
@@ -255,11 +244,10 @@ class _Kernel:
     def _load_next(self, lane: ir.Value) -> None:
         """Put the next start into `lane`, or let it rest when there is none."""
         code, builder = self.code, self.code.builder
-        run = builder.load(self.next, typ=I64)
+        run = builder.atomic_rmw("add", self.at["queue"], ir.Constant(I64, 1), "monotonic")
         zero, one = (ir.Constant(self.lanes.scalar, number) for number in (0.0, 1.0))
         with builder.if_else(builder.icmp_signed("<", run, self.at["runs"])) as (more, none):
             with more:
-                builder.store(builder.add(run, ir.Constant(I64, 1)), self.next)
                 code.put(run, self.run, lane)
                 code.put(one, self.active, lane)
                 copy_lane(code, self.S, lane, self.at["starts"], run, self.problem.size, out=False)

@@ -11,7 +11,7 @@ from llvmlite import ir
 
 from flypend.compile.methods import Method
 from flypend.compile.reductions import Reductions
-from flypend.compile.rows import copy_row, define_turn, from_double
+from flypend.compile.rows import copy_row, define_turn, from_double, gathered
 from flypend.compile.stages import Stages
 from flypend.compile.vector import I64, Code, Value
 
@@ -42,8 +42,9 @@ class Sampler:
         self.code, self.method, self.size, self.at = code, method, size, at
         self.project, self.reductions = project, reductions
         width = code.lanes.width
-        self.cursor, self.wanted = code.reserve(width, I64), code.reserve(1)
-        self.state, self.marks, self.moved = code.reserve(size), code.reserve(1), code.reserve(size)
+        self.places = ir.VectorType(I64, width)
+        self.cursor, self.wanted = code.reserve(1, self.places), code.reserve(1)
+        self.state, self.moved = code.reserve(size), code.reserve(size)
         self.rows = code.reserve(width * size, ir.DoubleType())
         self.turn = define_turn(code.lanes, size)
         for lane in range(width):  # also of a lane that never has a run
@@ -51,14 +52,20 @@ class Sampler:
 
     def reset(self, lane: ir.Value) -> None:
         """Begin a run in `lane`."""
-        self._aim(lane, ir.Constant(I64, 0))
+        code, first = self.code, ir.Constant(I64, 0)
+        code.put(first, self.cursor, lane)
+        code.put(from_double(code, code.scalar(self.at["times"], first, ir.DoubleType())), self.wanted, lane)
         self.reductions.reset(lane)
 
-    def _aim(self, lane: ir.Value, place: ir.Value) -> None:
-        """Let `lane` wait for the time at `place`."""
-        code = self.code
-        code.put(place, self.cursor, lane)
-        code.put(from_double(code, code.scalar(self.at["times"], place, ir.DoubleType())), self.wanted, lane)
+    def _aim(self, due: Value) -> None:
+        """Let the lanes `due` wait for their next times."""
+        code, builder = self.code, self.code.builder
+        now = builder.load(self.cursor, typ=self.places)
+        later = builder.add(now, ir.Constant(self.places, [1] * code.lanes.width))
+        cursor = builder.select(due.raw, later, now)
+        builder.store(cursor, self.cursor)
+        times = gathered(code, self.at["times"], cursor, due)
+        code.store(code.select(due, times, code.load(self.wanted)), self.wanted)
 
     def take(self, step: Step, accepted: Value) -> None:
         """Take every wanted sample inside the accepted steps."""
@@ -136,17 +143,13 @@ class Sampler:
 
     def _store(self, due: Value) -> None:
         """Store the samples of the lanes `due`, if the caller keeps them, and aim at the next times."""
-        code, builder = self.code, self.code.builder
-        code.store(code.select(due, 1.0, 0.0), self.marks)
+        code = self.code
         with self._if_kept():
             code.call(self.turn, self.state, self.rows)
-        with code.count(code.lanes.width) as lane:
-            one = ir.Constant(code.lanes.scalar, 1.0)
-            with code.when(builder.fcmp_ordered("==", code.scalar(self.marks, lane), one)):
-                place = code.scalar(self.cursor, lane, I64)
-                with self._if_kept():
-                    copy_row(code, self.rows, lane, self.at["samples"], self._row(lane, place), self.size)
-                self._aim(lane, builder.add(place, ir.Constant(I64, 1)))
+            with code.each(due) as lane:
+                row = self._row(lane, code.scalar(self.cursor, lane, I64))
+                copy_row(code, self.rows, lane, self.at["samples"], row, self.size)
+        self._aim(due)
 
     def _if_kept(self) -> AbstractContextManager[None]:
         return self.code.when(self._given("samples"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import add
 from typing import Any
 
 from llvmlite import ir
@@ -9,6 +11,8 @@ from llvmlite import ir
 from flypend.compile.methods import Method
 from flypend.compile.program import Program
 from flypend.compile.vector import I64, Code, Value, define
+
+STRANDS = 4  # divides the sizes of a state and of a state with its tangent
 
 
 class Stages:
@@ -39,25 +43,41 @@ class Stages:
         with code.count(self.size) as i:
             code.store(code.load(self.S, i) + h * self._weighted(weights, i), self.Y, i)
 
-    def attempt(self, t: Value, h: Value, rtol: Value, atol: Value) -> Value:
-        """Stages from `t` over `h`, the new state in Y, and the error relative to the tolerance: accept at most 1."""
-        code, method = self.code, self.method
+    def attempt(self, t: Value, h: Value, rtol: Value, atol: Value) -> tuple[Value, Value]:
+        """Stages from `t` over `h`, the new state in Y; its error relative to the tolerance and its largest entry.
+
+        Accept an error of at most 1.
+        """
+        method = self.method
         for s in range(1, method.stages):
             self.combine(method.A[s, :s], h)
             self.evaluate(t + float(method.C[s]) * h, s)
         self.combine(method.B, h)
         if method.errors[0][-1] != 0:  # the estimate weighs f at the end of the step
             self.evaluate(t + h, method.stages)
-        sums = [code.reserve(1) for _ in method.errors]
-        for memory in sums:
-            code.store(0.0, memory)
-        with code.count(self.size) as i:
-            before, after = code.fabs(code.load(self.S, i)), code.fabs(code.load(self.Y, i))
-            scale = 1.0 / (atol + rtol * code.most(before, after))
-            for weights, memory in zip(method.errors, sums, strict=True):
-                part = self._weighted(weights, i) * scale
-                code.store(code.load(memory) + part * part, memory)
-        return self._norm([code.load(memory) for memory in sums], h)
+        return self._judged(h, rtol, atol)
+
+    def _judged(self, h: Value, rtol: Value, atol: Value) -> tuple[Value, Value]:
+        """Error of the step relative to the tolerance, and the largest size of an entry of Y."""
+        code, method = self.code, self.method
+        # Sums are taken in strands: one alone would wait for each addition.
+        strands = [([code.reserve(1) for _ in method.errors], code.reserve(1)) for _ in range(STRANDS)]
+        for sums, largest in strands:
+            for memory in (*sums, largest):
+                code.store(0.0, memory)
+        with code.count(self.size // STRANDS) as group:
+            first = code.builder.mul(group, ir.Constant(I64, STRANDS))
+            for strand, (sums, largest) in enumerate(strands):
+                i = code.builder.add(first, ir.Constant(I64, strand))
+                before, after = code.fabs(code.load(self.S, i)), code.fabs(code.load(self.Y, i))
+                scale = 1.0 / (atol + rtol * code.most(before, after))
+                code.store(code.most(after, code.load(largest)), largest)
+                for weights, memory in zip(method.errors, sums, strict=True):
+                    part = self._weighted(weights, i) * scale
+                    code.store(code.load(memory) + part * part, memory)
+        totals = [reduce(add, (code.load(sums[k]) for sums, _ in strands)) for k in range(len(method.errors))]
+        peak = reduce(code.most, (code.load(largest) for _, largest in strands))
+        return self._norm(totals, h), peak
 
     def _norm(self, sums: list[Value], h: Value) -> Value:
         code, n = self.code, self.size

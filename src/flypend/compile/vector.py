@@ -39,16 +39,17 @@ class Lanes:
     def intrinsic(self, name: str, arguments: int = 1) -> ir.Function:
         """LLVM's own function called `name` on vectors."""
         bits = 64 if self.precision == "double" else 32
-        return self._declared(
+        return self.declared(
             f"llvm.{name}.v{self.width}f{bits}", ir.FunctionType(self.vector, [self.vector] * arguments)
         )
 
     def library(self, name: str, arguments: int) -> ir.Function:
         """The function of the C library called `name`, on scalars."""
         suffix = "" if self.precision == "double" else "f"
-        return self._declared(name + suffix, ir.FunctionType(self.scalar, [self.scalar] * arguments))
+        return self.declared(name + suffix, ir.FunctionType(self.scalar, [self.scalar] * arguments))
 
-    def _declared(self, name: str, kind: ir.FunctionType) -> ir.Function:
+    def declared(self, name: str, kind: ir.FunctionType) -> ir.Function:
+        """The function called `name` of another module."""
         known = self.module.globals.get(name)
         return known if known is not None else ir.Function(self.module, kind, name)
 
@@ -182,6 +183,18 @@ class Code:
             index = self.builder.load(counter, typ=I64)
             yield index
             self.builder.store(self.builder.add(index, ir.Constant(I64, 1)), counter)
+
+    @contextmanager
+    def each(self, mask: Value) -> Iterator[ir.Value]:
+        """Code that runs for every lane of `mask`; gives the i64 that numbers it."""
+        builder, left = self.builder, self.reserve(1, I64)
+        bits = builder.bitcast(mask.raw, ir.IntType(self.lanes.width))
+        builder.store(builder.zext(bits, I64), left)
+        zero, one = ir.Constant(I64, 0), ir.Constant(I64, 1)
+        with self.loop(lambda: builder.icmp_unsigned("!=", builder.load(left, typ=I64), zero)):
+            rest = builder.load(left, typ=I64)
+            yield builder.cttz(rest, ir.Constant(I1, 1))
+            builder.store(builder.and_(rest, builder.sub(rest, one)), left)
 
     @contextmanager
     def loop(self, condition: Callable[[], ir.Value]) -> Iterator[None]:

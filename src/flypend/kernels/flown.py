@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -16,8 +16,8 @@ from flypend.laws.law import Law
 
 Progress = Callable[[int, int], Any]
 
-# Runs in the smallest piece: at its end lanes are empty while the longest run, of ten times the steps, goes on.
-LEAST_PIECE = 512
+# Runs in the smallest piece and share of a thread: a multiple of the lanes of every kernel.
+LEAST_PIECE = 64
 
 # Words of `Trajectory.outcome` for the codes of `flypend.compile.runge_kutta`.
 STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
@@ -58,7 +58,7 @@ class Flown:
             end=np.empty(runs),
             code=np.empty(runs, dtype=np.int64),
             reductions=np.empty((runs, len(REDUCTIONS))) if judged else None,
-            samples=None if samples is None else np.empty((runs, *samples)),
+            samples=None if samples is None else _aligned((runs, *samples)),
             steps=np.empty(runs, dtype=np.int64) if steps else None,
         )
 
@@ -77,6 +77,13 @@ class Flown:
         return STATUS[self.code]
 
 
+def _aligned(shape: tuple[int, ...]) -> Any:
+    """New memory for an array of doubles, from the beginning of a cache line: rows of eight then share none."""
+    room = np.empty(int(np.prod(shape)) + 7)
+    first = -room.ctypes.data // room.itemsize % 8
+    return room[first : first + room.size - 7].reshape(shape)
+
+
 def in_pieces(
     fly: Callable[[slice, Flown], None],
     out: Flown,
@@ -91,7 +98,7 @@ def in_pieces(
     runs, threads = len(out), workers or os.cpu_count() or 1
     # Some pieces per thread, so that none waits long for another.
     share = -(-runs // (4 * threads)) if threads > 1 else runs
-    piece = max(1, min(largest, max(LEAST_PIECE, share)))
+    piece = min(largest, max(1, -(-share // LEAST_PIECE)) * LEAST_PIECE)
     slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
     threads = min(threads, len(slices))
     if threads <= 1:
@@ -107,6 +114,32 @@ def in_pieces(
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return out
+
+
+def from_queue(
+    fly: Callable[[Any], None], runs: int, workers: int | None, progress: Progress = lambda *_: None
+) -> None:
+    """Let `fly` take `runs` runs from a queue (1,), the number of the next one, in `workers` threads at a time.
+
+    `progress` is told (taken, runs) ten times a second. An interruption leaves the queue empty and is raised once the
+    runs under way have ended.
+    """
+    queue = np.zeros(1, dtype=np.int64)
+    threads = min(workers or os.cpu_count() or 1, runs // LEAST_PIECE)
+    if threads < 1:
+        fly(queue)
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            tasks = [pool.submit(fly, queue) for _ in range(threads)]
+            try:
+                while wait(tasks, timeout=0.1).not_done:
+                    progress(min(int(queue[0]), runs), runs)
+            except BaseException:
+                queue[0] = runs
+                raise
+        for task in tasks:
+            task.result()
+    progress(runs, runs)
 
 
 def inputs_of(law: Law, names: Sequence[str], given: Any, runs: int) -> Any:

@@ -22,7 +22,7 @@ from flypend.compile.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
 from flypend.compile.vector import Lanes
 from flypend.criterion import REDUCTIONS, Criterion, observed
 from flypend.errors import one_of
-from flypend.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
+from flypend.kernels.flown import Flown, Progress, address, from_queue, inputs_of
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, project_symbolic
@@ -35,7 +35,6 @@ BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
 # From this tolerance on the method of order 5 is the faster one.
 LOOSE = 1e-6
-PIECE = 8192
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,10 +103,13 @@ class IdealKernel:
         moments = closed(times)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
-        def fly(part: slice, out: Flown) -> None:
-            call(self.function, starts[part], values[part], setting, moments, out)
+        out = _memory(len(starts), moments, keep, judge)
 
-        return in_pieces(fly, _memory(len(starts), moments, keep, judge), PIECE, workers, progress)
+        def fly(queue: Any) -> None:
+            call(self.function, starts, values, setting, moments, out, queue=queue)
+
+        from_queue(fly, len(starts), workers, progress)
+        return out
 
 
 def lane_count(problem: Problem, precision: str) -> int:
@@ -154,14 +156,17 @@ def call(
     moments: Any,
     out: Flown,
     knots: Any = None,
+    queue: Any = None,
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
     `setting` is duration (s), rtol, atol and the most steps; `moments` are sample times as `closed` gives them; `out`
-    is written, and `knots` as in `integrate`.
+    is written, and `knots` as in `integrate`. Calls in several threads share one `queue` (1,), the number of the next
+    run, and with it the runs.
     """
+    queue = np.zeros(1, dtype=np.int64) if queue is None else queue
     function(
-        address(starts), address(values), len(starts), *setting, address(moments), len(moments) - 1,
+        address(starts), address(values), address(queue), len(starts), *setting, address(moments), len(moments) - 1,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         address(out.steps), address(knots),
     )  # fmt: skip

@@ -26,6 +26,7 @@ SOURCE = Path(flypend.__file__).parent
 ORDER = [
     "errors",
     "files",
+    "netcdf",
     "staging",
     "palette",
     "style",

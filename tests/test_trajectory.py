@@ -226,6 +226,14 @@ def test_other_programs_open_the_file(run, tmp_path):
         assert frame.index.name == "t"
 
 
+@pytest.mark.parametrize("how", ENDS)
+def test_what_xarray_opens_is_the_dataset(how, tmp_path):
+    run = _ended(how)
+    run.save(tmp_path / "run.nc")
+    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as opened:
+        xarray.testing.assert_identical(opened.load(), run.to_xarray())
+
+
 def test_a_file_that_cannot_be_written_is_one_clear_line(run, tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     for path, reason in (
@@ -252,7 +260,7 @@ def _full_disk(*_args, **_kwargs):
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(run, tmp_path, monkeypatch):
     path = tmp_path / "run.nc"
     path.write_bytes(b"old")
-    monkeypatch.setattr(xarray.Dataset, "to_netcdf", _full_disk)
+    monkeypatch.setattr("flypend.trajectory.write_netcdf", _full_disk)
     line = rf"^{re.escape(str(path))}: expected a file that can be written, got No space left on device$"
     with pytest.raises(fp.InputError, match=line):
         run.save(path)

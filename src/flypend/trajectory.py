@@ -14,17 +14,17 @@ from flypend import errors
 from flypend.files import whole_file
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP, SHAPES, E3Direction
+from flypend.netcdf import Variable, write_netcdf
 from flypend.outcome import Outcome
 
 if TYPE_CHECKING:
     import xarray
 
-AXES = ["1", "2", "3"]
 UNITS = {
     "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
     "moment": "N m", "rotor_forces": "N", "x_ref": "m",
 }  # fmt: skip
-DRIFT = ("length of y", "tangency of y_dot", "orthogonality of R")
+_LABELS = {"axis": ("1", "2", "3"), "drift_of": ("length of y", "tangency of y_dot", "orthogonality of R")}
 _STATE = tuple(SHAPES)
 _ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces", "x_ref")
 
@@ -139,19 +139,40 @@ class Trajectory:
         """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown."""
         import xarray
 
+        found = xarray.Dataset(self._variables(), attrs=self._attributes())
+        return found.set_coords(["t", *_LABELS])
+
+    def save(self, path: str | Path) -> None:
+        """Write the run to the NetCDF file `path` (.nc), which xarray, MATLAB (ncread) and pandas through xarray open.
+
+        The file appears whole or not at all. Raises InputError if it cannot be written.
+        """
+        with whole_file(path, [".nc"]) as partial:
+            write_netcdf(partial, self._variables(), self._attributes())
+
+    def _variables(self) -> dict[str, Variable]:
+        """Arrays and labels, with their dimensions and units."""
         dims = {0: ("t",), 1: ("t", "axis"), 2: ("t", "row", "column")}
-        variables = {
-            name: (
-                ("t", "rotor") if name == "rotor_forces" else dims[value.ndim - 1],
-                np.array(value),
-                {"units": UNITS.get(name, "")},
-            )
-            for name in (*_ARRAYS, *self.signals)
-            for value in [self.signals[name] if name in self.signals else getattr(self, name)]
+        arrays = {name: np.array(getattr(self, name)) for name in _ARRAYS} | {
+            name: np.array(value) for name, value in self.signals.items()
         }
-        variables["drift"] = (("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"})
-        coords = {"t": ("t", np.array(self.t), {"units": "s"}), "axis": AXES, "drift_of": list(DRIFT)}
-        attributes = {
+        return {
+            "t": Variable(("t",), np.array(self.t), {"units": "s"}),
+            **{name: Variable((name,), np.array(labels)) for name, labels in _LABELS.items()},
+            **{
+                name: Variable(
+                    ("t", "rotor") if name == "rotor_forces" else dims[value.ndim - 1],
+                    value,
+                    {"units": UNITS.get(name, "")},
+                )
+                for name, value in arrays.items()
+            },
+            "drift": Variable(("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"}),
+        }
+
+    def _attributes(self) -> dict[str, Any]:
+        """What was flown and how it ended."""
+        return {
             "e3": self.e3,
             "law": self.law,
             "gains": json.dumps(dict(self.gains)),
@@ -162,15 +183,6 @@ class Trajectory:
             "signals": json.dumps(list(self.signals)),
             "frame": f"world with third axis {self.e3}; omega and moment in the body frame",
         }
-        return xarray.Dataset(variables, coords, attributes)
-
-    def save(self, path: str | Path) -> None:
-        """Write the run to the NetCDF file `path` (.nc), which xarray, MATLAB (ncread) and pandas through xarray open.
-
-        The file appears whole or not at all. Raises InputError if it cannot be written.
-        """
-        with whole_file(path, [".nc"]) as partial:
-            self.to_xarray().to_netcdf(partial, engine="scipy")
 
     def to_html(
         self,

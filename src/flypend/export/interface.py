@@ -135,7 +135,7 @@ def interface(law: Law, vehicle: Vehicle) -> Interface:
 def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], Program, bool]:
     """Gains at run time, gains that are constants, the program of the law, and whether it follows the reference."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
-    gains = {name: ca.SX.sym(name) for name in law.numbers}
+    gains = {name: ca.SX.sym(name) for name in law.numbers if name not in law.fixed}
     try:
         wrench = streamed_wrench(law, vehicle, state, reference, gains)
     except InputError:
@@ -152,7 +152,7 @@ def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ..
         program = _with_gains(wrench, state, reference, params, {name: gains[name] for name in names})
     if any(math.isnan(operation.value) for operation in program.operations):  # float() of a symbol
         raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name}, which has NaN in them")
-    return names, constant, program, bool(ca.depends_on(wrench, reference))
+    return names, (*law.fixed, *constant), program, bool(ca.depends_on(wrench, reference))
 
 
 def _with_gains(wrench: Any, state: Any, reference: Any, params: Any, gains: dict[str, Any]) -> Program:

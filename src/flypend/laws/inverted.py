@@ -50,8 +50,8 @@ def inverted(reference: Reference | None = None, *, form: str = "full", **gains:
     reference : callable, optional
         Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
     form : "full" or "light"
-        "light" takes the thrust, too, for the rod after coasting, and turns the target of the axis with a demand whose
-        direction turns steadily: two thirds of the operations, for processors that are short of time.
+        "light" turns the target of the axis with a demand whose direction turns steadily, without the second derivative
+        of the demand: three quarters of the operations, for processors that are short of time.
     **gains : float
         Any field of `Gains`, in its unit; the others are proposed for the vehicle that flies.
 
@@ -90,6 +90,7 @@ def _law(gains: Gains, options: dict[str, str], reference: Reference, path: Path
         uses_forces=True,
         reference=reference,
         along=lambda other: _law(gains, options, reference, other),
+        fixed=("thrust_coast_share", "pump_share"),
     )
 
 
@@ -122,27 +123,26 @@ def inverted_control(
     # The axis is for the rod after coasting over the time that turning takes; the thrust after a share of it, the
     # whole of which makes both forces one.
     ahead = coasted(state.y, state.y_dot, k.coast_time)
-    held, values = [], []
-    if light:  # one force for both, of a demand that is held while the rest is differentiated
-        e, v = errors_at(*ahead)
-        wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
-        held, values = [ca.SX.sym(name, 3) for name in Demand._fields], list(wish)
-        turned = present = steering_force(Demand(*held), v[2], *ahead, height, forces, vehicle, k)
-    else:
-        present = force(*coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time))
-        turned = force(*ahead)
+    present = force(*coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time))
     f = ca.fmin(ca.fmax(dot(present, z), 0), largest_thrust(vehicle))
-    wanted = lifted(turned, k.tilt_limit) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
-    per_length = 1 / smooth_norm(wanted, 0.006 * vehicle.weight)
-
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
-    wanted_dot = lie_derivative(wanted, state, rates, t)
-    if light:  # the demand's own rates, its direction turning steadily: ω̇_d = 0
-        A, d, A_dot, omega_d = held
-        wanted_dot = wanted_dot + ca.jtimes(wanted, ca.vertcat(A, d), ca.vertcat(A_dot, cross(omega_d, d)))
-        held_in = [f, wanted, ca.densify(wanted_dot), per_length]
-        f, wanted, wanted_dot, per_length = ca.substitute(held_in, held, values)
+
+    def axis(turned: Any) -> Any:
+        return lifted(turned, k.tilt_limit) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
+
+    if light:  # the demand is held while the rest is differentiated, and its direction turns steadily: ω̇_d = 0
+        e, v = errors_at(*ahead)
+        wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
+        held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
+        wanted = axis(steering_force(held, v[2], *ahead, height, forces, vehicle, k))
+        turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))
+        wanted_dot = lie_derivative(wanted, state, rates, t) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
+        wanted, wanted_dot = ca.substitute([wanted, ca.densify(wanted_dot)], list(held), list(wish))
+    else:
+        wanted = axis(force(*ahead))
+        wanted_dot = lie_derivative(wanted, state, rates, t)
+    per_length = 1 / smooth_norm(wanted, 0.006 * vehicle.weight)
     # ż_d up to a part along z_d, which the transport of Lemma 2 does not see.
     z_d, z_d_dot = scale(per_length, wanted), scale(per_length, wanted_dot)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)

@@ -102,6 +102,8 @@ class Law:
         For a law that takes its gains from the vehicle: the law with the gains for a vehicle.
     along : callable, optional
         For a bound law that follows a path: the same law along another path (see `laws.references.Path`).
+    fixed : tuple of str
+        Gains that decide how much there is to compute: exported code holds them as constants.
     """
 
     name: str
@@ -114,6 +116,7 @@ class Law:
     reference: Callable[[Any], Any] | None = None
     for_vehicle: Callable[[Vehicle], Law] | None = None
     along: Callable[[Path], Law] | None = None
+    fixed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))

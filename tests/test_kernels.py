@@ -304,6 +304,28 @@ def test_the_sampled_kernel_flies_as_python_does(name, law):
         np.testing.assert_allclose(flown.samples[i, :, 24:], samples.rotors, rtol=0, atol=1e-9)
 
 
+def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
+    """Each has its effect, and none is in the code, whose result is that of the flight in Python (above)."""
+    noisy = Plant(noise=NOISY, wind=GUSTY, rate=200.0)
+    one = sampled_kernel(HEHN, INVERTED, noisy)
+    others = [
+        noisy.replace(lag=0.04), noisy.replace(lag=0.0), noisy.replace(noise=Noise(x=0.01)),
+        noisy.replace(wind=Wind(on_bob=(0.1, 0.0, 0.0), gust_on_bob=0.01)), noisy.replace(mismatch={"rotor_lag": 1.5}),
+    ]  # fmt: skip
+    starts, ticks = random_starts(2), np.arange(41)
+    seen = {one.fly(starts, 0.2, ticks=ticks).final.tobytes()}
+    for plant in others:
+        other = sampled_kernel(HEHN, INVERTED, plant)
+        assert other.function is one.function
+        assert other.plant == plant
+        seen.add(other.fly(starts, 0.2, ticks=ticks).final.tobytes())
+    assert len(seen) == 1 + len(others)
+    for plant in (noisy.replace(noise=None), noisy.replace(wind=Wind(on_bob=(0.1, 0, 0)), noise=None), Plant()):
+        assert sampled_kernel(HEHN, INVERTED, plant).function is not one.function
+        with pytest.raises(ValueError, match="same structure"):
+            one.through(plant)
+
+
 def test_a_sampled_flight_is_the_same_in_any_company():
     plant = PLANTS["noise"]
     starts, ticks = random_starts(70, seed=2), np.arange(0, 41, 4)

@@ -88,6 +88,19 @@ def test_a_gain_changes_the_flight_and_compiles_nothing():
     assert told == [1]
 
 
+@pytest.mark.parametrize(
+    "change",
+    [{"lag": 0.05}, {"lag": 0.0}, {"noise": {"x": 3e-3, "y": 6e-3}}, {"wind": {"on_vehicle": [-0.3, 0, 0.2]}}],
+    ids=str,
+)
+def test_lag_noise_and_wind_change_the_flight_and_compile_nothing(change):
+    told, plant = [], CASES[-1]["plant"]
+    first = fly(setting_of(asked(plant=plant)))
+    second = fly(setting_of(asked(plant=plant | change)), lambda: told.append(1))
+    assert told == []
+    assert np.abs(first.x - second.x).max() > 1e-3
+
+
 @pytest.mark.parametrize("law", GAINS)
 def test_a_start_is_the_same_pose_for_every_law(law):
     run = fly(setting_of(asked(law, duration=0.05)))

@@ -18,7 +18,7 @@ from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, defin
 from flypend.outcome import MAX_STATE
 
 ARGUMENTS = (
-    "starts", "parameters", "seeds", "runs", "ticks", "sample_ticks", "sample_count",
+    "starts", "parameters", "plant", "seeds", "runs", "ticks", "sample_ticks", "sample_count",
     "samples", "reductions", "final", "end", "status",
 )  # fmt: skip
 INTEGERS = ("runs", "ticks", "sample_count")
@@ -49,7 +49,10 @@ class _Kernel:
         self.ring = code.reserve(problem.depth * len(problem.idle))
         self.forces, self.draws = code.reserve(6), code.reserve(PER_TICK)
         self.believed, self.known, self.estimate = (code.reserve(6) for _ in range(3))
-        self.t, self.alive, self.status, self.end, self.timing = (code.reserve(i) for i in (1, 1, 1, 1, 3))
+        self.t, self.alive, self.status, self.end, self.timing = (
+            code.reserve(i) for i in (1, 1, 1, 1, problem.world.inputs[4])
+        )
+        self.timings, self.noise, self.blowing = (code.reserve(length) for length in problem.inputs)
         self.seeds, self.tick_of_lane = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
         self.cursor = code.reserve(1, I64)
         self.results = Reductions(code, problem.judge, problem.reductions)
@@ -57,6 +60,7 @@ class _Kernel:
     def write(self) -> None:
         code, builder, width = self.code, self.code.builder, self.lanes.width
         groups = builder.sdiv(builder.add(self.at["runs"], ir.Constant(I64, width - 1)), ir.Constant(I64, width))
+        self._take_inputs()
         with code.count(groups) as group:
             self.first = builder.mul(group, ir.Constant(I64, width))
             self._begin()
@@ -66,6 +70,15 @@ class _Kernel:
                 self._sample(builder.add(tick, ir.Constant(I64, 1)))
             self._store_results()
         builder.ret_void()
+
+    def _take_inputs(self) -> None:
+        """Spread the numbers of the plant over all lanes."""
+        code, place = self.code, 0
+        for memory, length in zip((self.timings, self.noise, self.blowing), self.problem.inputs, strict=True):
+            for i in range(length):
+                number = code.scalar(self.at["plant"], ir.Constant(I64, place + i), ir.DoubleType())
+                code.store(code.value(number), memory, i)
+            place += length
 
     # Begin and end --------------------------------------------------------------------------------------------
 
@@ -126,7 +139,7 @@ class _Kernel:
         time = code.value(code.builder.sitofp(tick, self.lanes.scalar)) * problem.period
         self._draw(tick)
         if problem.measure is not None:
-            code.call(self.call["measure"], self.state, self.draws, self.measured)
+            code.call(self.call["measure"], self.state, self.draws, self.noise, self.measured)
         else:
             self._move(self.state, self.measured, problem.size)
         self._observe(tick)
@@ -138,10 +151,14 @@ class _Kernel:
         self._move_model(tick)
         if problem.gusts is not None:
             drawn = code.vector_at(self.draws, 18)
-            code.call(self.call["gusts"], self.gust, drawn, self.gust, self.wind)
+            code.call(self.call["gusts"], self.gust, drawn, self.blowing, self.gust, self.wind)
         self._move(self.state, self.next, problem.size + problem.rotors)
         rotors = code.vector_at(self.next, problem.size)
-        self._advance("world", problem.flown, tick, self.next, rotors, self.wind)
+        for k, stretch in enumerate(problem.flown):
+            timing = code.vector_at(self.timings, k * problem.world.inputs[4])
+            command = code.vector_at(self.ring, self._slot(tick, stretch.age))
+            with code.count(stretch.steps):
+                self._step("world", self.next, rotors, command, self.wind, timing)
         self._end_runs(self._lost(), DIVERGED, time)
         alive = code.load(self.alive) > 0.0
         with code.count(problem.size + problem.rotors) as i:
@@ -171,7 +188,7 @@ class _Kernel:
         """State and rotors of the twin after `stretches` from the measurement."""
         self._move(self.measured, self.imagined, self.problem.size)
         self._move(self.model, self.planned, self.problem.rotors)
-        self._advance("twin", stretches, tick, self.imagined, self.planned, self.forces)
+        self._advance(stretches, tick)
 
     def _move_model(self, tick: ir.Value) -> None:
         """Move the rotors that the law believes in over the period: with the twin, if their command depends on it."""
@@ -187,16 +204,8 @@ class _Kernel:
             with code.count(stretch.steps):
                 code.call(self.call["lag"], self.model, command, self.timing, self.model)
 
-    def _advance(
-        self,
-        which: str,
-        stretches: Sequence[Stretch],
-        tick: ir.Value,
-        state: ir.Value,
-        rotors: ir.Value,
-        wind: ir.Value,
-    ) -> None:
-        """Move `state` and `rotors` through `stretches`; equal ones that follow each other become a loop."""
+    def _advance(self, stretches: Sequence[Stretch], tick: ir.Value) -> None:
+        """Move the twin through `stretches`; equal ones that follow each other become a loop."""
         code, builder = self.code, self.code.builder
         place = 0
         while place < len(stretches):
@@ -212,16 +221,18 @@ class _Kernel:
                 age = builder.sub(ir.Constant(I64, first.age), younger)
                 command = code.vector_at(self.ring, self._slot(tick, age))
                 with code.count(first.steps):
-                    self._step(which, state, rotors, command, wind)
+                    self._step("twin", self.imagined, self.planned, command, self.forces, self.timing)
             place += alike
 
-    def _step(self, which: str, state: ir.Value, rotors: ir.Value, command: ir.Value, wind: ir.Value) -> None:
+    def _step(
+        self, which: str, state: ir.Value, rotors: ir.Value, command: ir.Value, wind: ir.Value, timing: ir.Value
+    ) -> None:
         code = self.code
         if self.problem.loop is not None:
             forces = code.reserve(self.problem.rotors)
             code.call(self.call["loop"], command, code.vector_at(state, 15), forces)
             command = forces
-        code.call(self.call[which], state, rotors, command, wind, self.timing, state, rotors)
+        code.call(self.call[which], state, rotors, command, wind, timing, state, rotors)
 
     def _slot(self, tick: ir.Value, age: int | ir.Value) -> ir.Value:
         """Index of the first vector of the command computed `age` ticks before `tick`."""

@@ -9,11 +9,14 @@ from flypend.compile.program import Program
 
 @dataclass(frozen=True)
 class Stretch:
-    """A while under the command computed `age` ticks ago, in `steps` equal steps with `timing` (h and two decays)."""
+    """A while under the command computed `age` ticks ago, in `steps` equal steps.
+
+    `timing` is what a step must know of its length and of the lag, in numbers; none where they are an input.
+    """
 
     age: int
     steps: int
-    timing: tuple[float, float, float]
+    timing: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -31,9 +34,9 @@ class SampledProblem:
     loop : Program, optional
         (command, omega) → rotor forces, before every step of either; without it a command is the rotor forces.
     measure : Program, optional
-        (state, draws) → state as measured.
+        (state, draws, noise) → state as measured.
     gusts : Program, optional
-        (gust, draws) → (gust, wind).
+        (gust, draws, numbers of the wind) → (gust, wind).
     observe_first, observe : Program, optional
         Those of the observer of external forces.
     judge : Program
@@ -41,7 +44,8 @@ class SampledProblem:
     reductions : tuple of str
         One kind per value: see `Reductions`.
     ahead, within, flown : tuple of Stretch
-        What the prediction, the model of the rotors and the world go through in a tick.
+        What the prediction, the model of the rotors and the world go through in a tick. How the world steps through
+        each of its own is an input, as are the noise and the wind.
     period, latency : float
         Control period, and the delay that the law plans for, s.
     idle : tuple of float
@@ -83,6 +87,12 @@ class SampledProblem:
     def parameters(self) -> int:
         """Number of parameters."""
         return self.command.inputs[4]
+
+    @property
+    def inputs(self) -> tuple[int, int, int]:
+        """Lengths of the inputs that all flights of a call share: timings of the world, noise and wind."""
+        noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
+        return self.world.inputs[4] * len(self.flown), noise, wind
 
     @property
     def depth(self) -> int:

@@ -2,6 +2,15 @@
 
 from flypend.kernels.flown import STATUS, Flown
 from flypend.kernels.ideal import IdealKernel, ideal_kernel, method_for
-from flypend.kernels.sampled import SampledKernel, sampled_kernel
+from flypend.kernels.sampled import SampledKernel, sampled_kernel, structure
 
-__all__ = ["STATUS", "Flown", "IdealKernel", "SampledKernel", "ideal_kernel", "method_for", "sampled_kernel"]
+__all__ = [
+    "STATUS",
+    "Flown",
+    "IdealKernel",
+    "SampledKernel",
+    "ideal_kernel",
+    "method_for",
+    "sampled_kernel",
+    "structure",
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -27,9 +27,9 @@ from flypend.plants.actuation import rate_loop, steps_in
 from flypend.plants.computer import TWIN_STEP, idle_command, law_command, usable_lead
 from flypend.plants.equations import rotor_lag, rotor_step, step_timing
 from flypend.plants.flight import is_random, number_of_ticks
-from flypend.plants.measurement import gusts, measurement
+from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.observer import observer_functions
-from flypend.plants.plant import Plant
+from flypend.plants.plant import Noise, Plant, Wind
 from flypend.plants.schedule import Segment, ahead, within_period
 
 WIDTH = 8
@@ -38,7 +38,7 @@ PIECE = 4 * WIDTH
 
 @dataclass(frozen=True, eq=False)
 class SampledKernel:
-    """A compiled sampled flight.
+    """A compiled sampled flight. Lag, noise and wind of the plant are inputs: see `structure`.
 
     Parameters
     ----------
@@ -59,6 +59,12 @@ class SampledKernel:
     parameters: tuple[str, ...]
     function: Any
     key: str
+
+    def through(self, plant: Plant) -> SampledKernel:
+        """The same machine code for another `plant` of the same `structure`. Raises ValueError for one of another."""
+        if structure(plant) != structure(self.plant):
+            raise ValueError("a plant of the same structure is needed")
+        return replace(self, plant=plant)
 
     def fly(
         self,
@@ -108,8 +114,10 @@ class SampledKernel:
             len(packed), SIZE, samples=(len(judged), length) if keep else None, steps=False, judged=True
         )
 
+        numbers = plant_numbers(self.vehicle, self.plant)
+
         def fly(part: slice, out: Flown) -> None:
-            self._call(packed[part], values[part], seeds[part], count, judged, out)
+            self._call(packed[part], values[part], numbers, seeds[part], count, judged, out)
 
         flown = in_pieces(fly, memory, PIECE, workers, progress)
         if self.law.e3 == "down":
@@ -118,16 +126,46 @@ class SampledKernel:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
+    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
         if out.samples is not None:
             out.samples[...] = np.nan
         self.function(
-            address(starts), address(values), address(seeds), len(starts), count, address(ticks), len(ticks),
-            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
+            address(starts), address(values), address(numbers), address(seeds), len(starts), count,
+            address(ticks), len(ticks), address(out.samples), address(out.reductions), address(out.final),
+            address(out.end), address(out.code),
         )  # fmt: skip
 
 
-@lru_cache(maxsize=64)
+def structure(plant: Plant) -> Plant:
+    """`plant` without the numbers that the machine code takes as inputs: lag, noise and wind, and without its seed.
+
+    Whether there is noise, wind, and anything to be drawn remains.
+    """
+    gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))))
+    return plant.replace(
+        lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=_without_lag(plant)
+    )
+
+
+def _without_lag(plant: Plant) -> dict[str, float]:
+    return {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
+
+
+def plant_numbers(vehicle: Vehicle, plant: Plant) -> Any:
+    """The numbers of `plant` that the machine code takes, as `SampledProblem.inputs` counts them."""
+    period, lag = 1 / plant.rate, plant.true_vehicle(vehicle).rotor_lag
+    timings = [step_timing(lag, while_ / steps) for _, while_, steps in _flown(plant)]
+    noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
+    wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
+    return np.concatenate([*timings, *noise, *wind])
+
+
+def _flown(plant: Plant) -> list[tuple[int, float, int]]:
+    """What the world goes through in a control period: age of the command, seconds, steps."""
+    segments = within_period(plant.delay, 1 / plant.rate)
+    return [(age, while_, steps_in(while_, plant)) for age, while_ in segments]
+
+
 def sampled_kernel(
     vehicle: Vehicle,
     law: Law,
@@ -149,7 +187,13 @@ def sampled_kernel(
     InputError
         For an unknown gain, and for a law with operations that cannot be compiled.
     """
-    criterion = criterion or Criterion()
+    return _structured(vehicle, law, structure(plant), criterion or Criterion(), parameters).through(plant)
+
+
+@lru_cache(maxsize=64)
+def _structured(
+    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: tuple[str, ...]
+) -> SampledKernel:
     problem = sampled_problem(vehicle, law, plant, criterion, parameters)
 
     def module() -> ir.Module:
@@ -172,11 +216,11 @@ def sampled_problem(
     watched = law.computer.observer > 0
     observer = [lower(f) for f in observer_functions(believed, law.computer)] if watched else [None, None]
 
-    def stretches(segments: Sequence[Segment], lag: float, longest: float | None) -> tuple[Stretch, ...]:
+    def imagined(segments: Sequence[Segment]) -> tuple[Stretch, ...]:
         made = []
         for age, duration in segments:
-            steps = steps_in(duration, plant, longest)
-            made.append(Stretch(age, steps, tuple(step_timing(lag, duration / steps).tolist())))
+            steps = steps_in(duration, plant, TWIN_STEP)
+            made.append(Stretch(age, steps, tuple(step_timing(believed.rotor_lag, duration / steps).tolist())))
         return tuple(made)
 
     rates = plant.interface == "rates"
@@ -186,15 +230,15 @@ def sampled_problem(
         twin=_named(rotor_step(believed), "twin"),
         lag=None if rates else lower(rotor_lag(believed)),
         loop=_named(_loop(believed, plant), "loop") if rates else None,
-        measure=lower(measurement(plant.noise)) if plant.noise is not None else None,
-        gusts=lower(gusts(plant.wind, period)) if plant.wind is not None else None,
+        measure=lower(measurement()) if plant.noise is not None else None,
+        gusts=lower(gusts()) if plant.wind is not None else None,
         observe_first=observer[0],
         observe=observer[1],
         judge=lower(_judge(vehicle, law, criterion, len(parameters))),
         reductions=REDUCTIONS,
-        ahead=stretches(ahead(latency, period), believed.rotor_lag, TWIN_STEP),
-        within=stretches(within_period(latency, period), believed.rotor_lag, TWIN_STEP),
-        flown=stretches(within_period(plant.delay, period), true.rotor_lag, None),
+        ahead=imagined(ahead(latency, period)),
+        within=imagined(within_period(latency, period)),
+        flown=tuple(Stretch(age, steps) for age, _, steps in _flown(plant)),
         period=period,
         latency=latency,
         idle=tuple(idle_command(believed, plant).tolist()),

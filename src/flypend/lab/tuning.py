@@ -1,11 +1,11 @@
-"""Flights whose gains are inputs of the machine code: another gain compiles nothing."""
+"""Flights whose gains, lag, noise and wind are inputs of the machine code: others compile nothing."""
 
 from __future__ import annotations
 
 import json
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from threading import RLock
 from typing import Any
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from flypend.compile.closed_loop import symbolic_loop
 from flypend.criterion import Criterion
-from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel
+from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel, structure
 from flypend.lab.gains import GAINS, gains_of
 from flypend.lab.setting import law_of
 from flypend.laws import Law
@@ -68,17 +68,19 @@ def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
     """What flies `flight`; `tell` is called if it has to be made first, which takes a second."""
     fixed = {name: value for name, value in law_of(flight).gains.items() if name not in GAINS[law_of(flight).name]}
     plant = None if flight.plant == "ideal" else plant_named(flight.plant).replace(seed=0)
-    key = json.dumps([flight.vehicle.to_dict(), law_of(flight).name, fixed, repr(plant), flight.rtol], sort_keys=True)
+    kept = None if plant is None else repr(structure(plant))
+    key = json.dumps([flight.vehicle.to_dict(), law_of(flight).name, fixed, kept, flight.rtol], sort_keys=True)
     with _building:
-        if key in _made:
-            _made.move_to_end(key)
-            return _made[key]
-        tell()
-        made = _make(flight, fixed, plant)
-        _made[key] = made
+        if key not in _made:
+            tell()
+            _made[key] = _make(flight, fixed, plant)
+        _made.move_to_end(key)
         while len(_made) > MOST:
             _made.popitem(last=False)
+        made = _made[key]
+    if plant is None or not isinstance(made.kernel, SampledKernel):
         return made
+    return replace(made, plant=plant, kernel=made.kernel.through(plant))
 
 
 def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:

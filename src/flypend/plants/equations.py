@@ -14,6 +14,8 @@ from flypend.model import State, Vehicle, Wrench
 from flypend.model.motion import disturbed_motion
 from flypend.model.state import SIZE, project_symbolic
 
+TIMING_SIZE = 4
+
 
 class EquationsEngine:
     """Vehicle and pendulum with rotors that lag, in the frame with e₃ up, advanced by classical Runge-Kutta steps.
@@ -49,9 +51,9 @@ def _compiled_step(vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> Callabl
 
 @lru_cache(maxsize=256)
 def step_timing(lag: float, duration: float) -> Any:
-    """What `rotor_step` must know of its `duration` h (s): h, e^{−h/2T} and e^{−h/T} for a `lag` of T (s)."""
+    """What `rotor_step` must know of its `duration` h (s): h, and e^{−t/T} at 0, h/2 and h for a `lag` of T (s)."""
     decay = np.exp(-duration / (2 * lag)) if lag > 0 else 0.0
-    return np.array([duration, decay, decay**2])
+    return np.array([duration, float(lag > 0), decay, decay**2])  # without a lag nothing is left from the beginning
 
 
 def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0)) -> ca.Function:
@@ -59,11 +61,11 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
 
     Rotor forces follow the command with the time constant of the vehicle, exactly; the motion is integrated by the
     Runge-Kutta method of order 4 and projected back onto the manifold. `pivot_offset` as in `EquationsEngine`, timing
-    (3,) as `step_timing` gives it.
+    (4,) as `step_timing` gives it: the lag is no constant of the function.
     """
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
-    wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", 3)
+    wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", TIMING_SIZE)
     h = timing[0]
     mixing = vehicle.mixing()
 
@@ -80,7 +82,7 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
         )
         return motion.packed()
 
-    start, middle, end = (_lagging(rotors, command, decay, vehicle) for decay in (1, timing[1], timing[2]))
+    start, middle, end = (_lagging(rotors, command, timing[i]) for i in (1, 2, 3))
     k_1 = rates(packed, start)
     k_2 = rates(packed + h / 2 * k_1, middle)
     k_3 = rates(packed + h / 2 * k_2, middle)
@@ -93,10 +95,10 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
 def rotor_lag(vehicle: Vehicle) -> ca.Function:
     """The rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
     n = len(vehicle.rotor_spins)
-    rotors, command, timing = ca.SX.sym("r", n), ca.SX.sym("u", n), ca.SX.sym("h", 3)
-    return ca.Function("rotor_lag", [rotors, command, timing], [_lagging(rotors, command, timing[2], vehicle)])
+    rotors, command, timing = ca.SX.sym("r", n), ca.SX.sym("u", n), ca.SX.sym("h", TIMING_SIZE)
+    return ca.Function("rotor_lag", [rotors, command, timing], [_lagging(rotors, command, timing[3])])
 
 
-def _lagging(rotors: Any, command: Any, decay: Any, vehicle: Vehicle) -> Any:
+def _lagging(rotors: Any, command: Any, decay: Any) -> Any:
     """Rotor forces that a `command` draws from `rotors`, when `decay` = e^{−t/T} of the difference is left."""
-    return command + (rotors - command) * decay if vehicle.rotor_lag > 0 else command
+    return command + (rotors - command) * decay

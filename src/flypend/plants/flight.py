@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,8 +19,8 @@ from flypend.model.state import FLIP_PACKED
 from flypend.outcome import MAX_STATE, Outcome
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.computer import Commands, FlightComputer, idle_command
-from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement
-from flypend.plants.plant import Noise, Plant, Wind
+from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
+from flypend.plants.plant import Plant
 from flypend.plants.schedule import within_period
 
 NOT_FINITE = "the law's wrench is not a finite number"
@@ -94,15 +93,15 @@ def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callab
     drawn = normals(plant.seed, ticks) if is_random(plant) else None
     measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
     if plant.noise is not None and drawn is not None:
-        noisy = _compiled_measurement(plant.noise)
-        measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT])  # noqa: E731
+        noisy, sigma = as_numpy(measurement()), noise_numbers(plant.noise)
+        measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT], sigma)  # noqa: E731
     if plant.wind is None:
         return measure, lambda _: np.zeros(6)
-    blow, gust = _compiled_gusts(plant.wind, 1 / plant.rate), np.zeros(6)
+    blow, numbers, gust = as_numpy(gusts()), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(6)
     nothing = np.zeros(6)
 
     def next_wind(k: int) -> Any:
-        gust[:], force = blow(gust, nothing if drawn is None else drawn[k, GUSTS])
+        gust[:], force = blow(gust, nothing if drawn is None else drawn[k, GUSTS], numbers)
         return force
 
     return measure, next_wind
@@ -113,13 +112,3 @@ def is_random(plant: Plant) -> bool:
     return plant.noise is not None or (
         plant.wind is not None and (plant.wind.gust_on_vehicle > 0 or plant.wind.gust_on_bob > 0)
     )
-
-
-@lru_cache(maxsize=32)
-def _compiled_measurement(noise: Noise) -> Any:
-    return as_numpy(measurement(noise))
-
-
-@lru_cache(maxsize=32)
-def _compiled_gusts(wind: Wind, period: float) -> Any:
-    return as_numpy(gusts(wind, period))

@@ -1,6 +1,12 @@
-"""What the sensors and the air add, from normal numbers: the measured state, and gusts."""
+"""What the sensors and the air add, from normal numbers: the measured state, and gusts.
+
+How much they add are inputs of both functions, so that one compiled flight serves all amounts.
+"""
 
 from __future__ import annotations
+
+from dataclasses import astuple, fields
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -12,35 +18,51 @@ from flypend.plants.plant import Noise, Wind
 
 # Of the numbers that one control tick draws, the first 18 are for the measurement and the next 6 for the gusts.
 MEASUREMENT, GUSTS = slice(0, 18), slice(18, 24)
+NOISE_SIZE, WIND_SIZE = 6, 9
 
 
-def measurement(noise: Noise) -> ca.Function:
-    """(state (24,), draws (18,)) → the state as measured with `noise`, on the manifold, as a CasADi function."""
-    packed, draws = ca.SX.sym("s", SIZE), ca.SX.sym("n", 18)
+def noise_numbers(noise: Noise | None) -> Any:
+    """The numbers (6,) of `noise` that `measurement` takes: its fields, in their order."""
+    return np.zeros(NOISE_SIZE) if noise is None else np.array(astuple(noise), dtype=float)
+
+
+def wind_numbers(wind: Wind | None, period: float) -> Any:
+    """The numbers (9,) of `wind` that `gusts` takes, for gusts that last for a control `period`, s.
+
+    What is left of a gust after a period, what each axis of that on vehicle and on bob gains, and the constant forces.
+    """
+    if wind is None:
+        return np.zeros(WIND_SIZE)
+    decay = np.exp(-period / wind.gust_time)
+    added = np.sqrt(1 - decay**2)
+    gusty = (added * wind.gust_on_vehicle, added * wind.gust_on_bob)
+    return np.array([decay, *gusty, *wind.on_vehicle, *wind.on_bob])
+
+
+def measurement() -> ca.Function:
+    """(state (24,), draws (18,), `noise_numbers`) → the state as measured, on the manifold, as a CasADi function."""
+    packed, draws, sigma = ca.SX.sym("s", SIZE), ca.SX.sym("n", 18), ca.SX.sym("sigma", NOISE_SIZE)
+    noise = dict(zip((entry.name for entry in fields(Noise)), ca.vertsplit(sigma), strict=True))
     s, draw = State.symbolic(packed), [draws[3 * i : 3 * i + 3] for i in range(6)]
-    turn = noise.attitude * draw[2]
+    turn = noise["attitude"] * draw[2]
     angle = ca.norm_2(turn) + 1e-150  # 0/0 at a draw of exactly zero
     first, second = ca.sin(angle) / angle, 2 * (ca.sin(angle / 2) / angle) ** 2
     rotation = ca.SX.eye(3) + first * hat(turn) + second * hat(turn) @ hat(turn)
-    y = unit(s.y + noise.y * tangent_part(s.y, draw[4]))
+    y = unit(s.y + noise["y"] * tangent_part(s.y, draw[4]))
     measured = State(
-        x=s.x + noise.x * draw[0],
-        x_dot=s.x_dot + noise.x_dot * draw[1],
+        x=s.x + noise["x"] * draw[0],
+        x_dot=s.x_dot + noise["x_dot"] * draw[1],
         R=s.R @ rotation,
-        omega=s.omega + noise.omega * draw[3],
+        omega=s.omega + noise["omega"] * draw[3],
         y=y,
-        y_dot=tangent_part(y, s.y_dot + noise.y_dot * draw[5]),
+        y_dot=tangent_part(y, s.y_dot + noise["y_dot"] * draw[5]),
     )
-    return ca.Function("measure", [packed, draws], [ca.cse(ca.densify(measured.packed()))])
+    return ca.Function("measure", [packed, draws, sigma], [ca.cse(ca.densify(measured.packed()))])
 
 
-def gusts(wind: Wind, period: float) -> ca.Function:
-    """(gust (6,), draws (6,)) → the next gust and the force of `wind` on vehicle and bob (6,), N, as a CasADi function.
-
-    A gust lasts for a control `period`, s.
-    """
-    gust, draws = ca.SX.sym("g", 6), ca.SX.sym("n", 6)
-    sigma = np.repeat([wind.gust_on_vehicle, wind.gust_on_bob], 3)
-    decay = float(np.exp(-period / wind.gust_time))
-    following = decay * gust + np.sqrt(1 - decay**2) * sigma * draws
-    return ca.Function("gusts", [gust, draws], [following, following + np.array([*wind.on_vehicle, *wind.on_bob])])
+def gusts() -> ca.Function:
+    """(gust (6,), draws (6,), `wind_numbers`) → the next gust and the force of the wind on vehicle and bob (6,), N."""
+    gust, draws, numbers = ca.SX.sym("g", 6), ca.SX.sym("n", 6), ca.SX.sym("w", WIND_SIZE)
+    decay, on_vehicle, on_bob, constant = numbers[0], numbers[1], numbers[2], numbers[3:]
+    following = decay * gust + ca.vertcat(on_vehicle * draws[:3], on_bob * draws[3:])
+    return ca.Function("gusts", [gust, draws, numbers], [following, following + constant])

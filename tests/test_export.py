@@ -347,9 +347,10 @@ def test_only_what_a_law_reads_is_asked_for():
     assert {"rod_damping", "coast_time"} <= {field.name for field in made["inverted"].gains.fields}
     assert not {"lead", "latency", "observer"} & {field.name for field in made["inverted"].gains.fields}
     assert [field.name for field in made["lqr"].gains.fields] == ["none"]  # its gain matrix is constant
-    # The law takes a cosine of one of its gains, which C code has not.
-    assert made["inverted"].constant == ("tilt_limit",)
-    assert "tilt_limit" not in {field.name for field in made["inverted"].gains.fields}
+    # Two gains decide how much there is to compute, and of one the law takes a cosine, which C code has not.
+    constant = ("thrust_coast_share", "pump_share", "tilt_limit")
+    assert made["inverted"].constant == constant
+    assert not set(constant) & {field.name for field in made["inverted"].gains.fields}
 
 
 def test_the_light_form_is_light_and_inverts():

@@ -206,8 +206,8 @@ def retract(at: State, xi: Any) -> State:
 
 
 def _plane(y: Any) -> Any:
-    """b₁ and b₂ (2, 3): b₁ along the part across `y` of the axis that is least along it."""
-    b_1 = unit(project_tangent(y, np.eye(3)[np.argmin(np.abs(y))]))
+    """b₁ and b₂ (2, 3): b₁ along the part across `y` of the axis that is least along it, roundings left aside."""
+    b_1 = unit(project_tangent(y, np.eye(3)[np.argmin(np.abs(y).round(9))]))
     return np.stack([b_1, cross(y, b_1)])
 
 

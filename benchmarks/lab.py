@@ -1,10 +1,17 @@
-"""How long the laboratory takes from a slider to the flight: on the server, and over the socket."""
+"""How long the laboratory takes from a slider to the flight: on the server, over the socket, and to the picture.
+
+The browser is the chromium of the tests, without a screen, and draws in software.
+"""
 
 import asyncio
 import json
+import shutil
+import subprocess
+import sys
 import time
 
 import numpy as np
+from playwright.sync_api import sync_playwright
 from tornado.httpserver import HTTPServer
 from tornado.testing import bind_unused_port
 from tornado.websocket import websocket_connect
@@ -54,14 +61,58 @@ async def over_socket(plant):
     return 1e3 * np.array(times[1:])
 
 
+SHOWN = "() => window.flypend?.number() > 0 && flypend.shown() === flypend.number()"
+
+
+def in_browser(pause):
+    """Milliseconds of the server, and from the slider to the frame that shows the flight, in a page of 1280 by 800.
+
+    The slider rests for `pause` ms after each flight that is shown.
+    """
+    lab = [sys.executable, "-m", "flypend", "lab", "--no-browser"]
+    options = [
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--use-gl=angle",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+    ]
+    server = subprocess.Popen(lab, stdout=subprocess.PIPE, text=True)
+    try:
+        address = next(word for word in server.stdout.readline().split() if word.startswith("http"))
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=options)
+            page = browser.new_page(viewport={"width": 1280, "height": 800})
+            page.goto(address)
+            page.wait_for_function(SHOWN)
+            for i in range(MOVES + 1):
+                page.locator("[data-path='law.gains.rod_bandwidth'] input").fill(str(100 + 3 * i))
+                page.wait_for_function(SHOWN)
+                page.wait_for_timeout(pause)
+            times = page.evaluate("flypend.timings()")[-MOVES:]
+    finally:
+        server.kill()
+    return np.array([[entry["server"], entry["picture"]] for entry in times]).T
+
+
 def main():
     """Print medians and 95th percentiles."""
     for plant in ("ideal", "rotors"):
         processor, clock = on_server(plant)
         trip = asyncio.run(over_socket(plant))
         for name, values in (("processor", processor), ("server", clock), ("round trip", trip)):
-            median, late = np.percentile(values, (50, 95))
-            print(f"{plant:7s} {name:11s} median {median:6.1f} ms   95 % {late:6.1f} ms")
+            told(f"{plant:7s} {name}", values)
+    for words, pause in (("one move", 200), ("moving on", 20)):
+        server, picture = in_browser(pause)
+        told(f"ideal   server, {words}", server)
+        told(f"ideal   picture, {words}", picture)
+
+
+def told(name, values):
+    """Print the median and 95th percentile of `values`."""
+    median, late = np.percentile(values, (50, 95))
+    print(f"{name:26s} median {median:6.1f} ms   95 % {late:6.1f} ms")
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import { unit } from "./numbers.js";
 import { Viewer } from "./viewer.js";
 
 const MAP_DELAY = 250; // ms without a change before a map is asked for
+const HOLD = 400; // ms without a slider's move before the camera goes where the new flight needs it
 
 class Laboratory {
   constructor(data) {
@@ -58,7 +59,19 @@ class Laboratory {
 
   slide(facts, value) {
     this.touched = facts.path;
+    this.#hold();
     this.setting.slide(facts, value);
+  }
+
+  /** Hold the camera while a slider moves: flights are compared better from one place, and nothing is drawn on the way. */
+  #hold() {
+    const { stage } = this.viewer;
+    stage?.hold(true);
+    clearTimeout(this.held);
+    this.held = setTimeout(() => {
+      stage?.hold(false);
+      this.viewer.wake();
+    }, HOLD);
   }
 
   choose(what, name) {

@@ -15,7 +15,11 @@ import numpy as np
 
 from benchmarks.peers import Fly, Peer
 
-OPTIONS = ["-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-w", "-std=c++17"]
+# With the freedoms that flypend gives LLVM: fused operations, sums in any order, shared reciprocals.
+OPTIONS = [
+    "-O3", "-march=native", "-ffp-contract=fast", "-fassociative-math", "-fno-signed-zeros", "-freciprocal-math",
+    "-fno-math-errno", "-fno-trapping-math", "-w", "-std=c++17",
+]  # fmt: skip
 
 
 def make(problem: Any, threads: int, method: str = "dp5", lanes: int = 8) -> Fly:

@@ -74,6 +74,7 @@ class IdealKernel:
         max_steps: int | None = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
+        out: Flown | None = None,
     ) -> Flown:
         """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds.
 
@@ -96,14 +97,16 @@ class IdealKernel:
         workers : int, optional
             Threads; default one per core.
         progress : callable
-            Told `(done, runs)`.
+            Told `(taken, runs)`.
+        out : Flown, optional
+            Results of an earlier call of the same sizes, to be written over.
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = inputs_of(self.law, self.parameters, parameters, len(starts))
         moments = closed(times)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
-        out = _memory(len(starts), moments, keep, judge)
+        out = out or _memory(len(starts), moments, keep, judge)
 
         def fly(queue: Any) -> None:
             call(self.function, starts, values, setting, moments, out, queue=queue)

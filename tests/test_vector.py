@@ -10,9 +10,10 @@ from programs import evaluate, program_of
 
 import flypend as fp
 from flypend.compile import jit
+from flypend.compile.emit import define
 from flypend.compile.random import PER_TICK, normals, philox
 from flypend.compile.rows import BLOCK, define_turn
-from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, define
+from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes
 from flypend.criterion import Criterion
 from flypend.kernels.ideal import ideal_problem
 

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from llvmlite import ir
 
+from flypend.compile.emit import define
 from flypend.compile.program import Program
-from flypend.compile.vector import I64, Code, Value, define
+from flypend.compile.vector import I64, Code, Value
 
 # max, sum    of the value over the samples; NaN counts as +inf for max
 # mean        of the value over the samples

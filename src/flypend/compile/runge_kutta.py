@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from llvmlite import ir
 
+from flypend.compile.emit import define
 from flypend.compile.methods import Method
 from flypend.compile.problem import Problem
 from flypend.compile.program import Program, needed
@@ -16,7 +17,7 @@ from flypend.compile.reductions import Reductions
 from flypend.compile.rows import as_double, copy_lane
 from flypend.compile.sampling import Sampler, Step
 from flypend.compile.stages import Stages
-from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
+from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value
 from flypend.outcome import MAX_STATE
 
 COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY = range(6)

@@ -10,11 +10,12 @@ from collections.abc import Sequence
 
 from llvmlite import ir
 
+from flypend.compile.emit import define
 from flypend.compile.random import PER_TICK, define_normals
 from flypend.compile.reductions import Reductions
 from flypend.compile.runge_kutta import COMPLETED, DIVERGED, UNDEFINED
 from flypend.compile.sampled_problem import SampledProblem, Stretch
-from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value, define
+from flypend.compile.vector import I64, POINTER, VOID, Code, Lanes, Value
 from flypend.outcome import MAX_STATE
 
 ARGUMENTS = (

@@ -8,9 +8,10 @@ from typing import Any
 
 from llvmlite import ir
 
+from flypend.compile.emit import define
 from flypend.compile.methods import Method
 from flypend.compile.program import Program
-from flypend.compile.vector import I64, Code, Value, define
+from flypend.compile.vector import I64, Code, Value
 
 STRANDS = 4  # divides the sizes of a state and of a state with its tangent
 

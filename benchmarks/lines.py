@@ -14,6 +14,7 @@ import flypend as fp
 from benchmarks import clock
 from benchmarks.problem import Problem
 from flypend.kernels import ideal_kernel, sampled_kernel
+from flypend.kernels.ideal import MAX_STEPS, call, closed
 from flypend.plants import plant
 
 DECADES = range(3, 8)
@@ -65,9 +66,10 @@ def sampling(problem: Problem, kernel: Any) -> Iterator[Line]:
     fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=1)
     # The memory of the states comes from the operating system, which fills it with zeros first: that is told apart.
     there = fly(times=times, keep=True, judge=False)
+    setting, nothing = (problem.duration, 1e-6, 1e-6, MAX_STEPS), np.zeros((len(starts), 0))
     tasks = [
         partial(fly, judge=False),
-        partial(fly, times=times, keep=True, judge=False, out=there),
+        partial(call, kernel.function, starts, nothing, setting, closed(times), there),
         partial(fly, times=times, keep=True, judge=False),
         partial(fly, times=times),
     ]

@@ -129,7 +129,7 @@ def test_the_frame_is_that_of_the_law(starts):
 def small_tasks(monkeypatch):
     """Two runs to a task, so that few starts are several tasks."""
     monkeypatch.setattr(ensemble, "CHUNK", 2)
-    monkeypatch.setattr("flypend.kernels.flown.LEAST_PIECE", 2)
+    monkeypatch.setattr("flypend.kernels.flown.LEAST_SHARE", 2)
     monkeypatch.setattr("flypend.kernels.sampled.PIECE", 2)
 
 
@@ -278,3 +278,8 @@ def test_what_a_single_run_refuses_is_refused(starts):
 def test_what_is_refused_in_another_process_is_told_as_here(starts, small_tasks):
     with pytest.raises(fp.InputError, match=r"^duration: expected a finite number > 0 s, got -1$"):
         simulate_ensemble(VEHICLE, inverted(), starts, -1.0, workers=2)
+
+
+def test_times_that_do_not_increase_are_refused(starts):
+    with pytest.raises(fp.InputError, match=r"^times: expected increasing times"):
+        simulate_ensemble(VEHICLE, inverted(), starts, 1.0, times=[0.5, 0.2])

@@ -278,6 +278,7 @@ PLANTS = {
     "rotors": Plant(),
     "lag": Plant(lag=0.04, rate=250.0),
     "none": Plant(limits=False, lag=0.0, rate=100.0),
+    "wind": Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0),  # nothing is drawn
     "delay": Plant(delay=0.013, rate=200.0),
     "noise": Plant(noise=NOISY, rate=200.0, seed=5),
     "gusts": Plant(wind=GUSTY, rate=200.0, seed=6),

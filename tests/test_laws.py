@@ -432,3 +432,8 @@ def test_split_names_what_close_loop_integrates():
     expected = Answer(law_of("corrected"), state).rates
     for name, value in zip(rates, expected, strict=True):
         np.testing.assert_allclose(rates[name], value, rtol=0, atol=1e-11)  # |ω̇| up to 100
+
+
+def test_only_its_own_gains_can_be_fixed():
+    with pytest.raises(fp.InputError, match=r"^law\.fixed\.share: expected one of k, got 'share'"):
+        fp.Law(name="own", e3="up", control=lambda *_: None, gains={"k": 1.0}, fixed=("share",))

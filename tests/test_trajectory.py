@@ -234,6 +234,16 @@ def test_what_xarray_opens_is_the_dataset(how, tmp_path):
         xarray.testing.assert_identical(opened.load(), run.to_xarray())
 
 
+def test_signals_of_whole_numbers_are_kept_too(run, tmp_path):
+    n = len(run.t)
+    odd = dataclasses.replace(
+        run, signals={"count": np.arange(n), "late": run.t > 0.5, "small": np.ones(n, np.float32)}
+    )
+    odd.save(tmp_path / "run.nc")
+    for name, signal in fp.load(tmp_path / "run.nc").signals.items():
+        np.testing.assert_array_equal(signal, odd.signals[name])
+
+
 def test_a_file_that_cannot_be_written_is_one_clear_line(run, tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     for path, reason in (

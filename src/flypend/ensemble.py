@@ -127,7 +127,7 @@ def simulate_ensemble(
         Threads, or processes for the engine "scipy"; default one per core. A law that cannot be sent to another process
         is flown in this one.
     progress : callable
-        Told `(done, total)` as runs come in.
+        Told `(taken, total)` as runs are taken up.
 
     Raises
     ------
@@ -149,6 +149,8 @@ def simulate_ensemble(
 
     bound = law.bound(vehicle)
     kept = None if times is None else errors.array("times", times, (None,))
+    if kept is not None and not np.all(np.diff(kept) > 0):
+        raise errors.InputError("times", "increasing times", "others")
     flown = fly_packed(
         vehicle, bound, starts.packed(), duration, plant=plant, rtol=rtol, gains=gains, criterion=criterion,
         times=kept, judge_period=judge_period, method=method, precision=precision, workers=workers, progress=progress,

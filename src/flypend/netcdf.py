@@ -25,6 +25,8 @@ def write_netcdf(path: Path, variables: Mapping[str, Variable], attributes: Mapp
         _describe(file, attributes)
         for name, (dims, values, about) in variables.items():
             values = np.asarray(values)
+            if values.dtype.kind in "iub":  # NetCDF 3 has no integers of 64 bits
+                values = values.astype(float)
             if values.dtype.kind == "U":  # NetCDF 3 has characters only
                 encoded = np.char.encode(values, "utf-8")
                 values = encoded.view("S1").reshape(*values.shape, -1)

@@ -66,10 +66,10 @@ class Laboratory {
   /** Hold the camera while a slider moves: flights are compared better from one place, and nothing is drawn on the way. */
   #hold() {
     const { stage } = this.viewer;
-    stage?.hold(true);
+    stage?.hold("slider", true);
     clearTimeout(this.held);
     this.held = setTimeout(() => {
-      stage?.hold(false);
+      stage?.hold("slider", false);
       this.viewer.wake();
     }, HOLD);
   }

@@ -62,6 +62,8 @@ class _Kernel:
         code, builder, width = self.code, self.code.builder, self.lanes.width
         groups = builder.sdiv(builder.add(self.at["runs"], ir.Constant(I64, width - 1)), ir.Constant(I64, width))
         self._take_inputs()
+        with code.count(PER_TICK) as i:  # what is not drawn is 0
+            code.store(0.0, self.draws, i)
         with code.count(groups) as group:
             self.first = builder.mul(group, ir.Constant(I64, width))
             self._begin()

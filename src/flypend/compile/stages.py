@@ -24,6 +24,8 @@ class Stages:
 
     def __init__(self, code: Code, method: Method, rates: Program) -> None:
         self.code, self.method, self.size = code, method, rates.inputs[1]
+        if self.size % STRANDS:
+            raise ValueError(f"a state of a multiple of {STRANDS} entries, not {self.size}")
         self.rates = define(code.lanes, rates)
         self.S, self.Y, self.P = code.reserve(self.size), code.reserve(self.size), code.reserve(rates.inputs[2])
         self.K = code.reserve(self.size * (len(method.errors[0]) + len(method.C_extra)))

@@ -2,7 +2,7 @@
 
 from flypend.kernels.flown import STATUS, Flown
 from flypend.kernels.ideal import IdealKernel, ideal_kernel, method_for
-from flypend.kernels.sampled import SampledKernel, sampled_kernel, structure
+from flypend.kernels.sampled import SampledKernel, plant_numbers, sampled_kernel, structure
 
 __all__ = [
     "STATUS",
@@ -11,6 +11,7 @@ __all__ = [
     "SampledKernel",
     "ideal_kernel",
     "method_for",
+    "plant_numbers",
     "sampled_kernel",
     "structure",
 ]

@@ -1,4 +1,4 @@
-"""What a kernel gives, and the flying of many runs on all cores: in pieces, each a call that lets Python go on."""
+"""What a kernel gives, and the flying of many runs on all cores: from a queue or in pieces, while Python goes on."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from flypend.laws.law import Law
 
 Progress = Callable[[int, int], Any]
 
-# Runs in the smallest piece and share of a thread: a multiple of the lanes of every kernel.
-LEAST_PIECE = 64
+# Runs that are worth a thread.
+LEAST_SHARE = 64
 
 # Words of `Trajectory.outcome` for the codes of `flypend.compile.runge_kutta`.
 STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
@@ -87,18 +87,15 @@ def _aligned(shape: tuple[int, ...]) -> Any:
 def in_pieces(
     fly: Callable[[slice, Flown], None],
     out: Flown,
-    largest: int,
+    piece: int,
     workers: int | None,
     progress: Progress = lambda *_: None,
 ) -> Flown:
-    """`out`, after `fly` wrote into its parts from `workers` threads, `largest` runs or fewer at a time.
+    """`out`, after `fly` wrote into its parts from `workers` threads, `piece` runs or fewer at a time.
 
     `progress` is told (done, runs) after each piece. A run gives the same result in any piece and on any thread.
     """
     runs, threads = len(out), workers or os.cpu_count() or 1
-    # Some pieces per thread, so that none waits long for another.
-    share = -(-runs // (4 * threads)) if threads > 1 else runs
-    piece = min(largest, max(1, -(-share // LEAST_PIECE)) * LEAST_PIECE)
     slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
     threads = min(threads, len(slices))
     if threads <= 1:
@@ -125,13 +122,13 @@ def from_queue(
     runs under way have ended.
     """
     queue = np.zeros(1, dtype=np.int64)
-    threads = min(workers or os.cpu_count() or 1, runs // LEAST_PIECE)
+    threads = min(workers or os.cpu_count() or 1, runs // LEAST_SHARE)
     if threads < 1:
         fly(queue)
     else:
         with ThreadPoolExecutor(threads) as pool:
-            tasks = [pool.submit(fly, queue) for _ in range(threads)]
             try:
+                tasks = [pool.submit(fly, queue) for _ in range(threads)]
                 while wait(tasks, timeout=0.1).not_done:
                     progress(min(int(queue[0]), runs), runs)
             except BaseException:

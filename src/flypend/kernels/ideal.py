@@ -26,6 +26,7 @@ from flypend.kernels.flown import Flown, Progress, address, from_queue, inputs_o
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, project_symbolic
+from flypend.outcome import MAX_STATE
 
 # Bytes of a vector. A long program is a long chain of dependent operations: two registers side by side keep the
 # processor busy while it waits. A short one is better off with all registers for one.
@@ -74,7 +75,6 @@ class IdealKernel:
         max_steps: int | None = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
-        out: Flown | None = None,
     ) -> Flown:
         """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds.
 
@@ -98,15 +98,13 @@ class IdealKernel:
             Threads; default one per core.
         progress : callable
             Told `(taken, runs)`.
-        out : Flown, optional
-            Results of an earlier call of the same sizes, to be written over.
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = inputs_of(self.law, self.parameters, parameters, len(starts))
         moments = closed(times)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
-        out = out or _memory(len(starts), moments, keep, judge)
+        out = _memory(len(starts), moments, keep, judge)
 
         def fly(queue: Any) -> None:
             call(self.function, starts, values, setting, moments, out, queue=queue)
@@ -213,9 +211,10 @@ def ideal_kernel(
 
 def compiled(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
     """The kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
+    width = lane_count(problem, precision)
 
     def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), lane_count(problem, precision), precision)
+        lanes = Lanes(ir.Module("flypend"), width, precision)
         write_kernel(lanes, problem, method_named(method))
         return lanes.module
 
@@ -223,7 +222,7 @@ def compiled(key: str, problem: Problem, method: str, precision: str = "double")
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    return jit.build(key, module, "kernel", kinds)
+    return jit.build(f"{key} {width} lanes, states below {MAX_STATE}", module, "kernel", kinds)
 
 
 def method_for(rtol: float, law: Law) -> str:

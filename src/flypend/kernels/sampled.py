@@ -23,6 +23,7 @@ from flypend.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
+from flypend.outcome import MAX_STATE
 from flypend.plants.actuation import rate_loop, steps_in
 from flypend.plants.computer import TWIN_STEP, idle_command, law_command, usable_lead
 from flypend.plants.equations import rotor_lag, rotor_step, step_timing
@@ -202,7 +203,7 @@ def _structured(
         return lanes.module
 
     kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    key = f"sampled {problem!r}"
+    key = f"sampled, {WIDTH} lanes, states below {MAX_STATE}: {problem!r}"
     return SampledKernel(vehicle, law, plant, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
 
 

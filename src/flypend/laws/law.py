@@ -121,6 +121,7 @@ class Law:
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
+        errors.only_known("law.fixed", dict.fromkeys(self.fixed), self.numbers)
 
     def bound(self, vehicle: Vehicle) -> Law:
         """The law as it flies `vehicle`: itself, or with the gains that it takes from the vehicle."""

@@ -199,7 +199,7 @@ def soft(value: Any, limit: Any) -> Any:
 
 
 def smooth_step(q: Any) -> Any:
-    """0 below q = 0, 1 above q = 1, exactly, and twice differentiable, so that ż_d does not jump."""
+    """0 below q = 0, 1 above q = 1, exactly, and twice differentiable, so that none jumps in ż_d."""
     q = ca.fmin(ca.fmax(q, 0), 1)
     return q * q * q * (10 - q * (15 - 6 * q))
 

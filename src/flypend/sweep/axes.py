@@ -105,14 +105,16 @@ def _start_axis(name: str, value: Any) -> Axis:
 
 
 def _plant_axes(name: str, value: Any, sampled: bool) -> list[Axis]:
-    """Numbers of the plant, and those in its tables; each on a grid, since every value is a kernel of its own."""
+    """Numbers of the plant, and those in its tables; each on a grid, since runs of one plant are flown together."""
     if not sampled:
         raise InputError("vary.plant", "a plant with numbers, such as 'rotors'", "the ideal plant")
     if isinstance(value, Mapping) and not set(value) & {"from", "to", "points", "values", "scale"}:
         return [axis for inner, entry in value.items() for axis in _plant_axes(f"{name}.{inner}", entry, sampled)]
     axis = _range("plant", name, value)
     if not axis.values:
-        raise InputError(f"vary.plant.{name}", "a grid (points or values): each is a program of its own", repr(value))
+        raise InputError(
+            f"vary.plant.{name}", "a grid (points or values): runs of one plant are flown together", repr(value)
+        )
     return [axis]
 
 

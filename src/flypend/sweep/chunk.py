@@ -12,7 +12,7 @@ import numpy as np
 from flypend.criterion import PARTS
 from flypend.ensemble import fly_packed
 from flypend.errors import InputError
-from flypend.kernels import Flown, ideal_kernel, method_for, sampled_kernel
+from flypend.kernels import Flown, ideal_kernel, method_for, plant_numbers, sampled_kernel
 from flypend.metrics import judged
 from flypend.plants import Plant
 from flypend.sweep import cube
@@ -74,6 +74,7 @@ def program_digest(study: Study) -> str:
     for plant in plants.values():
         if isinstance(plant, Plant):
             kernel: Any = sampled_kernel(study.vehicle, study.law, plant.replace(seed=0), study.criterion, study.gains)
+            digest.update(plant_numbers(study.vehicle, plant).tobytes())
         else:
             method = method_for(study.rtol, study.law)
             kernel = ideal_kernel(

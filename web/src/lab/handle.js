@@ -43,7 +43,7 @@ export class Handle {
   #hold(held) {
     if (this.held === held) return;
     this.held = held;
-    this.viewer.stage.hold(held);
+    this.viewer.stage.hold("rod", held);
     this.viewer.wake();
   }
 

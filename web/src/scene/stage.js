@@ -17,7 +17,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
     Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap });
-    Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [], left: [] });
+    Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [], left: [], holds: new Set() });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera();
     this.camera.matrixAutoUpdate = false;
@@ -35,7 +35,7 @@ export class Stage {
     const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
     this.box = box;
-    if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box: this.held ? this.rig.box : box });
+    if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box: this.holds.size ? this.rig.box : box });
     else {
       this.rig = new Rig(flights[0].direction, reach, box);
       this.rig.choose(Math.max(...box.half) < 4 * reach ? "overview" : "follow");
@@ -55,10 +55,11 @@ export class Stage {
     }
   }
 
-  /** Hold the camera while something is dragged in the picture, or let it go. */
-  hold(held) {
-    this.held = held;
-    this.rig.box = this.box;
+  /** Hold the camera for a reason, such as something that is dragged, or let it go once there is none. */
+  hold(reason, held) {
+    if (held) this.holds.add(reason);
+    else this.holds.delete(reason);
+    if (!this.holds.size) this.rig.box = this.box;
   }
 
   #things() {

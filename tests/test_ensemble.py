@@ -15,7 +15,6 @@ from flypend.experiments import experiment
 from flypend.laws import Controller, corrected, inverted, printed
 from flypend.metrics import Metrics, metrics, wilson
 from flypend.plants import Noise, Wind
-from flypend.studies import random_starts
 
 VEHICLE = fp.vehicle("hehn2011")
 FIELDS = [entry.name for entry in dataclasses.fields(Metrics)]
@@ -284,10 +283,3 @@ def test_what_is_refused_in_another_process_is_told_as_here(starts, small_tasks)
 def test_times_that_do_not_increase_are_refused(starts):
     with pytest.raises(fp.InputError, match=r"^times: expected increasing times"):
         simulate_ensemble(VEHICLE, inverted(), starts, 1.0, times=[0.5, 0.2])
-
-
-def test_a_constant_wind_lets_nobody_be_lost():
-    """Nothing is drawn for it; what memory held before was once multiplied by 0, which is no 0 if it is NaN."""
-    starts = random_starts(200, 3)
-    blown = simulate_ensemble(VEHICLE, inverted(), starts, 1.0, plant=Plant(wind=Wind(on_vehicle=(0.2, 0, 0))))
-    np.testing.assert_array_equal(blown.end, 1.0)

@@ -1,5 +1,7 @@
 """Compiled kernels against independent integrators, and what their runs do not do to each other."""
 
+import ctypes
+import dataclasses
 import operator
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -7,10 +9,12 @@ from concurrent.futures import ThreadPoolExecutor
 import casadi as ca
 import numpy as np
 import pytest
+from llvmlite import ir
 
 import flypend as fp
-from flypend.compile import runge_kutta
+from flypend.compile import jit, runge_kutta
 from flypend.compile.program import interpret
+from flypend.compile.vector import POINTER, VOID, Code, Lanes
 from flypend.criterion import Criterion
 from flypend.kernels import ideal_kernel, sampled_kernel
 from flypend.kernels.ideal import ideal_problem
@@ -325,6 +329,38 @@ def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
         assert sampled_kernel(HEHN, INVERTED, plant).function is not one.function
         with pytest.raises(ValueError, match="same structure"):
             one.through(plant)
+
+
+def filler_of_the_stack(vectors=5000):
+    """A function that leaves NaN in the memory in which the next call finds its own; it takes room for a vector."""
+    lanes = Lanes(ir.Module("filled"), 8)
+    function = ir.Function(lanes.module, ir.FunctionType(VOID, [POINTER]), "fill")
+    code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
+    memory = code.reserve(vectors)
+    with code.count(vectors) as i:
+        code.store(float("nan"), memory, i)
+    reader, within = lanes.function("read", 2)  # whoever reads it keeps it from being left out
+    with within.count(vectors) as i:
+        within.store(within.load(reader.args[0], i) + within.load(reader.args[1]), reader.args[1])
+    within.builder.ret_void()
+    code.call(reader, memory, function.args[0])
+    code.builder.ret_void()
+    return jit.Native(jit.compiled(lanes.module), "fill", (ctypes.c_void_p,))
+
+
+def test_what_nobody_drew_is_zero():
+    """Not what memory held before."""
+    starts, ticks, total = random_starts(8, seed=3), np.arange(0, 101, 10), np.zeros(16)
+    kernel = sampled_kernel(HEHN, INVERTED, Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0))
+    fill = filler_of_the_stack()
+
+    def filled(*arguments):
+        fill(total.ctypes.data // 64 * 64 + 64)
+        kernel.function(*arguments)
+
+    flown = dataclasses.replace(kernel, function=filled).fly(starts, 1.0, ticks=ticks, workers=1)
+    assert np.isnan(total).any()
+    assert np.all(flown.status == "completed")
 
 
 def test_a_sampled_flight_is_the_same_in_any_company():

@@ -281,5 +281,12 @@ def test_what_is_refused_in_another_process_is_told_as_here(starts, small_tasks)
 
 
 def test_times_that_do_not_increase_are_refused(starts):
-    with pytest.raises(fp.InputError, match=r"^times: expected increasing times"):
-        simulate_ensemble(VEHICLE, inverted(), starts, 1.0, times=[0.5, 0.2])
+    for times in ([0.5, 0.2], [0.2, 0.2], [-0.1, 0.5], [0.5, 1.5], []):
+        with pytest.raises(fp.InputError, match=r"^times: expected increasing times from 0 to the duration"):
+            simulate_ensemble(VEHICLE, inverted(), starts, 1.0, times=times)
+
+
+def test_states_that_are_kept_change_no_verdict(starts):
+    plain, kept = (simulate_ensemble(VEHICLE, inverted(), starts, 1.0, times=times) for times in (None, [0.0, 0.7]))
+    for name in FIELDS:
+        np.testing.assert_array_equal(getattr(plain, name), getattr(kept, name), err_msg=name)

@@ -437,3 +437,16 @@ def test_split_names_what_close_loop_integrates():
 def test_only_its_own_gains_can_be_fixed():
     with pytest.raises(fp.InputError, match=r"^law\.fixed\.share: expected one of k, got 'share'"):
         fp.Law(name="own", e3="up", control=lambda *_: None, gains={"k": 1.0}, fixed=("share",))
+
+
+@pytest.mark.parametrize(
+    ("control", "told"),
+    [
+        (lambda t, s, v, k: fp.Wrench(5.0 if s.y[2] > 0 else 0.0, [0, 0, 0]), "cases by casadi.if_else, .*, got an if"),
+        (lambda t, s, v, k: 3, "a Control or a Wrench, got int"),
+    ],
+)
+def test_mistakes_of_beginners_are_one_line(control, told):
+    law = fp.Law(name="own", e3="up", control=control)
+    with pytest.raises(fp.InputError, match=f"^law: expected {told}"):
+        fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), 1.0)

@@ -485,3 +485,17 @@ def test_what_is_in_range_arrives(name, duration, k_1, mass, x):
     np.testing.assert_array_equal(chosen.start.x, x)
     np.testing.assert_array_equal(chosen.start.y, experiment(name).start.y)
     assert chosen.law.gains["k_2"] == experiment(name).gains["k_2"]
+
+
+def test_a_plant_by_name_can_be_changed_in_one_number():
+    plain = flight("examples/swing-up.toml", ["plant.lag=0.05", "plant.noise.x=0.01"]).plant
+    assert (plain.lag, plain.noise.x, plain.rate) == (0.05, 0.01, 500.0)
+    with pytest.raises(fp.InputError, match=r"^plant: expected one of rotors"):
+        flight("1", ["plant=ideal", "plant.lag=0.05"])
+
+
+def test_what_would_never_end_is_refused():
+    with pytest.raises(fp.InputError, match=r"^duration: expected at most 20000 s, got 1e\+07$"):
+        flight("examples/swing-up.toml", ["duration=1e7"]).fly()
+    with pytest.raises(fp.InputError, match=r"^plant\.rate: expected at most 10000 Hz, got 1e\+06$"):
+        flight("examples/swing-up.toml", ["plant.rate=1e6"])

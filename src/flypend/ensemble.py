@@ -5,7 +5,8 @@ from __future__ import annotations
 import copyreg
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -149,8 +150,8 @@ def simulate_ensemble(
 
     bound = law.bound(vehicle)
     kept = None if times is None else errors.array("times", times, (None,))
-    if kept is not None and not np.all(np.diff(kept) > 0):
-        raise errors.InputError("times", "increasing times", "others")
+    if kept is not None and not (len(kept) and kept[0] >= 0 and kept[-1] <= duration and np.all(np.diff(kept) > 0)):
+        raise errors.InputError("times", "increasing times from 0 to the duration", "others")
     flown = fly_packed(
         vehicle, bound, starts.packed(), duration, plant=plant, rtol=rtol, gains=gains, criterion=criterion,
         times=kept, judge_period=judge_period, method=method, precision=precision, workers=workers, progress=progress,
@@ -202,10 +203,13 @@ def fly_packed(
     rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
     chosen = method or method_for(rtol, law)
     kernel = ideal_kernel(vehicle, law, criterion, names, method=chosen, precision=precision)
-    return kernel.fly(
-        packed, duration, rtol=rtol, parameters=values, times=grid if times is None else times, keep=times is not None,
-        max_steps=max_steps, workers=workers, progress=progress,
+    fly = partial(
+        kernel.fly, packed, duration, rtol=rtol, parameters=values, max_steps=max_steps, workers=workers,
+        progress=progress,
     )  # fmt: skip
+    flown = fly(times=grid)
+    # Flown again for the states that are kept: a run is judged in the same way whether or not any are.
+    return flown if times is None else replace(flown, samples=fly(times=times, keep=True, judge=False).samples)
 
 
 def _column(name: str, value: Any, runs: int) -> Any:

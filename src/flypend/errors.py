@@ -40,9 +40,15 @@ def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool 
 
 
 def number(
-    field: str, value: Any, *, above: float | None = None, at_least: float | None = None, unit: str = ""
+    field: str,
+    value: Any,
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    unit: str = "",
 ) -> float:
-    """`value` as a finite float inside the bound given. Raises InputError."""
+    """`value` as a finite float inside the bounds given. Raises InputError."""
     bound = f" > {above:g}" if above is not None else f" >= {at_least:g}" if at_least is not None else ""
     expected = f"a finite number{bound}{' ' + unit if unit else ''}"
     if isinstance(value, bool | str):
@@ -54,6 +60,8 @@ def number(
     inside = (above is None or result > above) and (at_least is None or result >= at_least)
     if not (np.isfinite(result) and inside):
         raise InputError(field, expected, f"{result:g}")
+    if at_most is not None and result > at_most:
+        raise InputError(field, f"at most {at_most:g}{' ' + unit if unit else ''}", f"{result:g}")
     return result
 
 

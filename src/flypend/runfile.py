@@ -213,7 +213,7 @@ def _override(settings: dict[str, Any], text: str) -> None:
     for depth, key in enumerate(keys[:-1]):
         if depth == 0:
             errors.only_known("", [key], KEYS)
-        if key == "vehicle" and isinstance(table.get(key), str):
+        if key in ("vehicle", "plant") and depth == 0 and isinstance(table.get(key), str):
             table[key] = {"base": table[key]}
         table = table.setdefault(key, {})
         if not isinstance(table, dict):

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 SAMPLE_PERIOD = 0.01
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
+LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 Hz
 
 
 def simulate(
@@ -78,7 +79,7 @@ def simulate(
     """
     _check(vehicle, law, start)
     law = law.bound(vehicle)
-    duration = errors.number("duration", duration, above=0, unit="s")
+    duration = errors.number("duration", duration, above=0, at_most=LONGEST, unit="s")
     rtol = errors.number("rtol", rtol, above=0)
     if rtol < LEAST_RTOL:
         raise errors.InputError("rtol", f"at least {LEAST_RTOL:g}, a hundred roundoffs", f"{rtol:g}")

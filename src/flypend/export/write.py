@@ -107,7 +107,7 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),
         "tolerance": literal(MANIFOLD_TOLERANCE, precision),
-        "rotation_tolerance": literal(3 * MANIFOLD_TOLERANCE, precision),
+        "rotation_tolerance": literal(round(3 * MANIFOLD_TOLERANCE, 12), precision),
         "structs": "\n\n".join(_structs(made)),
         "gains": initializer(made.gains, gains, precision),
         "params": initializer(made.params, records.params_of(vehicle), precision),

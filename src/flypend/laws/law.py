@@ -145,7 +145,14 @@ class Law:
         `gains` are symbols that stand for some of the law's numbers.
         """
         known = (forces or (ca.SX.zeros(3), ca.SX.zeros(3)),) if self.uses_forces else ()
-        control = self.control(t, state, vehicle, SimpleNamespace(**{**self.gains, **(gains or {})}), *known)
+        try:
+            control = self.control(t, state, vehicle, SimpleNamespace(**{**self.gains, **(gains or {})}), *known)
+        except RuntimeError as error:
+            if "truth value" not in str(error):
+                raise
+            raise errors.InputError("law", "cases by casadi.if_else, since it is written in symbols", "an if") from None
+        if not isinstance(control, Control | Wrench):
+            raise errors.InputError("law", "a Control or a Wrench", type(control).__name__)
         return Control(wrench=control) if isinstance(control, Wrench) else control
 
 

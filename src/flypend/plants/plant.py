@@ -138,7 +138,7 @@ class Plant:
     def __post_init__(self) -> None:
         errors.one_of("plant.engine", self.engine, ("equations", "mujoco"))
         errors.one_of("plant.interface", self.interface, ("wrench", "rates"))
-        errors.number("plant.rate", self.rate, above=0, unit="Hz")
+        errors.number("plant.rate", self.rate, above=0, at_most=1e4, unit="Hz")  # a prediction spans 100 ticks and more
         errors.number("plant.delay", self.delay, at_least=0, unit="s")
         errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, unit="Hz")
         errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")

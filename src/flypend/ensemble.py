@@ -203,11 +203,8 @@ def fly_packed(
     rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
     chosen = method or method_for(rtol, law)
     kernel = ideal_kernel(vehicle, law, criterion, names, method=chosen, precision=precision)
-    fly = partial(
-        kernel.fly, packed, duration, rtol=rtol, parameters=values, max_steps=max_steps, workers=workers,
-        progress=progress,
-    )  # fmt: skip
-    flown = fly(times=grid)
+    fly = partial(kernel.fly, packed, duration, rtol=rtol, parameters=values, max_steps=max_steps, workers=workers)
+    flown = fly(times=grid, progress=progress)
     # Flown again for the states that are kept: a run is judged in the same way whether or not any are.
     return flown if times is None else replace(flown, samples=fly(times=times, keep=True, judge=False).samples)
 

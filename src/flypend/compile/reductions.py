@@ -10,8 +10,7 @@ from flypend.compile.emit import define
 from flypend.compile.program import Program
 from flypend.compile.vector import I64, Code, Value
 
-# max, sum    of the value over the samples; NaN counts as +inf for max
-# mean        of the value over the samples
+# max, mean   of the value over the samples; NaN counts as +inf for max
 # last        time of the last sample with value > 0; −1 if there is none
 # since       time of the first sample of those at the end with value <= 0; inf if there is none
 KINDS = ("max", "mean", "last", "since")

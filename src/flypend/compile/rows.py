@@ -92,9 +92,7 @@ def gathered(code: Code, memory: ir.Value, places: ir.Value, mask: Value) -> Val
     builder, lanes = code.builder, code.lanes
     integers, pointers = ir.VectorType(I64, lanes.width), ir.VectorType(POINTER, lanes.width)
     doubles = ir.VectorType(ir.DoubleType(), lanes.width)
-    none = ir.Constant(integers, ir.Undefined)
-    base = builder.insert_element(none, builder.ptrtoint(memory, I64), ir.Constant(_I32, 0))
-    base = builder.shuffle_vector(base, none, ir.Constant(ir.VectorType(_I32, lanes.width), [0] * lanes.width))
+    base = code.repeated(builder.ptrtoint(memory, I64))
     offsets = builder.shl(places, ir.Constant(integers, [3] * lanes.width))  # of 8 bytes
     addresses = builder.inttoptr(builder.add(base, offsets), pointers)
     kind = ir.FunctionType(doubles, [pointers, _I32, lanes.mask, doubles])

@@ -55,8 +55,7 @@ class _Kernel:
         self.S, self.Y, self.P, self.K = stages.S, stages.Y, stages.P, stages.K
         self.t, self.h, self.count, self.limit = (code.reserve(1) for _ in range(4))
         self.active, self.when, self.drift = code.reserve(1), code.reserve(1), code.reserve(3)
-        self.run, self.ended = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
-        self.left = code.reserve(1, I64)
+        self.run, self.left = code.reserve(lanes.width, I64), code.reserve(1, I64)
         reductions = Reductions(code, problem.observe, problem.reductions)
         onto = define(lanes, without_drift(problem.project))
         self.sampler = Sampler(code, method, n, self.at, onto, reductions)

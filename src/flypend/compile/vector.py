@@ -111,11 +111,14 @@ class Code:
             return value
         if isinstance(value, (int, float)):
             return Value(self, self.lanes.constant(float(value)))
-        single = self.builder.insert_element(
-            ir.Constant(self.lanes.vector, ir.Undefined), value, ir.Constant(ir.IntType(32), 0)
-        )
-        zeros = ir.Constant(ir.VectorType(ir.IntType(32), self.lanes.width), [0] * self.lanes.width)
-        return Value(self, self.builder.shuffle_vector(single, ir.Constant(self.lanes.vector, ir.Undefined), zeros))
+        return Value(self, self.repeated(value))
+
+    def repeated(self, single: ir.Value) -> ir.Value:
+        """The vector with the scalar `single` in every lane."""
+        width, i32 = self.lanes.width, ir.IntType(32)
+        nothing = ir.Constant(ir.VectorType(single.type, width), ir.Undefined)
+        first = self.builder.insert_element(nothing, single, ir.Constant(i32, 0))
+        return self.builder.shuffle_vector(first, nothing, ir.Constant(ir.VectorType(i32, width), [0] * width))
 
     def select(self, mask: Value, yes: Value | float, no: Value | float) -> Value:
         """`yes` where `mask`, else `no`."""

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from flypend.compile.numeric import as_numpy
@@ -93,11 +95,11 @@ def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callab
     drawn = normals(plant.seed, ticks) if is_random(plant) else None
     measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
     if plant.noise is not None and drawn is not None:
-        noisy, sigma = as_numpy(measurement()), noise_numbers(plant.noise)
+        noisy, sigma = _compiled(measurement), noise_numbers(plant.noise)
         measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT], sigma)  # noqa: E731
     if plant.wind is None:
         return measure, lambda _: np.zeros(6)
-    blow, numbers, gust = as_numpy(gusts()), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(6)
+    blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(6)
     nothing = np.zeros(6)
 
     def next_wind(k: int) -> Any:
@@ -105,6 +107,11 @@ def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callab
         return force
 
     return measure, next_wind
+
+
+@cache
+def _compiled(make: Callable[[], ca.Function]) -> Any:
+    return as_numpy(make())
 
 
 def is_random(plant: Plant) -> bool:

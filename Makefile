@@ -47,7 +47,7 @@ test-tools:
 	dpkg -s $(TEST_PACKAGES) >/dev/null 2>&1 || { $(INSTALL) $(TEST_PACKAGES); }
 	command -v npm >/dev/null || { $(INSTALL) npm; }
 
-# Bundles web/ into src/flypend/web, which is tracked: whoever installs flypend needs no npm.
+# Bundles web/ into src/flypend/pages/web, which is tracked: whoever installs flypend needs no npm.
 web:
 	cd web && npm ci --silent && npm run --silent build
 

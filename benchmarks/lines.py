@@ -13,8 +13,8 @@ import numpy as np
 import flypend as fp
 from benchmarks import clock
 from benchmarks.problem import Problem
-from flypend.kernels import ideal_kernel, sampled_kernel
-from flypend.kernels.ideal import MAX_STEPS, call, closed
+from flypend.flight.kernels import ideal_kernel, sampled_kernel
+from flypend.flight.kernels.ideal import MAX_STEPS, call, closed
 from flypend.plants import plant
 
 DECADES = range(3, 8)

@@ -12,8 +12,8 @@ import numpy as np
 
 import flypend as fp
 from flypend.compile.program import Program, interpret
-from flypend.criterion import Criterion
-from flypend.kernels.ideal import ideal_problem
+from flypend.flight.criterion import Criterion
+from flypend.flight.kernels.ideal import ideal_problem
 
 TARGET = 1e-6
 # Tolerances that are tried, loose to tight, until the median error meets the target.

@@ -6,7 +6,7 @@ import { join, resolve } from "node:path";
 import { build } from "esbuild";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
-const out = resolve(process.argv[2] ?? join(here, "../src/flypend/web"));
+const out = resolve(process.argv[2] ?? join(here, "../src/flypend/pages/web"));
 await mkdir(out, { recursive: true });
 await build({
   absWorkingDir: here,

@@ -5,7 +5,7 @@ from benchmarks.peers import Fly, Peer
 
 def make(problem, threads: int, method: str = "dp5") -> Fly:
     """The compiled kernel, nothing judged and nothing kept but the final state."""
-    from flypend.kernels import ideal_kernel
+    from flypend.flight.kernels import ideal_kernel
 
     kernel = ideal_kernel(problem.vehicle, problem.law, method=method)
     return lambda starts, rtol: kernel.fly(starts, problem.duration, rtol=rtol, workers=threads, judge=False).final

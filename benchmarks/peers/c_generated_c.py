@@ -52,7 +52,7 @@ def make(problem: Any, threads: int, method: str = "dp5", lanes: int = 8) -> Fly
 
 def text(programs: Any, method: str, lanes: int) -> str:
     """The C++ source (for its `?:` on vectors; the rest is C with GCC's vectors)."""
-    from flypend.compile import runge_kutta
+    from flypend.compile.llvm import runge_kutta
     from flypend.compile.methods import method as method_named
 
     table = method_named(method)

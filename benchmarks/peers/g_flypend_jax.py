@@ -9,7 +9,7 @@ from benchmarks.peers import Fly, Peer
 
 def make(problem: Any, threads: int) -> Fly:
     """The JAX form of the kernel, dp5."""
-    from flypend.kernels.gpu import array_kernel
+    from flypend.flight.kernels.gpu import array_kernel
 
     kernel = array_kernel(problem.vehicle, problem.law)
     return lambda starts, rtol: kernel.fly(starts, problem.duration, rtol=rtol).final

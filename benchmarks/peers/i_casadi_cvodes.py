@@ -13,7 +13,7 @@ def make(problem: Any, threads: int) -> Fly:
     """Adams' method without Jacobians of sensitivities, one integrator per tolerance."""
     import casadi as ca
 
-    from flypend.compile import close_loop
+    from flypend.laws.closed_loop import close_loop
 
     loop = close_loop(problem.vehicle, problem.law)
     t, s = ca.SX.sym("t"), ca.SX.sym("s", 24)

@@ -1,18 +1,18 @@
 """flypend models, controls and simulates a spherical pendulum on a quadrotor, on R³ × SO(3) × S²."""
 
 from flypend import laws
-from flypend.ensemble import Ensemble, simulate_ensemble
 from flypend.errors import InputError
 from flypend.export import export_c
+from flypend.flight.ensemble import Ensemble, simulate_ensemble
+from flypend.flight.outcome import Outcome
+from flypend.flight.sensitivity import Sensitivity, sensitivity
+from flypend.flight.simulate import simulate
+from flypend.flight.trajectory import Trajectory, load
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, Wrench, vehicle
-from flypend.outcome import Outcome
 from flypend.plants import Noise, Plant, Wind
-from flypend.sensitivity import Sensitivity, sensitivity
-from flypend.simulate import simulate
-from flypend.sweep import Study, study, sweep
-from flypend.trajectory import Trajectory, load
-from flypend.tune import Objective, Tuned, tune
+from flypend.studies.sweep import Study, study, sweep
+from flypend.studies.tune import Objective, Tuned, tune
 
 __version__ = "0.1.0"
 

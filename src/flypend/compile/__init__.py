@@ -1,5 +1,1 @@
-"""From vehicle and law to programs: the closed loop as CasADi functions of (t, state)."""
-
-from flypend.compile.closed_loop import ClosedLoop, close_loop
-
-__all__ = ["ClosedLoop", "close_loop"]
+"""From programs to code: LLVM kernels, C99, and JAX."""

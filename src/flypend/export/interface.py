@@ -10,17 +10,17 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.closed_loop import upright_wrench
+from flypend.board.computer import led
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.records import Record
+from flypend.laws.closed_loop import upright_wrench
 from flypend.laws.law import Law
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
+from flypend.model.allocation import allocate, within
 from flypend.model.state import FLIP, SIZE
-from flypend.plants.allocation import allocate, within
-from flypend.plants.computer import led
 
 GAINS = 2  # place of the gains among the inputs of a step
 

@@ -14,7 +14,7 @@ from flypend.export import records
 from flypend.export.interface import followed, streamed_wrench
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle
-from flypend.plants.allocation import allocate
+from flypend.model.allocation import allocate
 
 COUNT, SEED = 100, 1
 # Spread of the random inputs: the pivot's path and its derivatives, m, m/s and so on; the external forces, weights.

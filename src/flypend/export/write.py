@@ -14,10 +14,10 @@ from flypend.errors import InputError
 from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
 from flypend.export.source import ascii_of, functions, initializer, reads, struct, unread
+from flypend.files.staging import staged
 from flypend.laws.law import Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
-from flypend.staging import staged
 
 CORE = ("flypend_law.h", "flypend_law.c")
 BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")

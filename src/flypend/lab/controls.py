@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from flypend.experiments import experiment, experiment_names
 from flypend.lab.gains import GAINS, gains_of, proposed_gains
 from flypend.lab.setting import LONGEST, law_of, plain
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
+from flypend.paper import experiment, experiment_names
 from flypend.plants import MOTION_CAPTURE, Noise, Plant, Wind
 from flypend.plants import plant as plant_named
-from flypend.runfile import Flight
+from flypend.settings.runfile import Flight
 
 PLANTS = {"ideal": "ideal", "rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}

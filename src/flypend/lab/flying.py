@@ -7,18 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from flypend.kernels import IdealKernel, SampledKernel
-from flypend.kernels.single import Solution, sampled_samples
+from flypend.flight.kernels import IdealKernel, SampledKernel
+from flypend.flight.kernels.single import Solution, sampled_samples
+from flypend.flight.metrics import metrics
+from flypend.flight.outcome import Outcome
+from flypend.flight.sampled import nearest_ticks
+from flypend.flight.simulate import SAMPLE_PERIOD
+from flypend.flight.trajectory import Trajectory
 from flypend.lab.gains import gains_of
 from flypend.lab.setting import Poke, Setting, in_frame, law_of
 from flypend.lab.tuning import Tell, Tuned, tuned, values
-from flypend.metrics import metrics
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import FLIP_PACKED, E3Direction, split
-from flypend.outcome import Outcome
-from flypend.plants.flight import nearest_ticks
-from flypend.simulate import SAMPLE_PERIOD
-from flypend.trajectory import Trajectory
 
 STILL = Wrench(0.0, np.zeros(3))
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from flypend.ensemble import simulate_ensemble
+from flypend.flight.ensemble import simulate_ensemble
 from flypend.lab.setting import Setting
 from flypend.lab.tuning import Tell, tuned, values
 from flypend.model import State

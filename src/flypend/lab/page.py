@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from flypend import palette, replay
+from flypend import palette
 from flypend.lab.controls import offer
+from flypend.pages import replay
 
 PAGE = """<!doctype html>
 <html lang="en">

@@ -23,10 +23,11 @@ from tornado.httpserver import HTTPServer
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from flypend import errors, replay
+from flypend import errors
 from flypend.errors import InputError
 from flypend.lab.page import page
 from flypend.lab.session import Slot, flights, maps, read, refusal
+from flypend.pages import replay
 
 LARGEST_MESSAGE = 64 * 1024  # bytes; a setting takes one or two thousand
 MOST_PAGES = 32

@@ -10,7 +10,6 @@ from collections.abc import Awaitable, Callable, Iterator
 from concurrent.futures import Executor
 from typing import Any
 
-from flypend import replay
 from flypend.errors import InputError
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
@@ -18,6 +17,7 @@ from flypend.lab.flying import fly, verdict
 from flypend.lab.map import region
 from flypend.lab.setting import plain, setting_of
 from flypend.lab.tuning import tuned
+from flypend.pages import replay
 
 log = logging.getLogger(__name__)
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands exhaust the parser

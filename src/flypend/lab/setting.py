@@ -19,7 +19,7 @@ from flypend.laws import Law
 from flypend.model import State
 from flypend.model.state import FLIP, SHAPES
 from flypend.plants import Plant
-from flypend.runfile import Flight, flight_of
+from flypend.settings.runfile import Flight, flight_of
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {

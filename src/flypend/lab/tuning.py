@@ -12,18 +12,18 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.closed_loop import symbolic_loop
-from flypend.criterion import Criterion
-from flypend.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel, structure
+from flypend.flight.criterion import Criterion
+from flypend.flight.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel, structure
 from flypend.lab.gains import GAINS, gains_of
 from flypend.lab.setting import law_of
 from flypend.laws import Law
+from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.law import law_from_dict
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
 from flypend.plants import Plant
 from flypend.plants import plant as plant_named
-from flypend.runfile import Flight
+from flypend.settings.runfile import Flight
 
 MOST = 48
 Tell = Callable[[], Any]

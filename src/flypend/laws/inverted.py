@@ -9,7 +9,7 @@ quadrotor, D = F_b/m − F_v/M and F_v, F_b external forces on vehicle and bob,
 so u and a can be chosen freely by F = −M l u + ((M+m) a + M l |ẏ|²) y + M D. The part along y is the one that the
 paper's law lacks. A cascade follows: position → desired rod direction d → F → desired thrust axis z_d → moment.
 
-docs/inverted.md derives it line by line.
+docs/laws/inverted.md derives it line by line.
 """
 
 from __future__ import annotations

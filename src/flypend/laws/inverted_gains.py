@@ -125,7 +125,7 @@ BOUNDS: Mapping[str, float | None] = MappingProxyType(
     {entry.name: None if entry.name in _SIGNED else 1e-9 if entry.name in _POSITIVE else 0.0 for entry in fields(Gains)}
 )
 
-# Pure numbers, found by CMA-ES on the success and the excursion of random starts of hehn2011 (see docs/inverted.md).
+# Pure numbers, found by CMA-ES on success and excursion of random starts of hehn2011 (see docs/laws/inverted.md).
 # Times are in √(l/g), speeds in √(g l), lengths in l, the attitude bandwidth in the root of the angular acceleration
 # that the rotors can give, as is the rate of turning.
 AGILE: Mapping[str, float] = MappingProxyType(

@@ -1,4 +1,4 @@
-"""Theorem 1 exactly as printed. It does not do what it claims: see docs/errata.md."""
+"""Theorem 1 exactly as printed. It does not do what it claims: see docs/paper/errata.md."""
 
 from __future__ import annotations
 

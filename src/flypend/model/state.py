@@ -22,6 +22,8 @@ SHAPES: dict[str, tuple[int, ...]] = {
     "x": (3,), "x_dot": (3,), "R": (3, 3), "omega": (3,), "y": (3,), "y_dot": (3,)
 }  # fmt: skip
 SIZE = 24
+# A state this large has left every machine that the model could describe (m, m/s, rad/s).
+MAX_STATE = 1e6
 # The same rotation on a packed state: x, x_dot, R (both sides), omega, y, y_dot change sign component by component.
 FLIP_PACKED = np.concatenate(
     [np.tile(np.diag(FLIP), 2), np.outer(np.diag(FLIP), np.diag(FLIP)).ravel(), np.tile(np.diag(FLIP), 3)]

@@ -12,8 +12,8 @@ from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.geometry import apply, cross
 from flypend.model import Vehicle
+from flypend.model.allocation import allocate
 from flypend.model.state import SIZE
-from flypend.plants.allocation import allocate
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.plant import Plant
 

@@ -7,12 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from flypend import __version__, files
-from flypend.experiments.claims import Verdict, theorem_claims
-from flypend.metrics import metrics
+from flypend import __version__
+from flypend.files import whole
+from flypend.files.staging import staged
+from flypend.flight.metrics import metrics
+from flypend.flight.trajectory import Trajectory
+from flypend.paper.claims import Verdict, theorem_claims
 from flypend.report import text
-from flypend.staging import staged
-from flypend.trajectory import Trajectory
 
 VIEWS = ("side", "axis")
 MOVIE_SPEED = 0.25
@@ -23,7 +24,7 @@ def figure_tasks(
     run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True, style: str = "paper"
 ) -> list[tuple[str, Task]]:
     """Named tasks that draw the figures of `run` in a `style` into `folder`, file names beginning with `prefix`."""
-    from flypend import figures  # brings matplotlib, which a run without figures does not wait for
+    from flypend.pictures import figures  # brings matplotlib, which a run without figures does not wait for
 
     kinds: list[tuple[str, Callable[..., Any]]] = [
         ("y3-z3", figures.paper_figure),
@@ -38,7 +39,7 @@ def figure_tasks(
 
 def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
     """Named tasks that write the movies of `run`, from the side and along e₃, into `folder`."""
-    from flypend.animate import movie
+    from flypend.pictures.animate import movie
 
     return [
         (
@@ -51,7 +52,7 @@ def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[s
 
 def draw(figure: Callable[..., Any], run: Trajectory, path: Path, style: str = "paper") -> None:
     """Draw one `figure` of `run` in a `style` into files called `path`, as vectors (.pdf) and as .png."""
-    files.save_both(figure(run, style=style), path)
+    whole.save_both(figure(run, style=style), path)
 
 
 def write_flight(

@@ -10,18 +10,18 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from flypend import __version__
-from flypend.experiments import experiment, experiment_names
-from flypend.experiments.claims import SETTLED, Verdict, theorem_claims
-from flypend.experiments.defects import Finding, Runs, findings, fly_all
+from flypend.files.staging import staged
+from flypend.flight.metrics import metrics
+from flypend.flight.simulate import simulate
+from flypend.flight.trajectory import Trajectory
 from flypend.laws import inverted
-from flypend.metrics import metrics
 from flypend.model import State, vehicle
+from flypend.paper import experiment, experiment_names
+from flypend.paper.claims import SETTLED, Verdict, theorem_claims
+from flypend.paper.defects import Finding, Runs, findings, fly_all
+from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, figure_tasks, movie_tasks
-from flypend.simulate import simulate
-from flypend.staging import staged
-from flypend.style import style_named
-from flypend.trajectory import Trajectory
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")

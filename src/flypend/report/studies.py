@@ -12,8 +12,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from flypend import __version__
+from flypend.files.staging import staged
 from flypend.report.text import write_json
-from flypend.staging import staged
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
 from flypend.studies.hehn import Tracking
@@ -62,8 +62,8 @@ def comparison_markdown(comparison: Comparison) -> str:
 
 def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str | Path) -> None:
     """Write report.md, report.json (with `settings`), comparison.pdf and .png of `comparison` into the folder `out`."""
-    from flypend.files import save_both
-    from flypend.studies.pictures import comparison_figure
+    from flypend.files.whole import save_both
+    from flypend.pictures.studies import comparison_figure
 
     with staged(out) as folder:
         text = f"# Laws compared\n\n{_told(settings)}\n\n{comparison_markdown(comparison)}\n"
@@ -101,8 +101,8 @@ def ladder_table(ladder: Ladder) -> Table:
 
 def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> None:
     """Write report.md, report.json (with `settings`), ladder.pdf and .png of `ladder` into the folder `out`."""
-    from flypend.files import save_both
-    from flypend.studies.pictures import ladder_figure
+    from flypend.files.whole import save_both
+    from flypend.pictures.studies import ladder_figure
 
     laws = list(next(iter(ladder.rungs.values())).ensembles)
     lines = ["| rung | " + " | ".join(_barred(law) for law in laws) + " |", "|---|" + "---|" * len(laws)]

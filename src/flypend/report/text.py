@@ -13,10 +13,10 @@ from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
-from flypend.experiments.claims import Verdict
-from flypend.experiments.defects import Finding
-from flypend.metrics import metrics
-from flypend.trajectory import Trajectory
+from flypend.flight.metrics import metrics
+from flypend.flight.trajectory import Trajectory
+from flypend.paper.claims import Verdict
+from flypend.paper.defects import Finding
 
 Column = tuple[str, str]
 

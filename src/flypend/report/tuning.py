@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend import __version__
-from flypend.files import save_figure
-from flypend.page import LABEL, SMALL, new_figure
+from flypend.files.staging import staged
+from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
+from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.report.text import write_json
-from flypend.runfile import toml_text
-from flypend.staging import staged
-from flypend.tune import Tuned
+from flypend.settings.runfile import toml_text
+from flypend.studies.tune import Tuned
 
 WIDTH = 7.16  # of two columns of a paper, in
 STYLES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (ORANGE, ":"), (GREY, (0, (5, 1, 1, 1, 1, 1))))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from flypend.ensemble import Ensemble, simulate_ensemble
+from flypend.flight.ensemble import Ensemble, simulate_ensemble
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import Plant

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from flypend.errors import InputError, one_of
+from flypend.flight.simulate import simulate
 from flypend.geometry import norm
 from flypend.laws import Law, references
 from flypend.laws.law import law_from_dict, law_names
 from flypend.model import State, vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, Plant
-from flypend.simulate import simulate
 
 # The rates of their circles are not known here; a period of four seconds is chosen.
 RATE = 2 * np.pi / 4

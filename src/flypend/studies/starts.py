@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from flypend.experiments import experiment, experiment_names
 from flypend.model import State
 from flypend.model.state import SHAPES
+from flypend.paper import experiment, experiment_names
 
 
 def random_starts(runs: int, seed: int) -> State:

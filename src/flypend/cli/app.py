@@ -1,0 +1,305 @@
+"""Command line: arguments in, one call, a table out. Bad input is one line and exit code 2."""
+
+from __future__ import annotations
+
+import io
+import signal
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from typer.exceptions import TyperException
+
+from flypend import __version__
+from flypend.cli import studies, viewing
+from flypend.cli.terminal import bold, console, counter, progress
+from flypend.cli.viewing import Style
+from flypend.errors import InputError
+
+app = typer.Typer(
+    help="Spherical pendulum on a quadrotor: reproduce the paper, fly experiments, see what holds.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+app.add_typer(viewing.app)
+app.add_typer(studies.app)
+
+Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        console.print(f"flypend {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def paper(
+    out: Out = Path("paper-out"),
+    quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out: seconds instead of a minute.")] = False,
+    style: Style = "paper",
+) -> None:
+    """Fly the paper's five experiments and say for every claim whether it holds.
+
+    Writes figures, stop-motion, movies, every run as NetCDF, report.md and report.json.
+    """
+    from flypend.report.paper import reproduce
+    from flypend.report.text import findings_table, judgement, summary_table
+
+    with counter() as tell:
+        result = reproduce(out, quick=quick, style=style, progress=tell)
+    console.print(summary_table(result.verdicts))
+    console.print(findings_table(result.findings))
+    console.print(f"The promise kept by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
+    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; read report.md first.")
+
+
+@app.command()
+def run(
+    what: Annotated[
+        str, typer.Argument(help="An experiment of the paper (1, 2, 2-projected, 3, 4, 5) or a TOML file.")
+    ],
+    out: Out = Path("run-out"),
+    override: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="Override a setting, such as law.gains.k_d=2 or law.name=printed."
+        ),
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out.")] = False,
+    figures: Annotated[bool, typer.Option(help="Draw the figures (--no-figures leaves movies out as well).")] = True,
+    controller: Annotated[
+        str | None, typer.Option(help="python, or the law exported and compiled: c (double) or c-float.")
+    ] = None,
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Write the replay, a page for any browser, as well.")
+    ] = None,
+    style: Style = "paper",
+) -> None:
+    """Fly one experiment, or one's own vehicle, law, gains and start.
+
+    A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, gains),
+    [bold]start[/bold] (x, x_dot, R, omega, y, y_dot), [bold]duration[/bold] in seconds, and optionally
+    [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]experiment[/bold], which brings all but the
+    plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
+    [bold]controller[/bold] = "c" flies the law as exported C, in the plants rotors and mujoco.
+    """
+    from flypend.files.staging import check_writable
+    from flypend.files.whole import check_file
+    from flypend.paper.claims import SETTLED
+    from flypend.pictures.style import style_named
+    from flypend.settings.runfile import flight
+
+    chosen = flight(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    style_named(style)
+    check_writable(out)
+    if html is not None:
+        check_file(html, (".html",))
+    trajectory = chosen.fly()
+    # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
+    settled = chosen.fly(max(SETTLED, chosen.duration)) if trajectory.law == "corrected" else None
+    from flypend.report.flight import write_flight
+    from flypend.report.text import judgement, summary_table
+
+    verdicts = write_flight(
+        trajectory,
+        chosen.settings,
+        out,
+        settled=settled,
+        with_figures=figures,
+        with_movies=figures and not quick,
+        style=style,
+        progress=_run_tasks,
+    )
+    if html is not None:
+        trajectory.to_html(html)
+    console.print(f"{trajectory.law} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False)
+    console.print(f"inverted: {judgement(trajectory)}")
+    if verdicts:
+        console.print(summary_table({(trajectory.law, what): verdicts}))
+    console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
+
+
+Laws = Annotated[
+    list[str] | None,
+    typer.Option("--law", help="inverted, lqr, corrected, printed, detuned, or module:name of one's own; repeat it."),
+]
+Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts read with e₃ up.")]
+Runs = Annotated[int, typer.Option("--runs", help="Number of random starts.", min=1)]
+Seed = Annotated[int, typer.Option("--seed", help="Seed of the random starts.", min=0)]
+VehicleName = Annotated[str, typer.Option("--vehicle", help="Name of a vehicle, or a TOML file.")]
+Duration = Annotated[float, typer.Option("--duration", help="Seconds per flight.")]
+
+
+@app.command()
+def compare(
+    law: Laws = None,
+    out: Out = Path("compare-out"),
+    starts: Starts = "random",
+    runs: Runs = 100,
+    seed: Seed = 1,
+    vehicle: VehicleName = "hehn2011",
+    plant: Annotated[str, typer.Option("--plant", help="ideal, rotors, mujoco or hehn2011.")] = "rotors",
+    duration: Duration = 10.0,
+) -> None:
+    """Fly laws, one's own included, from the same starts: one table, one figure.
+
+    Success is to stand inverted within 0.05 and 0.2 m of the reference during the last second.
+    """
+    from flypend.files.staging import check_writable
+    from flypend.report.studies import comparison_table, write_comparison
+    from flypend.studies import compare as fly
+
+    names = law or ["inverted", "lqr", "corrected", "detuned"]
+    laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
+    settings = {**settings, "plant": plant}
+    check_writable(out)
+    with counter() as tell:
+        result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
+    write_comparison(result, settings, out)
+    console.print(comparison_table(result))
+    console.print(f"Report and figure are in {bold(out)}.")
+
+
+@app.command()
+def ladder(
+    law: Laws = None,
+    out: Out = Path("ladder-out"),
+    starts: Starts = "random",
+    runs: Runs = 100,
+    seed: Seed = 1,
+    vehicle: VehicleName = "hehn2011",
+    duration: Duration = 10.0,
+    rung: Annotated[list[str] | None, typer.Option("--rung", help="Only this rung; repeat it.")] = None,
+) -> None:
+    """See which step towards reality breaks which law: limits, lag, sampling, delay, noise, mismatch, pivot offset."""
+    from flypend import errors
+    from flypend.files.staging import check_writable
+    from flypend.report.studies import ladder_table, write_ladder
+    from flypend.studies import ladder as climb
+    from flypend.studies.ladder import RUNGS
+
+    laws, batch, machine, settings = _study(law or ["inverted", "lqr"], starts, runs, seed, vehicle, duration)
+    chosen = {errors.one_of("--rung", name, RUNGS): RUNGS[name] for name in rung or RUNGS}
+    check_writable(out)
+    with counter() as tell:
+        result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
+    write_ladder(result, settings, out)
+    console.print(ladder_table(result))
+    console.print(f"Report and figure are in {bold(out)}.")
+
+
+@app.command()
+def circles(law: Laws = None, seed: Seed = 1) -> None:
+    """Hover and two circles in the set-up of Hehn and D'Andrea (2011), beside what they published."""
+    from flypend.report.studies import tracking_table
+    from flypend.studies.hehn import hehn2011
+
+    console.print(tracking_table(hehn2011(tuple(law or ("inverted", "lqr")), seed)))
+
+
+@app.command()
+def lab(
+    host: Annotated[str, typer.Option("--host", help="Address to listen on; others let other machines in.")] = (
+        "127.0.0.1"
+    ),
+    port: Annotated[int, typer.Option("--port", help="Port; 0 takes a free one.", min=0, max=65535)] = 0,
+    browser: Annotated[bool, typer.Option(help="Open the page in a browser (--no-browser does not).")] = True,
+) -> None:
+    """Open the laboratory in a browser: move sliders, drag the rod, poke; the flight follows. Ctrl-C ends it."""
+    from flypend.lab import serve
+
+    serve(
+        host, port, browser=browser, announce=lambda url: console.print(f"The laboratory is at {url}", soft_wrap=True)
+    )
+
+
+@app.command("export-c")
+def export_c(
+    law: Annotated[str, typer.Option("--law", help="inverted, lqr, corrected, printed, or module:name.")] = "inverted",
+    vehicle: VehicleName = "hehn2011",
+    out: Out = Path("c-out"),
+    precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
+    light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
+) -> None:
+    """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export."""
+    from flypend import errors
+    from flypend.compile.c99 import PRECISIONS
+    from flypend.export import export_c as write
+    from flypend.laws import Law, inverted
+    from flypend.settings.runfile import vehicle_named
+    from flypend.studies import law_named
+
+    if light:
+        errors.one_of("--law", law, ("inverted",))
+    chosen = inverted(form="light") if light else law_named(law)
+    if not isinstance(chosen, Law):
+        raise InputError("--law", "a law written in symbols", repr(law))
+    kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
+    write(chosen, vehicle_named(vehicle), out, precision=kind)
+    console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
+
+
+def _study(
+    names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
+) -> tuple[list[Any], Any, Any, dict[str, Any]]:
+    """Laws, starts and vehicle of a study, checked, and the settings that say so in its report."""
+    from flypend import errors
+    from flypend.settings.runfile import vehicle_named
+    from flypend.studies import law_named, paper_starts, random_starts
+
+    laws = [law_named(name) for name in names]
+    machine = vehicle_named(vehicle)
+    errors.number("--duration", duration, above=0, unit="s")
+    kind = errors.one_of("--starts", starts, ("random", "paper"))
+    batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
+    settings = {"laws": names, "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
+    return laws, batch, machine, settings | ({"seed": seed} if kind == "random" else {})
+
+
+def _plant(name: str) -> Any:
+    from flypend import errors
+    from flypend.plants import PRESETS
+
+    return errors.one_of("--plant", name, ("ideal", *PRESETS))
+
+
+def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
+    listed = list(tasks)
+    with progress() as bar:
+        shown = bar.add_task("", total=len(listed))
+        for name, task in listed:
+            bar.update(shown, description=f"drawing {name}")
+            task()
+            bar.advance(shown)
+
+
+def main() -> None:
+    """Run the command line; bad input prints one line and exits with code 2."""
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as after Ctrl-C
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # where the encoding of the terminal lacks ✓ or ẍ
+    try:
+        code = app(standalone_mode=False)
+    except (InputError, TyperException) as error:
+        message = error.format_message() if isinstance(error, TyperException) else str(error)
+        if message:  # without arguments the help has been printed already
+            line = " ".join(f"flypend: {message}".split())
+            Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
+        sys.exit(2)
+    sys.exit(code or 0)

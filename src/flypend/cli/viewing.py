@@ -1,0 +1,79 @@
+"""Commands that look at runs that were saved: replay, movie, figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from flypend.cli.terminal import bold, console, counter, progress
+
+app = typer.Typer()
+
+Saved = Annotated[Path, typer.Argument(help="A run that flypend saved (.nc).")]
+Style = Annotated[str, typer.Option("--style", help="paper (one or two columns) or slides (16:9, larger letters).")]
+
+
+@app.command()
+def replay(
+    runs: Annotated[list[Path], typer.Argument(help="One to four saved runs (.nc); the first is followed.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="The page (.html).")] = Path("replay.html"),
+    beside: Annotated[
+        bool, typer.Option("--beside", help="A picture for each run; default one, with ghosts. The page can change it.")
+    ] = False,
+    title: Annotated[str | None, typer.Option("--title", help="Default the laws and vehicles.")] = None,
+    speed: Annotated[float, typer.Option("--speed", help="Time of the flight over time of playback.")] = 1.0,
+) -> None:
+    """Write saved runs as one page that opens from disk, offline, in any browser: play, scrub, turn, compare."""
+    from flypend.flight.trajectory import load
+
+    first, *others = [load(path) for path in runs]
+    first.to_html(out, ghost=others, title=title, layout="beside" if beside else "overlay", speed=speed)
+    console.print(f"Open {bold(out)} in a browser.")
+
+
+@app.command()
+def movie(
+    run: Saved,
+    out: Annotated[Path, typer.Option("--out", "-o", help="The movie, .mp4 or .gif.")] = Path("flight.mp4"),
+    camera: Annotated[str, typer.Option("--camera", help="side, or axis (from above, along gravity).")] = "side",
+    speed: Annotated[float, typer.Option("--speed", help="Time of the flight over time of playback.")] = 0.25,
+    fps: Annotated[float, typer.Option("--fps", help="Pictures per second of playback.")] = 30,
+    size: Annotated[
+        tuple[int, int], typer.Option("--size", metavar="WIDTH HEIGHT", help="In pixels, even numbers.")
+    ] = (640, 640),
+) -> None:
+    """Write a slow-motion movie of a saved run."""
+    from flypend import errors
+    from flypend.flight.trajectory import load
+    from flypend.pictures.animate import movie as film
+    from flypend.pictures.drawing import VIEWS
+
+    view = errors.one_of("--camera", camera, VIEWS)
+    flight = load(run)
+    with counter() as tell:
+        film(flight, out, view=view, speed=speed, fps=fps, size=size, progress=lambda *n: tell("filming", *n))
+    console.print(f"The movie is {bold(out)}.")
+
+
+@app.command()
+def figures(
+    run: Saved,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the figures.")] = Path("figures-out"),
+    style: Style = "paper",
+) -> None:
+    """Draw the figures of a saved run, each as vectors (.pdf) and as .png."""
+    from flypend.files.staging import check_writable, staged
+    from flypend.flight.trajectory import load
+    from flypend.pictures.style import style_named
+    from flypend.report.flight import figure_tasks
+
+    style_named(style)
+    flight = load(run)
+    check_writable(out)
+    with staged(out) as folder, progress() as bar:
+        for name, task in bar.track(figure_tasks(flight, folder, style=style), description="drawing"):
+            bar.update(bar.task_ids[0], description=f"drawing {name}")
+            task()
+    console.print(f"Figures are in {bold(out)}.")

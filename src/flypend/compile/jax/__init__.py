@@ -1,0 +1,1 @@
+"""The same programs as functions of JAX arrays, for a GPU."""

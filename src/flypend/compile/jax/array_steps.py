@@ -1,0 +1,225 @@
+"""Embedded Runge-Kutta steps in JAX on rows of runs, each run with its own time and step.
+
+Steps and queue are those of `flypend.compile.llvm.runge_kutta`: a lane whose run has ended takes the next one, so
+that a few runs of many steps do not hold up the rest, and what a run gives does not depend on its neighbours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from flypend.compile.jax.arrays import Function, as_jax
+from flypend.compile.llvm.runge_kutta import (
+    COMPLETED,
+    DIVERGED,
+    LEAST_FACTOR,
+    MOST_FACTOR,
+    SAFETY,
+    SHORTEST,
+    SINGULAR,
+    TOO_MANY,
+    TOO_SMALL,
+    UNDEFINED,
+)
+from flypend.compile.methods import Method
+from flypend.compile.problem import Problem
+from flypend.model.state import MAX_STATE
+
+FLYING, IDLE = -1, -2
+
+
+class Lanes(NamedTuple):
+    """L runs under way: which, time, next step (L,), state and rate (24, L), how they ended, steps tried, rejected."""
+
+    run: Any
+
+    t: Any
+    h: Any
+    s: Any
+    rate: Any
+    code: Any
+    steps: Any
+    rejected: Any
+
+
+class Results(NamedTuple):
+    """Final states (24, n+1), ends, codes and steps (n+1,) of all runs; entry n is for lanes without one."""
+
+    s: Any
+    t: Any
+    code: Any
+    steps: Any
+
+
+class Setting(NamedTuple):
+    """Number of runs, duration, tolerances, and the largest number of steps."""
+
+    count: Any
+
+    duration: Any
+    rtol: Any
+    atol: Any
+    max_steps: Any
+
+
+def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[..., Results]:
+    """A function (starts (24, n), parameters (k, n), setting) of JAX arrays that flies the first `setting.count` runs.
+
+    It is compiled anew for each n; so many runs as there are `lanes` are under way together.
+    """
+    import jax
+    import jax.numpy as jnp
+
+    step = _Step(problem, method)
+
+    def fly(starts: Any, parameters: Any, setting: Setting) -> Results:
+        n, width = starts.shape[1], min(lanes, starts.shape[1])
+
+        def begin(run: Any) -> Lanes:
+            place = jnp.minimum(run, n - 1)
+            begun = step.begin(run, starts[:, place], parameters[:, place], setting)
+            return begun._replace(code=jnp.where(run < setting.count, begun.code, IDLE))
+
+        def body(carry: tuple[Lanes, Any, Results]) -> tuple[Lanes, Any, Results]:
+            now, following, results = carry
+            now = step(now, parameters[:, jnp.minimum(now.run, n - 1)], setting)
+            ended = (now.code != FLYING) & (now.code != IDLE)
+            after: tuple[Lanes, Any, Results]
+            after = jax.lax.cond(ended.any(), refilled, lambda *same: same[:3], now, following, results, ended)
+            return after
+
+        def refilled(now: Lanes, following: Any, results: Results, ended: Any) -> tuple[Lanes, Any, Results]:
+            place = jnp.where(ended, now.run, n)
+            results = Results(
+                results.s.at[:, place].set(now.s), results.t.at[place].set(now.t),
+                results.code.at[place].set(now.code), results.steps.at[place].set(now.steps),
+            )  # fmt: skip
+            fresh = begin(jnp.where(ended, following + jnp.cumsum(ended) - 1, now.run))
+            merged = Lanes(*(jnp.where(ended, new, old) for new, old in zip(fresh, now, strict=True)))
+            return merged, following + jnp.sum(ended), results
+
+        first = begin(jnp.arange(width))
+        none = Results(jnp.zeros((len(starts), n + 1)), jnp.zeros(n + 1), jnp.zeros(n + 1, int), jnp.zeros(n + 1, int))
+        carry = (first, jnp.asarray(width), none)
+        return jax.lax.while_loop(lambda carry: (carry[0].code != IDLE).any(), body, carry)[2]
+
+    return jax.jit(fly)
+
+
+class _Step:
+    """One attempted step of every run."""
+
+    def __init__(self, problem: Problem, method: Method) -> None:
+        self.method = method
+        self._rates = as_jax(problem.rates)
+        self._project = as_jax(problem.project)
+        self._margin: Function | None = as_jax(problem.margin) if problem.margin is not None else None
+        s = method.stages
+        # Row i weighs the stages for the state at which stage i is evaluated; stage s stands at the end of the step.
+        self._A: Any = np.zeros((s + 1, s + 1))
+        self._A[:s, : method.A.shape[1]], self._A[s, :s] = method.A[:s], method.B
+        self._C = np.append(method.C[:s], 1.0)
+
+    def begin(self, run: Any, starts: Any, parameters: Any, setting: Setting) -> Lanes:
+        """All runs at their start, with a cautious first step; those that cannot begin have ended."""
+        import jax.numpy as jnp
+
+        n = starts.shape[1]
+        t = jnp.zeros(n)
+        rate = self._rate(t, starts, parameters)
+        scale = setting.atol + setting.rtol * jnp.abs(starts)
+        size, slope = (jnp.sum((rows / scale) ** 2, axis=0) for rows in (starts, rate))
+        h = jnp.clip(0.01 * jnp.sqrt(size / jnp.maximum(slope, 1e-10)), 1e-6, 1e-2)
+        defined = jnp.isfinite(rate).all(axis=0)
+        code = jnp.where(self._allowed(t, starts, parameters), FLYING, SINGULAR)
+        code = jnp.where(defined, code, UNDEFINED)
+        none = jnp.zeros(n, dtype=bool)
+        return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, code, jnp.zeros(n, dtype=int), none)
+
+    def __call__(self, runs: Lanes, parameters: Any, setting: Setting) -> Lanes:
+        import jax.numpy as jnp
+
+        flying = runs.code == FLYING
+        last = runs.t + 1.0001 * runs.h >= setting.duration
+        h = jnp.where(last, setting.duration - runs.t, runs.h)
+        t_new = jnp.where(last, setting.duration, runs.t + h)
+        raw, after, error = self._attempt(runs, h, parameters, setting)
+        new = self._project(raw)[0]
+        good = flying & (error <= 1)
+        allowed = self._allowed(t_new, new, parameters)
+        inside = jnp.max(jnp.abs(new), axis=0) < MAX_STATE
+        accepted, lost = good & allowed & inside, good & allowed & ~inside
+        if self.method.errors[0][-1] == 0:  # else f at the end is known, up to the projection
+            after = self._rate(t_new, new, parameters)
+
+        factor = self._factor(error, runs.rejected, accepted, good & ~allowed)
+        h_next, steps = jnp.where(flying, h * factor, runs.h), runs.steps + flying
+        stuck = flying & ~accepted & ~(h_next > jnp.maximum(SHORTEST, 1e-15 * runs.t))
+        code = jnp.where(flying & (steps >= setting.max_steps), TOO_MANY, runs.code)
+        code = jnp.where(stuck, jnp.where(good & ~allowed, SINGULAR, TOO_SMALL), code)
+        code = jnp.where(lost, DIVERGED, code)
+        code = jnp.where(accepted & (t_new >= setting.duration), COMPLETED, code)
+        return Lanes(
+            run=runs.run,
+            t=jnp.where(accepted, t_new, runs.t),
+            h=h_next,
+            s=jnp.where(accepted, new, runs.s),
+            rate=jnp.where(accepted, after, runs.rate),
+            code=code,
+            steps=steps,
+            rejected=flying & ~accepted,
+        )
+
+    def _attempt(self, runs: Lanes, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any]:
+        """The new state before projection, f there (if the error weighs it), and the error: accept at most 1."""
+        import jax
+        import jax.numpy as jnp
+
+        method = self.method
+        A, C = jnp.asarray(self._A), jnp.asarray(self._C)
+        last = method.stages + (method.errors[0][-1] != 0)
+
+        def stage(i: Any, K: Any) -> Any:
+            # One copy of the program serves all stages: that is what keeps compilation short.
+            y = runs.s + h * jnp.tensordot(A[i], K, axes=1)
+            return K.at[i].set(self._rate(runs.t + C[i] * h, y, parameters))
+
+        K = jnp.zeros((method.stages + 1, *runs.s.shape)).at[0].set(runs.rate)
+        K = jax.lax.fori_loop(1, last, stage, K)
+        new = runs.s + h * jnp.tensordot(A[method.stages], K, axes=1)
+        scale = setting.atol + setting.rtol * jnp.maximum(jnp.abs(runs.s), jnp.abs(new))
+        sums = [
+            jnp.sum((jnp.tensordot(jnp.asarray(weights), K, axes=1) / scale) ** 2, axis=0) for weights in method.errors
+        ]
+        return new, K[method.stages], self._norm(sums, h, len(new))
+
+    def _norm(self, sums: list[Any], h: Any, n: int) -> Any:
+        import jax.numpy as jnp
+
+        if len(sums) == 1:
+            return h * jnp.sqrt(sums[0] / n)
+        joined = sums[0] + 0.01 * sums[1]
+        return jnp.where(joined > 0, h * sums[0] / jnp.sqrt(jnp.where(joined > 0, joined, 1.0) * n), joined)
+
+    def _factor(self, error: Any, rejected: Any, accepted: Any, guarded: Any) -> Any:
+        import jax.numpy as jnp
+
+        order = 8 if self.method.stages > 8 else 5
+        factor = SAFETY * jnp.where(error > 1e-12, error, 1e-12) ** (-1 / order)
+        factor = jnp.clip(factor, LEAST_FACTOR, MOST_FACTOR)
+        grown = jnp.where(rejected, jnp.minimum(factor, 1.0), factor)
+        shrunk = jnp.where(factor < 1.0, factor, LEAST_FACTOR)
+        return jnp.where(guarded, 0.5, jnp.where(accepted, grown, shrunk))
+
+    def _rate(self, t: Any, s: Any, parameters: Any) -> Any:
+        return self._rates(t[None], s, parameters)[0]
+
+    def _allowed(self, t: Any, s: Any, parameters: Any) -> Any:
+        import jax.numpy as jnp
+
+        if self._margin is None:
+            return jnp.ones(s.shape[1], dtype=bool)
+        return self._margin(t[None], s, parameters)[0][0] > 0

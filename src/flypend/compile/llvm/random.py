@@ -1,0 +1,106 @@
+"""Normal numbers from a counter: what run and tick draw depends on nothing else, in whatever order it is drawn."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+
+from flypend.compile.llvm import jit
+from flypend.compile.llvm.vector import I64, VOID, Code, Lanes, Value
+
+# Philox4x32-10 (Salmon and others 2011, "Parallel random numbers: as easy as 1, 2, 3").
+MULTIPLIERS, WEYL, ROUNDS = (0xD2511F53, 0xCD9E8D57), (0x9E3779B9, 0xBB67AE85), 10
+PER_TICK = 24
+WIDTH = 8
+
+
+def philox(builder: ir.IRBuilder, counter: list[ir.Value], key: list[ir.Value]) -> list[ir.Value]:
+    """Four words for a `counter` of four and a `key` of two, each the low 32 bits of an integer of 64 (or a vector)."""
+    kind = counter[0].type
+
+    def fixed(number: int) -> ir.Value:
+        count = getattr(kind, "count", None)
+        return ir.Constant(kind, number if count is None else [number] * count)
+
+    low = fixed(0xFFFFFFFF)
+    for turn in range(ROUNDS):
+        products = [builder.mul(counter[2 * i], fixed(MULTIPLIERS[i])) for i in range(2)]
+        high = [builder.lshr(product, fixed(32)) for product in products]
+        words = [builder.and_(product, low) for product in products]
+        keys = [builder.and_(builder.add(key[i], fixed(turn * WEYL[i] & 0xFFFFFFFF)), low) for i in range(2)]
+        counter = [
+            builder.xor(builder.xor(high[1], counter[1]), keys[0]), words[1],
+            builder.xor(builder.xor(high[0], counter[3]), keys[1]), words[0],
+        ]  # fmt: skip
+    return counter
+
+
+def define_normals(lanes: Lanes) -> ir.Function:
+    """A function (seeds, ticks, out) of the module: `PER_TICK` normal numbers per lane, from integers per lane."""
+    function, code = lanes.function("normals", 3)
+    kind = ir.VectorType(I64, lanes.width)
+    seed, tick = (_integers(code, memory, kind) for memory in function.args[:2])
+    builder = code.builder
+    shift = ir.Constant(kind, [32] * lanes.width)
+    low = ir.Constant(kind, [0xFFFFFFFF] * lanes.width)
+    key = [builder.and_(seed, low), builder.lshr(seed, shift)]
+    for block in range(PER_TICK // 4):
+        counter = [ir.Constant(kind, [block] * lanes.width), builder.and_(tick, low), builder.lshr(tick, shift)]
+        words = philox(builder, [*counter, ir.Constant(kind, [0] * lanes.width)], key)
+        uniform = [(Value(code, builder.uitofp(word, lanes.vector)) + 0.5) * 2.0**-32 for word in words]
+        for pair in range(2):
+            _box_muller(code, uniform[2 * pair], uniform[2 * pair + 1], function.args[2], 4 * block + 2 * pair)
+    builder.ret_void()
+    return function
+
+
+def _integers(code: Code, memory: ir.Value, kind: ir.VectorType) -> ir.Value:
+    loaded = code.builder.load(memory, typ=kind)
+    loaded.align = 8
+    return loaded
+
+
+def _box_muller(code: Code, u: Value, v: Value, out: ir.Value, place: int) -> None:
+    radius = code.sqrt(-2.0 * code.library("log", u))
+    angle = 2 * np.pi * v
+    code.store(radius * code.library("cos", angle), out, place)
+    code.store(radius * code.library("sin", angle), out, place + 1)
+
+
+def normals(seed: int, ticks: int) -> Any:
+    """Normal numbers (ticks, 24) of the flight with `seed`, row k being what control tick k draws."""
+    rows = -(-ticks // WIDTH)
+    out: Any = np.zeros((rows, PER_TICK, WIDTH))
+    _compiled()(seed & 0xFFFFFFFFFFFFFFFF, rows, out.ctypes.data)
+    return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(rows * WIDTH, PER_TICK)[:ticks])
+
+
+@lru_cache(maxsize=1)
+def _compiled() -> Any:
+    return jit.build("normals", _module, "normals_of_ticks", [ctypes.c_uint64, ctypes.c_int64, ctypes.c_void_p])
+
+
+def _module() -> ir.Module:
+    """A function (seed, rows, out): row i holds the numbers of ticks i·WIDTH …, one tick per lane."""
+    lanes = Lanes(ir.Module("normals"), WIDTH)
+    draw = define_normals(lanes)
+    function = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, I64, ir.PointerType()]), "normals_of_ticks")
+    code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
+    seed, rows, out = function.args
+    seeds, ticks, drawn = code.reserve(WIDTH, I64), code.reserve(WIDTH, I64), code.reserve(PER_TICK)
+    with code.count(rows) as row:
+        for lane in range(WIDTH):
+            place = ir.Constant(I64, lane)
+            code.put(seed, seeds, place)
+            first = code.builder.mul(row, ir.Constant(I64, WIDTH))
+            code.put(code.builder.add(first, place), ticks, place)
+        code.call(draw, seeds, ticks, drawn)
+        with code.count(PER_TICK * WIDTH) as i:
+            base = code.builder.mul(row, ir.Constant(I64, PER_TICK * WIDTH))
+            code.put(code.scalar(drawn, i), out, code.builder.add(base, i))
+    code.builder.ret_void()
+    return lanes.module

@@ -1,5 +1,0 @@
-"""The paper's experiments as data, and their reproduction with a verdict per claim."""
-
-from flypend.experiments.table import Experiment, experiment, experiment_names
-
-__all__ = ["Experiment", "experiment", "experiment_names"]

@@ -1,0 +1,1 @@
+"""Whole files, whole folders, NetCDF: what is written appears whole or not at all."""

@@ -1,0 +1,110 @@
+"""One trajectory of a closed loop by SciPy's embedded Runge-Kutta method of order 8 (DOP853), on the manifold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
+
+from flypend.flight.outcome import Outcome
+from flypend.model.state import MAX_STATE, project
+
+MAX_STEPS = 1_000_000
+
+Rates = Callable[[float, Any], Any]
+Margin = Callable[[float, Any], float]
+
+
+@dataclass(frozen=True)
+class Integration:
+    """Accepted steps of one run: `knots` (n+1,), one interpolant per step, drift (n, 3) before each projection."""
+
+    knots: Any
+    interpolants: tuple[Callable[[Any], Any], ...]
+    start: Any
+    drift: Any
+    evaluations: int
+    outcome: Outcome
+
+    def __call__(self, t: Any) -> Any:
+        """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""
+        t = np.atleast_1d(np.asarray(t, dtype=float))
+        if not self.interpolants:
+            return np.repeat(self.start[None], len(t), axis=0)
+        step = np.clip(np.searchsorted(self.knots, t, side="left") - 1, 0, len(self.interpolants) - 1)
+        states = np.stack([self.interpolants[i](time) for i, time in zip(step, t, strict=True)])
+        states[t <= self.knots[0]] = self.start
+        return project(states)[0]
+
+
+def integrate(
+    rates: Rates,
+    start: Any,
+    duration: float,
+    *,
+    rtol: float,
+    atol: float,
+    margin: Margin | None = None,
+    margin_reason: str = "",
+) -> Integration:
+    """Integrate `rates` from the packed state `start` over `duration` seconds; never raises for what a run does.
+
+    After each accepted step the state is projected back onto the manifold and the drift before it is recorded. Where
+    `margin(t, state)` is no longer positive the run ends as singular, for `margin_reason`.
+    """
+    if not np.all(np.isfinite(rates(0.0, start))):
+        reason = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, reason))
+
+    if margin is not None and margin(0.0, start) <= 0:
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, margin_reason))
+
+    knots: list[float] = [0.0]
+    interpolants: list[Any] = []
+    drifts: list[Any] = []
+    solver = DOP853(rates, 0.0, start, duration, rtol=rtol, atol=atol)
+    outcome: Outcome | None = None
+    with np.errstate(all="ignore"):
+        while outcome is None:
+            message = solver.step()
+            outcome = _lost(solver, message, len(interpolants))
+            if outcome is not None:
+                break
+            interpolants.append(solver.dense_output())
+            knots.append(solver.t)
+            solver.y, drift = project(solver.y)
+            solver.f = rates(solver.t, solver.y)
+            drifts.append(drift)
+            if margin is not None and margin(solver.t, solver.y) <= 0:
+                knots[-1] = _crossing(margin, interpolants[-1])
+                outcome = Outcome("singular", knots[-1], margin_reason)
+            elif solver.status == "finished":
+                outcome = Outcome("completed", solver.t)
+    drift = np.array(drifts).reshape(-1, 3)
+    return Integration(np.array(knots), tuple(interpolants), start, drift, solver.nfev, outcome)
+
+
+def _lost(solver: DOP853, message: str | None, steps: int) -> Outcome | None:
+    """The outcome of a run whose last step failed or left every bound; None for one that goes on."""
+    if solver.status == "failed":
+        return Outcome("diverged", solver.t, f"{message} Loosen rtol, or see what the state does before this time.")
+    if not (np.all(np.isfinite(solver.y)) and np.max(np.abs(solver.y)) < MAX_STATE):
+        return Outcome("diverged", solver.t_old, f"the state left |s| < {MAX_STATE:g}")
+    if steps >= MAX_STEPS:
+        return Outcome("diverged", solver.t_old, f"{MAX_STEPS} steps were not enough")
+    return None
+
+
+def _crossing(margin: Margin, interpolant: Any) -> float:
+    """Time inside the step of `interpolant` at which `margin` first reaches zero, to 1e-12 s."""
+    before, after = (
+        margin(interpolant.t_old, interpolant(interpolant.t_old)),
+        margin(interpolant.t, interpolant(interpolant.t)),
+    )
+    if before <= 0 or after > 0:
+        return float(interpolant.t)
+    return float(brentq(lambda t: margin(t, interpolant(t)), interpolant.t_old, interpolant.t, xtol=1e-12))

@@ -1,0 +1,154 @@
+"""What a kernel gives, and the flying of many runs on all cores: from a queue or in pieces, while Python goes on."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from flypend.errors import InputError
+from flypend.flight.criterion import REDUCTIONS
+from flypend.laws.law import Law
+
+Progress = Callable[[int, int], Any]
+
+# Runs that are worth a thread.
+LEAST_SHARE = 64
+
+# Words of `Trajectory.outcome` for the codes of `flypend.compile.llvm.runge_kutta`.
+STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
+
+
+@dataclass(frozen=True)
+class Flown:
+    """Results of n runs.
+
+    Parameters
+    ----------
+    final : (n, 24)
+        Packed final states.
+    end : (n,)
+        When each run ended, s.
+    code : (n,)
+        How: see `flypend.compile.llvm.runge_kutta`; `STATUS` has the words.
+    reductions : (n, 7), optional
+        As `criterion.REDUCTIONS` has it.
+    samples : (n, times, 24 or more), optional
+        States at the sample times, followed by the rotor forces in a sampled flight; NaN after the end.
+    steps : (n,), optional
+        Steps tried, in the ideal plant.
+    """
+
+    final: Any
+    end: Any
+    code: Any
+    reductions: Any
+    samples: Any = None
+    steps: Any = None
+
+    @classmethod
+    def of_size(cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: bool) -> Flown:
+        """Memory for `runs` runs of states of `size`, to be written; `samples` (times, length) if they are kept."""
+        return cls(
+            final=np.empty((runs, size)),
+            end=np.empty(runs),
+            code=np.empty(runs, dtype=np.int64),
+            reductions=np.empty((runs, len(REDUCTIONS))) if judged else None,
+            samples=None if samples is None else _aligned((runs, *samples)),
+            steps=np.empty(runs, dtype=np.int64) if steps else None,
+        )
+
+    def part(self, runs: slice) -> Flown:
+        """The results of `runs`, in the same memory."""
+        columns = {entry.name: getattr(self, entry.name) for entry in fields(self)}
+        return Flown(**{name: None if column is None else column[runs] for name, column in columns.items()})
+
+    def __len__(self) -> int:
+        """Number of runs."""
+        return len(self.end)
+
+    @property
+    def status(self) -> Any:
+        """How each run ended, in words (n,)."""
+        return STATUS[self.code]
+
+
+def _aligned(shape: tuple[int, ...]) -> Any:
+    """New memory for an array of doubles, from the beginning of a cache line: rows of eight then share none."""
+    room = np.empty(int(np.prod(shape)) + 7)
+    first = -room.ctypes.data // room.itemsize % 8
+    return room[first : first + room.size - 7].reshape(shape)
+
+
+def in_pieces(
+    fly: Callable[[slice, Flown], None],
+    out: Flown,
+    piece: int,
+    workers: int | None,
+    progress: Progress = lambda *_: None,
+) -> Flown:
+    """`out`, after `fly` wrote into its parts from `workers` threads, `piece` runs or fewer at a time.
+
+    `progress` is told (done, runs) after each piece. A run gives the same result in any piece and on any thread.
+    """
+    runs, threads = len(out), workers or os.cpu_count() or 1
+    slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
+    threads = min(threads, len(slices))
+    if threads <= 1:
+        for part in slices:
+            fly(part, out.part(part))
+            progress(part.stop, runs)
+        return out
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for part, _ in zip(slices, pool.map(lambda part: fly(part, out.part(part)), slices), strict=True):
+                progress(part.stop, runs)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return out
+
+
+def from_queue(
+    fly: Callable[[Any], None], runs: int, workers: int | None, progress: Progress = lambda *_: None
+) -> None:
+    """Let `fly` take `runs` runs from a queue (1,), the number of the next one, in `workers` threads at a time.
+
+    `progress` is told (taken, runs) ten times a second. An interruption leaves the queue empty and is raised once the
+    runs under way have ended.
+    """
+    queue = np.zeros(1, dtype=np.int64)
+    threads = min(workers or os.cpu_count() or 1, runs // LEAST_SHARE)
+    if threads < 1:
+        fly(queue)
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            try:
+                tasks = [pool.submit(fly, queue) for _ in range(threads)]
+                while wait(tasks, timeout=0.1).not_done:
+                    progress(min(int(queue[0]), runs), runs)
+            except BaseException:
+                queue[0] = runs
+                raise
+        for task in tasks:
+            task.result()
+    progress(runs, runs)
+
+
+def inputs_of(law: Law, names: Sequence[str], given: Any, runs: int) -> Any:
+    """The inputs (runs, k) of a kernel whose gains `names` may vary: `given`, or for None those of the `law`."""
+    if given is None:
+        given = np.broadcast_to([law.numbers[name] for name in names], (runs, len(names)))
+    values = np.ascontiguousarray(given, dtype=float)
+    if values.shape != (runs, len(names)):
+        raise InputError("parameters", f"an array of shape {(runs, len(names))}", f"shape {values.shape}")
+    return values
+
+
+def address(array: Any) -> int | None:
+    """Where the numbers of a contiguous `array` are, for a kernel; None for none."""
+    return None if array is None else array.ctypes.data

@@ -1,0 +1,28 @@
+"""How a run ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended.
+
+    Parameters
+    ----------
+    status : "completed", "diverged" or "singular"
+        Whether the duration was reached, the state left every bound, or the law stopped being defined.
+    time : float
+        When, s.
+    reason : str
+        Why, and what to do about it; empty for a completed run.
+    """
+
+    status: Literal["completed", "diverged", "singular"]
+    time: float
+    reason: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.status} at {self.time:.4g} s" + (f": {self.reason}" if self.reason else "")

@@ -1,0 +1,121 @@
+"""One sampled flight, step by step in Python: measure, command, hold, with whatever the plant puts in between.
+
+It flies what no kernel can: MuJoCo, and laws that are plain callables. For the rest it is the reference of the kernel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.board.computer import Commands, FlightComputer, idle_command
+from flypend.compile.llvm.random import normals
+from flypend.compile.numeric import as_numpy
+from flypend.flight.outcome import Outcome
+from flypend.laws.law import Controller, Law
+from flypend.model import State, Vehicle
+from flypend.model.state import FLIP_PACKED, MAX_STATE
+from flypend.plants.actuation import Actuation, make_engine
+from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
+from flypend.plants.plant import Plant
+from flypend.plants.schedule import within_period
+
+NOT_FINITE = "the law's wrench is not a finite number"
+LEFT = f"the state left |s| < {MAX_STATE:g}"
+
+
+@dataclass(frozen=True)
+class Samples:
+    """A sampled flight at its control ticks: `t` (n,), `packed` (n, 24) and `rotors` (n, k) with e₃ up, `outcome`."""
+
+    t: Any
+    packed: Any
+    rotors: Any
+    outcome: Outcome
+
+    def at(self, ticks: Any) -> Samples:
+        """The samples at the control ticks nearest to `ticks` (real numbers), each once."""
+        kept = np.unique(np.clip(np.rint(ticks).astype(int), 0, len(self.t) - 1))
+        return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
+
+
+def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant) -> Samples:
+    """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
+
+    Rotors start at their least force. Every quantity is recorded at each control tick.
+    """
+    engine = make_engine(plant.true_vehicle(vehicle), plant)
+    packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    engine.reset(packed, np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]))
+    world = Actuation(engine, vehicle, plant)
+    computer = FlightComputer(law, vehicle, plant)
+
+    period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
+    measure, next_wind = _chance(plant, ticks)
+    states, rotors = [engine.packed], [engine.rotors]
+    commands, segments = Commands(idle_command(vehicle, plant)), within_period(plant.delay, period)
+    outcome = Outcome("completed", ticks * period)
+    with np.errstate(all="ignore"):
+        for k in range(ticks):
+            measured = measure(k, engine.packed)
+            command = computer.command(k * period, measured)
+            if not np.isfinite(np.sum(command)):
+                outcome = Outcome("singular", k * period, NOT_FINITE)
+                break
+            commands.add(command)
+            computer.tick(measured)
+            wind = next_wind(k)
+            for age, while_ in segments:
+                world.advance(commands[age], while_, wind)
+            if not (np.all(np.isfinite(engine.packed)) and np.max(np.abs(engine.packed)) < MAX_STATE):
+                outcome = Outcome("diverged", k * period, LEFT)
+                break
+            states.append(engine.packed)
+            rotors.append(engine.rotors)
+    return Samples(np.arange(len(states)) * period, np.array(states), np.array(rotors), outcome)
+
+
+def number_of_ticks(duration: float, plant: Plant) -> int:
+    """Control ticks of a flight of `duration` seconds."""
+    return max(1, round(duration * plant.rate))
+
+
+def nearest_ticks(times: Any, plant: Plant, duration: float) -> Any:
+    """The control ticks (k,) of a flight of `duration` seconds nearest to `times` (s), each once."""
+    return np.unique(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
+
+
+def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:
+    """(tick, state) → the state as measured, and tick → force of the wind on vehicle and bob (6,)."""
+    drawn = normals(plant.seed, ticks) if is_random(plant) else None
+    measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
+    if plant.noise is not None and drawn is not None:
+        noisy, sigma = _compiled(measurement), noise_numbers(plant.noise)
+        measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT], sigma)  # noqa: E731
+    if plant.wind is None:
+        return measure, lambda _: np.zeros(6)
+    blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(6)
+    nothing = np.zeros(6)
+
+    def next_wind(k: int) -> Any:
+        gust[:], force = blow(gust, nothing if drawn is None else drawn[k, GUSTS], numbers)
+        return force
+
+    return measure, next_wind
+
+
+@cache
+def _compiled(make: Callable[[], ca.Function]) -> Any:
+    return as_numpy(make())
+
+
+def is_random(plant: Plant) -> bool:
+    """Whether flights through `plant` depend on its seed."""
+    return plant.noise is not None or (
+        plant.wind is not None and (plant.wind.gust_on_vehicle > 0 or plant.wind.gust_on_bob > 0)
+    )

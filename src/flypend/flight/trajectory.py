@@ -1,0 +1,266 @@
+"""A run: times, states, wrench and signals, with what was flown and how it ended; to xarray, to a file and back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.files.netcdf import Variable, write_netcdf
+from flypend.files.whole import whole_file
+from flypend.flight.outcome import Outcome
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.state import FLIP, SHAPES, E3Direction
+
+if TYPE_CHECKING:
+    import xarray
+
+UNITS = {
+    "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
+    "moment": "N m", "rotor_forces": "N", "x_ref": "m",
+}  # fmt: skip
+_LABELS = {"axis": ("1", "2", "3"), "drift_of": ("length of y", "tangency of y_dot", "orthogonality of R")}
+_STATE = tuple(SHAPES)
+_ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces", "x_ref")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trajectory:
+    """One run, sampled at `t`; SI units, world frame with third axis `e3`, omega and moment in the body frame.
+
+    Parameters
+    ----------
+    t : (n,)
+        Times, s.
+    x, x_dot, omega, y, y_dot : (n, 3)
+        Pivot position and velocity, angular velocity, rod direction and its rate.
+    R : (n, 3, 3)
+        Rotation from body to world.
+    thrust, moment : (n,), (n, 3)
+        Wrench that acted; thrust is along z = R e₃, so it is negative where e₃ points down.
+    rotor_forces : (n, k)
+        Forces of the k rotors, N. In the ideal plant, what the wrench would take: they may lie outside the limits.
+    signals : dict of (n,)
+        What the law lets one see: Lyapunov functions, their rates, errors.
+    drift : (k, 3)
+        Before the projection of each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
+    outcome : Outcome
+        completed, diverged or singular, with time and reason.
+    e3 : "up" or "down"
+        Where the third axis of the frame points.
+    vehicle : Vehicle
+        What was flown.
+    law, gains : str, dict
+        Name and gains of the law that flew it.
+    x_ref : (n, 3), optional
+        Position that the law holds or follows, m; default the origin.
+    interpolant : callable, optional
+        Dense output, from times to packed states; not kept in files.
+    """
+
+    t: Any
+    x: Any
+    x_dot: Any
+    R: Any
+    omega: Any
+    y: Any
+    y_dot: Any
+    thrust: Any
+    moment: Any
+    rotor_forces: Any
+    signals: Mapping[str, Any] = field(default_factory=dict)
+    drift: Any
+    outcome: Outcome
+    e3: E3Direction
+    vehicle: Vehicle
+    law: str
+    gains: Mapping[str, Any]
+    x_ref: Any = None
+    interpolant: Callable[[Any], Any] | None = None
+
+    def __post_init__(self) -> None:
+        if self.x_ref is None:
+            object.__setattr__(self, "x_ref", np.zeros((len(self.t), 3)))
+
+    @property
+    def z(self) -> Any:
+        """Thrust axis z = R e₃, (n, 3)."""
+        return self.R[..., :, 2]
+
+    @property
+    def packed(self) -> Any:
+        """The sampled states (n, 24) in the order of `State.packed`, as the integrator left them."""
+        rows = [getattr(self, name).reshape(len(self.t), -1) for name in _STATE]
+        return np.concatenate(rows, axis=1)
+
+    @property
+    def states(self) -> State:
+        """The sampled states as one batch."""
+        return State(**{name: getattr(self, name) for name in _STATE})
+
+    @property
+    def wrench(self) -> Wrench:
+        """The sampled wrenches as one batch."""
+        return Wrench(self.thrust, self.moment)
+
+    def at(self, t: Any) -> State:
+        """State(s) at any time(s) `t` inside the run, from the dense output of the integrator.
+
+        Raises InputError for a time outside the run, and for a sampled flight or a run read from a file, which keep
+        samples only.
+        """
+        if self.interpolant is None:
+            raise errors.InputError("run.at", "a run of the ideal plant, not read from a file", "samples only")
+        times = errors.array("t", t, (), batch=True)
+        if np.any(times < 0) or np.any(times > self.outcome.time):
+            raise errors.InputError("t", f"times inside 0 .. {self.outcome.time:g} s", np.asarray(t).tolist())
+        states = State.from_packed(self.interpolant(np.ravel(times)))
+        return states[0] if times.ndim == 0 else states
+
+    def flipped(self) -> Trajectory:
+        """The same run in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""
+        states, wrench = self.states.flipped(), self.wrench.flipped()
+        return replace(
+            self,
+            **{name: getattr(states, name) for name in _STATE},
+            thrust=wrench.thrust,
+            moment=wrench.moment,
+            x_ref=self.x_ref @ FLIP,
+            e3="down" if self.e3 == "up" else "up",
+            interpolant=None,
+        )
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown."""
+        import xarray
+
+        found = xarray.Dataset(self._variables(), attrs=self._attributes())
+        return found.set_coords(["t", *_LABELS])
+
+    def save(self, path: str | Path) -> None:
+        """Write the run to the NetCDF file `path` (.nc), which xarray, MATLAB (ncread) and pandas through xarray open.
+
+        The file appears whole or not at all. Raises InputError if it cannot be written.
+        """
+        with whole_file(path, [".nc"]) as partial:
+            write_netcdf(partial, self._variables(), self._attributes())
+
+    def _variables(self) -> dict[str, Variable]:
+        """Arrays and labels, with their dimensions and units."""
+        dims = {0: ("t",), 1: ("t", "axis"), 2: ("t", "row", "column")}
+        arrays = {name: np.array(getattr(self, name)) for name in _ARRAYS} | {
+            name: np.array(value) for name, value in self.signals.items()
+        }
+        return {
+            "t": Variable(("t",), np.array(self.t), {"units": "s"}),
+            **{name: Variable((name,), np.array(labels)) for name, labels in _LABELS.items()},
+            **{
+                name: Variable(
+                    ("t", "rotor") if name == "rotor_forces" else dims[value.ndim - 1],
+                    value,
+                    {"units": UNITS.get(name, "")},
+                )
+                for name, value in arrays.items()
+            },
+            "drift": Variable(("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"}),
+        }
+
+    def _attributes(self) -> dict[str, Any]:
+        """What was flown and how it ended."""
+        return {
+            "e3": self.e3,
+            "law": self.law,
+            "gains": json.dumps(dict(self.gains)),
+            "vehicle": json.dumps(self.vehicle.to_dict()),
+            "outcome": self.outcome.status,
+            "outcome_time": self.outcome.time,
+            "outcome_reason": self.outcome.reason,
+            "signals": json.dumps(list(self.signals)),
+            "frame": f"world with third axis {self.e3}; omega and moment in the body frame",
+        }
+
+    def to_html(
+        self,
+        path: str | Path | None = None,
+        *,
+        ghost: Trajectory | Sequence[Trajectory] = (),
+        title: str | None = None,
+        layout: str = "overlay",
+        speed: float = 1.0,
+    ) -> str:
+        """The replay of this run: one HTML page that opens from disk, offline, in any browser.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            An .html file to write the page to, whole or not at all.
+        ghost : Trajectory, or up to three of them
+            Runs to see beside this one.
+        title : str, optional
+            Default the laws and vehicles.
+        layout : "overlay" or "beside"
+            The others as ghosts in one picture, or a picture for each; a button of the page changes it.
+        speed : float
+            Time of the flight over time of playback at the beginning, > 0; a menu of the page changes it.
+
+        Returns
+        -------
+        str
+            The page.
+
+        Raises
+        ------
+        InputError
+            For more than four runs, an unknown layout, a speed that is not positive, a file that cannot be written.
+        """
+        from flypend.pages import replay  # here, for the many runs that nobody looks at
+
+        others = [ghost] if isinstance(ghost, Trajectory) else ghost
+        if not (isinstance(others, Sequence) and all(isinstance(other, Trajectory) for other in others)):
+            raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
+        text = replay.page([self, *others], title=title, layout=layout, speed=speed)
+        if path is not None:
+            with whole_file(path, (".html",)) as partial:
+                partial.write_text(text, encoding="utf-8")
+        return text
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the replay, in a frame of its own."""
+        from flypend.pages import replay
+
+        return replay.frame(self.to_html())
+
+
+def load(path: str | Path) -> Trajectory:
+    """Read the run that `Trajectory.save` wrote to `path`. Raises InputError if the file cannot be read as one."""
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="scipy") as opened:
+            return _from_dataset(opened.load())
+    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
+        # What xarray and SciPy raise for a file that is no NetCDF, is cut short, or lacks a part.
+        told = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
+        raise errors.InputError(str(path), "a run saved by flypend", told) from None
+
+
+def _from_dataset(data: xarray.Dataset) -> Trajectory:
+    attributes = data.attrs
+    missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
+    if missing:
+        raise ValueError(f"a file without the attributes {missing}")
+    arrays: dict[str, Any] = {name: data[name].values for name in ("t", *_ARRAYS, "drift")}
+    return Trajectory(
+        **arrays,
+        signals={name: data[name].values for name in json.loads(attributes["signals"])},
+        outcome=Outcome(attributes["outcome"], float(attributes["outcome_time"]), attributes["outcome_reason"]),
+        e3=attributes["e3"],
+        vehicle=Vehicle.from_dict(json.loads(attributes["vehicle"])),
+        law=attributes["law"],
+        gains=json.loads(attributes["gains"]),
+    )

@@ -1,0 +1,187 @@
+"""Replay of runs in a browser: one page that holds flights, scene, plots and player, and needs nothing else.
+
+The program of the page is bundled from the folder web/ (`make web`) into flypend/web/replay.js. This module packs runs
+into what it reads: columns of 32-bit floats in base64, at a rate that a screen can show; the page interpolates.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from collections.abc import Sequence
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from flypend import errors, palette
+from flypend.model import State
+from flypend.model.state import E3Direction
+from flypend.pages import sketch
+
+RATE = 100.0  # samples per second of flight
+FINEST = 0.15  # rad that rod or vehicle may turn between two samples, as long as there are not too many
+MOST = 12_000  # samples of all runs in a page, which keeps it below 3 MB
+MOST_RUNS = 4
+LARGEST = float(np.finfo(np.float32).max)
+
+Run = Any  # a flypend.Trajectory, whose module imports this one
+
+# A page that may run what is in it and fetch nothing.
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
+
+PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<link rel="icon" href="data:,">
+<title>{title}</title>
+</head>
+<body>
+<noscript>This replay needs JavaScript.</noscript>
+<script id="flypend-data" type="application/json">{data}</script>
+<script>{program}</script>
+</body>
+</html>
+"""
+
+
+def page(
+    runs: Sequence[Run],
+    *,
+    title: str | None = None,
+    layout: str = "overlay",
+    speed: float = 1.0,
+) -> str:
+    """The page, as text, that replays `runs`.
+
+    Parameters
+    ----------
+    runs : sequence of Trajectory
+        One to four, in either frame; the camera follows the first. With e₃ down the page shows gravity down the screen
+        all the same, and its numbers are those of the run.
+    title : str, optional
+        Default the laws and vehicles.
+    layout : "overlay" or "beside"
+        Whether the others are ghosts in the picture of the first, or have pictures of their own; a button changes it.
+    speed : float
+        Time of the flight over time of playback at the beginning, > 0.
+
+    Raises
+    ------
+    InputError
+        For no run or more than four, an unknown layout, or a speed that is not positive.
+    """
+    if not 1 <= len(runs) <= MOST_RUNS:
+        raise errors.InputError("runs", f"1 to {MOST_RUNS} runs", f"{len(runs)}")
+    data = {
+        "title": title or _title(runs),
+        "layout": errors.one_of("layout", layout, ("overlay", "beside")),
+        "speed": errors.number("speed", speed, above=0),
+        "palette": palette.PAGE,
+        "runs": [pack(run, MOST // len(runs)) for run in runs],
+    }
+    return PAGE.format(
+        policy=html.escape(POLICY), title=html.escape(str(data["title"])), data=embedded(data), program=program()
+    )
+
+
+def frame(text: str, height: int = 640) -> str:
+    """The page `text` as an isolated frame of a notebook, `height` CSS pixels high."""
+    style = f"width:100%;height:{height}px;border:0"
+    return f'<iframe srcdoc="{html.escape(text)}" sandbox="allow-scripts" style="{style}"></iframe>'
+
+
+def pack(run: Run, most: int = MOST) -> dict[str, Any]:
+    """`run` as the page reads it: facts, and columns in base64 of at most `most` samples."""
+    t, states = _sampled(run, most)
+    rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
+    columns = {
+        "t": t,
+        "x": states.x,
+        "x_dot": states.x_dot,
+        "quat_xyzw": Rotation.from_matrix(states.R).as_quat(),
+        "y": states.y,
+        "y_dot": states.y_dot,
+        "thrust": np.interp(t, run.t, run.thrust),
+        "rotor_forces": np.stack([np.interp(t, run.t, force) for force in rotors.T], axis=-1),
+        "x_ref": np.stack([np.interp(t, run.t, along) for along in np.asarray(run.x_ref).T], axis=-1),
+    }
+    vehicle, outcome = run.vehicle, run.outcome
+    gains = [f"{name} = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
+    return {
+        "title": f"{run.law} law",
+        "detail": ", ".join(gains),
+        "law": run.law,
+        "e3": run.e3,
+        "outcome": {
+            "status": outcome.status,
+            "time": outcome.time,
+            "text": f"{outcome.status} at {outcome.time:.4g} s",
+            "reason": outcome.reason,
+        },
+        "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
+        "vehicle": {
+            "name": vehicle.name,
+            "rod_length": vehicle.rod_length,
+            "weight": vehicle.weight,
+            "rotor_positions": np.asarray(vehicle.rotor_positions).tolist(),
+            "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
+            "rotor_radius": sketch.disc_radius(vehicle),
+            "reach": sketch.reach(vehicle),
+        },
+        "columns": {name: _base64(values) for name, values in columns.items()},
+    }
+
+
+def _title(runs: Sequence[Run]) -> str:
+    laws = list(dict.fromkeys(run.law for run in runs))
+    vehicles = list(dict.fromkeys(run.vehicle.name for run in runs))
+    return f"{' and '.join(laws)} law{'s' if len(laws) > 1 else ''} on {' and '.join(vehicles)}"
+
+
+def _upright(states: State, e3: E3Direction) -> State:
+    return states if e3 == "up" else states.flipped()
+
+
+def _sampled(run: Run, most: int) -> tuple[Any, State]:
+    """Times and states: of the dense output if there is one, else samples of the run."""
+    times, states = np.asarray(run.t, dtype=float), run.states
+    if len(times) < 2:
+        return times, states
+    turning = np.maximum(_length(states.y_dot), _length(states.omega))
+    rate = np.maximum(RATE, np.minimum(turning, 1e6) / FINEST)
+    passed = np.concatenate([[0.0], np.cumsum(np.diff(times) * (rate[1:] + rate[:-1]) / 2)])
+    count = int(np.clip(np.ceil(passed[-1] - 1e-6), 1, most - 1)) + 1
+    wanted = np.interp(np.linspace(0.0, passed[-1], count), passed, times)
+    if run.interpolant is not None:
+        wanted = wanted.astype(np.float32).astype(float)  # the time that the page has
+        return wanted, run.at(np.clip(wanted, times[0], times[-1]))
+    keep = np.unique(np.clip(np.searchsorted(times, wanted - 1e-9), 0, len(times) - 1))
+    return times[keep], states[keep]
+
+
+def _length(vectors: Any) -> Any:
+    return np.sqrt(np.sum(np.square(vectors), axis=-1))
+
+
+def _base64(values: Any) -> str:
+    finite = np.clip(np.nan_to_num(np.asarray(values, dtype=float)), -LARGEST, LARGEST)
+    return base64.b64encode(finite.astype("<f4").tobytes()).decode("ascii")
+
+
+def embedded(data: Any) -> str:
+    """JSON that cannot end the script element that holds it, whatever its texts say."""
+    text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+@cache
+def program(name: str = "replay") -> str:
+    """The bundled program of the page called `name`."""
+    return (resources.files("flypend.pages") / "web" / f"{name}.js").read_text(encoding="utf-8")

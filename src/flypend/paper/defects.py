@@ -1,0 +1,257 @@
+"""The eight defects of the paper as printed, each re-derived by a computation on the runs of a reproduction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from flypend.flight.simulate import simulate
+from flypend.flight.trajectory import Trajectory
+from flypend.geometry import E3, dot, hat_squared, norm, random_sphere, random_tangent
+from flypend.model import State, Wrench, potential_energy, rod_tension
+from flypend.paper import sphere
+from flypend.paper.claims import largest_rise
+from flypend.paper.table import experiment, experiment_names, table
+
+SEED = 2018
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One defect.
+
+    Parameters
+    ----------
+    title : str
+        What is wrong.
+    printed, corrected : str
+        The formula as printed, and as it should read.
+    evidence : dict
+        Names and numbers of this computation.
+    shown : bool
+        Whether the numbers show the defect.
+    """
+
+    title: str
+    printed: str
+    corrected: str
+    evidence: Mapping[str, float]
+    shown: bool
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Runs of the experiments by name: as printed, printed without beta, corrected, corrected with printed beta."""
+
+    printed: Mapping[str, Trajectory]
+    without_beta: Mapping[str, Trajectory]
+    corrected: Mapping[str, Trajectory]
+    corrected_singular: Mapping[str, Trajectory]
+
+
+def damping_sign(runs: Runs) -> Finding:
+    """Defect 1: ŷ²ẏ = −ẏ, so the damping of (fpeqn) drives the rod."""
+    rng = np.random.default_rng(SEED)
+    y = random_sphere(rng, (1000,))
+    y_dot = random_tangent(rng, y, 3.0)
+    identity = np.max(norm(hat_squared(y, y_dot) + y_dot))
+    rod_speed = {
+        f"|ẏ| at 6.5 s, experiment {name}, no beta, rad/s": norm(run.y_dot)[-1]
+        for name, run in runs.without_beta.items()
+    }
+    corrected = max(norm(run.y_dot)[-1] for run in runs.corrected.values())
+    return Finding(
+        "Damping sign in (fpeqn)",
+        "f_p = k_p e₃ + k_d ẏ, because ŷ²ẏ = ẏ",
+        "f_p = k_p e₃ − k_d ẏ, because ŷ²ẏ = −ẏ",
+        {
+            "largest |ŷ²ẏ + ẏ| over 1000 random tangent ẏ": identity,
+            **rod_speed,
+            "largest |ẏ| at 6.5 s with −k_d ẏ, rad/s": corrected,
+        },
+        bool(identity < 1e-12 and min(rod_speed.values()) > 100 and corrected < 1),
+    )
+
+
+def gravity_direction(runs: Runs) -> Finding:
+    """Defect 2: gravity acts along +e₃, so y → e₃ is the pose that hangs."""
+    run = runs.corrected["1"]
+    vehicle = run.vehicle
+    at_target, opposite = (potential_energy(State(y=y), vehicle, "down") for y in (E3, -E3))
+    ends = {
+        name: rod_tension(run.states[-1], Wrench(run.thrust[-1], run.moment[-1]), vehicle)
+        for name, run in runs.corrected.items()
+    }
+    return Finding(
+        "Direction of gravity in (pe) and (xeqn_txt)",
+        "y → e₃ is called inverted, with V = −⟨Mgx, e₃⟩ − ⟨mg(x + ly), e₃⟩",
+        "y = e₃ is the minimum of V on S²: the bob hangs along gravity and the rod pulls; inverted is y = −e₃",
+        {
+            "V(e₃) − V(−e₃), J": at_target - opposite,
+            "−2 m g l, J": -2 * vehicle.m * vehicle.g * vehicle.l,
+            "least rod tension at 6.5 s over the corrected runs, N (positive pulls)": min(ends.values()),
+            "m g, N": vehicle.m * vehicle.g,
+        },
+        bool(at_target < opposite and min(ends.values()) > 0),
+    )
+
+
+def singular_beta(runs: Runs) -> Finding:
+    """Defect 3: the minimum-norm beta drives v_e to zero in finite time, where it is not defined."""
+    evidence: dict[str, float] = {}
+    for label, group in (("as printed", runs.printed), ("damping sign corrected", runs.corrected_singular)):
+        evidence |= {f"|v_e| = 0 at, experiment {name}, {label}, s": run.outcome.time for name, run in group.items()}
+    moments = [np.max(norm(run.moment)) for run in runs.printed.values()]
+    evidence["least of the largest |moment| before it, as printed, N m"] = min(moments)
+    outcomes = [run.outcome.status for group in (runs.printed, runs.corrected_singular) for run in group.values()]
+    return Finding(
+        "beta in (weqn) is singular",
+        "beta = −|f_p| Aᵀ(z − z_d) with the minimum-norm A = ẏ v_eᵀ/|v_e|²",
+        "drop beta (the cascade converges without it), or regularise: v_e/(|v_e|² + ε²)",
+        evidence,
+        all(status == "singular" for status in outcomes),
+    )
+
+
+def gain_depends_on_speed(runs: Runs) -> Finding:
+    """Defect 4: V̇₁ lacks k̇_p(1 − yᵀe₃), and |ẏ| in (kpeqn) has no derivative at 0."""
+    evidence: dict[str, float] = {}
+    for name, run in runs.corrected.items():
+        k_p = run.signals["k_p"]
+        missing = np.gradient(k_p, run.t) * (1 - run.y[:, 2])
+        evidence[f"largest |k̇_p (1 − yᵀe₃)|, experiment {name}, 1/s³"] = float(np.max(np.abs(missing)))
+        evidence[f"largest rise of V, experiment {name}, over V(0)"] = (
+            largest_rise(run.signals["V"]) / run.signals["V"][0]
+        )
+    fourth = experiment("4")
+    verbatim = simulate(fourth.vehicle, fourth.law("printed", speed_floor=0.0), fourth.start, 0.1)
+    evidence["time at which the law to the letter fails in experiment 4, ẏ(0) = 0, s"] = verbatim.outcome.time
+    rises = [value for key, value in evidence.items() if key.startswith("largest rise")]
+    return Finding(
+        "k_p in (kpeqn) depends on |ẏ|",
+        "dV₁/dt with k_p constant; k_p = (M+m)g/(Ml(1 + |ẏ|))",
+        "dV₁/dt has the further term k̇_p(1 − yᵀe₃); √(|ẏ|² + s²) for |ẏ|, which has no derivative at ẏ = 0",
+        evidence,
+        bool(min(rises) > 0.01 and verbatim.outcome.status == "singular" and verbatim.outcome.time == 0.0),
+    )
+
+
+def lemma_2(_: Runs) -> Finding:
+    """Defect 5: Lemma 2 with e₃ does not track, and with φ̈ its force has no bound near the reference."""
+    times = np.linspace(0, 12, 241)
+    phi_d = np.array([sphere.circle(t)[0] for t in times])
+    start, rate = sphere.near(phi_d[0], 0.3), np.zeros(3)
+    true = sphere.track(start, rate, sphere.circle, times)
+    printed = sphere.track_as_printed(start, rate, sphere.circle, E3, times)
+    reference = sphere.circle(0.0)
+    forces = [
+        norm(sphere.printed_feedforward_force(sphere.near(reference[0], angle), rate, reference))
+        for angle in (1e-2, 1e-4)
+    ]
+    evidence = {
+        "error |φ − φ_d| after 12 s, corrected": norm(true - phi_d)[-1],
+        "error |φ − φ_d| after 12 s, e₃ for φ_d": norm(printed - phi_d)[-1],
+        "force with φ̈ for φ̈_d, 0.01 rad from φ_d, 1/s²": forces[0],
+        "force with φ̈ for φ̈_d, 0.0001 rad from φ_d, 1/s²": forces[1],
+    }
+    values = list(evidence.values())
+    return Finding(
+        "Misprints in Lemma 2 (ureqd1)",
+        "u = −k_p φ̂²e₃ − k_d v_e + ∇(τφ̇_d), ∇(τφ̇_d) = ⟨φ, φ_d × φ̇_d⟩(φ × φ̇) + (φ_d × φ̈) × φ",
+        "φ_d in place of e₃, φ̈_d in place of φ̈",
+        evidence,
+        bool(values[0] < 1e-6 and values[1] > 0.1 and values[3] > 50 * values[2]),
+    )
+
+
+def experiment_2_start(runs: Runs) -> Finding:
+    """Defect 6: ẏ(0) of experiment 2 is not tangent to the sphere."""
+    row = table()["experiments"]["2"]
+    product = float(dot(row["y"], row["y_dot_printed"]))
+    return Finding(
+        "Start of experiment 2",
+        "y(0) = (1, 0, 1)/√2, ẏ(0) = (0.7, 0, 0.7)",
+        "ẏ(0) = (0.7, 0, −0.7) (sign pattern of experiment 1), or 0 (projection)",
+        {
+            "yᵀẏ at the printed start, 1/s": product,
+            "y₃ at 6.5 s, sign pattern": runs.corrected["2"].y[-1, 2],
+            "y₃ at 6.5 s, projected": runs.corrected["2-projected"].y[-1, 2],
+        },
+        product > 0.9,
+    )
+
+
+def position_drifts(runs: Runs) -> Finding:
+    """Defect 7: the law does not control position."""
+    travel = {
+        f"travel along gravity in 6.5 s, experiment {name}, m": run.x[-1, 2] - run.x[0, 2]
+        for name, run in runs.corrected.items()
+    }
+    return Finding(
+        "Position is not controlled",
+        "zero dynamics ẍ = 0 at the equilibrium",
+        "ẋ is whatever it was when the equilibrium was reached: the vehicle falls on",
+        {**travel, "least |ẋ| at 6.5 s, m/s": min(norm(run.x_dot)[-1] for run in runs.corrected.values())},
+        min(travel.values()) > 10,
+    )
+
+
+def free_component(runs: Runs) -> Finding:
+    """Defect 8: (setmu) leaves the third component of I⁻¹mu free: any choice gives the same y(t) and z(t)."""
+    chosen = experiment("1")
+    zero = runs.corrected["1"]
+    damped = simulate(chosen.vehicle, chosen.law(yaw_damping=3.0), chosen.start, chosen.duration, rtol=1e-10)
+    difference = max(np.max(np.abs(zero.y - damped.y)), np.max(np.abs(zero.z - damped.z)))
+    return Finding(
+        "Third component of I⁻¹mu in (setmu)",
+        "{I⁻¹mu}^ e₃ = ..., which says nothing about the component along e₃",
+        "a choice has to be stated; here I⁻¹mu has third component zero (or yaw_damping · ω₃)",
+        {
+            "largest difference of y and z between two choices": difference,
+            "ω₃ at 6.5 s, third component zero, rad/s": zero.omega[-1, 2],
+            "ω₃ at 6.5 s, third component 3 ω₃, rad/s": damped.omega[-1, 2],
+        },
+        bool(difference < 1e-6 and abs(zero.omega[-1, 2]) > 0.1 and abs(damped.omega[-1, 2]) < 0.05),
+    )
+
+
+DEFECTS: tuple[Callable[[Runs], Finding], ...] = (
+    damping_sign,
+    gravity_direction,
+    singular_beta,
+    gain_depends_on_speed,
+    lemma_2,
+    experiment_2_start,
+    position_drifts,
+    free_component,
+)
+
+
+def findings(runs: Runs) -> list[Finding]:
+    """All eight defects of the paper, in the order of docs/paper/errata.md, computed on `runs`."""
+    return [defect(runs) for defect in DEFECTS]
+
+
+def fly_all(progress: Callable[[str], Any] = lambda _: None) -> Runs:
+    """Fly every experiment under the four laws; `progress` is told the name of each run before it.
+
+    At rtol 1e-10, but 1e-8 for the runs without beta: they spin up to 2000 rad/s, and only the size of it matters.
+    """
+
+    def group(label: str, law: str, rtol: float = 1e-10, **options: Any) -> dict[str, Trajectory]:
+        out = {}
+        for name in experiment_names():
+            progress(f"experiment {name}, {label}")
+            row = experiment(name)
+            out[name] = simulate(row.vehicle, row.law(law, **options), row.start, row.duration, rtol=rtol)
+        return out
+
+    return Runs(
+        printed=group("printed", "printed"),
+        without_beta=group("printed without beta", "printed", rtol=1e-8, beta="off"),
+        corrected=group("corrected", "corrected"),
+        corrected_singular=group("corrected with the printed beta", "corrected", beta="regularized", beta_floor=0.0),
+    )

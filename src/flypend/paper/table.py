@@ -1,0 +1,68 @@
+"""The table of experiments of the paper, read from `nayak2018.toml` beside this file."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Any
+
+from flypend import errors, laws
+from flypend.laws import Law
+from flypend.model import State, Vehicle, vehicle
+
+_FACTORIES: Mapping[str, Callable[..., Law]] = {"printed": laws.printed, "corrected": laws.corrected}
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """One row of the paper's table, in the paper's frame (e₃ along gravity).
+
+    Parameters
+    ----------
+    name : str
+        "1" to "5", and "2-projected" for the second reading of experiment 2.
+    vehicle : Vehicle
+        The paper's vehicle.
+    start : State
+        Initial state.
+    gains : dict
+        k_d, k_1, k_2.
+    duration : float
+        Seconds.
+    reading : str
+        How a row that cannot be taken as printed was read; empty otherwise.
+    """
+
+    name: str
+    vehicle: Vehicle
+    start: State
+    gains: Mapping[str, float]
+    duration: float
+    reading: str = ""
+
+    def law(self, name: str = "corrected", **options: Any) -> Law:
+        """The law called `name` ("printed" or "corrected") with this row's gains and further `options`."""
+        return _FACTORIES[errors.one_of("law", name, _FACTORIES)](**self.gains, **options)
+
+
+@cache
+def table() -> dict[str, Any]:
+    """Content of the table file."""
+    text = (resources.files("flypend.paper") / "nayak2018.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+def experiment_names() -> list[str]:
+    """Names of the experiments, in the paper's order."""
+    return list(table()["experiments"])
+
+
+def experiment(name: str) -> Experiment:
+    """The experiment called `name`. Raises InputError for an unknown name."""
+    data = table()
+    row = data["experiments"][errors.one_of("experiment", name, experiment_names())]
+    start = State(**data["start"], y=row["y"], y_dot=row["y_dot"])
+    return Experiment(name, vehicle(data["vehicle"]), start, row["gains"], data["duration"], row.get("reading", ""))

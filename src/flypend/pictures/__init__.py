@@ -1,0 +1,1 @@
+"""Figures, stop motion, movies and maps."""

@@ -1,0 +1,144 @@
+"""Slow-motion movies of a run, as .mp4 or .gif; `flypend.pictures.frames` draws what they show."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import imageio_ffmpeg
+import numpy as np
+from PIL import Image
+
+from flypend import errors
+from flypend.files.whole import whole_file
+from flypend.flight.trajectory import Trajectory
+from flypend.pictures.frames import Frame, stage
+
+Progress = Callable[[int, int], None]
+
+MAX_FRAMES = 100_000
+HOLD = 1.5  # s of playback for which the last instant of a run that did not complete stays, with the reason
+
+
+def movie(
+    run: Trajectory,
+    path: str | Path,
+    *,
+    view: str = "side",
+    speed: float = 0.25,
+    fps: float = 30,
+    size: tuple[int, int] = (640, 640),
+    progress: Progress | None = None,
+) -> None:
+    """Write a movie of `run`, whole or not at all.
+
+    Parameters
+    ----------
+    run : Trajectory
+        In either frame. One that ends early is shown to its end, which stays for 1.5 s with the outcome.
+    path : str or Path
+        Ends in .mp4 (H.264, yuv420p) or .gif.
+    view : "side" or "axis"
+        Camera, see `flypend.pictures.drawing.camera_for`.
+    speed : float
+        Time of the flight over time of playback, > 0; 0.25 is slow motion.
+    fps : float
+        Frames per second of playback, > 0, at most 50 for a .gif.
+    size : (2,) int
+        Width and height in pixels, even and at least 160.
+    progress : callable, optional
+        Called as `progress(done, total)` after each frame.
+
+    Raises
+    ------
+    InputError
+        For an unknown view or suffix, numbers out of range, and a file that cannot be written.
+    """
+    path, gif = Path(path), Path(path).suffix.lower() == ".gif"
+    times = frame_times(run, speed=speed, fps=fps)
+    if gif and fps > 50:
+        raise errors.InputError("fps", "at most 50 for a .gif", f"{fps:g}")
+    shape = errors.array("size", size, (2,))
+    if shape.shape != (2,) or np.any(shape < 160) or np.any(shape % 2):
+        raise errors.InputError("size", "two even numbers of pixels, at least 160", size)
+    width, height = (int(side) for side in shape)
+    hold = 0 if run.outcome.status == "completed" else round(HOLD * fps)
+    with whole_file(path, (".mp4", ".gif")) as partial:
+        frames = _frames(stage(run, times, view, speed, (width, height)), len(times), hold, progress)
+        if gif:
+            _write_gif(partial, frames, (width, height), fps, len(times) + hold)
+        else:
+            _write_mp4(partial, frames, (width, height), fps, len(times) + hold)
+
+
+def frame_times(run: Trajectory, *, speed: float, fps: float) -> Any:
+    """Instants (n,) of `run` (s) at playback `speed` and `fps` frames per second; the last is the end of the run.
+
+    Raises InputError for numbers that are not positive, or more than 100,000 frames.
+    """
+    step = errors.number("speed", speed, above=0) / errors.number("fps", fps, above=0, unit="1/s")
+    start, end = float(run.t[0]), float(run.t[-1])
+    count = (end - start) / step
+    if count > MAX_FRAMES:
+        raise errors.InputError("speed", f"at most {MAX_FRAMES} frames", f"{count:.4g} of {step:.3g} s each")
+    # The tolerance is there for 6.5 s / 0.25 × 30, which is 780 frames and no sliver of a frame more.
+    return np.minimum(start + step * np.arange(int(np.ceil(count - 1e-6)) + 1), end)
+
+
+def _frames(render: Callable[[int, bool], Frame], count: int, hold: int, progress: Progress | None) -> Iterator[Frame]:
+    """All frames: `count` of the flight, the last one again `hold` times with the outcome written on it."""
+    for i in range(count + hold):
+        if i <= count:
+            frame = render(min(i, count - 1), i >= count)
+        yield frame
+        if progress is not None:
+            progress(i + 1, count + hold)
+
+
+def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: float, count: int) -> None:
+    options = ["-preset", "veryfast", "-crf", "20", "-movflags", "+faststart"]
+    encoder = imageio_ffmpeg.write_frames(
+        path, size, pix_fmt_in="rgba", fps=fps, quality=None, codec="libx264", macro_block_size=2,
+        ffmpeg_log_level="error", output_params=options,
+    )  # fmt: skip
+    try:
+        _send(encoder, None)
+        for frame in frames:
+            _send(encoder, frame)
+    finally:
+        encoder.close()
+    # A full disk is noticed by ffmpeg only; it then leaves a file that ends early or has no index.
+    if (written := _frames_in(path)) != count:
+        raise OSError(f"{written} of {count} frames from ffmpeg")
+
+
+def _frames_in(path: Path) -> int:
+    """Number of frames in the movie at `path`, read but not decoded; 0 for a file that is none."""
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "quiet", "-i", str(path), "-c", "copy"]
+    command += ["-progress", "-", "-f", "null", "-"]
+    report = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=False)  # noqa: S603
+    counts = re.findall(rb"^frame=\s*(\d+)", report.stdout, flags=re.MULTILINE)
+    return int(counts[-1]) if counts and report.returncode == 0 else 0
+
+
+def _send(encoder: Any, frame: Frame | None) -> None:
+    try:
+        encoder.send(frame)
+    except (OSError, RuntimeError) as error:  # of many lines, with the whole command
+        raise OSError(f"ffmpeg failed ({str(error).splitlines()[0]})") from None
+
+
+def _write_gif(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: float, count: int) -> None:
+    def image(frame: Frame) -> Any:
+        return Image.frombuffer("RGBA", size, bytes(frame), "raw", "RGBA", 0, 1).convert("RGB")
+
+    first = image(next(frames)).quantize(128, dither=Image.Dither.NONE)
+    rest = (image(frame).quantize(palette=first, dither=Image.Dither.NONE) for frame in frames)
+    # A GIF counts hundredths of a second: frames last 3 or 4 of them so that 30 per second come out on average.
+    ends = np.round(100 / fps * np.arange(count + 1)).astype(int)
+    durations = (10 * np.diff(ends)).tolist()
+    with path.open("wb") as file:
+        first.save(file, format="GIF", save_all=True, append_images=rest, duration=durations, loop=0)

@@ -1,0 +1,190 @@
+"""What figures and movies share: the cameras of a run, its states at any time, and the machine drawn into axes.
+
+Both draw the same points (`flypend.pages.sketch`) through the same cameras. Everything here is in the frame with e₃ up,
+whatever the frame of the run, so gravity points down every picture that looks horizontally (`axis` looks along it).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patches import Circle
+from matplotlib.patheffects import withStroke
+
+from flypend import errors, geometry
+from flypend.flight.trajectory import Trajectory
+from flypend.model import State
+from flypend.model.state import project as project_states
+from flypend.pages import sketch as sketched
+from flypend.pages.sketch import BOB_SHARE, Sketch, disc_radius, reach, sketch
+from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
+from flypend.pictures.camera import Camera, depth, magnification, project
+
+__all__ = [
+    "BOB_SHARE",
+    "Sketch",
+    "camera_for",
+    "disc_radius",
+    "draw",
+    "gravity_symbol",
+    "main_direction",
+    "reach",
+    "sketch",
+    "states_at",
+    "thrust_at",
+    "upright",
+]
+
+VIEWS = ("side", "axis")
+
+ROD: dict[str, Any] = {"color": RED, "linewidth": 3.0, "solid_capstyle": "round"}
+TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1))}
+THRUST: dict[str, Any] = {"color": GREEN, "linewidth": 1.1}
+
+EYE = 8.0  # distance of the camera of a picture, over the reach of the drawing
+ELEVATION = np.deg2rad(12.0)  # of the side camera, so that a level rotor is a thin ellipse and not a line
+
+
+def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, distance: float = np.inf) -> Camera:
+    """The camera of a view of `run`, looking at the origin (subtract the pivot to follow it).
+
+    Parameters
+    ----------
+    run : Trajectory
+        In either frame.
+    view : "side" or "axis"
+        "side" looks horizontally, across the direction in which the rod moves most, so gravity points down the
+        screen. "axis" is the camera that the paper mounts on its −e₃ axis: e₃ is along gravity there, so it is above
+        and looks down; gravity points into the screen, and a hanging rod shrinks to its middle.
+    elevation : float
+        Of the side camera above the horizon, rad.
+    distance : float
+        From the origin, m.
+
+    Raises
+    ------
+    InputError
+        For an unknown view.
+    """
+    if errors.one_of("view", view, VIEWS) == "axis":
+        return Camera(direction=-geometry.E3, up=geometry.E2, distance=distance)
+    right = main_direction(run)
+    level = np.cross(geometry.E3, right)
+    c, s = np.cos(elevation), np.sin(elevation)
+    return Camera(direction=c * level - s * geometry.E3, up=s * level + c * geometry.E3, distance=distance)
+
+
+def main_direction(run: Trajectory) -> Any:
+    """Horizontal unit vector (3,), e₃ up, along which the rod of `run` moves most; see `flypend.pages.sketch`."""
+    return sketched.main_direction(upright(run.states, run))
+
+
+def upright(state: State, run: Trajectory) -> State:
+    """`state`, which is in the frame of `run`, in the frame with e₃ up."""
+    return state if run.e3 == "up" else state.flipped()
+
+
+def states_at(run: Trajectory, times: Any) -> State:
+    """States of `run` at `times` (n,), s, in the frame with e₃ up; from samples if the dense output is gone.
+
+    Times outside the run mean its first and last instant. Between samples that are further apart than a quarter turn
+    nothing can be interpolated, and the nearer one is taken.
+    """
+    times = np.clip(np.atleast_1d(np.asarray(times, dtype=float)), run.t[0], run.t[-1])
+    if run.interpolant is not None:
+        return upright(run.at(times), run)
+    last = len(run.t) - 1
+    before = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, max(last - 1, 0))
+    after = np.minimum(before + 1, last)
+    gap = np.where(after > before, run.t[after] - run.t[before], 1.0)
+    share = (times - run.t[before]) / gap
+    turned = np.einsum("tij,tij->t", run.R[before], run.R[after]) < 1  # trace(RᵀR′) < 1: more than a quarter turn
+    far = turned | (geometry.dot(run.y[before], run.y[after]) < 0)
+    share = np.where(far, np.round(share), share)[:, None]
+    packed = run.states.packed()
+    return upright(State.from_packed(project_states((1 - share) * packed[before] + share * packed[after])[0]), run)
+
+
+def thrust_at(run: Trajectory, times: Any) -> Any:
+    """Thrust of `run` at `times` (n,), s, along z = R e₃ of the frame with e₃ up; N, interpolated between samples."""
+    return np.interp(times, run.t, run.thrust) * (1.0 if run.e3 == "up" else -1.0)
+
+
+def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float, ghosts: int = 5) -> None:
+    """Draw `run` at a time around a point of `ax`, with the path of the bob about the pivot before.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        Its units are metres.
+    run : Trajectory
+        In either frame.
+    camera : Camera
+        Looks at the origin, where the pivot is put.
+    middle : (2,)
+        Where in `ax` the pivot goes.
+    t, since : float
+        Time of the drawing and of the start of the path of the bob (of a rod that whirls, the last turn); s.
+    ghosts : int
+        Number of pale rods along the path.
+    """
+
+    def screen(points: Any) -> Any:
+        return np.add(middle, project(camera, points))
+
+    vehicle = run.vehicle
+    rate = max(float(geometry.norm(states_at(run, t).y_dot)[0]), 1e-9)
+    states = states_at(run, np.linspace(max(since, t - 2 * np.pi / rate), t, 40 * ghosts + 1))
+    bobs = vehicle.rod_length * states.y
+    shape = sketch(replace(states[-1], x=np.zeros(3)), vehicle, thrust_at(run, t))
+    behind = depth(camera, shape.bob) > 0
+
+    rods = [screen(np.array([shape.pivot, bob])) for bob in bobs[:-1:40]]
+    ax.add_collection(LineCollection(rods, color="#c4c4c4", linewidth=0.8, zorder=1))
+    ax.plot(*screen(bobs).T, **TRAIL, zorder=1.5)
+    for front, color in ((False, REAR), (True, ORANGE)):
+        style = {"facecolor": color, "edgecolor": INK, "linewidth": 0.6, "alpha": 0.6, "zorder": 3}
+        ax.add_collection(PolyCollection(list(screen(shape.discs[shape.front == front])), **style))
+    ax.add_collection(LineCollection(list(screen(shape.arms)), color=INK, linewidth=1.6, zorder=3.1))
+    if np.linalg.norm(np.diff(project(camera, shape.thrust), axis=0)) > 0.1 * vehicle.rod_length:  # else only a head
+        rim = [withStroke(linewidth=1.9, foreground="white")]  # so that an arrow along the rod is seen in grey
+        _arrow(ax, *screen(shape.thrust), **THRUST, path_effects=rim, zorder=4.2)
+    ax.plot(*screen(shape.rod).T, **ROD, zorder=2 if behind else 4)
+    radius = BOB_SHARE * vehicle.rod_length * float(magnification(camera, shape.bob))
+    ball = {"facecolor": RED, "edgecolor": INK, "linewidth": 0.7, "zorder": 2.1 if behind else 4.1}
+    ax.add_patch(Circle(screen(shape.bob), radius, **ball))
+
+
+def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float) -> None:
+    """The letter g with an arrow down the screen, or ⊗ (into the screen) where the view looks along gravity.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        With units of equal length on both axes.
+    view : "side" or "axis"
+        As in `camera_for`.
+    at : (2,)
+        Middle of the symbol in units of `ax`.
+    size : float
+        Half the length of the arrow in units of `ax`.
+    fontsize : float
+        Of the letter, pt.
+    """
+    x, y = at
+    if view == "axis":
+        ax.add_patch(Circle((x, y), 0.75 * size, facecolor="white", edgecolor=INK, linewidth=1.2))
+        d = 0.75 * size * np.sqrt(0.5)
+        for tilt in (-1, 1):
+            ax.plot([x - d, x + d], [y - tilt * d, y + tilt * d], color=INK, linewidth=1.2)
+    else:
+        _arrow(ax, (x, y + size), (x, y - size), color=INK, linewidth=1.2)
+    ax.text(x + size, y, "g", fontsize=fontsize, va="center", style="italic")
+
+
+def _arrow(ax: Any, tail: Any, tip: Any, *, zorder: float = 2.0, **style: Any) -> None:
+    head = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", tip, tail, arrowprops={**head, **style}, zorder=zorder)

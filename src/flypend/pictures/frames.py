@@ -1,0 +1,256 @@
+"""Frames of a movie: the camera follows the pivot, a grid scrolls past, y₃ and z₃ run along below.
+
+Everything that does not move is drawn once; a frame restores that background and draws a dozen artists over it.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+
+from flypend import geometry
+from flypend.flight.trajectory import Trajectory
+from flypend.model import State
+from flypend.pages.sketch import Sketch
+from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
+from flypend.pictures import drawing, lettering
+from flypend.pictures.camera import Camera, depth, magnification, project
+
+Frame = Any  # memoryview of (height, width, 4) bytes, valid until the next frame is drawn
+Part = Callable[[int], list[Any]]  # sets artists to a frame and returns them in the order of drawing
+
+TRAIL = 0.5  # s of flight that the path of the bob goes back
+ZOOM = 1.3  # half the shorter side of the scene over the reach of the drawing
+GRIDS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # spacings, m
+# Left, bottom, width and height in the picture; what does not move is written above the scene, where no line runs.
+SCENE, STRIP, HEAD = (0.0, 0.215, 1.0, 0.665), (0.085, 0.07, 0.885, 0.115), (0.0, 0.88, 1.0, 0.12)
+LINE = "#d4d4d4"
+
+
+def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int, int]) -> Callable[[int, bool], Frame]:
+    """Set up the picture of `size` pixels; returns `render(i, ended)`, which draws the instant `times[i]`."""
+    rod = run.vehicle.rod_length
+    camera = drawing.camera_for(run, view, distance=drawing.EYE * drawing.reach(run.vehicle))
+    states = drawing.states_at(run, times)
+    shape = drawing.sketch(replace(states, x=np.zeros(3)), run.vehicle, drawing.thrust_at(run, times))
+    # Between frames a fast rod goes further than a line can follow: `finer` points of its path for each frame.
+    turn = geometry.norm(states.y_dot).max() * np.diff(times).max(initial=0.0)
+    finer = int(np.clip(np.ceil(turn / 0.15), 1, 24))
+    fine = np.interp(np.arange((len(times) - 1) * finer + 1) / finer, np.arange(len(times)), times)
+    path = drawing.states_at(run, fine)
+
+    dpi = 100 * min(size) / 640  # a hundredth of a pixel more, so that no side is rounded down
+    figure = Figure(figsize=((size[0] + 0.01) / dpi, (size[1] + 0.01) / dpi), dpi=dpi, facecolor="white")
+    canvas = FigureCanvasAgg(figure)
+    head, scene, strip = (figure.add_axes(place) for place in (HEAD, SCENE, STRIP))
+    half = _scene(scene, run, size)
+    _head(head, view, speed, size)
+    _strip(strip, run, fine, path)
+    parts = [
+        *_grids(scene, run, states.x, camera, view, half),
+        _trail(scene, project(camera, rod * path.y), finer, fine),
+        _body(scene, shape, camera, rod),
+        _readout(head, times, states),
+        _cursor(strip, times),
+    ]
+    words = f"{run.outcome.status} at {run.outcome.time:.4g} s"
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 2.0}
+    ending = scene.text(0, 0.85 * half[1], words, color=RED, fontsize=14, ha="center", bbox=box, animated=True)
+    canvas.draw()
+    background = canvas.copy_from_bbox(figure.bbox)
+
+    def render(i: int, ended: bool) -> Frame:
+        canvas.restore_region(background)
+        for part in parts:
+            for artist in part(i):
+                artist.axes.draw_artist(artist)
+        if ended:
+            scene.draw_artist(ending)
+        return canvas.buffer_rgba()
+
+    return render
+
+
+def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> tuple[float, float]:
+    """Prepare the middle of the picture, around the pivot; returns half its width and height in metres."""
+    pixels = (size[0] * SCENE[2], size[1] * SCENE[3])
+    scale = ZOOM * drawing.reach(run.vehicle) / min(pixels)
+    half = (pixels[0] * scale, pixels[1] * scale)
+    ax.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), xticks=[], yticks=[])
+    ax.spines[:].set_color(LINE)
+    return half
+
+
+def _head(ax: Any, view: str, speed: float, size: tuple[int, int]) -> None:
+    """Prepare the upper end of the picture, with units of its height: how slow, which way is down, what is what."""
+    width = size[0] * HEAD[2] / (size[1] * HEAD[3])
+    ax.set(xlim=(0, width), ylim=(0, 1))
+    ax.set_axis_off()
+    ax.text(0.12, 0.1, f"{speed:g} × real time", fontsize=8, color="#5a5a5a")
+    drawing.gravity_symbol(ax, view, (0.64 * width, 0.5), 0.3, fontsize=12)
+    handles = [
+        Line2D([], [], color=GREEN, linewidth=2.5, label="thrust"),
+        Line2D([], [], color=BLUE, linewidth=1.8, label=f"bob, last {TRAIL:g} s"),
+        Line2D([], [], color=ORANGE, linewidth=0, marker="o", markeredgecolor=INK, label="front rotor"),
+    ]
+    ax.legend(handles=handles, loc="center right", fontsize=9, frameon=False, handlelength=1.3, labelspacing=0.3)
+
+
+def _strip(ax: Any, run: Trajectory, t: Any, states: State) -> None:
+    """y₃ and z₃ over time in the frame of the run, from `states` (e₃ up) at times `t`."""
+    sign, pole = (1, "inverted") if run.e3 == "up" else (-1, "hanging")
+    ax.plot(t, sign * states.y[:, 2], color=RED, linewidth=1.6, label=f"$y_3$ (1: {pole})")
+    # Turning the world and the body frame over leaves z₃ = R₃₃ what it is.
+    ax.plot(t, states.z[:, 2], color=BLUE, linewidth=1.3, linestyle="--", label="$z_3$ (1: upright)")
+    ax.set(xlim=(run.t[0], max(run.t[-1], run.t[0] + 1e-3)), ylim=(-1.15, 1.15), yticks=[-1, 0, 1])
+    ax.tick_params(labelsize=8, length=2.5)
+    ax.grid(visible=True, color="#e3e3e3", linewidth=0.6)
+    ax.set_xlabel("time (s)", fontsize=8, labelpad=1)
+    at = {"loc": "lower left", "bbox_to_anchor": (0.0, 0.97), "borderaxespad": 0.1}
+    ax.legend(fontsize=9, ncols=2, frameon=False, handlelength=1.8, columnspacing=1.2, **at)
+    ax.text(1.0, 1.08, f"{run.law} law", transform=ax.transAxes, ha="right", fontsize=9)
+
+
+def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: tuple[float, float]) -> list[Part]:
+    """Lines that stand still in the world, in the plane of the pivot x (n, 3; e₃ up), with their coordinates."""
+    if view == "axis":  # coordinates as in the frame of the run
+        across, up, origin, names = geometry.E1, geometry.E2, 0.0, ("x₁ = ", "x₂ = ")
+    else:
+        across, up, origin, names = camera.right, geometry.E3, x[0], ("travel ", "height ")
+    sign = -1 if view == "axis" and run.e3 == "down" else 1
+    at = ((x - origin) @ across, (x - origin) @ up)
+    # Coarse enough not to run backwards for half of the movie or more, like the wheels of a coach.
+    per_frame = max(np.median(np.abs(np.diff(values, prepend=values[0]))) for values in at)
+    spacing = next((s for s in GRIDS if s > max(3 * per_frame, 0.45 * min(half))), GRIDS[-1])
+    return [
+        _ruler(ax, at[0], spacing, 1.0, half, names[0], 1),
+        _ruler(ax, at[1], spacing, float(np.dot(camera.up, up)), half[::-1], names[1], sign, upright=True),
+    ]
+
+
+def _ruler(
+    ax: Any,
+    at: Any,
+    spacing: float,
+    slant: float,
+    half: tuple[float, float],
+    name: str,
+    sign: int,
+    upright: bool = False,
+) -> Part:
+    """Parallel lines every `spacing` metres past a pivot at the coordinate `at` (n,), to the right or `upright`.
+
+    The picture reaches `half[0]` metres from the pivot along the coordinate, drawn shorter by `slant`, and `half[1]`
+    across. A label is the `name` and the coordinate times `sign`.
+    """
+    reach, across = half
+    low = (0.92 if upright else 1.0) * reach  # no line runs through the labels at the bottom
+    line = ax.add_line(Line2D([], [], color=LINE, linewidth=1.0, animated=True))
+    labels = [lettering.words(ax, 8, "#5a5a5a", right=upright) for _ in range(int(2 * reach / slant / spacing) + 2)]
+
+    def part(i: int) -> list[Any]:
+        first, last = np.ceil((at[i] - low / slant) / spacing), np.floor((at[i] + reach / slant) / spacing)
+        ticks = spacing * np.arange(first, last + 1)
+        places = slant * (ticks - at[i])
+        along = np.repeat(places, 3)
+        along[2::3] = np.nan
+        data = (along, np.tile([-across, across, np.nan], len(ticks)))
+        line.set_data(*(data[::-1] if upright else data))
+        shown = [line]
+        for label, tick, place in zip(labels, ticks, places, strict=False):
+            if place < (0.92 if upright else 0.72) * reach:  # no label runs over an edge
+                at_label = (0.98 * across, place) if upright else (place + 0.015 * reach, -0.985 * across)
+                shown.append(label(f"{name}{sign * tick + 0.0:g} m", at_label))
+        return shown
+
+    return part
+
+
+def _trail(ax: Any, points: Any, finer: int, t: Any) -> Part:
+    """The last half second of the path of the bob, `points` (n, 2) at `t` (n,), `finer` to a frame, paler backwards."""
+    first = np.searchsorted(t, t - TRAIL)
+    shades = np.linspace(0.15, 1.0, 6)
+    colors = [(*to_rgb(BLUE), shade) for shade in shades]
+    trail = ax.add_collection(LineCollection([], colors=colors, linewidths=0.8 + 1.2 * shades, animated=True))
+
+    def part(i: int) -> list[Any]:
+        last = i * finer
+        cuts = np.linspace(max(first[last], last - 600), last, len(shades) + 1).astype(int)
+        trail.set_segments([points[a : b + 1] for a, b in itertools.pairwise(cuts)])
+        return [trail]
+
+    return part
+
+
+def _body(ax: Any, shape: Sketch, camera: Camera, rod_length: float) -> Part:
+    """Quadrotor, thrust, rod and bob of `shape` (n, ...), whose pivot is where `camera` looks."""
+    discs, arms = project(camera, shape.discs), project(camera, shape.arms)
+    rods, behind = project(camera, shape.rod), depth(camera, shape.bob) > 0
+    radii = drawing.BOB_SHARE * rod_length * magnification(camera, shape.bob)
+    arrows = _arrows(project(camera, shape.thrust), 0.06 * rod_length)
+    angle = np.linspace(0, 2 * np.pi, 25)
+    balls = rods[:, 1, None] + radii[:, None, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+    faces = [(*to_rgb(ORANGE if front else REAR), 0.65) for front in shape.front]
+    rotors = ax.add_collection(PolyCollection([], facecolors=faces, edgecolors=INK, linewidths=1.0, animated=True))
+    frame = ax.add_line(Line2D([], [], color=INK, linewidth=3.0, animated=True))
+    thrust = ax.add_patch(Polygon(np.zeros((1, 2)), facecolor=GREEN, edgecolor="none", animated=True))
+    rod = ax.add_line(Line2D([], [], color=RED, linewidth=4.0, solid_capstyle="round", animated=True))
+    bob = ax.add_patch(Polygon(np.zeros((1, 2)), facecolor=RED, edgecolor=INK, linewidth=1.2, animated=True))
+
+    def part(i: int) -> list[Any]:
+        rotors.set_verts(list(discs[i]))
+        ends = np.concatenate([arms[i], np.full((arms.shape[1], 1, 2), np.nan)], axis=1).reshape(-1, 2)
+        frame.set_data(*ends.T)
+        thrust.set_xy(arrows[i])
+        rod.set_data(*rods[i].T)
+        bob.set_xy(balls[i])
+        return [rod, bob, rotors, frame, thrust] if behind[i] else [rotors, frame, rod, bob, thrust]
+
+    return part
+
+
+def _arrows(segments: Any, width: float) -> Any:
+    """Outlines (n, 7, 2) of arrows of the given `width` along `segments` (n, 2, 2); heads shrink with short arrows."""
+    along = segments[:, 1] - segments[:, 0]
+    length = np.linalg.norm(along, axis=1)[:, None]
+    along = along / np.maximum(length, 1e-9)
+    side = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    head = np.minimum(2.5 * width, length)
+    neck, tip = segments[:, 1] - head * along, segments[:, 1]
+    shaft, barb = 0.22 * width * side, 0.36 * head * side
+    tail = segments[:, 0]
+    return np.stack([tail + shaft, neck + shaft, neck + barb, tip, neck - barb, neck - shaft, tail - shaft], axis=1)
+
+
+def _readout(ax: Any, t: Any, states: State) -> Part:
+    """Time, height above the start and speed of the vehicle, at the left of `ax`."""
+    rise, pace = np.round(states.x[:, 2] - states.x[0, 2], 1) + 0.0, geometry.norm(states.x_dot)
+    digits = 2 if t[-1] >= 1 else 4
+    clock, below = lettering.words(ax, 13, INK), lettering.words(ax, 9, INK)
+
+    def part(i: int) -> list[Any]:
+        words = f"height {rise[i]:+.1f} m, speed {pace[i]:.1f} m/s"
+        return [clock(f"{t[i]:.{digits}f} s", (0.12, 0.66)), below(words, (0.12, 0.38))]
+
+    return part
+
+
+def _cursor(ax: Any, t: Any) -> Part:
+    line = ax.add_line(Line2D([], [], color=INK, linewidth=1.5, animated=True))
+
+    def part(i: int) -> list[Any]:
+        line.set_data([t[i], t[i]], [-1.15, 1.15])
+        return [line]
+
+    return part

@@ -1,0 +1,230 @@
+"""Maps of a store: where the rod may start, on the sphere and in a plane, and what becomes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import ListedColormap, LogNorm, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Patch
+
+from flypend.errors import InputError
+from flypend.flight.metrics import wilson
+from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED
+from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.studies.sweep.bins import EDGE, Cells, Runs, default_plane, label, plane, side, sphere
+from flypend.studies.sweep.chunk import CAUSES
+
+WIDTH = 7.16  # of two columns of a paper, in
+# One colour per cause of a failure; success is left white.
+CAUSE_COLOURS = {"rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK}
+EMPTY = "#e4e4e4"
+# An interval this wide says little: the cell is hatched.
+WIDE = 0.2
+RINGS = (30, 60)
+HATCH = "//////"
+
+
+@dataclass(frozen=True, eq=False)
+class _Panel:
+    """One picture of cells: where it is drawn, the edges of its cells, and whether it is a disc."""
+
+    name: str
+    cells: Cells
+    edges: tuple[Any, Any]
+    part: int | None = None  # hemisphere
+
+    def square(self, values: Any) -> Any:
+        """Values of the cells (n,) as rows and columns."""
+        shape = (len(self.edges[1]) - 1, len(self.edges[0]) - 1)
+        size = shape[0] * shape[1]
+        return values[(self.part or 0) * size :][:size].reshape(shape)
+
+
+def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None, cells: int | None = None) -> Figure:
+    """Success, settling time, excursion and causes of failure of the runs of a store, one row each.
+
+    On the sphere of initial rods, if the study varies them, in Lambert's equal-area projection of both hemispheres;
+    and in a plane. Cells without runs are grey; in the row of success, those
+    whose Wilson interval (95 %) is wider than 20 % are hatched.
+
+    Parameters
+    ----------
+    store : path
+        What `sweep` has written; it may be unfinished. It is read chunk by chunk.
+    x, y : str, optional
+        Quantities of the plane: tilt, rate, spin, speed, body_tilt, or what the study varies; default tilt and rate.
+    cells : int, optional
+        Along a side; default by the number of runs.
+
+    Raises
+    ------
+    InputError
+        For a store without runs, and quantities that it lacks.
+    """
+    runs = Runs(store)
+    panels, names = _panels(runs, x, y, cells)
+    figure = new_figure(WIDTH if len(panels) > 1 else 0.6 * WIDTH, 9.2)
+    figure.suptitle(_headline(runs, panels[-1].cells), fontsize=LABEL + 1)
+    rows = figure.subplots(4, len(panels), squeeze=False, width_ratios=[1] * (len(panels) - 1) + [1.15])
+    total = panels[-1].cells
+    _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", _rates(panels))
+    for axis, panel in zip(rows[0], panels, strict=True):
+        _hatch(axis, panel)
+    _row(figure, rows[1], panels, "mean settling time (s)", lambda c: c.settling, "viridis", None)
+    _row(figure, rows[2], panels, "mean excursion (m)", lambda c: c.excursion, "viridis", None)
+    _causes(figure, rows[3], panels, total)
+    for place, row in enumerate(rows):
+        for axis, panel in zip(row, panels, strict=True):
+            _frame(axis, panel, names, last=place == len(rows) - 1)
+    for axis, panel in zip(rows[0], panels, strict=True):
+        axis.set_title(panel.name, fontsize=LABEL)
+    return figure
+
+
+def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tuple[list[_Panel], tuple[str, str] | None]:
+    """The pictures to draw, of one pass over the store, and the quantities of the plane."""
+    names = (x, y) if x and y else default_plane(runs)
+    if (x is None) != (y is None):
+        raise InputError("x, y", "both or none", "one")
+    grids = []
+    per_side = cells or side(runs.number, 2)
+    if "y" in runs.names and not {"tilt", "azimuth"} & set(runs.names):
+        grids.append(sphere(runs.study, per_side))
+    edges = None
+    if names is not None:
+        grid, edges = plane(runs, names, cells or side(runs.number))
+        grids.append(grid)
+    if not grids:
+        raise InputError("store", "a study in which two quantities vary", "less")
+    gathered = runs.gather(grids)
+    panels = []
+    if len(grids[0].shape) == 3:
+        line = np.linspace(-EDGE, EDGE, per_side + 1)
+        titles = ("rod above the horizon", "rod below the horizon")
+        panels = [_Panel(title, gathered[0], (line, line), part) for part, title in enumerate(titles)]
+    if edges is not None:
+        panels.append(_Panel("all runs", gathered[-1], edges))
+    return panels, names
+
+
+def _headline(runs: Runs, cells: Cells) -> str:
+    """What was flown, and the success rate with its interval."""
+    study = runs.study
+    number, good = int(cells.runs.sum()), int(cells.successes.sum())
+    low, high = wilson(good, number)
+    plant = study.settings["plant"]
+    plant = plant if isinstance(plant, str) else plant.get("base", "sampled plant")
+    size = f"{number:,}".replace(",", "\u202f")
+    return (
+        f"{study.law.name} law on {study.vehicle.name}, plant {plant}, {study.duration:g} s\n"
+        f"{100 * good / number:.4g} % of {size} runs succeed (95 % interval {100 * low:.4g} to {100 * high:.4g} %)"
+    )
+
+
+def _row(
+    figure: Figure, axes: Any, panels: Sequence[_Panel], words: str, of: Any, colours: str, norm: Normalize | None
+) -> None:
+    """One quantity in every panel, on one scale."""
+    norm = norm or _scale([of(panel.cells) for panel in panels])
+    image = None
+    for axis, panel in zip(axes, panels, strict=True):
+        values = np.ma.masked_invalid(panel.square(of(panel.cells)))
+        image = axis.pcolormesh(*panel.edges, values, cmap=colours, norm=norm, rasterized=True)
+        _clip(axis, panel, image)
+    bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
+    bar.set_label(words, fontsize=LABEL)
+    bar.ax.tick_params(labelsize=SMALL)
+
+
+def _rates(panels: Sequence[_Panel]) -> Normalize:
+    """From 0 to 100 %, or to what nearly all cells stay below where that is less than half."""
+    known = np.concatenate([panel.cells.rate[panel.cells.runs > 0] for panel in panels])
+    most = float(np.percentile(100 * known, 99))
+    return Normalize(0, 100 if most > 50 else max(10.0, 10 * np.ceil(most / 10)))
+
+
+def _scale(values: Sequence[Any]) -> Normalize:
+    """From the 2nd to the 98th percentile, in the logarithm where that spans more than a factor 20."""
+    known = np.concatenate([np.ravel(value[np.isfinite(value)]) for value in values])
+    if not len(known):
+        return Normalize(0, 1)
+    low, high = np.percentile(known, [2, 98])
+    return LogNorm(low, high) if 0 < 20 * low < high else Normalize(low, high if high > low else low + 1)
+
+
+def _hatch(axis: Any, panel: _Panel) -> None:
+    """Hatch the cells whose success rate is not known well."""
+    unsure = panel.square(_unsure(panel))
+    if np.any(unsure):
+        cover = np.ma.masked_where(~unsure, np.zeros(unsure.shape))
+        clear = ListedColormap([(1.0, 1.0, 1.0, 0.0)])
+        style = {"cmap": clear, "hatch": HATCH, "edgecolor": "#808080", "linewidth": 0.0}
+        _clip(axis, panel, axis.pcolor(*panel.edges, cover, **style))
+
+
+def _unsure(panel: _Panel) -> Any:
+    return (panel.cells.width > WIDE) & (panel.cells.runs > 0)
+
+
+def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -> None:
+    """The most frequent cause of failure in each cell; white where nothing failed."""
+    colours = ListedColormap(["#ffffff", *CAUSE_COLOURS.values()])
+    image = None
+    for axis, panel in zip(axes, panels, strict=True):
+        failures = panel.cells.causes[1:]
+        most = np.where(failures.sum(axis=0) > 0, 1 + np.argmax(failures, axis=0), 0)
+        shown = np.ma.masked_where(panel.square(panel.cells.runs) == 0, panel.square(most))
+        image = axis.pcolormesh(*panel.edges, shown, cmap=colours, vmin=-0.5, vmax=len(CAUSES) - 0.5, rasterized=True)
+        _clip(axis, panel, image)
+    failed = max(float(total.causes[1:].sum()), 1.0)
+    bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
+    shares = [f"{name} {100 * total.causes[code].sum() / failed:.3g} %" for code, name in enumerate(CAUSES)][1:]
+    bar.set_ticks(range(len(CAUSES)), labels=["none", *shares])
+    bar.ax.tick_params(labelsize=SMALL, length=0)
+    bar.set_label("most frequent cause of failure", fontsize=LABEL)
+    handles = [Patch(facecolor=EMPTY, label="no runs, or none that settles")]
+    if any(np.any(_unsure(panel)) for panel in panels):
+        words = f"interval of the success rate wider than {100 * WIDE:.0f} %"
+        handles.append(Patch(facecolor="white", edgecolor=INK, hatch=HATCH, label=words))
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=SMALL, frameon=False)
+
+
+def _clip(axis: Any, panel: _Panel, image: Any) -> None:
+    """Cut what belongs to a hemisphere off at the horizon."""
+    if panel.part is not None:
+        image.set_clip_path(Circle((0, 0), EDGE, transform=axis.transData))
+
+
+def _frame(axis: Any, panel: _Panel, names: tuple[str, str] | None, *, last: bool) -> None:
+    """Rings of equal tilt and the poles of a hemisphere; the axes of a plane."""
+    axis.tick_params(labelsize=SMALL)
+    if panel.part is None:
+        assert names is not None
+        axis.set_facecolor(EMPTY)
+        axis.set_ylabel(label(names[1]), fontsize=LABEL)
+        if last:
+            axis.set_xlabel(label(names[0]), fontsize=LABEL)
+        return
+    axis.set(xlim=(-1.03 * EDGE, 1.03 * EDGE), ylim=(-1.03 * EDGE, 1.03 * EDGE), aspect="equal")
+    axis.axis("off")
+    axis.add_patch(Circle((0, 0), EDGE, facecolor=EMPTY, edgecolor="none", zorder=0))
+    axis.add_patch(Circle((0, 0), EDGE, facecolor="none", edgecolor=INK, linewidth=0.8, clip_on=False))
+    for angle in RINGS:
+        radius = 2 * np.sin(np.radians(angle) / 2)
+        axis.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor="white", linewidth=0.9))
+        axis.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor=INK, linewidth=0.5, linestyle=(0, (2, 2))))
+        _note(axis, 0.0, -radius, f"{angle if panel.part == 0 else 180 - angle}°")
+    _note(axis, 0.0, -EDGE, "90°")
+    axis.plot(0, 0, "+", color="white", markersize=6, markeredgewidth=2.2)
+    axis.plot(0, 0, "+", color=INK, markersize=5, markeredgewidth=0.9)
+    _note(axis, 0.0, 0.17, "inverted" if panel.part == 0 else "hanging")
+
+
+def _note(axis: Any, x: float, y: float, words: str) -> None:
+    box = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
+    axis.text(x, y, words, fontsize=SMALL - 1, ha="center", va="center", color=INK, bbox=box)

@@ -1,0 +1,1 @@
+"""TOML files and names become vehicles, laws, plants and flights here."""

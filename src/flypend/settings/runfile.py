@@ -1,0 +1,239 @@
+"""What to fly, as data: an experiment of the paper or a TOML file, with overrides, into vehicle, law and start."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.export import compiled
+from flypend.flight.simulate import simulate
+from flypend.flight.trajectory import Trajectory
+from flypend.laws import Controller, Law
+from flypend.laws.law import law_from_dict
+from flypend.model import State, Vehicle, vehicle
+from flypend.model.state import SHAPES
+from flypend.model.vehicle import read_toml
+from flypend.paper import experiment, experiment_names
+from flypend.plants import PRESETS, Noise, Plant, Wind, plant
+
+KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
+_TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
+
+
+@dataclass(frozen=True)
+class Flight:
+    """One run to make: what flies, under which law, from where, how long, on which plant; and what said so."""
+
+    vehicle: Vehicle
+    law: Law | Controller
+    start: State
+    duration: float
+    plant: str | Plant
+    rtol: float
+    settings: dict[str, Any]
+
+    def fly(self, duration: float | None = None) -> Trajectory:
+        """Make the run, over another `duration` (s) if one is given."""
+        return simulate(self.vehicle, self.law, self.start, duration or self.duration, plant=self.plant, rtol=self.rtol)
+
+
+def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
+    """The flight called `what`: an experiment of the paper by name, or the path of a TOML file.
+
+    `overrides` are texts such as `law.gains.k_d=2`, applied in order; the value is TOML, or else a plain word.
+
+    Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
+    """
+    try:
+        settings = _read(what)
+        for override in overrides:
+            _override(settings, override)
+        return flight_of(settings)
+    except RecursionError:
+        raise _TOO_DEEP from None
+
+
+def flight_of(settings: dict[str, Any]) -> Flight:
+    """The flight that `settings`, the content of a TOML file, describe. Raises InputError as `flight`."""
+    try:
+        for key, value in settings.items():
+            check_plain(key, value)
+        with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
+            return _build(_complete(settings))
+    except RecursionError:
+        raise _TOO_DEEP from None
+
+
+def _read(what: str) -> dict[str, Any]:
+    if what in experiment_names():
+        return {"experiment": what}
+    if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any name at all)
+        return read_toml(what)
+    raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
+
+
+def check_plain(key: str, value: Any) -> None:
+    """Refuse what TOML can say and no setting is: a date, an integer beyond 64 bits, a list of anything but numbers."""
+    if not key.isprintable():
+        raise InputError("run", "printable keys", repr(key))
+    if isinstance(value, dict):
+        for name, entry in value.items():
+            check_plain(f"{key}.{name}", entry)
+    elif isinstance(value, list):
+        for entry in value:
+            if isinstance(entry, bool | str | dict):
+                raise InputError(key, "a list of numbers", repr(value))
+            check_plain(key, entry)
+    elif not isinstance(value, bool | int | float | str):
+        raise InputError(key, "a number, a word, a list or a table", value)
+    elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise InputError(key, "an integer of 64 bits", f"one of {value.bit_length()} bits")
+
+
+def vehicle_named(name: str) -> Vehicle:
+    """The vehicle called `name`, or in the TOML file at that path. Raises InputError."""
+    return Vehicle.from_toml(name) if name.endswith(".toml") else vehicle(name)
+
+
+def _complete(settings: dict[str, Any]) -> dict[str, Any]:
+    """Fill in what `experiment` stands for, and expand the vehicle to a table."""
+    errors.only_known("", settings, KEYS)
+    out = deepcopy(settings)
+    if isinstance(out.get("vehicle"), str):
+        out["vehicle"] = {"base": out["vehicle"]}
+    if "experiment" in out:
+        row = experiment(str(out["experiment"]))
+        start = {name: getattr(row.start, name).tolist() for name in SHAPES}
+        out["start"] = start | table_at(out, "start")
+        law = {"name": "corrected"} | table_at(out, "law")
+        gains = dict(row.gains) if law["name"] in ("printed", "corrected") else {}
+        out["law"] = law | {"gains": gains | table_at(law, "gains", "law.gains")}
+        out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")
+        out["duration"] = out.get("duration", row.duration)
+    for key in ("vehicle", "law", "start", "duration"):
+        if key not in out:
+            raise InputError(key, "a value (or `experiment`, which brings one)", "nothing")
+    out["vehicle"] = vehicle_table(out["vehicle"])
+    return out
+
+
+def vehicle_table(value: Any) -> dict[str, Any]:
+    """All fields of the vehicle that a name, or a table of fields on top of `base`, stands for. Raises InputError."""
+    chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
+    if "base" in chosen:
+        chosen = vehicle(chosen.pop("base")).to_dict() | chosen
+    return chosen
+
+
+def start_of(table: dict[str, Any]) -> State:
+    """The single state that a table of fields says; messages begin with `start`. Raises InputError."""
+    errors.only_known("start", table, SHAPES)
+    if "y" not in table:
+        raise InputError("start.y", "a unit vector", "nothing")
+    try:
+        state = State(**table)
+    except InputError as error:
+        raise InputError(f"start.{error.field}", error.expected, error.got) from None
+    if state.batch_shape:
+        raise InputError("start", "a single state", f"a batch of shape {state.batch_shape}")
+    return state
+
+
+def toml_text(settings: Mapping[str, Any], name: str = "") -> str:
+    """`settings` (numbers, words, lists of them, tables) as TOML that reads back as the same."""
+    plain = [f"{_toml_key(key)} = {_toml_value(v)}\n" for key, v in settings.items() if not isinstance(v, Mapping)]
+    tables = [(f"{name}.{_toml_key(key)}".lstrip("."), v) for key, v in settings.items() if isinstance(v, Mapping)]
+    return "".join([*plain, *(f"\n[{path}]\n{toml_text(v, path)}" for path, v in tables)])
+
+
+def _toml_key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _toml_word(key)
+
+
+def _toml_value(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_toml_value, value))}]"
+    if isinstance(value, str):
+        return _toml_word(value)
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+def _toml_word(word: str) -> str:
+    return json.dumps(word, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def plant_of(value: Any) -> str | Plant:
+    """A plant by name, or as a table of its fields on top of `base` (default "rotors"), noise and wind as tables."""
+    if isinstance(value, str):
+        return errors.one_of("plant", value, ("ideal", *PRESETS))
+    if not isinstance(value, dict):
+        raise InputError("plant", "a name or a table", repr(value))
+    given = dict(value)
+    base = plant(given.pop("base", "rotors"))
+    for key, kind in (("noise", Noise), ("wind", Wind)):
+        if key in given:
+            table = table_at(given, key)
+            errors.only_known(f"plant.{key}", table, [entry.name for entry in fields(kind)])
+            given[key] = kind(**table)
+    return base.replace(**given)
+
+
+def _controller(law: Law, vehicle: Vehicle, kind: Any) -> Law | Controller:
+    """The law itself, or its exported C, compiled: `kind` is "python", "c" (double precision) or "c-float"."""
+    if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
+        return law
+    return compiled(law, vehicle, "double" if kind == "c" else "float")
+
+
+def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
+    """The table called `key` of `settings`, empty if there is none; `field` for messages. Raises InputError."""
+    value = settings.get(key, {})
+    if not isinstance(value, dict):
+        raise InputError(field or key, "a table", repr(value))
+    return dict(value)
+
+
+def _override(settings: dict[str, Any], text: str) -> None:
+    """Apply one `a.b.c=value` to `settings`."""
+    path, equals, value = text.partition("=")
+    keys = [key.strip() for key in path.split(".")]
+    if not equals or not all(key and key.isprintable() for key in keys):
+        raise InputError("--set", "KEY.KEY=VALUE, such as law.gains.k_d=2", repr(text))
+    table = settings
+    for depth, key in enumerate(keys[:-1]):
+        if depth == 0:
+            errors.only_known("", [key], KEYS)
+        if key in ("vehicle", "plant") and depth == 0 and isinstance(table.get(key), str):
+            table[key] = {"base": table[key]}
+        table = table.setdefault(key, {})
+        if not isinstance(table, dict):
+            raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
+    try:
+        parsed = tomllib.loads(f"value = {value}")
+    except ValueError:  # not TOML, or an integer of thousands of digits
+        parsed = {}
+    table[keys[-1]] = parsed["value"] if parsed.keys() == {"value"} else value.strip()
+
+
+def _build(settings: dict[str, Any]) -> Flight:
+    errors.only_known("", settings, KEYS)
+    vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
+    return Flight(
+        vehicle=vehicle,
+        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")),
+        start=start_of(table_at(settings, "start")),
+        duration=errors.number("duration", settings["duration"], above=0, unit="s"),
+        plant=plant_of(settings.get("plant", "ideal")),
+        rtol=errors.number("rtol", settings.get("rtol", 1e-9), above=0),
+        settings=settings,
+    )

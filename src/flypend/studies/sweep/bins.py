@@ -1,0 +1,245 @@
+"""Runs of a store gathered into cells, chunk by chunk, so that memory does not grow with the number of runs."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flypend.errors import InputError, one_of
+from flypend.flight.metrics import wilson_bounds
+from flypend.geometry import norm
+from flypend.studies.sweep.axes import ANGLES
+from flypend.studies.sweep.chunk import CAUSES
+from flypend.studies.sweep.store import existing
+from flypend.studies.sweep.study import Study, study
+
+# Runs that a cell should hold, and bounds of the number of cells along a side.
+PER_CELL, LEAST, MOST = 400, 8, 64
+# Radius of a hemisphere in Lambert's projection.
+EDGE = float(np.sqrt(2))
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """What happened in each of n cells.
+
+    Parameters
+    ----------
+    runs, successes : (n,)
+        Numbers of runs.
+    settling, excursion : (n,)
+        Means, over the successes (s) and over all runs (m); NaN for none.
+    causes : (k, n)
+        Numbers of runs by cause, in the order of `flypend.studies.sweep.chunk.CAUSES`.
+    """
+
+    runs: Any
+    successes: Any
+    settling: Any
+    excursion: Any
+    causes: Any
+
+    @cached_property
+    def rate(self) -> Any:
+        """Success rate (n,); NaN without runs."""
+        return _over(self.successes, self.runs)
+
+    @cached_property
+    def width(self) -> Any:
+        """Width (n,) of the Wilson interval of the success rate, 95 %."""
+        low, high = wilson_bounds(self.successes, self.runs)
+        return high - low
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Cells and the way from the columns of a chunk to them.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Of the cells.
+    columns : tuple of str
+        Columns that `place` needs.
+    place : callable
+        Columns to the number of the cell of each run (n,).
+    """
+
+    shape: tuple[int, ...]
+    columns: tuple[str, ...]
+    place: Callable[[dict[str, Any]], Any]
+
+
+class Runs:
+    """The store at `path`, as what a map needs of it."""
+
+    def __init__(self, path: str | Path) -> None:
+        self._store = existing(path)
+        self.study: Study = study(tomllib.loads(str(self._store.attributes["study"])))
+        self._numbers = [number for number in range(self.study.chunks) if self._store.whole(number)]
+        self.names = self._store.columns
+        if not self._numbers:
+            raise InputError(str(path), "a store with runs", "one without")
+
+    @property
+    def number(self) -> int:
+        """Runs that were flown."""
+        size, last = self.study.chunk, self.study.chunks - 1
+        short = self.study.runs - size * last if last in self._numbers else size
+        return size * (len(self._numbers) - 1) + short
+
+    def gather(self, grids: Sequence[Grid]) -> list[Cells]:
+        """What happened in the cells of each of `grids`, in one pass over the store."""
+        sums = [np.zeros((3 + len(CAUSES), int(np.prod(grid.shape)))) for grid in grids]
+        needed = {"settling", "excursion", "cause"}.union(*(grid.columns for grid in grids))
+        for number in self._numbers:
+            chunk = self._store.read(number, sorted(needed))
+            for grid, total in zip(grids, sums, strict=True):
+                total += _counted(chunk, grid.place(chunk), total.shape[1])
+        return [_cells(total) for total in sums]
+
+
+def _counted(chunk: dict[str, Any], place: Any, cells: int) -> Any:
+    """Rows of sums over the runs of each cell: runs, settling, excursion, and each cause."""
+    cause = chunk["cause"]
+    rows = [
+        np.bincount(place, minlength=cells),
+        np.bincount(place, np.where(cause == 0, chunk["settling"], 0.0), cells),
+        np.bincount(place, chunk["excursion"], cells),
+    ]
+    joint = np.bincount(cause.astype(np.int64) * cells + place, minlength=len(CAUSES) * cells)
+    return np.concatenate([np.stack(rows), joint.reshape(len(CAUSES), cells)])
+
+
+def _cells(total: Any) -> Cells:
+    runs, causes = total[0], total[3:]
+    return Cells(runs, causes[0], _over(total[1], causes[0]), _over(total[2], runs), causes)
+
+
+def _over(sums: Any, numbers: Any) -> Any:
+    return np.divide(sums, numbers, out=np.full(len(sums), np.nan), where=numbers > 0)
+
+
+def side(runs: int, panels: int = 1) -> int:
+    """Cells along a side, so that a cell of `panels` squares holds enough runs."""
+    return int(np.clip(np.sqrt(runs / (PER_CELL * panels)), LEAST, MOST))
+
+
+# The sphere -----------------------------------------------------------------------------------------------------------
+
+
+def sphere(study: Study, cells: int) -> Grid:
+    """Squares of equal area on both hemispheres of initial rods, (2, cells, cells): upper and lower, rows upwards."""
+
+    def place(chunk: dict[str, Any]) -> Any:
+        y = upright(chunk["y"], study)
+        upper, flat = lambert(y)
+        column, row = (np.clip((flat[:, i] / EDGE + 1) / 2 * cells, 0, cells - 1).astype(np.int64) for i in range(2))
+        return (np.where(upper, 0, 1) * cells + row) * cells + column
+
+    return Grid((2, cells, cells), ("y",), place)
+
+
+def lambert(y: Any) -> tuple[Any, Any]:
+    """Lambert's equal-area projection of unit vectors (n, 3), e₃ up: whether upper, and the point (n, 2) of its disc.
+
+    Each hemisphere about its own pole: length 2 sin(θ/2) at the angle θ from the pole; the horizon is at √2.
+    """
+    flat = y[:, :2] * np.sqrt(2 / (1 + np.abs(y[:, 2])))[:, None]
+    return y[:, 2] >= 0, flat
+
+
+def upright(v: Any, study: Study) -> Any:
+    """Vectors (n, 3) of a store in the frame with e₃ up."""
+    return v if study.law.e3 == "up" else v * np.array([1.0, -1.0, -1.0])
+
+
+# Planes ---------------------------------------------------------------------------------------------------------------
+
+# Quantity: the column it comes from and what it is, for the axis of a picture.
+QUANTITIES = {
+    "tilt": ("y", "tilt of the rod from inverted (°)"),
+    "rate": ("y_dot", "rate of the rod (1/s)"),
+    "spin": ("omega", "angular velocity of the vehicle (rad/s)"),
+    "speed": ("x_dot", "speed of the pivot (m/s)"),
+    "body_tilt": ("quat_xyzw", "tilt of the vehicle (°)"),
+}
+
+
+def quantities(runs: Runs) -> list[str]:
+    """Names of what a plane can be drawn against."""
+    by_vector = [name for name, (column, _) in QUANTITIES.items() if column in runs.names and name not in runs.names]
+    angles = [name for name in ANGLES if name in runs.names]
+    others = [f"{axis.group}.{axis.name}" for axis in runs.study.axes if axis.group != "start"]
+    return by_vector + angles + others
+
+
+def label(name: str) -> str:
+    """What a quantity is called on an axis."""
+    return QUANTITIES[name][1] if name in QUANTITIES else {"azimuth": "azimuth (rad)", "heading": "heading (rad)"}.get(
+        name, name.removeprefix("gains.").replace("plant.", "plant: ")
+    )  # fmt: skip
+
+
+def plane(runs: Runs, names: tuple[str, str], cells: int) -> tuple[Grid, tuple[Any, Any]]:
+    """Cells of the plane of two quantities, and the edges along both; a grid of the study keeps its own cells."""
+    for name in names:
+        one_of("plane", name, quantities(runs))
+    edges = tuple(_edges(runs.study, name, cells) for name in names)
+    shape = (len(edges[1]) - 1, len(edges[0]) - 1)
+
+    def place(chunk: dict[str, Any]) -> Any:
+        column, row = (
+            np.clip(np.searchsorted(edge, _values(chunk, name, runs.study), side="right") - 1, 0, len(edge) - 2)
+            for name, edge in zip(names, edges, strict=True)
+        )
+        return row * shape[1] + column
+
+    columns = tuple(name if name in runs.names else QUANTITIES[name][0] for name in names)
+    return Grid(shape, columns, place), (edges[0], edges[1])
+
+
+def _values(chunk: dict[str, Any], name: str, study: Study) -> Any:
+    """A quantity of the runs of a chunk (n,), in the unit of its axis."""
+    if name == "tilt":
+        return np.degrees(
+            chunk["tilt"] if "tilt" in chunk else np.arccos(np.clip(upright(chunk["y"], study)[:, 2], -1, 1))
+        )
+    if name == "body_tilt":  # z₃ = 1 − 2 (q_x² + q_y²), the same in either frame
+        return np.degrees(np.arccos(np.clip(1 - 2 * np.sum(chunk["quat_xyzw"][:, :2] ** 2, axis=1), -1, 1)))
+    return chunk[name] if name in chunk else norm(chunk[QUANTITIES[name][0]])
+
+
+def _edges(study: Study, name: str, cells: int) -> Any:
+    """Edges of the cells along a quantity, in the unit of its axis."""
+    group, _, key = name.partition(".") if name.startswith(("gains.", "plant.")) else ("start", "", name)
+    varied = {axis.name: axis for axis in study.axes if axis.group == group}
+    if key == "body_tilt" or (key == "tilt" and key not in varied):
+        return np.linspace(0.0, 180.0, cells + 1)
+    axis = varied[key] if key in varied else varied[QUANTITIES[key][0]]
+    unit = 180 / np.pi if name == "tilt" else 1.0
+    if axis.values:
+        return _between(np.unique(axis.values) * unit)
+    return unit * axis.at(np.linspace(0.0, 1.0, cells + 1))
+
+
+def _between(values: Any) -> Any:
+    """Edges halfway between the points of a grid."""
+    if len(values) == 1:
+        return np.array([values[0] - 0.5, values[0] + 0.5])
+    middle = (values[1:] + values[:-1]) / 2
+    return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
+
+
+def default_plane(runs: Runs) -> tuple[str, str] | None:
+    """Tilt against rate if both vary, else the first two quantities; None for fewer."""
+    known = quantities(runs)
+    if {"tilt", "rate"} <= set(known):
+        return ("tilt", "rate")
+    return (known[0], known[1]) if len(known) > 1 else None

@@ -1,0 +1,118 @@
+"""One chunk of a study: drawn, flown, judged and given back as the columns of its store."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from flypend.errors import InputError
+from flypend.flight.criterion import PARTS
+from flypend.flight.ensemble import fly_packed
+from flypend.flight.kernels import Flown, ideal_kernel, method_for, plant_numbers, sampled_kernel
+from flypend.flight.metrics import judged
+from flypend.plants import Plant
+from flypend.studies.sweep import cube
+from flypend.studies.sweep.design import Design, design
+from flypend.studies.sweep.study import Study, study
+
+# What a stored number of a cause means.
+CAUSES = ("success", *PARTS, "diverged", "singular")
+FLOATS = ("settling", "excursion", "effort", "peak_force", "end")
+
+
+@lru_cache(maxsize=4)
+def study_of(text: str) -> Study:
+    """The study that a TOML text says."""
+    import tomllib
+
+    return study(tomllib.loads(text))
+
+
+@lru_cache(maxsize=4)
+def _program_of(text: str) -> str:
+    return program_digest(study_of(text))
+
+
+def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
+    """The columns of chunk `number` of the study that `text` says, on one core.
+
+    Raises InputError where that study is not the `program` (a digest) that it is for the caller.
+    """
+    if _program_of(text) != program:
+        raise InputError("scheduler", "workers with the flypend of this process", "one with other equations")
+    made = study_of(text)
+    first = number * made.chunk
+    return fly_range(made, first, min(first + made.chunk, made.runs))
+
+
+def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
+    """The columns of runs `first` to `last` (not included) of `study`, of the sample `stream`, on one core."""
+    drawn = design(study, first, last, stream)
+    flown = [_fly_part(study, drawn, part, first) for part in _by_plant(study, drawn)]
+    reductions, status, end, final = (
+        np.concatenate([getattr(part, name) for part in flown]) for name in ("reductions", "status", "end", "final")
+    )
+    columns = judged(reductions, status, end, study.vehicle, study.criterion)
+    cause = np.zeros(len(end), dtype=np.uint8)
+    for code, word in enumerate(CAUSES[1:], start=1):
+        cause[columns["cause"] == word] = code
+    out = {name: value.astype(np.float32) for name, value in drawn.columns.items()}
+    out |= {name: columns[name].astype(np.float32) for name in FLOATS}
+    out |= {"success": columns["success"], "cause": cause}
+    return out | ({"final": final} if study.final else {})
+
+
+def program_digest(study: Study) -> str:
+    """Digest of what is flown, down to the last operation: law, vehicle, plants and criterion as compiled."""
+    digest = hashlib.sha256()
+    cells = int(np.prod(study.shape, dtype=object))
+    plants = {repr(plant): plant for plant in (study.plant_at(cell) for cell in _plant_cells(study, cells))}
+    for plant in plants.values():
+        if isinstance(plant, Plant):
+            kernel: Any = sampled_kernel(study.vehicle, study.law, plant.replace(seed=0), study.criterion, study.gains)
+            digest.update(plant_numbers(study.vehicle, plant).tobytes())
+        else:
+            method = method_for(study.rtol, study.law)
+            kernel = ideal_kernel(
+                study.vehicle, study.law, study.criterion, study.gains, method=method, precision=study.precision
+            )
+        digest.update(kernel.key.encode())
+    return digest.hexdigest()
+
+
+def _plant_cells(study: Study, cells: int) -> range:
+    """One cell of the grid for each plant."""
+    plants = int(np.prod([len(axis.values) for axis in study.grid if axis.group == "plant"], dtype=object))
+    return range(0, cells, cells // plants)
+
+
+def _by_plant(study: Study, drawn: Design) -> list[slice]:
+    """Stretches of runs that share a plant, which are consecutive since plants are outermost in the grid."""
+    cells = int(np.prod(study.shape, dtype=object))
+    plant = drawn.cells // _plant_cells(study, cells).step
+    ends = [0, *(np.flatnonzero(np.diff(plant)) + 1).tolist(), len(plant)]
+    return [slice(a, b) for a, b in pairwise(ends)]
+
+
+def _fly_part(study: Study, drawn: Design, part: slice, first: int) -> Flown:
+    plant = study.plant_at(int(drawn.cells[part.start]))
+    if isinstance(plant, Plant):  # noise of a run is its own, whatever the chunk
+        plant = plant.replace(seed=plant.seed + first + part.start)
+    return fly_packed(
+        study.vehicle,
+        study.law,
+        drawn.packed[part],
+        study.duration,
+        plant=plant,
+        rtol=study.rtol,
+        criterion=study.criterion,
+        gains={name: value[part] for name, value in drawn.gains.items()},
+        judge_period=study.judge_period,
+        precision=study.precision,
+        max_steps=study.max_steps,
+        workers=1,
+    )

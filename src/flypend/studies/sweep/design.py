@@ -1,0 +1,120 @@
+"""Starts, gains and plants of the runs of a study: run i is a function of the study and i alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from flypend.model.state import FLIP, SHAPES, SIZE
+from flypend.studies.sweep import cube
+from flypend.studies.sweep.axes import ANGLES, Axis
+from flypend.studies.sweep.study import Study
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """The runs of a chunk.
+
+    Parameters
+    ----------
+    packed : (n, 24)
+        Starts in the frame of the law.
+    gains : dict
+        Those that vary, name to (n,).
+    cells : (n,)
+        Cell of the grid.
+    columns : dict
+        What varies, as it is stored: name to (n,) or (n, k).
+    """
+
+    packed: Any
+    gains: dict[str, Any]
+    cells: Any
+    columns: dict[str, Any]
+
+
+def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> Design:
+    """Runs `first` to `last` (not included) of `study`; `stream` says which of its samples."""
+    index = np.arange(first, last)
+    cells, drawn = index // study.samples, _drawn(study, index % study.samples, stream)
+    numbers: dict[tuple[str, str], Any] = {}
+    places = dict(zip(study.grid, np.unravel_index(cells, study.shape) if study.grid else (), strict=True))
+    column = 0
+    for axis in study.axes:
+        if axis.values:
+            numbers[axis.group, axis.name] = np.array(axis.values)[places[axis]]
+        else:
+            u = drawn[:, column : column + axis.dimensions]
+            numbers[axis.group, axis.name] = u if axis.dimensions > 1 else axis.at(u[:, 0])
+            column += axis.dimensions
+    fields, columns = _starts(study, numbers, len(index))
+    for (group, name), value in numbers.items():
+        if group != "start":
+            columns[f"{group}.{name}"] = value
+    gains = {name: value for (group, name), value in numbers.items() if group == "gains"}
+    return Design(_packed(study, fields, len(index)), gains, cells, columns)
+
+
+def _drawn(study: Study, members: Any, stream: int) -> Any:
+    """The points of the cube of these members, which are consecutive but where a cell ends."""
+    how = (study.sampling, study.seed, stream, study.samples, study.dimensions)
+    ends = np.flatnonzero(np.diff(members) < 0) + 1
+    if len(ends) > 1:  # whole cells
+        return cube.members(*how, 0, study.samples)[members]
+    pieces = np.split(members, ends)
+    return np.concatenate([cube.members(*how, int(piece[0]), int(piece[-1]) + 1) for piece in pieces])
+
+
+def _starts(study: Study, numbers: dict[tuple[str, str], Any], runs: int) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The fields of the starts that vary, in the frame of the law, and the same and angles as they are stored."""
+    given = {axis.name: (axis, numbers["start", axis.name]) for axis in study.axes if axis.group == "start"}
+    fields: dict[str, Any] = {}
+    columns: dict[str, Any] = {}
+    for name in ("x", "x_dot", "omega"):
+        if name in given:
+            axis, u = given[name]
+            fields[name] = columns[name] = cube.in_ball(u, axis.high)
+    if "R" in given:
+        columns["quat_xyzw"] = cube.as_quat_xyzw(given["R"][1])
+        fields["R"] = cube.rotations(columns["quat_xyzw"])
+    if "y" in given:
+        fields["y"] = cube.on_sphere(given["y"][1])
+    if set(ANGLES) & set(given):
+        _by_angles(study, given, fields, columns, runs)
+    if "y_dot" in given:
+        y = fields.get("y", np.broadcast_to(study.start.y, (runs, 3)))
+        axis, u = given["y_dot"]
+        fields["y_dot"] = cube.in_disc(u, y, axis.high)
+    columns |= {name: fields[name] for name in ("y", "y_dot") if name in fields}
+    return fields, columns
+
+
+def _by_angles(
+    study: Study, given: dict[str, tuple[Axis, Any]], fields: dict[str, Any], columns: dict[str, Any], runs: int
+) -> None:
+    flip = FLIP if study.law.e3 == "down" else np.eye(3)
+    own = flip @ study.start.y
+    default = {"tilt": np.arctan2(np.hypot(own[0], own[1]), own[2]), "azimuth": np.arctan2(own[1], own[0])}
+    angles = []
+    for name in ANGLES:
+        value = given[name][1] if name in given else np.full(runs, default.get(name, 0.0))
+        columns |= {name: value} if name in given else {}
+        angles.append(value)
+    y, y_dot = cube.tilted(*angles)
+    fields["y"] = y @ flip
+    if {"rate", "heading"} & set(given):
+        fields["y_dot"] = y_dot @ flip
+
+
+def _packed(study: Study, fields: dict[str, Any], runs: int) -> Any:
+    packed = np.empty((runs, SIZE))
+    packed[:] = study.start.packed()
+    place = 0
+    for name, shape in SHAPES.items():
+        width = int(np.prod(shape))
+        if name in fields:
+            packed[:, place : place + width] = fields[name].reshape(runs, width)
+        place += width
+    return packed

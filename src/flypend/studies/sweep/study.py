@@ -1,0 +1,293 @@
+"""A study as data: what flies, from where, what varies, and when a run counts as a success."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.flight.criterion import Criterion
+from flypend.flight.kernels.ideal import BYTES as PRECISIONS
+from flypend.flight.simulate import LEAST_RTOL, SAMPLE_PERIOD
+from flypend.laws import Law
+from flypend.laws.law import law_from_dict
+from flypend.model import State, Vehicle
+from flypend.model.vehicle import read_toml
+from flypend.plants import Plant
+from flypend.plants import plant as plant_named
+from flypend.settings.runfile import check_plain, plant_of, start_of, table_at, toml_text, vehicle_table
+from flypend.studies.sweep.axes import Axis, axes, integer
+from flypend.studies.sweep.cube import SAMPLINGS, check_size
+
+KEYS = (
+    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs", "sampling", "seed",
+    "chunk", "final", "criterion", "start", "vary", "tune",
+)  # fmt: skip
+# Runs per chunk, in the ideal plant and in a sampled flight: a second or so of one core.
+CHUNK, CHUNK_SAMPLED = 32_768, 2_048
+# A run takes some hundreds of steps; one that takes this many is chattering.
+STEPS = 20_000
+MOST_CHUNK = 1_000_000
+MOST_RUNS = 10**9
+MOST_PLANTS = 32
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Study:
+    """Many runs to make.
+
+    Parameters
+    ----------
+    vehicle, law, plant, duration, rtol
+        As in `simulate`; the law with its gains for the vehicle.
+    criterion : Criterion
+        What counts as a success.
+    judge_period : float
+        Every so often a run is judged, s.
+    precision : "double" or "float"
+        Of the ideal plant.
+    max_steps : int
+        A run in the ideal plant that needs more is given up as diverged: gains that make the motion stiff.
+    start : State
+        Where runs start, in the frame of the law, but for what varies.
+    axes : tuple of Axis
+        What varies.
+    samples : int
+        Runs in each cell of the grid; every cell flies the same sample.
+    sampling : "uniform", "sobol" or "latin"
+        How the sample is drawn.
+    seed : int
+        Of the sample.
+    chunk : int
+        Runs that are flown and stored together.
+    final : bool
+        Whether final states are stored.
+    settings : dict
+        All of it as the content of a TOML file, every default spelt out.
+    tune : dict
+        What `tune` is told: see `flypend.studies.tune`.
+    """
+
+    vehicle: Vehicle
+    law: Law
+    plant: str | Plant
+    duration: float
+    rtol: float
+    criterion: Criterion
+    judge_period: float
+    precision: str
+    max_steps: int
+    start: State
+    axes: tuple[Axis, ...]
+    samples: int
+    sampling: str
+    seed: int
+    chunk: int
+    final: bool
+    settings: dict[str, Any]
+    tune: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def grid(self) -> tuple[Axis, ...]:
+        """The axes that are gone through, those of the plant first."""
+        return tuple(axis for axis in self.axes if axis.values)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points of each axis of the grid."""
+        return tuple(len(axis.values) for axis in self.grid)
+
+    @property
+    def dimensions(self) -> int:
+        """Numbers that are drawn for a run."""
+        return sum(axis.dimensions for axis in self.axes)
+
+    @property
+    def runs(self) -> int:
+        """Number of runs, over all cells of the grid."""
+        return self.samples * int(np.prod(self.shape, dtype=object))
+
+    @property
+    def chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.runs // self.chunk)
+
+    @property
+    def gains(self) -> tuple[str, ...]:
+        """Names of the gains that vary."""
+        return tuple(axis.name for axis in self.axes if axis.group == "gains")
+
+    def text(self) -> str:
+        """The study as TOML, every default spelt out; without what `tune` is told."""
+        return toml_text(self.settings)
+
+    def plant_at(self, cell: int) -> str | Plant:
+        """The plant of cell `cell` of the grid."""
+        axes_ = [axis for axis in self.grid if axis.group == "plant"]
+        if not axes_:
+            return self.plant
+        place = np.unravel_index(cell, self.shape)
+        table = deepcopy(self.settings["plant"])
+        for axis, index in zip(axes_, place, strict=False):
+            *outer, name = axis.name.split(".")
+            inner = table
+            for key in outer:
+                inner = inner.setdefault(key, {})
+            inner[name] = axis.values[index]
+        return plant_of(table)
+
+
+def study(what: str | Path | Mapping[str, Any]) -> Study:
+    """The study of a TOML file, or of its content as a dict `what`; docs/studies/studies.md lists the keys.
+
+    Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
+    """
+    settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
+    try:
+        for key, value in settings.items():
+            check_plain(key, value)
+        with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
+            return _build(settings)
+    except RecursionError:
+        raise InputError("study", "settings nested a few levels deep", "hundreds of levels") from None
+
+
+def _build(given: dict[str, Any]) -> Study:
+    errors.only_known("", given, KEYS)
+    for key in ("vehicle", "law", "duration"):
+        if key not in given:
+            raise InputError(key, "a value", "nothing")
+    vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
+    law_table = table_at(given, "law")
+    law = law_from_dict(law_table).bound(vehicle)
+    plant = plant_of(given.get("plant", "ideal"))
+    plant = plant if plant == "ideal" else plant_named(plant)
+    if isinstance(plant, Plant) and plant.engine == "mujoco":
+        raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
+    start, vary = _start(given)
+    found = axes(vary, law.numbers, plant != "ideal")
+    # Not in the order of the file: what is drawn depends on what is said, not on where.
+    order = {"plant": 0, "gains": 1, "start": 2}
+    found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
+    made = Study(
+        vehicle=vehicle,
+        law=law,
+        plant=plant,
+        duration=errors.number("duration", given["duration"], above=0, unit="s"),
+        rtol=errors.number("rtol", given.get("rtol", 1e-6), at_least=LEAST_RTOL),
+        criterion=_criterion(given),
+        judge_period=errors.number("judge_period", given.get("judge_period", SAMPLE_PERIOD), above=0, unit="s"),
+        precision=errors.one_of("precision", given.get("precision", "double"), PRECISIONS),
+        max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
+        start=_fixed(start, vary),
+        axes=found,
+        samples=integer("runs", given.get("runs", 1), 1),
+        sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
+        seed=integer("seed", given.get("seed", 1), 0),
+        chunk=integer("chunk", given.get("chunk", CHUNK if plant == "ideal" else CHUNK_SAMPLED), 1),
+        final=_flag("final", given.get("final", False)),
+        settings={},
+        tune=table_at(given, "tune"),
+    )
+    _check(made)
+    settings = {
+        "duration": made.duration, "rtol": made.rtol, "judge_period": made.judge_period, "precision": made.precision,
+        "max_steps": made.max_steps,
+        "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
+        "vehicle": vehicle.to_dict(), "law": law_table, "plant": _plant_table(given.get("plant", "ideal")),
+        "criterion": asdict(made.criterion), "start": start, "vary": vary,
+    }  # fmt: skip
+    object.__setattr__(made, "settings", settings)
+    _check_plants(made)
+    return made
+
+
+def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The tables of what the starts have in common and of what varies; nothing stands in both."""
+    start, vary = table_at(given, "start"), table_at(given, "vary")
+    varied = set(table_at(vary, "start", "vary.start"))
+    for name in start:
+        if name in varied or (name == "y" and {"tilt", "azimuth"} & varied) or (name == "y_dot" and "rate" in varied):
+            raise InputError(f"start.{name}", "nothing, since it varies", repr(start[name]))
+    if {"y", "tilt", "azimuth"} & varied and "y_dot" in start:
+        raise InputError("start.y_dot", "nothing where the rod varies: it would not stay tangent", start["y_dot"])
+    return start, vary
+
+
+def _fixed(start: dict[str, Any], vary: dict[str, Any]) -> State:
+    """The start but for what varies; a rod that varies stands in it as e₃."""
+    varied = table_at(vary, "start")
+    return start_of({"y": [0.0, 0.0, 1.0], **start} if {"y", "tilt", "azimuth"} & set(varied) else start)
+
+
+def _criterion(given: dict[str, Any]) -> Criterion:
+    table = table_at(given, "criterion")
+    errors.only_known("criterion", table, [entry.name for entry in fields(Criterion)])
+    return Criterion(**table)
+
+
+def _flag(name: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise InputError(name, "true or false", repr(value))
+    return value
+
+
+def _plant_table(value: Any) -> Any:
+    return {"base": value} if isinstance(value, str) and value != "ideal" else value
+
+
+def _check(made: Study) -> None:
+    """Refuse what is too large, or makes no sense together."""
+    if made.runs > MOST_RUNS:
+        raise InputError("runs", f"at most {MOST_RUNS} over all cells of the grid", made.runs)
+    if made.chunk > MOST_CHUNK:
+        raise InputError("chunk", f"at most {MOST_CHUNK}", made.chunk)
+    if made.samples > 1 and made.dimensions == 0 and not _random(made.plant):
+        raise InputError("runs", "1, since nothing is drawn", made.samples)
+    if made.plant != "ideal" and made.precision != "double":
+        raise InputError("precision", "'double' in a sampled flight", repr(made.precision))
+    check_size(made.sampling, made.samples, made.dimensions)
+
+
+def _random(plant: str | Plant) -> bool:
+    return isinstance(plant, Plant) and (plant.noise is not None or plant.wind is not None)
+
+
+def _check_plants(made: Study) -> None:
+    """Refuse a plant of the grid that cannot be, and more of them than are worth compiling."""
+    axes_ = [axis for axis in made.grid if axis.group == "plant"]
+    plants = int(np.prod([len(axis.values) for axis in axes_], dtype=object))
+    if plants > MOST_PLANTS:
+        raise InputError("vary.plant", f"at most {MOST_PLANTS} plants", plants)
+    step = int(np.prod(made.shape[len(axes_) :], dtype=object))
+    for place in range(plants if axes_ else 0):
+        made.plant_at(place * step)
+
+
+def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, duration: float | None) -> dict[str, Any]:
+    """The study of a law from the starts of `State.random`: y on S², R on SO(3), rates and velocities in balls.
+
+    A law of the paper's is to bring the rod to its e₃, anywhere, in 6.5 s; others invert it at their reference in 10 s.
+    """
+    papers = law in ("printed", "corrected")
+    return {
+        "vehicle": vehicle or ("nayak2018" if papers else "hehn2011"),
+        "law": {"name": law},
+        "plant": plant,
+        "duration": duration if duration is not None else 6.5 if papers else 10.0,
+        "judge_period": 0.1,
+        "runs": runs,
+        "seed": seed,
+        "criterion": {"target": "e3", "position": float("inf")} if papers else {},
+        "vary": {
+            "start": {
+                "y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 3.0}, "x_dot": {"ball": 2.0}
+            }
+        },
+    }  # fmt: skip

@@ -1,0 +1,258 @@
+"""Better gains for a study, by CMA-ES on many flights at a time; what is reported is flown on starts of its own."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.flight.ensemble import fly_packed
+from flypend.flight.metrics import judged, wilson
+from flypend.plants import Plant
+from flypend.studies.sweep import cube
+from flypend.studies.sweep.axes import integer
+from flypend.studies.sweep.design import design
+from flypend.studies.sweep.study import Study
+from flypend.studies.sweep.study import study as study_from
+
+KEYS = ("gains", "objective", "runs", "generations", "population", "seed", "step")
+# Of a run that fails, the settling time counts as this many durations, and the excursion as at most that of `FAR`, m.
+LATE, FAR = 2.0, 100.0
+MOST_REPORTED = 20_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Objective:
+    """What tuning makes small: a weighted sum of means over the runs.
+
+    Parameters
+    ----------
+    failure : float
+        Weight of the share of runs that fail.
+    settling : float
+        Weight of the settling time over the duration; a failure counts as twice the duration.
+    excursion : float
+        Weight of the largest distance from the reference, m; more than 100 m count as 100.
+    effort : float
+        Weight of the effort.
+    """
+
+    failure: float = 1.0
+    settling: float = 1.0
+    excursion: float = 0.0
+    effort: float = 0.0
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            errors.number(f"tune.objective.{entry.name}", getattr(self, entry.name), at_least=0)
+
+    def cost(self, columns: Mapping[str, Any], duration: float) -> Any:
+        """The cost of each run (n,), from the fields of `Metrics` in `columns`, over `duration` s."""
+        success = columns["success"]
+        settling = np.where(success, columns["settling"], LATE * duration) / duration
+        excursion = np.minimum(np.nan_to_num(columns["excursion"], nan=FAR, posinf=FAR), FAR)
+        effort = np.nan_to_num(columns["effort"], nan=FAR, posinf=FAR)
+        whole = self.failure * ~success + self.settling * settling + self.excursion * excursion
+        return whole + self.effort * np.minimum(effort, FAR)
+
+
+@dataclass(frozen=True, eq=False)
+class Tuned:
+    """What tuning found.
+
+    Parameters
+    ----------
+    study : Study
+        What was tuned.
+    gains : dict
+        The best gains.
+    before, after : dict
+        Cost, success rate with its interval, settling time and excursion of the old and the new gains, on the starts
+        of the study (at most 20 000), none of which was tuned on.
+    history : list of dict
+        By generation: runs flown so far, best and median cost on the starts tuned on, and the centre of the search.
+    """
+
+    study: Study
+    gains: dict[str, float]
+    before: dict[str, Any]
+    after: dict[str, Any]
+    history: list[dict[str, Any]]
+
+    def settings(self) -> dict[str, Any]:
+        """The content of a TOML file for `flypend run`: the law with the new gains."""
+        from_study = self.study.settings
+        law = dict(from_study["law"])
+        law["gains"] = {**law.get("gains", {}), **self.gains}
+        start = dict(from_study["start"])
+        start.setdefault("y", [0.0, 0.0, -1.0 if self.study.law.e3 == "up" else 1.0])  # hanging
+        kept = {key: from_study[key] for key in ("duration", "rtol", "plant", "vehicle")}
+        return {**kept, "law": law, "start": start}
+
+
+def tune(
+    study: Study | str | Path | Mapping[str, Any],
+    *,
+    workers: int | None = None,
+    progress: Callable[[int, int], Any] = lambda *_: None,
+) -> Tuned:
+    """Improve gains on a study's own objective, with CMA-ES in the logarithm of the gains.
+
+    The table `tune` of the study says what: `gains`, a table of [least, largest]; `objective`, the weights of
+    `Objective`; `runs` for each set of gains (default 200), `generations` (30), `population` (default by CMA-ES),
+    `step` (0.2, first standard deviation over the range) and `seed` (1). Every set of gains flies the same starts.
+
+    Parameters
+    ----------
+    study : Study, path or dict
+        As for `sweep`. Its own runs only report.
+    workers : int, optional
+        Threads; default one per core.
+    progress : callable
+        Told `(generation, generations)`.
+
+    Raises
+    ------
+    InputError
+        For a study that makes no sense or varies what is tuned.
+    """
+    made = study if isinstance(study, Study) else study_from(study)
+    task = _task(made)
+    search = _search(task)
+    history: list[dict[str, Any]] = []
+    best, least = task.start, np.inf
+    for generation in range(task.generations):
+        points = np.clip(search.ask(), 0.0, 1.0)
+        costs = task.costs(points, workers)
+        search.tell(list(points), costs.tolist())
+        if costs.min() < least:
+            least, best = float(costs.min()), points[np.argmin(costs)]
+        flown = (generation + 1) * len(points) * task.runs
+        centre = task.gains(np.clip(search.mean, 0, 1))
+        history.append({"runs": flown, "best": least, "median": float(np.median(costs)), "centre": centre})
+        progress(generation + 1, task.generations)
+        if search.stop():
+            break
+    found = task.gains(best)
+    own = {name: made.law.numbers[name] for name in found}
+    return Tuned(made, found, task.report(own, workers), task.report(found, workers), history)
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """A study and what is to be tuned of it; points of the unit cube stand for gains."""
+
+    study: Study
+    names: tuple[str, ...]
+    low: Any
+    high: Any
+    objective: Objective
+    runs: int
+    generations: int
+    population: int | None
+    step: float
+    seed: int
+
+    @property
+    def start(self) -> Any:
+        """The study's own gains as a point."""
+        own = np.array([self.study.law.numbers[name] for name in self.names])
+        return np.clip(np.log(own / self.low) / np.log(self.high / self.low), 0.0, 1.0)
+
+    def gains(self, point: Any) -> dict[str, float]:
+        """The gains that a point stands for, to six digits."""
+        values = self.low * (self.high / self.low) ** np.asarray(point)
+        return {name: float(f"{value:.6g}") for name, value in zip(self.names, values, strict=True)}
+
+    def costs(self, points: Any, workers: int | None) -> Any:
+        """Mean cost of each of `points`, all flown by one call from the starts that are tuned on."""
+        values = np.array([list(self.gains(point).values()) for point in points])
+        columns = self._flown(values, self.runs, cube.TUNED, workers)
+        return self.objective.cost(columns, self.study.duration).reshape(len(points), self.runs).mean(axis=1)
+
+    def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
+        """What these gains do on the starts of the study, the first `MOST_REPORTED` of them."""
+        runs = min(self.study.samples, MOST_REPORTED)
+        columns = self._flown(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
+        success = columns["success"]
+        low, high = wilson(int(success.sum()), runs)
+        settled = columns["settling"][success]
+        return {
+            "gains": gains,
+            "cost": float(self.objective.cost(columns, self.study.duration).mean()),
+            "runs": runs,
+            "success": float(success.mean()),
+            "wilson_low": low,
+            "wilson_high": high,
+            "settling_p50": float(np.median(settled)) if len(settled) else None,
+            "excursion_p95": float(np.percentile(np.nan_to_num(columns["excursion"], nan=np.inf), 95)),
+        }
+
+    def _flown(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
+        """Metrics of `runs` runs under each row of gains `values`, one after the other."""
+        study = self.study
+        packed = np.tile(design(study, 0, runs, stream).packed, (len(values), 1))
+        columns = dict(zip(self.names, np.repeat(values, runs, axis=0).T, strict=True))
+        plant = study.plant
+        if isinstance(plant, Plant) and stream == cube.TUNED:  # noise of its own, too
+            plant = plant.replace(seed=plant.seed + 2**32)
+        flown = fly_packed(
+            study.vehicle, study.law, packed, study.duration, plant=plant, rtol=study.rtol, gains=columns,
+            criterion=study.criterion, judge_period=study.judge_period, precision=study.precision,
+            max_steps=study.max_steps, workers=workers,
+        )  # fmt: skip
+        return judged(flown.reductions, flown.status, flown.end, study.vehicle, study.criterion)
+
+
+def _task(made: Study) -> _Task:
+    table = made.tune
+    errors.only_known("tune", table, KEYS)
+    if made.grid or made.gains:
+        raise InputError("vary", "starts that are drawn, where gains are tuned", "a grid, or gains")
+    if made.sampling == "latin":
+        raise InputError("sampling", "'uniform' or 'sobol', where gains are tuned", "'latin'")
+    bounds = table.get("gains")
+    if not isinstance(bounds, Mapping) or not bounds:
+        raise InputError("tune.gains", "a table of gains, each [least, largest]", repr(bounds))
+    errors.only_known("tune.gains", bounds, made.law.numbers)
+    limits = []
+    for name, value in bounds.items():
+        low, high = errors.array(f"tune.gains.{name}", value, (2,)).tolist()
+        if not 0 < low < high:
+            raise InputError(f"tune.gains.{name}", "0 < least < largest", [low, high])
+        if not low <= made.law.numbers[name] <= high:
+            raise InputError(f"tune.gains.{name}", f"a range around {made.law.numbers[name]:g}", [low, high])
+        limits.append((low, high))
+    weights = table.get("objective", {})
+    if not isinstance(weights, Mapping):
+        raise InputError("tune.objective", "a table of weights", repr(weights))
+    errors.only_known("tune.objective", weights, [entry.name for entry in fields(Objective)])
+    population = table.get("population")
+    return _Task(
+        study=made,
+        names=tuple(bounds),
+        low=np.array([low for low, _ in limits]),
+        high=np.array([high for _, high in limits]),
+        objective=Objective(**weights),
+        runs=integer("tune.runs", table.get("runs", 200), 1),
+        generations=integer("tune.generations", table.get("generations", 30), 1),
+        population=None if population is None else integer("tune.population", population, 2),
+        step=errors.number("tune.step", table.get("step", 0.2), above=0),
+        seed=integer("tune.seed", table.get("seed", 1), 1),
+    )
+
+
+def _search(task: _Task) -> Any:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the package looks for optional companions
+        import cma
+    options = {"bounds": [0.0, 1.0], "seed": task.seed, "verbose": -9, "verb_log": 0}
+    if task.population is not None:
+        options["popsize"] = task.population
+    return cma.CMAEvolutionStrategy(list(task.start), task.step, options)

@@ -1,6 +1,0 @@
-"""Studies of up to 10⁷ flights: a TOML file in, a Zarr store out, chunk by chunk, to be stopped and continued."""
-
-from flypend.sweep.run import sweep
-from flypend.sweep.study import Study, study
-
-__all__ = ["Study", "study", "sweep"]

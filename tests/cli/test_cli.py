@@ -1,0 +1,527 @@
+"""The command line: what it writes is what the library computes; bad input is one line, code 2, and no trace."""
+
+import errno
+import importlib.metadata
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.cli import app as cli
+from flypend.files import whole as files
+from flypend.flight.trajectory import Trajectory
+from flypend.paper import experiment
+from flypend.paper.claims import SETTLED, theorem_claims
+from flypend.pictures import animate, figures
+from flypend.report import paper
+from flypend.settings import runfile
+
+ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
+
+
+def flypend(folder, *arguments):
+    """The command in a process of its own, in `folder`."""
+    command = [sys.executable, "-m", "flypend", *arguments]
+    return subprocess.run(
+        command, cwd=folder, env=ENVIRONMENT, capture_output=True, encoding="utf-8", timeout=120, check=False
+    )
+
+
+@pytest.fixture
+def call(tmp_path, monkeypatch, capsys):
+    """The command in this process, in `tmp_path`: code, what it printed, and its complaints."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    handler = signal.getsignal(signal.SIGTERM)
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
+        with pytest.raises(SystemExit) as exit_:
+            cli.main()
+        return exit_.value.code, *capsys.readouterr()
+
+    yield run
+    signal.signal(signal.SIGTERM, handler)
+
+
+def content(folder):
+    """Everything below `folder`, hidden or not: name and bytes."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
+        for path in sorted(Path(folder).rglob("*"))
+    }
+
+
+# What is asked and what is told -------------------------------------------------------------------------------------
+
+
+def test_help_of_the_script_tells_what_there_is(tmp_path):
+    script = Path(sys.executable).with_name("flypend")
+    assert script.exists()
+    done = subprocess.run([script, "--help"], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+    commands = ("paper", "run", "compare", "ladder", "replay", "movie", "figures")
+    for words in ("Spherical pendulum on a quadrotor", "--version", *commands):
+        assert words in done.stdout
+    assert "…" not in done.stdout  # nothing cut off at 80 columns
+    assert content(tmp_path) == {}
+
+
+@pytest.mark.parametrize("command", ["paper", "run", "compare", "ladder", "replay", "movie", "figures"])
+def test_help_of_a_command(call, command):
+    code, told, complaints = call(command, "--help")
+    assert (code, complaints) == (0, "")
+    assert "--out" in told
+    assert "…" not in told
+
+
+def test_help_of_run_names_the_keys_of_a_file(call):
+    told = call("run", "--help")[1]
+    for word in (*runfile.KEYS, "--set", "--quick", "--no-figures", "2-projected"):
+        assert word in told
+
+
+def test_version_is_that_of_the_package(tmp_path):
+    done = flypend(tmp_path, "--version")
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"flypend {fp.__version__}\n", "")
+    assert importlib.metadata.version("flypend") == fp.__version__
+
+
+def test_without_arguments_there_is_help(call):
+    code, told, complaints = call()
+    assert code == 2
+    assert "Usage" in told + complaints
+    assert "paper" in told + complaints
+    assert "flypend:" not in complaints
+
+
+# A run --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def second(tmp_path_factory):
+    """Experiment 2, flown by the command: its folder and what it printed."""
+    folder = tmp_path_factory.mktemp("second")
+    done = flypend(folder, "run", "2", "--no-figures", "--out", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    return folder, done.stdout
+
+
+def test_a_run_writes_the_run_and_its_reports_and_nothing_else(second):
+    folder, _ = second
+    assert sorted(content(folder)) == ["out", "out/report.json", "out/report.md", "out/run.nc"]
+
+
+def test_a_run_is_that_of_the_library(second):
+    folder, _ = second
+    row = experiment("2")
+    written, flown = fp.load(folder / "out" / "run.nc"), fp.simulate(row.vehicle, row.law(), row.start, 6.5)
+    np.testing.assert_array_equal(written.t, flown.t)
+    for name in ("x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment"):
+        # Starts equal to an eps; rtol 1e-9 and numbers up to 1e2.
+        np.testing.assert_allclose(getattr(written, name), getattr(flown, name), rtol=1e-8, atol=1e-8)
+    assert written.vehicle == row.vehicle
+    assert (written.law, written.e3, written.gains) == ("corrected", "down", dict(row.law().gains))
+
+
+def test_a_report_is_that_of_the_library(second):
+    folder, told = second
+    report = json.loads((folder / "out" / "report.json").read_text(encoding="utf-8"))
+    row = experiment("2")
+    long_run = fp.simulate(row.vehicle, row.law(), row.start, SETTLED)
+    wanted = theorem_claims(fp.load(folder / "out" / "run.nc"), long_run)
+    assert [(c["claim"], c["holds"], c["criterion"]) for c in report["claims"]] == [
+        (v.claim, v.holds, v.criterion) for v in wanted
+    ]
+    np.testing.assert_allclose([c["value"] for c in report["claims"]], [v.value for v in wanted], rtol=1e-6)
+    assert report["flypend"] == fp.__version__
+    assert report["outcome"] == {"status": "completed", "time": 6.5, "reason": ""}
+    assert report["settings"]["experiment"] == "2"
+    assert "corrected on nayak2018: completed at 6.5 s" in told
+    assert "0.99905 ✓" in told
+    lines = (folder / "out" / "report.md").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "# A run of corrected on nayak2018"
+    assert any("0.99905 **holds**" in line and "1.19 **fails**" in line for line in lines)
+
+
+def test_a_run_with_overrides_is_that_of_the_library(call, tmp_path):
+    changes = ("--set", "law.name=printed", "--set", "law.gains.k_d=2", "--set", "duration=1")
+    code, told, _ = call("run", "4", "--no-figures", "-o", "out", *changes)
+    row = experiment("4")
+    flown = fp.simulate(row.vehicle, fp.laws.printed(**{**row.gains, "k_d": 2}), row.start, 1.0)
+    written = fp.load(tmp_path / "out" / "run.nc")
+    assert code == 0
+    assert written.outcome.status == flown.outcome.status == "singular"
+    assert written.outcome.time == pytest.approx(flown.outcome.time, rel=1e-6)
+    assert "printed on nayak2018: singular at 0.1068 s" in told
+
+
+def test_a_file_of_ones_own_is_flown(call, tmp_path):
+    own = 'vehicle = "hehn2011"\nlaw = { name = "inverted" }\nduration = 0.2\nstart = { y = [0.0, 0.0, -1.0] }\n'
+    (tmp_path / "own.toml").write_text(own)
+    code, told, _ = call("run", "own.toml", "--no-figures", "--out", "out")
+    vehicle = fp.vehicle("hehn2011")
+    flown = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 0.2)
+    np.testing.assert_allclose(fp.load(tmp_path / "out" / "run.nc").y, flown.y, rtol=0, atol=1e-8)
+    report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
+    assert (code, report["claims"]) == (0, [])  # it is not the theorem's law
+    assert "Theorem" not in told
+
+
+REPORTS = ["report.json", "report.md", "run.nc"]
+PICTURES = [f"{kind}.{suffix}" for kind in ("full", "stop-motion", "y3-z3") for suffix in ("pdf", "png")]
+MOVIES = ["movie-axis.mp4", "movie-side.mp4"]
+
+
+@pytest.fixture
+def sketches(monkeypatch):
+    """Pictures and movies as files of a word, which take no time."""
+    monkeypatch.setattr(files, "save_figure", lambda figure, path: path.write_text("picture"))
+    monkeypatch.setattr(animate, "movie", lambda run, path, **options: path.write_text(f"{options}"))
+
+
+def test_pictures_are_drawn(call, tmp_path):
+    assert call("run", "4", "--set", "duration=0.2", "--out", "out", "--quick")[0] == 0
+    assert list(content(tmp_path / "out")) == sorted(REPORTS + PICTURES)
+    for name in PICTURES:
+        head = b"\x89PNG" if name.endswith("png") else b"%PDF"
+        assert (tmp_path / "out" / name).read_bytes().startswith(head)
+
+
+@pytest.mark.parametrize(
+    ("options", "names"),
+    [
+        ([], REPORTS + PICTURES + MOVIES),
+        (["--quick"], REPORTS + PICTURES),
+        (["--no-figures"], REPORTS),
+        (["--no-figures", "--quick"], REPORTS),
+    ],
+)
+def test_pictures_and_movies_are_made_unless_left_out(call, tmp_path, sketches, options, names):
+    assert call("run", "4", "--set", "duration=0.1", "--out", "out", *options)[0] == 0
+    assert list(content(tmp_path / "out")) == sorted(names)
+    if not options:
+        assert (tmp_path / "out" / "movie-axis.mp4").read_text() == "{'view': 'axis', 'speed': 0.25}"
+
+
+def test_other_files_of_the_folder_stay(call, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "notes.txt").write_text("mine")
+    (tmp_path / "out" / "report.md").write_text("old")
+    assert call("run", "1", "--no-figures", "--out", "out", "--set", "duration=0.1")[0] == 0
+    assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
+    assert (tmp_path / "out" / "report.md").read_text(encoding="utf-8").startswith("# A run of")
+    assert list(content(tmp_path / "out")) == ["notes.txt", "report.json", "report.md", "run.nc"]
+
+
+def test_only_the_law_that_settles_is_flown_for_longer(call, monkeypatch):
+    flown, fly = [], runfile.Flight.fly
+
+    def recorded(flight, duration=None):
+        flown.append(duration)
+        return fly(flight, None)
+
+    monkeypatch.setattr(runfile.Flight, "fly", recorded)
+    short = ("--no-figures", "--set", "duration=0.1")
+    assert call("run", "1", *short)[0] == 0
+    assert flown == [None, SETTLED]
+    # Without beta the printed law would spin up to 1e6 rad/s within 20 s, and take minutes for it.
+    assert call("run", "1", *short, "--set", "law.name=printed", "--set", "law.gains.beta=off")[0] == 0
+    assert flown == [None, SETTLED, None]
+
+
+def test_names_that_look_like_markup_are_printed_as_they_are(call, tmp_path):
+    name, own = "a[/]b", tmp_path / "own[bold]1.toml"
+    own.write_text("experiment = 1\nduration = 0.1\n")
+    code, told, complaints = call(
+        "run", own.name, "--no-figures", "--out", "out[red]", "--set", f'vehicle.name="{name}"'
+    )
+    assert (code, complaints) == (0, "")
+    assert f"corrected on {name}: completed" in told
+    assert "Results are in out[red]." in told
+    assert "own[bold]" in told
+    assert (tmp_path / "out[red]" / "run.nc").exists()
+
+
+# What is refused ----------------------------------------------------------------------------------------------------
+
+# The bad input that the issue lists: arguments after `run 2`, and the line. Each in a process of its own.
+ISSUE = {
+    "R is not a rotation": (
+        "start.R=[[0.36, 0.48, -0.8], [-0.8, 0.6, 0], [0.48, 0.64, 0.7]]",
+        "start.R: expected a rotation (RᵀR = 1, det R = 1), got ‖RᵀR − 1‖ = 0.172",
+    ),
+    "y is not a unit vector": ("start.y=[1, 0, 1]", "start.y: expected a unit vector, got |y| = 1.41421"),
+    "y_dot of experiment 2 as printed": (
+        "start.y_dot=[0.7, 0, 0.7]",
+        "start.y_dot: expected a tangent vector (y · y_dot = 0), got y · y_dot = 0.99",
+    ),
+    "negative mass": ("vehicle.mass=-0.4", "vehicle.mass: expected a finite number > 0 kg, got -0.4"),
+    "zero mass of the bob": ("vehicle.bob_mass=0", "vehicle.bob_mass: expected a finite number > 0 kg, got 0"),
+    "negative length": ("vehicle.rod_length=-0.5", "vehicle.rod_length: expected a finite number > 0 m, got -0.5"),
+    "inertia is not positive definite": (
+        "vehicle.inertia=[0.1, 0.1, -0.1]",
+        "vehicle.inertia: expected a positive definite matrix, got a principal moment of -0.1 kg m²",
+    ),
+    "inertia against the triangle inequality": (
+        "vehicle.inertia=[0.1, 0.1, 0.3]",
+        "vehicle.inertia: expected principal moments within the triangle inequality, got 0.1 + 0.1 < 0.3",
+    ),
+    "unknown key": ("law.gains.kd=1", "law.gains.kd: expected one of *, got 'kd' (did you mean 'k_d'?)"),
+    "NaN": ("start.x=[nan, 0, 0]", "start.x: expected finite numbers, got 1 that are NaN or infinite"),
+    "no duration": ("duration=0", "duration: expected a finite number > 0 s, got 0"),
+}
+# And more of it, in this process.
+MORE = {
+    "zero length": ("vehicle.rod_length=0", "vehicle.rod_length: expected a finite number > 0 m, got 0"),
+    "zero mass": ("vehicle.mass=0", "vehicle.mass: expected a finite number > 0 kg, got 0"),
+    "a reflection": (
+        "start.R=[[1, 0, 0], [0, 1, 0], [0, 0, -1]]",
+        "start.R: expected a rotation (RᵀR = 1, det R = 1), got determinant < 0",
+    ),
+    "negative duration": ("duration=-1", "duration: expected a finite number > 0 s, got -1"),
+    "NaN in a gain": ("law.gains.k_1=nan", "law.gains.k_1: expected a finite number > 0 1/s², got nan"),
+    "unknown law": ("law.name=corect", "law.name: expected one of *, got 'corect' (did you mean 'corrected'?)"),
+    "unknown field of the vehicle": ("vehicle.weight=1", "vehicle.weight: expected one of *, got 'weight'*"),
+    "numbers near the largest": ("start.y=[0, 0, 1e200]", "start.y: expected a unit vector, got |y| = inf"),
+    "two starts": ("start.x=[[0, 0, 0], [1, 1, 1]]", "start: expected a single state, got a batch of shape (2,)"),
+    "no value": ("duration", "--set: expected KEY.KEY=VALUE, such as law.gains.k_d=2, got 'duration'"),
+    "an unprintable key": ("a\nb=1", "--set: expected KEY.KEY=VALUE, such as law.gains.k_d=2, got 'a\\nb=1'"),
+}  # fmt: skip
+
+
+def is_the_line(complaints, line):
+    before, _, after = line.rstrip("*").partition("*")
+    assert len(complaints.splitlines()) == 1
+    assert complaints.startswith(f"flypend: {before}")
+    assert line.endswith("*") or complaints.endswith(f"{after}\n")
+
+
+@pytest.mark.parametrize("what", ISSUE)
+def test_bad_input_is_one_line_code_2_and_no_trace(tmp_path, what):
+    override, line = ISSUE[what]
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "report.md").write_text("old")
+    before = content(tmp_path)
+    done = flypend(tmp_path, "run", "2", "--set", override, "--out", "out")
+    assert (done.returncode, done.stdout) == (2, "")
+    is_the_line(done.stderr, line)
+    assert content(tmp_path) == before
+
+
+@pytest.mark.parametrize("what", MORE)
+def test_more_bad_input_is_one_line_code_2_and_no_trace(call, tmp_path, what):
+    override, line = MORE[what]
+    code, told, complaints = call("run", "2", "--set", override)
+    assert (code, told) == (2, "")
+    is_the_line(complaints, line)
+    assert content(tmp_path) == {}
+
+
+def test_a_file_that_is_wrong_is_one_line_code_2_and_no_trace(tmp_path):
+    own = 'vehicle = "nayak2018"\nlaw = { name = "corrected" }\nduration = 1\nstart = { z = [0, 0, 1] }\n'
+    (tmp_path / "own.toml").write_text(own)
+    before = content(tmp_path)
+    done = flypend(tmp_path, "run", "own.toml")
+    assert (done.returncode, done.stdout) == (2, "")
+    is_the_line(done.stderr, "start.z: expected one of x, x_dot, R, omega, y, y_dot, got 'z'")
+    assert content(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    ("what", "line"),
+    [
+        ("7", "run: expected an experiment (1, 2, 2-projected, 3, 4, 5) or a TOML file, got '7'"),
+        ("none.toml", "none.toml: expected a readable TOML file, got No such file or directory"),
+        ("folder", "folder: expected a readable TOML file, got Is a directory"),
+        ("broken.toml", "broken.toml: expected a TOML file, got *"),
+        ("two\nlines.toml", "two lines.toml: expected a readable TOML file, got No such file or directory"),
+    ],
+)
+def test_what_cannot_be_flown_is_one_line_code_2_and_no_trace(call, tmp_path, what, line):
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "broken.toml").write_text("duration = = 1\n")
+    before = content(tmp_path)
+    code, told, complaints = call("run", what)
+    assert (code, told) == (2, "")
+    is_the_line(complaints, line)
+    assert content(tmp_path) == before
+
+
+@pytest.fixture
+def unwritable(tmp_path):
+    """Folder names that cannot become folders, also for root, and why."""
+    (tmp_path / "file").write_text("mine")
+    (tmp_path / "link").symlink_to(tmp_path / "gone" / "far")
+    return {
+        "file": "file: expected a folder, got a file",
+        "file/out": "file/out: expected a folder that can be written, got Not a directory",
+        "none/out": "none/out: expected a folder that can be written, got No such file or directory",
+        "link": "link: expected a folder, got a link that leads nowhere",
+    }
+
+
+@pytest.mark.parametrize("command", [("run", "2"), ("paper",), ("paper", "--quick")])
+def test_a_folder_that_cannot_be_written_is_told_before_anything_is_flown(
+    call, tmp_path, unwritable, command, monkeypatch
+):
+    def fly(*_):
+        pytest.fail("flown")
+
+    monkeypatch.setattr(runfile.Flight, "fly", fly)
+    monkeypatch.setattr(paper, "fly_all", fly)
+    before = content(tmp_path)
+    for out, line in unwritable.items():
+        code, told, complaints = call(*command, "--out", out)
+        assert (code, told) == (2, "")
+        is_the_line(complaints, line)
+        assert content(tmp_path) == before
+
+
+def test_a_folder_that_cannot_be_written_in_a_process_of_its_own(tmp_path, unwritable):
+    before = content(tmp_path)
+    done = flypend(tmp_path, "paper", "--out", "file/out")
+    assert (done.returncode, done.stdout) == (2, "")
+    is_the_line(done.stderr, unwritable["file/out"])
+    assert content(tmp_path) == before
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write anywhere")
+def test_a_folder_without_permission_is_one_line(call, tmp_path):
+    (tmp_path / "closed").mkdir(mode=0o555)
+    for out in ("closed", "closed/out"):
+        code, _, complaints = call("run", "2", "--out", out)
+        assert code == 2
+        is_the_line(complaints, f"{out}: expected a folder that can be written, got Permission denied")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("fly",), "No such command 'fly'"),
+        (("--quick",), "No such option: --quick"),
+        (("run",), "Missing argument"),
+        (("run", "2", "--sett", "duration=1"), "No such option: --sett"),
+        (("run", "2", "3"), "unexpected extra argument"),
+        (("run", "2", "--out"), "requires an argument"),
+        (("paper", "--quick=yes"), "does not take a value"),
+        (("compare", "--runs", "0"), "'--runs': Input should be greater than or equal to 1"),
+        (("compare", "--runs", "many"), "'--runs': Input should be a valid integer"),
+    ],
+)
+def test_a_wrong_command_is_one_line_and_code_2(call, tmp_path, arguments, words):
+    code, told, complaints = call(*arguments)
+    assert (code, told) == (2, "")
+    is_the_line(complaints, "*")
+    assert words in complaints
+    assert content(tmp_path) == {}
+
+
+def test_a_wrong_command_in_a_process_of_its_own(tmp_path):
+    done = flypend(tmp_path, "fly")
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", "flypend: No such command 'fly'.\n")
+
+
+# What fails on the way ----------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def old(tmp_path):
+    """A folder with results of before."""
+    (tmp_path / "out").mkdir()
+    for name in ("run.nc", "report.md", "full.png"):
+        (tmp_path / "out" / name).write_text(f"old {name}")
+    return tmp_path
+
+
+def fail(*_, **__):
+    raise RuntimeError("out of ink")
+
+
+@pytest.mark.parametrize("module_and_name", [(figures, "full_figure"), (files, "save_figure"), (animate, "movie")])
+@pytest.mark.parametrize("out", ["out", "new"])
+def test_a_figure_that_fails_leaves_nothing_new(call, old, sketches, monkeypatch, module_and_name, out):
+    monkeypatch.setattr(*module_and_name, fail)
+    before = content(old)
+    with pytest.raises(RuntimeError, match="out of ink"):
+        call("run", "4", "--set", "duration=0.1", "--out", out)
+    assert content(old) == before
+
+
+@pytest.mark.parametrize("out", ["out", "new"])
+def test_a_full_disk_is_one_line_and_leaves_nothing_new(call, old, monkeypatch, out):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(Path, "write_text", full)
+    before = content(old)
+    code, told, complaints = call("run", "4", "--set", "duration=0.1", "--no-figures", "--out", out)
+    assert (code, told) == (2, "")
+    is_the_line(complaints, f"{out}: expected a folder that can be written, got No space left on device")
+    assert content(old) == before
+
+
+def test_a_run_file_that_cannot_be_saved_is_one_line_and_leaves_nothing_new(call, old, monkeypatch):
+    def full(self, path):
+        raise fp.InputError(str(path), "a file that can be written", "No space left on device")
+
+    monkeypatch.setattr(Trajectory, "save", full)
+    before = content(old)
+    code, _, complaints = call("run", "4", "--set", "duration=0.1", "--no-figures", "--out", "out")
+    assert code == 2
+    is_the_line(complaints, "*run.nc: expected a file that can be written, got No space left on device")
+    assert content(old) == before
+
+
+@pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", 143)])
+def test_an_interrupted_run_leaves_nothing_new(old, name, code):
+    before = content(old)
+    # A test run started in the background hands SIGINT down as ignored; a person's shell does not.
+    default = "import signal, runpy; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    program = default + "runpy.run_module('flypend', run_name='__main__')"
+    command = [sys.executable, "-c", program, "run", "4", "--out", "out"]
+    with subprocess.Popen(
+        command, cwd=old, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    ) as process:
+        start = time.monotonic()
+        while not list(old.glob("out/.out-partial-*/run.nc")):  # the figures and movies come after it
+            assert process.poll() is None, process.stdout.read()
+            assert time.monotonic() < start + 60
+            time.sleep(0.01)
+        process.send_signal(getattr(signal, name))
+        told = process.communicate(timeout=60)[0]
+    assert process.returncode == code
+    assert b"Traceback" not in told
+    assert content(old) == before
+
+
+def test_what_stands_in_the_way_is_told_and_nothing_is_moved(call, old):
+    (old / "out" / "run.nc").unlink()
+    (old / "out" / "run.nc").mkdir()
+    before = content(old)
+    code, told, complaints = call("run", "4", "--set", "duration=0.1", "--no-figures", "--out", "out")
+    assert (code, told) == (2, "")
+    is_the_line(complaints, f"{Path('out') / 'run.nc'}: expected a file or nothing, got a folder")
+    assert content(old) == before
+
+
+def test_an_error_of_the_code_is_no_bad_input(call, monkeypatch):
+    monkeypatch.setattr(runfile, "flight", fail)
+    with pytest.raises(RuntimeError, match="out of ink"):
+        call("run", "2")
+
+
+def test_a_terminal_that_lacks_the_signs_gets_something_else_for_them(tmp_path):
+    command = [sys.executable, "-m", "flypend", "run", "2", "--no-figures", "--set", "duration=0.1"]
+    environment = {**ENVIRONMENT, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "y ? e?" in done.stdout  # y → e₃
+    assert "Results are in run-out." in done.stdout

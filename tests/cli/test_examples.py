@@ -1,0 +1,195 @@
+"""What people try first works as it stands: the examples, the Python of the README, its commands and its links."""
+
+import ast
+import inspect
+import re
+import shlex
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import typer
+from typer.exceptions import TyperException
+
+import flypend as fp
+from flypend.cli import app as cli
+from flypend.flight.metrics import metrics
+from flypend.settings.runfile import flight
+from flypend.studies import law_named
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+TOML = sorted((ROOT / "examples").glob("*.toml"))
+OWN = sorted((ROOT / "examples").glob("*.py"))
+VEHICLE = fp.vehicle("hehn2011")
+
+
+@pytest.fixture
+def at_home(monkeypatch):
+    """In the root of the repository, as a reader who types the commands; what is imported from there is forgotten."""
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    yield
+    for name in [name for name in sys.modules if name.split(".")[0] == "examples"]:
+        del sys.modules[name]
+
+
+# Files to run ---------------------------------------------------------------------------------------------------------
+
+
+def test_there_are_examples_and_all_are_found():
+    assert {path.name for path in (ROOT / "examples").iterdir() if path.is_file()} == {p.name for p in TOML + OWN}
+    assert "swing-up.toml" in {path.name for path in TOML}
+    assert "my_law.py" in {path.name for path in OWN}
+
+
+@pytest.mark.parametrize("path", TOML, ids=lambda path: path.name)
+def test_a_file_builds_a_flight_and_flies(path):
+    run = flight(str(path), ["duration=0.3"]).fly()
+    assert (run.outcome.status, run.t[-1]) == ("completed", pytest.approx(0.3))
+    assert flight(str(path)).duration > 1  # shortened here only
+
+
+def test_the_swing_up_swings_up_and_has_limits():
+    chosen = flight(str(ROOT / "examples" / "swing-up.toml"))
+    np.testing.assert_array_equal(chosen.start.y, [0, 0, -1])
+    run = chosen.fly()
+    judged = metrics(run)
+    assert judged.success
+    assert judged.peak_force <= chosen.vehicle.rotor_limits[1] + 1e-9
+    # Negative control: the law of the paper does not, from the same start.
+    paper = ["law.name=corrected", "start.y=[0.0, 0.0, 1.0]"]  # the same pose with e₃ down
+    hanging = flight(str(ROOT / "examples" / "swing-up.toml"), paper).fly()
+    assert metrics(hanging).cause == "rod"
+
+
+def test_the_other_plant_that_the_swing_up_names_flies_as_well():
+    pytest.importorskip("mujoco")
+    assert '"mujoco" flies it in MuJoCo' in (ROOT / "examples" / "swing-up.toml").read_text(encoding="utf-8")
+    run = flight(str(ROOT / "examples" / "swing-up.toml"), ["plant=mujoco", "duration=0.1"]).fly()
+    assert run.outcome.status == "completed"
+
+
+# A law of one's own ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("direction", [0.0, 2.0, 4.0])
+def test_the_law_of_ones_own_balances_a_tilt(at_home, direction):
+    law = law_named("examples.my_law:balance")
+    tilt = np.array([np.sin(0.2) * np.cos(direction), np.sin(0.2) * np.sin(direction), np.cos(0.2)])
+    run = fp.simulate(VEHICLE, law, fp.State(y=tilt), 12.0, plant="rotors")
+    assert metrics(run).success
+    assert run.law == "balance"
+
+
+def test_the_law_of_ones_own_does_not_swing_up_as_it_says(at_home):
+    law = law_named("examples.my_law:balance")
+    assert "does not swing up" in inspect.getdoc(law.control)
+    for y in ((0, 0, -1), (np.sin(0.1), 0, -np.cos(0.1))):
+        judged = metrics(fp.simulate(VEHICLE, law, fp.State(y=y), 6.0, plant="rotors"))
+        assert judged.cause in ("rod", "diverged")
+
+
+def test_the_law_of_ones_own_is_as_short_as_it_is_said_to_be():
+    function = ast.parse((ROOT / "examples" / "my_law.py").read_text(encoding="utf-8")).body[-1]
+    assert isinstance(function, ast.FunctionDef)
+    assert function.end_lineno - function.lineno < 10  # the README says ten lines
+
+
+# The README -----------------------------------------------------------------------------------------------------------
+
+
+def blocks(language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL)
+
+
+def test_the_python_of_the_readme_runs_as_it_stands(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (code,) = blocks("python")
+    names = {}
+    exec(compile(code, "README.md", "exec"), names)
+    run = names["run"]
+    assert run.outcome.status == "completed"
+    assert metrics(run).success
+    told = capsys.readouterr().out
+    assert told.startswith("completed at 6 s ")
+    np.testing.assert_allclose(run.y[-1], [0, 0, 1], atol=0.05)
+    (saved,) = tmp_path.iterdir()
+    np.testing.assert_array_equal(fp.load(saved).y, run.y)
+
+
+def commands():
+    """Every line of flypend that the README or an example tells one to type."""
+    sources = [README, *(path.read_text(encoding="utf-8") for path in TOML + OWN)]
+    lines = [line for text in sources for line in re.findall(r"^    (flypend .*)$", text, flags=re.MULTILINE)]
+    lines += [line for text in sources for line in re.findall(r"`(flypend [^`]*)`", text)]
+    lines += [
+        line.rstrip('".') for text in sources for line in re.findall(r"^(?:#|\"\"\").*?: (flypend .*)$", text, re.M)
+    ]
+    return lines
+
+
+def parsed(line):
+    """Name and parameters of a command line, as the command itself would get them; raises what it would."""
+    _, *arguments = shlex.split(line, comments=True)
+    group = typer.main.get_command(cli.app)
+    with group.make_context("flypend", list(arguments)) as context:
+        name, command, rest = group.resolve_command(context, arguments)
+        with command.make_context(name, rest, parent=context) as inner:
+            return name, inner.params
+
+
+def test_commands_are_found():
+    found = {shlex.split(line, comments=True)[1] for line in commands()}
+    assert {"run", "compare", "ladder"} <= found
+    assert len(commands()) >= 8
+    assert any(line.startswith("flypend run examples/swing-up.toml --out") for line in commands())
+    assert any("examples.my_law:balance --law inverted --runs 20" in line for line in commands())
+
+
+@pytest.mark.parametrize("line", commands())
+def test_a_command_that_is_named_can_be_typed(at_home, line):
+    """Its options exist and take such values, its files and laws are there."""
+    name, options = parsed(line)
+    if name == "run":
+        chosen = flight(options["what"], options["override"] or ())
+        assert chosen.duration > 0
+    laws = options.get("law") or ()
+    for law in [laws] if isinstance(laws, str) else laws:
+        assert law_named(law).bound(VEHICLE)
+
+
+@pytest.mark.parametrize("line", ["flypend ladder --step 1", "flypend fly", "flypend compare --runs many"])
+def test_a_command_that_cannot_be_typed_is_noticed(line):
+    with pytest.raises(TyperException):
+        parsed(line)
+
+
+def test_the_targets_of_make_that_are_named_exist():
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), flags=re.MULTILINE))
+    named = set(
+        re.findall(
+            r"\bmake ([\w-]+)", "\n".join([*re.findall(r"^    (.*)$", README, re.M), *re.findall(r"`([^`]*)`", README)])
+        )
+    )
+    assert named
+    assert named <= targets
+
+
+DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+def test_what_a_document_links_to_exists(path):
+    text = path.read_text(encoding="utf-8")
+    links = [link.split("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link]
+    missing = [link for link in links if link and not (path.parent / link).exists()]
+    assert not missing
+    assert links or path.name != "README.md"
+
+
+def test_files_that_the_readme_names_exist():
+    named = set(re.findall(r"\b((?:docs|examples|src|tests|shared)/[\w./-]*\w)", README))
+    assert {"examples/swing-up.toml", "docs/paper/errata.md"} <= named
+    assert not [name for name in named if not (ROOT / name).exists()]

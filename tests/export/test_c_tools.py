@@ -1,0 +1,160 @@
+"""The exported files under compilers, checkers and a fuzzer, and what they cost a processor."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from cbuild import STANDINS, build, run
+
+import flypend as fp
+
+VEHICLE = fp.vehicle("hehn2011")
+LAWS = {
+    "inverted": fp.laws.inverted(),
+    "light": fp.laws.inverted(form="light"),
+    "corrected": fp.laws.corrected(),
+    "printed": fp.laws.printed(),
+    "lqr": fp.laws.lqr(),
+}
+COST = Path(__file__).parents[2] / "benchmarks" / "export_cost.py"
+SANITIZERS = ("-g", "-fsanitize=fuzzer,address,undefined,float-cast-overflow", "-fno-sanitize-recover=all")
+
+
+@pytest.fixture(scope="module")
+def exports(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("exports")
+    made = {}
+
+    def export(name, precision):
+        if (name, precision) not in made:
+            made[name, precision] = fp.export_c(
+                LAWS[name], VEHICLE, folder / f"{name}-{precision}", precision=precision
+            )
+        return made[name, precision]
+
+    return export
+
+
+@pytest.mark.parametrize(
+    ("compiler", "name", "precision"),
+    [
+        ("gcc", "inverted", "float"), ("gcc", "printed", "float"), ("gcc", "lqr", "double"), ("gcc", "light", "double"),
+        ("clang", "inverted", "double"), ("clang", "corrected", "float"), ("clang", "lqr", "float"),
+    ],
+)  # fmt: skip
+def test_it_compiles_without_a_warning_and_gives_the_numbers_of_python(exports, compiler, name, precision):
+    folder = exports(name, precision)
+    program = build(folder, ("flypend_law.c", "flypend_test.c"), f"test-{compiler}", compiler)
+    assert "100 vectors" in run([str(program)])
+
+
+def test_a_wrong_number_in_the_vectors_is_found(exports, tmp_path):
+    folder = exports("corrected", "double")
+    text = (folder / "flypend_vectors.h").read_text()
+    start = text.index("{{0.", text.index("flypend_vectors[]")) if "{{0." in text else text.index("flypend_vectors[]")
+    number = re.compile(r"\d\.\d{6}").search(text, start)
+    (tmp_path / "flypend_vectors.h").write_text(
+        text[: number.start()] + f"{float(number[0]) + 1e-3:.6f}" + text[number.end() :]
+    )
+    for name in ("flypend_law.h", "flypend_law.c", "flypend_test.c"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    program = build(tmp_path, ("flypend_law.c", "flypend_test.c"), "test")
+    assert run([str(program)], check=False).returncode == 1
+
+
+def test_cmake_builds_it_and_ctest_passes(exports):
+    folder = exports("corrected", "double")
+    run(["cmake", "-S", ".", "-B", "build", "-DCMAKE_C_FLAGS=-Werror"], folder)
+    run(["cmake", "--build", "build"], folder)
+    assert "100% tests passed" in run(["ctest", "--test-dir", "build"], folder)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_the_only_function_of_the_library_is_the_square_root(exports, precision):
+    folder = exports("inverted", precision)
+    build(folder, ("flypend_law.c",), "law.o", flags=("-c", "-fno-stack-protector"))
+    undefined = {line.split()[-1] for line in run(["nm", "-u", "law.o"], folder).splitlines()}
+    root = "sqrt" if precision == "double" else "sqrtf"
+    assert root in undefined
+    assert undefined <= {root, "memcpy", "memset", "_GLOBAL_OFFSET_TABLE_"}
+    source = (folder / "flypend_law.c").read_text()
+    loops = re.findall(r"\b(?:for|while|do|goto)\b[^{;]*;[^;]*;", source)
+    assert loops
+    assert all(re.search(r"i < (?:count|3|FLYPEND_ROTORS);", loop) for loop in loops)
+
+
+def test_cppcheck_is_quiet(exports):
+    folder = exports("corrected", "float")
+    sources = ("flypend_law.c", "flypend_test.c", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c")
+    checks = ("--std=c99", "--enable=warning,style,performance,portability", "--error-exitcode=1", "--quiet")
+    includes = ("-I.", f"-I{STANDINS / 'crazyflie'}", "--suppress=missingIncludeSystem")
+    run(["cppcheck", *checks, *includes, *sources], folder)
+
+
+def test_cppcheck_would_speak(tmp_path):
+    (tmp_path / "bad.c").write_text("int f(int *p);\nint f(int *p)\n{\n    int a[2];\n    return a[2] + *p;\n}\n")
+    assert run(["cppcheck", "--error-exitcode=1", "--quiet", "bad.c"], tmp_path, check=False).returncode == 1
+
+
+def _fuzzer(folder, source="flypend_law.c"):
+    return build(folder, (source, "flypend_fuzz.c"), f"fuzz-{source}", "clang", SANITIZERS)
+
+
+@pytest.mark.parametrize("precision", ["float", "double"])
+def test_no_bits_make_an_output_that_is_not_finite(exports, precision):
+    fuzzer = _fuzzer(exports("inverted", precision))
+    run([str(fuzzer), "-seed=1", "-runs=40000", "-max_len=2048"])
+
+
+def test_the_fuzzer_finds_a_law_without_its_last_check(exports):
+    folder = exports("inverted", "float")
+    source = (folder / "flypend_law.c").read_text()
+    assert "return finite_wrench(wrench) ? FLYPEND_OK : FLYPEND_SINGULAR;" in source
+    weak = source.replace("return finite_wrench(wrench) ? FLYPEND_OK : FLYPEND_SINGULAR;", "return FLYPEND_OK;")
+    (folder / "weak.c").write_text(weak)
+    done = run([str(_fuzzer(folder, "weak.c")), "-seed=1", "-runs=400000", "-max_len=2048"], folder, check=False)
+    assert done.returncode != 0
+
+
+EVERY = [(name, precision) for name in LAWS for precision in ("float", "double")]
+FIRST = ("inverted", "float")  # what flies; the others are slow together
+
+
+@pytest.mark.parametrize(
+    ("name", "precision"), [pytest.param(*pair, marks=[] if pair == FIRST else pytest.mark.slow) for pair in EVERY]
+)
+def test_a_minute_of_fuzzing_and_cppcheck_for_every_law(exports, name, precision):
+    folder = exports(name, precision)
+    run([str(_fuzzer(folder)), "-max_total_time=60", "-max_len=2048"])
+    checks = ("--std=c99", "--enable=warning,style,performance,portability", "--error-exitcode=1", "--quiet")
+    run(["cppcheck", *checks, "flypend_law.c"], folder)
+
+
+def test_the_goals_of_cost_are_met():
+    # 25 microseconds on a desktop core; a fifth of an STM32F405 at 500 Hz, 2 KB of stack, 32 KB of code.
+    text = run([sys.executable, str(COST), "--law", "inverted"])
+    head, double, single = (line.split() for line in text.splitlines())
+    at = {name: place for place, name in enumerate(head)}
+    assert 0.05 < float(double[at["us"]]) < 25
+    assert 2 < float(single[at["M4%"]]) < 20
+    assert 8_000 < int(single[at["text"]]) < 32_000
+    assert 100 < int(single[at["stack"]]) < 2_000
+    assert 1_000 < int(single[at["instr"]]) < 10_000
+
+
+def test_the_corrected_law_takes_less_than_three_microseconds():
+    spec = importlib.util.spec_from_file_location("export_cost", COST)
+    cost = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(cost)
+    assert 0.01 < cost.microseconds(LAWS["corrected"], VEHICLE, "double") < 3
+    # The timings of the manual that the cycles are made of.
+    assert [cost.cost(*line) for line in (("vdiv.f32", "s1, s2, s3"), ("vldr", "s0, [r1]"), ("bne.n", "12 <x>"))] == [
+        14,
+        2,
+        3,
+    ]
+    assert cost.cost("push", "{r4, r5, lr}") == 4
+    assert cost.cost("vpush", "{d8-d15}") == 17
+    assert cost.cost("vadd.f32", "s1, s2, s3") == cost.cost("vmul.f32", "s1, s2, s3") == cost.cost("it", "mi") == 1

@@ -1,0 +1,363 @@
+"""The exported law against the Python one: numbers, flights, refusals, and what does not depend on the export."""
+
+import os
+import subprocess
+import sys
+
+import casadi as ca
+import numpy as np
+import pytest
+from numpy.random import default_rng
+
+import flypend as fp
+from flypend.export import compiled, records, vectors
+from flypend.export.interface import interface
+from flypend.export.library import library
+from flypend.laws import Control, Law
+from flypend.laws.references import circle, lemniscate
+from flypend.laws.throw import derivatives
+from flypend.model import Wrench
+from flypend.model.allocation import allocate
+
+VEHICLE = fp.vehicle("hehn2011")
+INVERTED = fp.laws.inverted().bound(VEHICLE)
+LAWS = {
+    "inverted": INVERTED,
+    "light": fp.laws.inverted(form="light").bound(VEHICLE),
+    "corrected": fp.laws.corrected(),
+    "printed": fp.laws.printed(),
+    "lqr": fp.laws.lqr().bound(VEHICLE),
+}
+OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR = range(7)
+
+
+def _apart(found, wanted, scale):
+    """Largest difference of rows over their length, or `scale` if that is more."""
+    size = np.maximum(np.linalg.norm(wanted, axis=1), scale)
+    return float(np.max(np.linalg.norm(found - wanted, axis=1) / size))
+
+
+# Numbers --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("name", ["inverted", "light", "corrected", "lqr"])
+def test_100_000_random_states_agree_with_python(name, precision):
+    law, count = LAWS[name], 100_000 // 4
+    thrust_scale, moment_scale = vectors.scales(VEHICLE)
+    limit = 1e-12 if precision == "double" else 1e-4
+    for seed in range(4) if name == "inverted" else (0,):
+        wanted = vectors.vectors(law, VEHICLE, count, seed, precision)
+        wrench, rotors, status = library(law, VEHICLE, precision).step(wanted.state, wanted.reference)
+        assert not np.any(status)
+        assert _apart(wrench[:, :1], wanted.wrench[:, :1], thrust_scale) < limit
+        assert _apart(wrench[:, 1:], wanted.wrench[:, 1:], moment_scale) < limit
+        assert _apart(rotors, wanted.rotors, thrust_scale) < limit
+        # Far from constant: the law is in use over all of its range.
+        assert np.ptp(wanted.wrench[:, 1]) > 1e-2 * moment_scale
+
+
+def test_the_vectors_are_the_law_of_python_along_a_reference():
+    # `vectors` and the C code share their streamed reference; here Python has the reference as a function of time.
+    reference, t = lemniscate(0.4, 1.1, center=(0.1, 0.2, 0.3)), ca.SX.sym("t")
+    x = reference(t)
+    orders = ca.Function("x", [t], [ca.densify(ca.vertcat(x, *derivatives(x, t, records.PATH_ORDERS - 1)))])
+    packed, F = ca.SX.sym("s", 24), ca.SX.sym("F", 6)
+    states, _ = vectors.random_inputs(VEHICLE, 20, 4, "double")
+    for law, make in (
+        (fp.laws.inverted(reference), fp.laws.inverted()),
+        (fp.laws.lqr(reference=reference), fp.laws.lqr()),
+    ):
+        control = law.bound(VEHICLE).evaluate(t, fp.State.symbolic(packed), VEHICLE, (F[:3], F[3:])).wrench
+        python = ca.Function("law", [t, packed, F], [ca.vertcat(control.thrust, control.moment)])
+        code = library(make.bound(VEHICLE), VEHICLE, "double")
+        for time, state in zip(np.linspace(0, 5, 20), states, strict=True):
+            state = state if law.name == "inverted" else np.concatenate([state[:24], np.zeros(6)])
+            wrench, _, status = code.step(state, code.follow(np.array(orders(time)).ravel(), state))
+            wanted = np.array(python(time, state[:24], state[24:])).T
+            assert status[0] == OK
+            assert _apart(wrench, wanted, 1.0) < 1e-11  # of eighth derivatives
+
+
+def test_vehicle_and_gains_are_inputs_at_run_time(monkeypatch):
+    other = VEHICLE.replace(
+        mass=0.7, bob_mass=0.08, rod_length=0.4, inertia=(4e-3, 3e-3, 6e-3), rotor_limits=(0.1, 5.0)
+    )
+    law = fp.laws.inverted(rod_damping=0.5, coast_time=0.04).bound(other)
+    wanted = vectors.vectors(law, other, 200, 2, "double")
+    code = library(INVERTED, VEHICLE, "double")  # compiled for another vehicle and other gains
+    assert np.max(np.abs(code.step(wanted.state, wanted.reference)[0] - wanted.wrench)) > 0.1
+    monkeypatch.setattr(code, "params", records.params_of(other))
+    monkeypatch.setattr(code, "gains", np.array([law.numbers[field.name] for field in code.made.gains.fields]))
+    wrench, rotors, status = code.step(wanted.state, wanted.reference)
+    assert not np.any(status)
+    assert _apart(wrench, wanted.wrench, 1.0) < 1e-12
+    assert _apart(rotors, wanted.rotors, 1.0) < 1e-12
+
+
+def test_six_rotors_and_a_full_inertia_matrix():
+    angles = np.deg2rad([30, 90, 150, 210, 270, 330])
+    vehicle = VEHICLE.replace(
+        inertia=((4e-3, 2e-4, -1e-4), (2e-4, 5e-3, 3e-4), (-1e-4, 3e-4, 7e-3)),
+        rotor_positions=np.stack([0.2 * np.cos(angles), 0.2 * np.sin(angles), 0 * angles], axis=1),
+        rotor_spins=(1, -1, 1, -1, 1, -1),
+    )
+    for law in (fp.laws.inverted().bound(vehicle), fp.laws.corrected(yaw_damping=2.0)):
+        wanted = vectors.vectors(law, vehicle, 200, 2, "double")
+        wrench, rotors, status = library(law, vehicle, "double").step(wanted.state, wanted.reference)
+        assert not np.any(status)
+        assert rotors.shape == (200, 6)
+        assert _apart(wrench, wanted.wrench, 1.0) < 1e-12
+        assert _apart(rotors, wanted.rotors, 1.0) < 1e-12
+
+
+def test_mixing_keeps_limits_and_priority_for_any_wrench():
+    thrust, moment = ca.SX.sym("T"), ca.SX.sym("tau", 3)
+    python = ca.Function("mix", [thrust, moment], [allocate(thrust, moment, VEHICLE)])
+    code, rng = library(INVERTED, VEHICLE, "double"), default_rng(3)
+    for _ in range(500):
+        wrench = rng.normal(size=4) * [10.0, 1.0, 1.0, 0.1] * np.exp(rng.uniform(-3, 3))
+        rotors = np.empty(4)
+        assert code._call("flypend_mix", wrench, code.params, rotors) == OK
+        assert np.allclose(rotors, np.array(python(wrench[0], wrench[1:])).ravel(), rtol=1e-13, atol=1e-13)
+
+
+def test_lead_within_limits_and_the_model_of_the_rotors():
+    code, rng = library(INVERTED, VEHICLE, "double"), default_rng(4)
+    low, high = VEHICLE.rotor_limits
+    wanted, modelled = rng.uniform(low, high, (2, 4))
+    assert np.allclose(code.lead(wanted, modelled, 2.1), np.clip(modelled + 2.1 * (wanted - modelled), low, high))
+    share = 1 - np.exp(-0.002 / VEHICLE.rotor_lag)  # as the header says, it moves the model on as well
+    assert np.allclose(code.lead(wanted, modelled, share), wanted + (1 - share) * (modelled - wanted))
+
+
+# Refusals -------------------------------------------------------------------------------------------------------
+
+
+def _valid():
+    state, reference = vectors.random_inputs(VEHICLE, 1, 7, "double")
+    return state[0], reference[0]
+
+
+def _broken(name):
+    state, reference = _valid()
+    places = {field.name: place for field, place in records.STATE.places()}
+    match name:
+        case "not finite":
+            state[places["omega"]] = [0, np.nan, 0]
+        case "infinite reference":
+            reference[4] = np.inf
+        case "y is long":
+            state[places["y"]] *= 1.0002
+        case "y_dot is not tangent":
+            state[places["y_dot"]] += 3e-3 * state[places["y"]]
+        case "R is mirrored":
+            state[places["R"]] *= -1
+        case "R is scaled":
+            state[places["R"]] *= 1.0002
+        case "R is zero":
+            state[places["R"]] = 0
+        case "overflow":
+            state[places["omega"]] = 1e200
+    return state, reference
+
+
+@pytest.mark.parametrize(
+    ("name", "status"),
+    [
+        ("nothing", OK), ("not finite", NOT_FINITE), ("infinite reference", NOT_FINITE), ("y is long", ROD),
+        ("y_dot is not tangent", ROD), ("R is mirrored", ATTITUDE), ("R is scaled", ATTITUDE), ("R is zero", ATTITUDE),
+        ("overflow", SINGULAR),
+    ],
+)  # fmt: skip
+def test_a_bad_input_is_answered_with_its_status_and_the_safe_wrench(name, status):
+    code = library(INVERTED, VEHICLE, "double")
+    wrench, _, found = code.step(*_broken(name))
+    assert found[0] == status
+    safe = np.array_equal(wrench[0], [4 * VEHICLE.rotor_limits[0], 0, 0, 0])
+    assert safe == (status != OK)
+
+
+def test_what_state_rounds_is_accepted():
+    state, reference = _valid()
+    state[18:21] *= 1 + 0.9e-4
+    assert library(INVERTED, VEHICLE, "double").step(state, reference)[2][0] == OK
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "status"),
+    [
+        ("mass", 0.0, PARAMS), ("rod_length", -1.0, PARAMS), ("inertia", 0.0, PARAMS), ("gravity", -1.0, PARAMS),
+        ("rotor_least", 9.0, PARAMS), ("rotor_least", -0.1, PARAMS), ("bob_mass", np.nan, NOT_FINITE),
+        ("rotor_largest", np.inf, NOT_FINITE),
+    ],
+)  # fmt: skip
+def test_params_out_of_range_stop_the_rotors(monkeypatch, name, value, status):
+    code = library(INVERTED, VEHICLE, "double")
+    place = {field.name: place for field, place in code.made.params.places()}[name]
+    monkeypatch.setattr(code, "params", code.params.copy())
+    code.params[place] = value
+    wrench, rotors, found = code.step(*_valid())
+    assert found[0] == status
+    assert np.array_equal(wrench[0], np.zeros(4))
+    assert code._call("flypend_mix", np.ones(4), code.params, rotors) == status
+    assert np.array_equal(rotors[0], np.zeros(4))
+
+
+def test_gains_that_are_not_finite_and_null_pointers_are_refused(monkeypatch):
+    code = library(INVERTED, VEHICLE, "double")
+    monkeypatch.setattr(code, "gains", code.gains.copy())
+    code.gains[3] = np.nan
+    assert code.step(*_valid())[2][0] == NOT_FINITE
+    functions = (("flypend_step", 5), ("flypend_mix", 3), ("flypend_follow", 4))
+    for name, arguments in functions:
+        assert code._call(name, *[0] * arguments) == NULL
+        out = np.full(30, np.nan)
+        assert code._call(name, *[0] * (arguments - 1), out) == NULL
+        assert np.any(np.isfinite(out))
+    assert code._call("flypend_lead", 0, 0, 1.0, 0, 0) == NULL
+
+
+# Flights --------------------------------------------------------------------------------------------------------
+
+START = fp.State.random(default_rng(3))
+
+
+def _same(one, other):
+    assert str(one.outcome) == str(other.outcome)
+    pairs = (
+        (getattr(one, name), getattr(other, name))
+        for name in ("x", "x_dot", "R", "omega", "y", "y_dot", "rotor_forces")
+    )
+    return max(float(np.max(np.abs(a - b))) for a, b in pairs)
+
+
+@pytest.mark.parametrize(
+    ("law", "plant"),
+    [
+        (fp.laws.inverted(), "mujoco"),
+        (fp.laws.inverted(circle(0.5, 1.5), form="light"), "rotors"),
+        (
+            fp.laws.inverted(),
+            fp.Plant(wind=fp.Wind(on_vehicle=(0.3, 0, 0), on_bob=(0, 0.1, 0)), rate=200.0, delay=0.01),
+        ),
+        (fp.laws.corrected(), "rotors"),
+    ],
+)
+def test_the_compiled_law_flies_as_the_python_one(law, plant):
+    python = fp.simulate(VEHICLE, law, START, 4.0, plant=plant)
+    flown = fp.simulate(VEHICLE, compiled(law, VEHICLE), START, 4.0, plant=plant)
+    assert _same(python, flown) < 1e-9
+    assert flown.law == f"{law.name}-c"
+
+
+def test_single_precision_inverts_as_well():
+    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), START, 4.0, plant="mujoco")
+    python = fp.simulate(VEHICLE, fp.laws.inverted(), START, 4.0, plant="mujoco")
+    assert 1e-9 < _same(python, run) < 1e-3  # another precision, the same flight
+    assert np.max(np.abs(run.y[-20:] - [0, 0, 1])) < 0.05
+
+
+def test_a_refused_state_ends_a_flight_as_singular():
+    start = fp.State(y=(0, 0, 1), omega=(1e20, 1e20, 0))  # ω × I ω overflows single precision
+    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), start, 0.1, plant="rotors")
+    assert run.outcome.status == "singular"
+
+
+def test_the_compiled_law_needs_rotors_within_limits_and_its_vehicle():
+    flown = compiled(fp.laws.inverted(), VEHICLE)
+    for plant in ("ideal", "hehn2011", fp.Plant(limits=False)):
+        with pytest.raises(fp.InputError, match="plant: expected rotor forces within limits"):
+            fp.simulate(VEHICLE, flown, START, 0.1, plant=plant)
+    with pytest.raises(fp.InputError, match="vehicle: expected hehn2011, which the law was compiled for"):
+        fp.simulate(VEHICLE.replace(mass=1.0), flown, START, 0.1, plant="rotors")
+    with pytest.raises(fp.InputError, match="law: expected a Law"):
+        compiled(flown, VEHICLE)
+
+
+def test_without_a_compiler_there_is_one_line(monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    with pytest.raises(fp.InputError, match="controller: expected a C compiler called cc"):
+        library.__wrapped__(INVERTED, VEHICLE, "double")
+
+
+# Export ---------------------------------------------------------------------------------------------------------
+
+
+def test_the_same_export_twice_is_byte_equal(tmp_path):
+    # In processes of their own, with other hashes, so that no order of a set can decide.
+    command = [sys.executable, "-m", "flypend", "export-c", "--law", "inverted", "--precision", "float", "-o"]
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        subprocess.run([*command, str(tmp_path / seed)], check=True, env=environment, capture_output=True)
+    names = sorted(path.relative_to(tmp_path / "1") for path in (tmp_path / "1").rglob("*") if path.is_file())
+    assert {"flypend_law.c", "flypend_law.h", "flypend_vectors.h", "README.md", "CMakeLists.txt"} <= set(
+        map(str, names)
+    )
+    for name in names:
+        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes(), name
+    everything = b"".join((tmp_path / "1" / name).read_bytes() for name in names if "README" not in str(name))
+    assert everything.isascii()
+
+
+def _own(control, **more):
+    return Law(name="own", e3="up", control=control, **more)
+
+
+def test_what_cannot_be_exported_is_refused_and_nothing_is_written(tmp_path):
+    asymmetric = VEHICLE.replace(rotor_positions=[[0.2, 0, 0], [0, 0.17, 0], [-0.17, 0, 0], [0, -0.17, 0]])
+    hover = Wrench(VEHICLE.weight, ca.SX.zeros(3))
+    cases = [
+        (_own(lambda t, s, v, k: Wrench(ca.sin(s.x[2]), ca.SX.zeros(3))), VEHICLE, "square root, got sin"),
+        (_own(lambda t, s, v, k: Wrench(t, ca.SX.zeros(3))), VEHICLE, "one that does not depend on time"),
+        (_own(lambda t, s, v, k: Wrench(float(v.M), ca.SX.zeros(3))), VEHICLE, "for a vehicle of symbols"),
+        (fp.Controller(name="python", function=lambda t, s: hover), VEHICLE, "law: expected a Law"),
+        (fp.laws.inverted(), asymmetric, "rotors that share thrust and yaw equally"),
+        (fp.laws.inverted(), "hehn2011", "vehicle: expected a Vehicle"),
+    ]
+    for law, vehicle, words in cases:
+        with pytest.raises(fp.InputError, match=words):
+            fp.export_c(law, vehicle, tmp_path / "out")
+    with pytest.raises(fp.InputError, match="precision: expected one of double, float"):
+        fp.export_c(fp.laws.inverted(), VEHICLE, tmp_path / "out", precision="half")
+    with pytest.raises(fp.InputError, match="a folder that can be written"):
+        fp.export_c(fp.laws.inverted(), VEHICLE, tmp_path / "no" / "such" / "folder")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_law_of_ones_own_is_exported():
+    def control(t, state, vehicle, k):
+        return Control(wrench=Wrench(k.stiffness * (1 - state.x[2]) + vehicle.weight, -k.damping * state.omega))
+
+    law = _own(control, gains={"stiffness": 3.0, "damping": 0.1, "unused": 1.0, "kind": "plain"})
+    made = interface(law, VEHICLE)
+    assert [field.name for field in made.gains.fields] == ["stiffness", "damping"]
+    assert not made.follows
+    state, reference = _valid()
+    wrench, _, status = library(law, VEHICLE, "double").step(state, reference)
+    assert status[0] == OK
+    assert np.allclose(wrench[0], [3 * (1 - state[2]) + VEHICLE.weight, *(-0.1 * state[15:18])])
+
+
+def test_only_what_a_law_reads_is_asked_for():
+    made = {name: interface(law, VEHICLE) for name, law in LAWS.items()}
+    assert {name: m.follows for name, m in made.items()} == {
+        "inverted": True, "light": True, "corrected": False, "printed": False, "lqr": True
+    }  # fmt: skip
+    assert {"rod_damping", "coast_time"} <= {field.name for field in made["inverted"].gains.fields}
+    assert not {"lead", "latency", "observer"} & {field.name for field in made["inverted"].gains.fields}
+    assert [field.name for field in made["lqr"].gains.fields] == ["none"]  # its gain matrix is constant
+    # Two gains decide how much there is to compute, and of one the law takes a cosine, which C code has not.
+    constant = ("thrust_coast_share", "pump_share", "tilt_limit")
+    assert made["inverted"].constant == constant
+    assert not set(constant) & {field.name for field in made["inverted"].gains.fields}
+
+
+def test_the_light_form_is_light_and_inverts():
+    cost = {name: sum(interface(LAWS[name], VEHICLE).step.counts().values()) for name in ("inverted", "light")}
+    assert cost["light"] < 0.8 * cost["inverted"]
+    starts = fp.State.random(default_rng(11), 5)
+    runs = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(form="light"), starts, 6.0, plant="rotors", workers=1)
+    assert runs.rate == 1.0
+    with pytest.raises(fp.InputError, match="form: expected one of full, light"):
+        fp.laws.inverted(form="heavy")

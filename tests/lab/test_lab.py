@@ -1,0 +1,569 @@
+"""The laboratory without a browser: flights with gains as inputs, pokes, exports, maps, and the server."""
+
+import asyncio
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.websocket import websocket_connect
+
+import flypend as fp
+from flypend.errors import InputError
+from flypend.geometry import cross, dot
+from flypend.lab.controls import GAINS, offer, sliders
+from flypend.lab.export import python, toml
+from flypend.lab.flying import fly, poked, verdict
+from flypend.lab.map import directions, region
+from flypend.lab.server import LARGEST_MESSAGE, Laboratory
+from flypend.lab.session import Slot, flights, read
+from flypend.lab.setting import Poke, setting_of
+from flypend.lab.tuning import tuned
+from flypend.settings.runfile import flight
+
+OFFER = offer()
+START = {"x": [0.2, -0.1, 0.3], "y": [0.6, 0.0, 0.8], "y_dot": [0.4, 0.2, -0.3], "omega": [0.3, -0.2, 0.1]}
+
+
+def asked(law="inverted", plant="ideal", gains=None, **more):
+    base = {"base": plant} if isinstance(plant, str) else plant
+    return (
+        OFFER["first"]
+        | {"law": {"name": law, "gains": gains or {}}, "plant": base, "start": START, "duration": 2.0}
+        | more
+    )
+
+
+# Flights ------------------------------------------------------------------------------------------------------------
+
+CASES = [
+    asked(gains={"rod_bandwidth": 8.5, "throw_speed": 1.7}),
+    asked("lqr", gains={"rod_error": 0.1, "moment_deviation": 0.3}),
+    asked("corrected", gains={"k_1": 7.0}, vehicle={"base": "nayak2018"}),
+    asked(plant="rotors", gains={"attitude_bandwidth": 17.0}),
+    asked("lqr", plant="hehn2011", gains={"rod_error": 0.1}),
+    asked(
+        plant={"base": "rotors", "lag": 0.03, "wind": {"on_vehicle": [0.4, 0, 0]}, "noise": {"x": 1e-3, "y": 2e-3}},
+        vehicle={"base": "hehn2011", "rotor_limits": [0.08, 3.0]},
+    ),
+]
+
+
+@pytest.mark.parametrize("case", CASES, ids=range(len(CASES)))
+def test_the_flight_is_the_one_that_simulate_and_both_exports_make(case, tmp_path):
+    setting = setting_of(case)
+    run = fly(setting)
+    path = tmp_path / "flight.toml"
+    path.write_text(toml(setting), encoding="utf-8")
+    by_file, names = flight(str(path)).fly(), {}
+    exec(python(setting), names)
+    assert run.gains == dict(names["run"].gains) == dict(by_file.gains)
+    for other in (by_file, names["run"]):
+        assert run.e3 == other.e3
+        np.testing.assert_array_equal(run.t, other.t)
+        for name in ("x", "R", "y"):  # gains in the code or beside it: another order of roundings, 2 s of growth
+            np.testing.assert_allclose(getattr(run, name), getattr(other, name), atol=1e-6, err_msg=name)
+        np.testing.assert_allclose(run.rotor_forces, other.rotor_forces, atol=1e-4)
+    np.testing.assert_array_equal(by_file.y, names["run"].y)
+
+
+def test_a_gain_changes_the_flight_and_compiles_nothing():
+    told = []
+    first = fly(setting_of(asked(gains={"rod_bandwidth": 7.0})), lambda: told.append(1))
+    told.clear()
+    second = fly(setting_of(asked(gains={"rod_bandwidth": 9.0})), lambda: told.append(1))
+    assert told == []
+    assert np.abs(first.x - second.x).max() > 0.01
+    fly(setting_of(asked(vehicle={"base": "hehn2011", "rotor_limits": [0.08, 3.0 + 1e-3]})), lambda: told.append(1))
+    assert told == [1]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"lag": 0.05}, {"lag": 0.0}, {"noise": {"x": 3e-3, "y": 6e-3}}, {"wind": {"on_vehicle": [-0.3, 0, 0.2]}}],
+    ids=str,
+)
+def test_lag_noise_and_wind_change_the_flight_and_compile_nothing(change):
+    told, plant = [], CASES[-1]["plant"]
+    first = fly(setting_of(asked(plant=plant)))
+    second = fly(setting_of(asked(plant=plant | change)), lambda: told.append(1))
+    assert told == []
+    assert np.abs(first.x - second.x).max() > 1e-3
+
+
+@pytest.mark.parametrize("law", GAINS)
+def test_a_start_is_the_same_pose_for_every_law(law):
+    run = fly(setting_of(asked(law, duration=0.05)))
+    up = run if run.e3 == "up" else run.flipped()
+    np.testing.assert_allclose(up.y[0], START["y"], atol=1e-12)
+    np.testing.assert_allclose(up.x[0], START["x"], atol=1e-12)
+    np.testing.assert_allclose(up.omega[0], START["omega"], atol=1e-12)
+
+
+def test_presets_are_the_experiments_of_the_paper():
+    for name, preset in OFFER["experiments"].items():
+        mine, papers = setting_of(preset).flight, fp.experiments.experiment(name)
+        np.testing.assert_allclose(mine.start.packed(), papers.start.packed(), atol=1e-12)
+        assert {key: mine.law.gains[key] for key in papers.gains} == papers.gains
+        assert (mine.vehicle, mine.duration, mine.law.name) == (papers.vehicle, papers.duration, "corrected")
+
+
+def test_a_random_start_is_its_seed():
+    starts = [setting_of(asked(start={"random": seed})).start.packed() for seed in (3, 3, 4)]
+    np.testing.assert_array_equal(starts[0], starts[1])
+    assert np.abs(starts[0] - starts[2]).max() > 0.1
+
+
+def test_the_verdict_names_what_the_law_is_to_do():
+    setting = setting_of(asked(duration=6.0))
+    told = verdict(fly(setting), tuned(setting.flight))
+    judged = fp.metrics.metrics(fly(setting))
+    assert told["good"] is judged.success is True
+    assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
+    preset = setting_of(OFFER["experiments"]["5"])
+    told = verdict(fly(preset), tuned(preset.flight))
+    assert "which hangs" in told["words"]
+    assert "upright" not in told["words"]
+    singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
+    assert verdict(fly(singular), tuned(singular.flight))["words"].startswith("singular after ")
+
+
+# Pokes --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("on", ["bob", "vehicle"])
+@pytest.mark.parametrize("e3", ["up", "down"])
+def test_a_blow_obeys_the_laws_of_impact(on, e3):
+    vehicle, state = fp.vehicle("hehn2011"), fp.State.random(np.random.default_rng(3))
+    velocity = np.array([0.7, -1.1, 0.4])
+    seen = velocity if e3 == "up" else velocity * [1, -1, -1]
+    hit = poked(state, vehicle, e3, Poke(1.0, on, velocity))
+    jump, swing = hit.x_dot - state.x_dot, hit.y_dot - state.y_dot
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    blow = (m if on == "bob" else M) * seen
+    np.testing.assert_allclose(M * jump + m * (jump + l * swing), blow, atol=1e-12)  # momentum
+    assert abs(dot(state.y, swing)) < 1e-12  # the rod keeps its length
+    other = M * jump if on == "bob" else m * (jump + l * swing)  # the other body is pulled along the rod only
+    assert np.linalg.norm(cross(state.y, other)) < 1e-12
+    assert np.linalg.norm(other) > 1e-3
+    for name in ("x", "R", "omega", "y"):
+        np.testing.assert_allclose(getattr(hit, name), getattr(state, name), atol=1e-14)
+
+
+@pytest.mark.parametrize("plant", ["ideal", "rotors"])
+def test_a_poke_keeps_what_was_before_and_changes_what_comes_after(plant):
+    before = fly(setting_of(asked(plant=plant)))
+    run = fly(setting_of(asked(plant=plant, pokes=[{"time": 1.0, "on": "bob", "velocity": [0.8, 0, 0]}])))
+    past = run.t < 1.0 - 1e-9
+    assert past.sum() == 100
+    np.testing.assert_array_equal(run.t[past], before.t[:100])
+    np.testing.assert_allclose(run.packed[past], before.packed[:100], atol=1e-9)
+    place = int(np.argmin(np.abs(run.t - 1.0)))
+    assert run.t[place] == pytest.approx(1.0)
+    np.testing.assert_allclose(run.y[place], before.y[100], atol=1e-7)  # poses do not jump, rates do
+    assert np.abs(run.y_dot[place] - before.y_dot[100]).max() > 0.5
+    assert run.t[-1] == pytest.approx(3.0)  # it goes on for its duration
+    assert np.all(np.diff(run.t) > 0)
+
+
+def test_a_poke_of_nothing_changes_nothing():
+    nothing = [{"time": 1.5, "on": "vehicle", "velocity": [0, 0, 0]}]
+    for plant, least in (("ideal", 1e-6), ("rotors", 0.02)):  # m; the computer begins anew
+        alone, hit = fly(setting_of(asked(plant=plant))), fly(setting_of(asked(plant=plant, pokes=nothing)))
+        times = np.linspace(1.51, 1.99, 20)
+        for k in range(3):
+            along = np.interp(times, alone.t, alone.x[:, k]) - np.interp(times, hit.t, hit.x[:, k])
+            assert np.abs(along).max() < least + 2e-4  # linear between samples
+
+
+def test_rotors_go_on_turning_through_a_poke():
+    run = fly(setting_of(asked(plant="rotors", pokes=[{"time": 1.5, "on": "bob", "velocity": [0.1, 0, 0]}])))
+    jumps = np.abs(np.diff(run.rotor_forces, axis=0)).max(axis=1)
+    place = int(np.argmin(np.abs(run.t - 1.5)))
+    assert run.rotor_forces[place].min() > 3 * run.vehicle.rotor_limits[0]
+    assert jumps[place - 1] < 0.6
+
+
+# What is refused ----------------------------------------------------------------------------------------------------
+
+WRONG = [
+    (None, "setting"),
+    ([], "setting"),
+    (asked() | {"experiment": "1"}, "experiment"),
+    (asked() | {"rtol": 1e-300}, "rtol"),
+    (asked("inverse"), "law.name"),
+    (asked(gains={"rod_bandwith": 1}), "law.gains.rod_bandwith"),
+    (asked(gains={"rod_bandwidth": float("nan")}), "law.gains.rod_bandwidth"),
+    (asked(gains={"rod_bandwidth": 60.0}), "law.gains.bandwidths"),
+    (asked(gains={"rod_bandwidth": 1e9}), "law.gains.rod_bandwidth"),
+    (asked("lqr", gains={"rod_error": 1e-300}), "law.gains.rod_error"),
+    (asked(gains={"latency": 1e9}), "law.gains.latency"),
+    (asked(start={"y": [0, 0, 1], "omega": [1e5, 0, 0]}), "start.omega"),
+    (asked(start={"y": [0, 0, 1], "x": [1e300, 0, 0]}), "start.x"),
+    (asked(gains={"rod_bandwidth": [1, 2]}), "law.gains.rod_bandwidth"),
+    (asked(plant="mujoco"), "plant.engine"),
+    (asked(plant={"base": "rotors", "rate": 1e9}), "plant.rate"),
+    (asked(plant={"base": "rotors", "engine": "mujoco"}), "plant.engine"),
+    (asked(plant={"base": "rotors", "lag": -1}), "plant.lag"),
+    (asked(vehicle="secret.toml"), "vehicle"),
+    (asked(vehicle={"base": "hehn2011", "rotor_positions": [[0, 0, 0]] * 4}), "vehicle.rotor_positions"),
+    (asked(duration=1e9), "duration"),
+    (asked(duration="long"), "duration"),
+    (asked(start={"y": [0, 0, 0]}), "start.|y|"),
+    (asked(start={"y": [0, 0, 1], "R": [[1, 0, 0]] * 3}), "start.R"),
+    (asked(start={"random": -1}), "start.random"),
+    (asked(start=None), "start"),
+    (asked(pokes=[{"time": 1, "on": "moon", "velocity": [0, 0, 1]}]), "pokes.on"),
+    (asked(pokes=[{"time": 1, "on": "bob", "velocity": [0, 0, 1e9]}]), "pokes.velocity"),
+    (asked(pokes=[{"time": 1, "on": "bob", "velocity": [0, 0, 1]}] * 2), "pokes.time"),
+    (asked(pokes=[{"time": 0, "on": "bob", "velocity": [0, 0, 1]}] * 99), "pokes"),
+    (asked(pokes={}), "pokes"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "field"), WRONG, ids=range(len(WRONG)))
+def test_a_wrong_setting_is_refused_in_one_line(wrong, field):
+    with pytest.raises(InputError) as caught:
+        setting_of(wrong)
+    assert caught.value.field == field
+    assert "\n" not in str(caught.value)
+    [reply] = flights({"number": 7, "setting": wrong}, lambda: None)
+    assert (reply["kind"], reply["number"], reply["field"]) == ("error", 7, field)
+
+
+def test_every_slider_can_be_put_where_it_says():
+    for law in GAINS:
+        setting = asked(law, plant="rotors")
+        shown = sliders(setting_of(setting).flight)
+        assert len({slider["path"] for slider in shown}) == len(shown) >= 9 - 5 * (law in ("printed", "corrected"))
+        for slider in shown:
+            assert slider["low"] <= slider["value"] <= slider["high"]
+            wanted = 0.9 * slider["value"] + 0.1 * slider["high"]
+            changed = json.loads(json.dumps(setting))
+            table, *keys = changed, *slider["path"].split(".")
+            for key in keys[:-1]:
+                table = table.setdefault(key, {})
+            table[keys[-1]] = _filled(slider["put"], wanted) if slider["put"] is not None else wanted
+            [again] = [s for s in sliders(setting_of(changed).flight) if s["path"] == slider["path"]]
+            assert again["value"] == pytest.approx(wanted), slider["path"]
+
+
+def _filled(put, value):
+    if isinstance(put, dict):
+        return put["#"] * value if "#" in put else {key: _filled(entry, value) for key, entry in put.items()}
+    return [_filled(entry, value) for entry in put] if isinstance(put, list) else put
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "7", '"fly"', "{}", '{"kind":"fire"}', '{"kind":"fly","number":"1"}',
+                                  "[" * 20000, b'{"kind":"fly"}', "\ud800", '{"kind":["fly"]}'])  # fmt: skip
+def test_malformed_messages_are_refused(text):
+    with pytest.raises(InputError, match=r"^message"):
+        read(text)
+
+
+# Maps ---------------------------------------------------------------------------------------------------------------
+
+
+def test_directions_share_the_sphere_equally_from_the_beginning():
+    for count in (100, 1000, 3000):
+        y = directions(3000)[:count]
+        np.testing.assert_allclose(np.linalg.norm(y, axis=1), 1, atol=1e-12)
+        cells = np.histogram2d(y[:, 2], np.arctan2(y[:, 1], y[:, 0]), bins=(5, 5), range=((-1, 1), (-np.pi, np.pi)))[0]
+        assert np.abs(cells - count / 25).max() < max(3, 0.12 * count / 25)
+    assert directions(9)[:5].tolist() == directions(5).tolist()
+
+
+def test_a_map_is_made_of_the_flights():
+    wrong = asked("lqr", duration=9.0)
+    chunk = next(region(setting_of(wrong)))
+    assert chunk["done"] == len(chunk["y"]) < chunk["total"]
+    good = [settling is not None for settling in chunk["settling"]]
+    assert 0 < sum(good) < len(good)
+    assert all(bool(cause) != one for cause, one in zip(chunk["cause"], good, strict=True))
+    for i in (good.index(True), good.index(False)):
+        setting = setting_of(wrong | {"start": START | {"y": chunk["y"][i], "y_dot": [0, 0, 0]}})
+        told = verdict(fly(setting), tuned(setting.flight))
+        assert told["good"] == good[i]
+        if good[i]:
+            assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)
+
+
+# The slot: the last question is the one that is answered ------------------------------------------------------------
+
+
+def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
+    begun, sent = [], []
+
+    def work(message, _):
+        begun.append(message["number"])
+        time.sleep(0.03)
+        yield {"number": message["number"], "part": 1}
+        time.sleep(0.03)
+        yield {"number": message["number"], "part": 2}
+
+    async def scenario():
+        with ThreadPoolExecutor(1) as pool:
+
+            async def send(reply):
+                sent.append(reply)
+
+            slot = Slot(pool, work, send)
+            for number in range(200):
+                slot.put({"number": number})
+                await asyncio.sleep(0.0005)
+            await slot.task
+            assert sent[-1] == {"number": 199, "part": 2}
+            slot.put({"number": 200})
+            await asyncio.sleep(0.045)
+            slot.drop()
+            await slot.task
+
+    asyncio.run(scenario())
+    assert len(begun) < 20
+    assert sent[-1] == {"number": 200, "part": 1}
+    assert threading.active_count() == 1 or not [t for t in threading.enumerate() if t.name.startswith("ThreadPool")]
+
+
+def test_what_nobody_foresaw_is_answered_and_the_next_question_too(caplog):
+    sent = []
+
+    def work(message, _):
+        if message["number"] == 1:
+            raise ZeroDivisionError("so it is")
+        yield {"number": message["number"]}
+
+    async def scenario():
+        with ThreadPoolExecutor(1) as pool:
+
+            async def send(reply):
+                sent.append(reply)
+
+            slot = Slot(pool, work, send)
+            for number in (1, 2):
+                slot.put({"number": number})
+                await slot.task
+
+    asyncio.run(scenario())
+    assert (sent[0]["kind"], sent[0]["number"]) == ("error", 1)
+    assert "ZeroDivisionError: so it is" in sent[0]["message"]
+    assert sent[1] == {"number": 2}
+    assert "ZeroDivisionError" in caplog.text
+
+
+# The server ---------------------------------------------------------------------------------------------------------
+
+
+class Lab:
+    """`flypend lab` as a process."""
+
+    def __init__(self, *options):
+        command = [sys.executable, "-m", "flypend", "lab", "--no-browser", *options]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        line = self.process.stdout.readline()
+        found = re.search(r"http://(\S+)/", line)
+        assert found, line + self.process.stdout.read()
+        self.host = found[1]
+        self.url = f"http://{self.host}/"
+
+    def cpu(self):
+        """Seconds of processor time so far."""
+        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def calm(self):
+        """Whether it soon does nothing: within 2 s, where 200 flights or a map would take longer."""
+        for _ in range(5):
+            before = self.cpu()
+            time.sleep(0.4)
+            if self.cpu() - before < 0.05:
+                return True
+        return False
+
+    def stop(self, number=signal.SIGTERM):
+        self.process.send_signal(number)
+        said, _ = self.process.communicate(timeout=20)
+        return self.process.returncode, said
+
+
+@pytest.fixture(scope="module")
+def lab():
+    server = Lab()
+    yield server
+    assert server.stop() == (0, "")  # no traceback, whatever the tests sent
+
+
+async def _ask(lab, *messages, origin=None, replies=1):
+    """The replies to `messages` over one socket."""
+    headers = {"Origin": origin} if origin else {}
+    socket = await websocket_connect(
+        HTTPRequest(f"ws://{lab.host}/socket", headers=headers, connect_timeout=20), max_message_size=2**24
+    )
+    for message in messages:
+        await socket.write_message(
+            message if isinstance(message, str | bytes) else json.dumps(message), binary=isinstance(message, bytes)
+        )
+    out = []
+    while len(out) < replies:
+        reply = await asyncio.wait_for(socket.read_message(), 30)
+        if reply is None:
+            out.append(None)
+            break
+        if '"compiling"' not in reply[:40]:
+            out.append(json.loads(reply))
+    if out[-1] is None:
+        socket.close()
+    else:
+        await _closed(socket)
+    return out
+
+
+async def _closed(socket):
+    socket.close()
+    while await asyncio.wait_for(socket.read_message(), 20) is not None:
+        pass
+
+
+def ask(*arguments, **options):
+    return asyncio.run(_ask(*arguments, **options))
+
+
+def code(url, **headers):
+    async def fetch():
+        response = await AsyncHTTPClient().fetch(HTTPRequest(url, headers=headers), raise_error=False)
+        return response.code, response.headers
+
+    return asyncio.run(fetch())
+
+
+UPGRADE = {
+    "Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+    "Sec-WebSocket-Version": "13",
+}  # fmt: skip
+
+
+def test_it_listens_on_loopback_only(lab):
+    assert lab.host.startswith("127.0.0.1:")
+    status, headers = code(lab.url)
+    assert status == 200
+    assert "default-src 'none'" in headers["Content-Security-Policy"]
+    assert code(lab.url + "lab.js")[0] == 200
+    assert code(lab.url + "../pyproject.toml")[0] == 404
+
+
+def test_another_name_that_points_here_is_refused(lab):
+    port = lab.host.split(":")[1]
+    for host in ("evil.example", f"evil.example:{port}", f"127.0.0.1.evil.example:{port}", "192.168.1.7"):
+        assert code(lab.url, Host=host)[0] == 403, host
+        assert code(lab.url + "socket", Host=host, Origin=f"http://{host}", **UPGRADE)[0] == 403
+    assert code(lab.url, Host=f"localhost:{port}")[0] == 200
+
+
+def test_the_page_of_another_site_is_refused(lab):
+    port = int(lab.host.split(":")[1])
+    for origin in (
+        "http://evil.example",
+        f"http://127.0.0.1:{port + 1}",
+        "null",
+        f"http://localhost:{port}",
+        "file://",
+    ):
+        assert code(lab.url + "socket", Origin=origin, **UPGRADE)[0] == 403, origin
+    [reply] = ask(lab, {"kind": "fly", "number": 1, "setting": asked()}, origin=f"http://{lab.host}")
+    assert reply["kind"] == "flight"
+
+
+def test_it_survives_what_is_no_message(lab):
+    bad = ["{", "[]", b"\x00\xff", '{"kind":"fly"}', '{"kind":"fly","setting":{"law":7}}', "[" * 9999]
+    for message in bad:
+        [reply] = ask(lab, message)
+        assert reply["kind"] == "error", message
+    assert ask(lab, "x" * (LARGEST_MESSAGE + 1)) == [None]  # the line is cut
+    [reply] = ask(lab, {"kind": "fly", "number": 5, "setting": asked()})
+    assert (reply["kind"], reply["number"]) == ("flight", 5)
+
+
+def test_200_moves_end_with_the_last_and_leave_nothing_running(lab):
+    moves = [{"kind": "fly", "number": i, "setting": asked(gains={"throw_speed": 1 + i / 200})} for i in range(200)]
+
+    async def scenario():
+        socket = await websocket_connect(f"ws://{lab.host}/socket", max_message_size=2**24)
+        for move in moves:
+            await socket.write_message(json.dumps(move))
+        numbers = []
+        while not numbers or numbers[-1] != 199:
+            reply = json.loads(await asyncio.wait_for(socket.read_message(), 30))
+            numbers.append(reply["number"])
+        calm = await asyncio.get_running_loop().run_in_executor(None, lab.calm)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(socket.read_message(), 0.1)
+        await _closed(socket)
+        return reply, numbers, calm
+
+    reply, numbers, calm = asyncio.run(scenario())
+    assert numbers == sorted(numbers)
+    assert len(numbers) < 150
+    assert calm
+    [wanted] = [s["value"] for s in reply["sliders"] if s["path"] == "law.gains.throw_speed"]
+    assert wanted == pytest.approx(1 + 199 / 200)
+
+
+def test_a_map_ends_with_its_page(lab):
+    slow = asked(plant="rotors", duration=20.0)
+    [chunk] = ask(lab, {"kind": "map", "number": 1, "setting": slow})
+    assert chunk["done"] < chunk["total"]
+    assert lab.calm()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_at_once_even_in_the_middle_of_a_map(number):
+    lab = Lab("--port", "0")
+
+    async def scenario():
+        socket = await websocket_connect(f"ws://{lab.host}/socket", max_message_size=2**24)
+        await socket.write_message(json.dumps({"kind": "map", "number": 1, "setting": asked(duration=10.0)}))
+        await asyncio.wait_for(socket.read_message(), 30)
+        started = time.monotonic()
+        result = await asyncio.get_running_loop().run_in_executor(None, lab.stop, number)
+        took = time.monotonic() - started
+        await _closed(socket)
+        return result, took
+
+    result, took = asyncio.run(scenario())
+    assert result == (0, "")
+    assert took < 8  # one piece of the map on a busy machine
+
+
+def test_a_port_that_is_taken_is_told_in_one_line(lab):
+    port = lab.host.split(":")[1]
+    command = [sys.executable, "-m", "flypend", "lab", "--no-browser", "--port", port]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert f"127.0.0.1:{port}" in done.stderr
+
+
+def test_whom_a_server_that_is_open_to_others_trusts():
+    laboratory = Laboratory("0.0.0.0")
+    assert laboratory.trusts("192.168.1.7:80")
+    assert laboratory.trusts("localhost:80")
+    assert not laboratory.trusts("evil.example:80")
+    assert not laboratory.trusts("")
+    laboratory.close()
+
+
+def test_exports_are_toml_and_say_when_pokes_are_left_out():
+    setting = setting_of(asked(pokes=[{"time": 1.0, "on": "bob", "velocity": [1, 0, 0]}], plant="hehn2011"))
+    assert tomllib.loads(toml(setting))["plant"]["interface"] == "rates"
+    assert "left out" in toml(setting)
+    assert "left out" in python(setting)
+    assert "left out" not in toml(setting_of(asked()))

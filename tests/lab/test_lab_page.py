@@ -1,0 +1,316 @@
+"""The laboratory in a real browser without a screen: sliders, rod, pokes, presets, reload, tabs, map, export."""
+
+import json
+import time
+
+import numpy as np
+import pytest
+from test_lab import Lab
+
+from flypend.lab.flying import fly
+from flypend.lab.setting import setting_of
+from flypend.settings.runfile import flight
+
+WIDE, NARROW = {"width": 1000, "height": 620}, {"width": 390, "height": 844}
+
+
+@pytest.fixture(scope="module")
+def server():
+    server = Lab()
+    yield server
+    assert server.stop() == (0, "")
+
+
+@pytest.fixture
+def visit(chromium, server):
+    """Open the laboratory; at the end nothing complained and nothing was asked of anyone else."""
+    contexts, asked, complaints = [], [], []
+
+    def open_(hash_="", **setting):
+        context = chromium.new_context(**{"viewport": WIDE, "color_scheme": "light"} | setting)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.goto(server.url + hash_)
+        shown(page)
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert complaints == []
+    assert [url for url in asked if not url.startswith((server.url, "data:,", "blob:"))] == []
+
+
+def until(page, condition, argument=None):
+    for _ in range(800):
+        if page.evaluate(condition, argument):
+            return
+        time.sleep(0.03)
+    raise AssertionError(condition)
+
+
+def shown(page):
+    """Wait for the flight of the present setting."""
+    until(page, "() => window.flypend && flypend.number() > 0 && flypend.shown() === flypend.number()")
+
+
+def setting(page):
+    return page.evaluate("flypend.setting()")
+
+
+def expect_flight(page):
+    """What is shown is the flight of the setting."""
+    run = fly(setting_of(setting(page)))
+    assert page.evaluate("flypend.duration()") == pytest.approx(run.t[-1], abs=1e-6)
+    kept = page.evaluate("flypend.time()")
+    for i in (0, len(run.t) // 3, len(run.t) - 1):
+        page.evaluate("t => flypend.seek(t)", float(run.t[i]))
+        pose = page.evaluate("flypend.pose(0)")
+        np.testing.assert_allclose(pose["y"], run.y[i], atol=2e-5)
+        np.testing.assert_allclose(pose["x"], run.x[i], atol=2e-5 * max(1, np.abs(run.x).max()))
+    page.evaluate("t => flypend.seek(t)", kept)
+    return run
+
+
+def slider(page, path):
+    return page.locator(f"[data-path='{path}'] input")
+
+
+def test_it_opens_with_a_flight_and_its_verdict(visit):
+    page = visit()
+    run = expect_flight(page)
+    assert run.law == "inverted"
+    assert page.locator(".verdict").inner_text() == page.evaluate("flypend.verdict().words")
+    assert page.locator(".verdict").inner_text().startswith("upright after")
+    assert page.locator(".plot").count() == 4
+    assert page.locator(".busy").is_hidden()
+
+
+def test_a_slider_flies_anew_by_pointer_and_by_key(visit):
+    page = visit()
+    control = slider(page, "law.gains.throw_speed")
+    control.scroll_into_view_if_needed()
+    box = control.bounding_box()
+    before = page.evaluate("flypend.seek(1.5), flypend.pose(0).x")
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2, steps=6)
+    shown(page)
+    page.mouse.up()
+    wanted = setting(page)["law"]["gains"]["throw_speed"]
+    assert 3 < wanted < 4.5  # 0.7 of a range from a quarter to four times 2.1, in logarithms
+    assert np.abs(np.array(page.evaluate("flypend.pose(0).x")) - before).max() > 0.05
+    assert page.evaluate("flypend.time()") == 1.5  # the clock stays
+    control.focus()
+    page.keyboard.press("ArrowRight")
+    shown(page)
+    assert wanted < setting(page)["law"]["gains"]["throw_speed"] < 1.05 * wanted
+    expect_flight(page)
+    page.locator(".has-gains .reset").click()
+    shown(page)
+    assert setting(page)["law"]["gains"] == {}
+
+
+def test_the_rod_is_dragged_over_its_sphere(visit):
+    page = visit()
+    handle = page.locator(".handle")
+    place = handle.bounding_box()
+    x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 12, y - 6, steps=3)
+    shown(page)
+    bob = page.evaluate("flypend.screen(0).bob")
+    page.mouse.up()
+    rod = np.array(setting(page)["start"]["y"])
+    assert np.linalg.norm(rod) == pytest.approx(1)
+    assert -0.999 < rod[2] < -0.3
+    scene = page.locator(".picture").bounding_box()
+    assert np.hypot(scene["x"] + bob[0] - x - 12, scene["y"] + bob[1] - y + 6) < 1.5  # under the hand
+    np.testing.assert_allclose(expect_flight(page).y[0], rod, atol=1e-12)
+    handle.focus()
+    page.keyboard.press("ArrowUp")
+    shown(page)
+    assert setting(page)["start"]["y"] != rod.tolist()
+    page.evaluate("flypend.seek(1)")
+    until(page, "document.querySelector('.handle').hidden")  # there is no start to drag in mid-flight
+
+
+def test_a_poke_in_flight_keeps_the_past(visit):
+    page = visit()
+    page.evaluate("flypend.seek(1.2)")
+    past = page.evaluate("(flypend.seek(0.8), flypend.pose(0).x)")
+    page.evaluate("flypend.seek(1.2)")
+    page.locator("[data-on=bob]").click()
+    shown(page)
+    page.evaluate("flypend.pause()")
+    [poke] = setting(page)["pokes"]
+    assert (poke["time"], poke["on"]) == (1.2, "bob")
+    assert np.linalg.norm(poke["velocity"]) == pytest.approx(1)
+    run = expect_flight(page)
+    assert run.t[-1] == pytest.approx(7.2)
+    np.testing.assert_allclose(page.evaluate("(flypend.seek(0.8), flypend.pose(0).x)"), past, atol=1e-6)
+    page.evaluate("flypend.seek(0.5)")
+    page.locator("[data-on=vehicle]").click()  # earlier: the later poke belongs to a flight that is no more
+    shown(page)
+    assert [(poke["time"], poke["on"]) for poke in setting(page)["pokes"]] == [(0.5, "vehicle")]
+    page.locator(".unpoke").click()
+    shown(page)
+    assert page.evaluate("flypend.duration()") == 6
+
+
+def test_presets_random_laws_and_plants(visit):
+    page = visit()
+    page.get_by_role("button", name="4", exact=True).click()
+    shown(page)
+    run = expect_flight(page)
+    assert (run.law, run.e3, run.vehicle.name) == ("corrected", "down", "nayak2018")
+    assert run.y[0].tolist() == pytest.approx([0, 0, -1])
+    page.get_by_role("button", name="random").click()
+    shown(page)
+    start = setting(page)["start"]
+    assert "random" not in start  # it came back in numbers
+    expect_flight(page)
+    page.locator("select[data-path='law.name']").select_option("lqr")
+    shown(page)
+    assert setting(page)["start"] == start
+    assert slider(page, "law.gains.rod_error").count() == 1
+    assert slider(page, "plant.lag").count() == 0
+    page.locator("select[data-path='plant.base']").select_option("rotors")
+    shown(page)
+    noise = slider(page, "plant.noise")
+    noise.focus()
+    page.keyboard.press("ArrowRight")
+    shown(page)
+    assert setting(page)["plant"]["noise"]["x"] > 0
+    expect_flight(page)
+
+
+def test_a_reload_keeps_the_setting_and_another_page_is_not_disturbed(visit):
+    first, second = visit(), visit()
+    slider(first, "law.gains.rod_bandwidth").fill("230")
+    first.get_by_role("button", name="level").click()
+    slider(second, "duration").fill("100")
+    shown(first)
+    shown(second)
+    kept, other = setting(first), setting(second)
+    assert kept["start"]["y"] == [1, 0, 0]
+    assert "rod_bandwidth" not in other["law"]["gains"]
+    assert other["duration"] == pytest.approx(9)
+    first.reload()
+    shown(first)
+    assert setting(first) == kept
+    expect_flight(first)
+    expect_flight(second)
+    third = visit(first.url[first.url.index("#") :])  # the address is the setting
+    assert setting(third) == kept
+
+
+def test_200_rapid_moves_end_with_the_last(visit, server):
+    page = visit()
+    page.evaluate("""() => {
+        const control = document.querySelector("[data-path='law.gains.throw_speed'] input");
+        for (let i = 0; i < 200; i++) {
+            control.value = 100 + i;
+            control.dispatchEvent(new Event("input", { bubbles: true }));
+        }
+    }""")
+    shown(page)
+    assert page.evaluate("flypend.number()") >= 201
+    expect_flight(page)
+    assert slider(page, "law.gains.throw_speed").input_value() == "299"
+    assert server.calm()  # nothing is left
+
+
+def test_the_map_fills_and_a_point_of_it_flies(visit):
+    page = visit("#" + json.dumps(setting_for_map()))
+    page.get_by_role("button", name="Region of attraction").click()
+    until(page, "flypend.map().done > 0")
+    early = page.evaluate("flypend.map()")
+    until(page, "flypend.map().done === flypend.map().total && flypend.map().total > 0")
+    last = page.evaluate("flypend.map()")
+    assert early["done"] < early["total"] == last["done"]
+    assert 0 < last["good"] < last["total"]
+    assert str(last["total"]) in page.locator(".share").inner_text()
+    box = page.locator(".disc canvas").bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2 + 6, box["y"] + box["height"] / 2)
+    shown(page)
+    y = setting(page)["start"]["y"]
+    assert y[0] > 0.01
+    assert abs(y[1]) < 0.01
+    assert y[2] > 0.99
+    assert page.locator(".map").is_hidden()
+    assert page.evaluate("flypend.verdict().good")
+
+
+def setting_for_map():
+    return {
+        "vehicle": {"base": "hehn2011"}, "law": {"name": "lqr", "gains": {}}, "plant": {"base": "ideal"},
+        "start": {"y": [0, 0, 1]}, "duration": 8, "pokes": [],
+    }  # fmt: skip
+
+
+def test_the_export_is_the_flight(visit, tmp_path):
+    page = visit()
+    slider(page, "law.gains.rod_bandwidth").fill("230")
+    page.get_by_role("button", name="level").click()
+    shown(page)
+    page.get_by_role("button", name="TOML").click()
+    path = tmp_path / "flight.toml"
+    path.write_text(page.locator(".export textarea").input_value(), encoding="utf-8")
+    run = flight(str(path)).fly()
+    assert run.gains["rod_bandwidth"] == setting(page)["law"]["gains"]["rod_bandwidth"]
+    for i in (100, 300, 600):
+        page.evaluate("t => flypend.seek(t)", float(run.t[i]))
+        np.testing.assert_allclose(page.evaluate("flypend.pose(0).y"), run.y[i], atol=2e-5)
+    page.get_by_role("button", name="Python", exact=True).click()
+    assert "fp.simulate(" in page.locator(".export textarea").input_value()
+
+
+def test_what_cannot_be_flown_is_told_beside_its_control(visit):
+    page = visit()
+    good = page.evaluate("flypend.pose(0).y")
+    control = slider(page, "law.gains.rod_bandwidth")
+    control.fill("399")
+    until(page, "document.querySelector('.complaint') !== null")
+    complaint = page.locator(".complaint")
+    assert "each 1.5 times the one before" in complaint.inner_text()
+    assert complaint.evaluate("e => e.previousElementSibling.dataset.path") == "law.gains.rod_bandwidth"
+    assert page.locator(".verdict").inner_text().startswith("not flown")
+    assert page.evaluate("flypend.pose(0).y") == good  # the last flight stays
+    control.fill("200")
+    shown(page)
+    until(page, "document.querySelector('.complaint') === null")
+
+
+def test_a_server_that_comes_back_is_found_again(chromium):
+    first = Lab()
+    page = chromium.new_context(viewport=WIDE).new_page()
+    page.goto(first.url)
+    shown(page)
+    assert first.stop() == (0, "")
+    until(page, "document.querySelector('.busy').textContent.includes('no connection')")
+    again = Lab("--port", first.host.split(":")[1])
+    slider(page, "law.gains.throw_speed").fill("220")
+    shown(page)
+    expect_flight(page)
+    page.context.close()
+    assert again.stop() == (0, "")
+
+
+def test_on_a_telephone_all_is_there_and_nothing_is_too_wide(visit):
+    page = visit(viewport=NARROW, has_touch=True, color_scheme="dark")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.locator("[data-path='law.gains.rod_bandwidth']").scroll_into_view_if_needed()
+    top = page.locator(".scene").bounding_box()["y"]
+    assert top == pytest.approx(0, abs=1)  # the picture stays while one moves a slider
+    page.get_by_role("button", name="level").tap()
+    shown(page)
+    assert setting(page)["start"]["y"] == [1, 0, 0]
+    page.evaluate("flypend.tab('map')")
+    until(page, "flypend.map().done > 0")
+    assert page.evaluate("document.documentElement.scrollWidth") == 390

@@ -1,0 +1,499 @@
+"""The replay in a real browser without a screen: it opens from disk, plays, scrubs, shows the numbers of the run."""
+
+import dataclasses
+import itertools
+import time
+from io import BytesIO
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import flypend as fp
+from flypend.pages import replay
+from flypend.paper import experiment
+
+WIDE, NARROW = {"width": 1280, "height": 720}, {"width": 390, "height": 844}
+SMALL = {"width": 900, "height": 520}  # drawn fast enough in software
+
+
+@pytest.fixture
+def visit(chromium, tmp_path):
+    """Open the replay of a run from disk, offline; at the end nothing was requested and nothing complained."""
+    contexts, asked, complaints = [], [], []
+    number = itertools.count()
+
+    def open_(run, *, setting=None, text=None, before=None, **options):
+        path = tmp_path / f"{next(number)}.html"
+        path.write_text(run.to_html(**options) if text is None else text, encoding="utf-8")
+        context = chromium.new_context(offline=True, **{"viewport": SMALL, "color_scheme": "light"} | (setting or {}))
+        contexts.append(context)
+        page = context.new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        if before:
+            page.add_init_script(before)
+        page.goto(path.as_uri())
+        page.wait_for_selector("main, iframe")
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert complaints == []
+    assert [url for url in asked if not url.startswith(("file://", "data:,", "about:srcdoc"))] == []
+    assert len([url for url in asked if url.startswith("file://")]) == len(contexts)
+
+
+@pytest.fixture(scope="module")
+def down():
+    """In the paper's frame, e₃ along gravity; the rod begins inverted and swings to hang."""
+    case = experiment("4")
+    return fp.simulate(case.vehicle, case.law("corrected"), case.start, 2.0)
+
+
+@pytest.fixture(scope="module")
+def up():
+    start = fp.State(x=(0.3, -0.2, 0.1), y=(0.6, 0, 0.8), omega=(0.5, -1, 2))
+    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, 2.0, plant="rotors")
+
+
+@pytest.fixture(scope="module")
+def lqr():
+    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0.1, 0, np.sqrt(0.99))), 1.5, plant="rotors")
+
+
+@pytest.fixture(scope="module")
+def singular():
+    case = experiment("2")
+    return fp.simulate(case.vehicle, case.law("printed"), case.start, 6.5)
+
+
+def until(page, condition):
+    """Wait; `wait_for_function` would compile text in the page, which the page forbids."""
+    for _ in range(600):
+        if page.evaluate(condition):
+            return
+        time.sleep(0.05)
+    raise AssertionError(condition)
+
+
+def pose(page, t, i=0):
+    page.evaluate("t => flypend.seek(t)", t)
+    return {name: np.array(value) for name, value in page.evaluate("i => flypend.pose(i)", i).items()}
+
+
+def screen(page, i=0):
+    """Pixels of pivot and bob, once the camera has arrived."""
+    places = page.evaluate("i => flypend.screen(i)", i)
+    for _ in range(300):
+        after = page.evaluate("i => flypend.screen(i)", i)
+        if np.allclose([*places.values()], [*after.values()], atol=1e-3):
+            break
+        places = after
+    else:
+        raise AssertionError("the camera does not arrive")
+    return np.array(after["pivot"]), np.array(after["bob"])
+
+
+def picture(page):
+    page.evaluate("flypend.screen(0)")
+    return np.asarray(Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB")).astype(int)
+
+
+# It shows the run --------------------------------------------------------------------------------------------------
+
+
+def test_it_opens_from_disk_and_draws(visit, up):
+    page = visit(up)
+    assert page.title() == page.locator("h1").inner_text() == "inverted law on hehn2011"
+    assert page.evaluate("[flypend.time(), flypend.duration(), flypend.playing()]") == [0, 2, False]
+    assert page.locator(".plot").count() == 4
+    seen = picture(page)
+    centre = screen(page)[0].astype(int)
+    around = seen[centre[1] - 60 : centre[1] + 60, centre[0] - 60 : centre[0] + 60]
+    assert len(np.unique(around.reshape(-1, 3), axis=0)) > 100  # a shaded machine, not a blank
+    for plot in page.locator(".plot canvas").all():
+        curves = np.asarray(Image.open(BytesIO(plot.screenshot())).convert("RGB"))
+        assert len(np.unique(curves.reshape(-1, 3), axis=0)) > 20
+
+
+@pytest.mark.parametrize("name", ["down", "up"])
+def test_the_pose_at_a_time_is_that_of_the_run(visit, name, request):
+    run = request.getfixturevalue(name)
+    page = visit(run)
+    for i in (0, 1, 57, 100, len(run.t) - 1):
+        shown = pose(page, float(run.t[i]))
+        assert shown["t"] == pytest.approx(run.t[i], abs=1e-6)
+        # 32-bit floats, also of the time, over which things turn at up to 20 rad/s.
+        for key in ("x", "y", "R", "x_ref"):
+            np.testing.assert_allclose(shown[key], getattr(run, key)[i], atol=5e-6, err_msg=key)
+        for key in ("thrust", "rotor_forces", "x_dot", "y_dot"):
+            np.testing.assert_allclose(shown[key], getattr(run, key)[i], atol=2e-4, err_msg=key)
+
+
+def test_between_samples_it_shows_the_dense_output(visit, down):
+    page = visit(down)
+    times = np.random.default_rng(5).uniform(0, 2, 40)
+    shown = [pose(page, t) for t in times]
+    states = down.at(times)
+    error = {key: np.abs(np.array([s[key] for s in shown]) - getattr(states, key)).max() for key in ("x", "y", "R")}
+    assert error["x"] < 1e-5
+    assert error["y"] < 1e-5  # cubic: h⁴ d⁴y/dt⁴ / 384
+    assert error["R"] < 2e-3  # constant rate between samples: h² dω/dt / 8
+    off = [np.linalg.norm(s["R"].T @ s["R"] - np.eye(3)) for s in shown]
+    assert max(off) < 1e-12
+
+
+def test_the_readings_beside_the_plots_are_the_values_of_the_run(visit, up):
+    page = visit(up)
+    i = 30
+    page.evaluate("t => flypend.seek(t)", float(up.t[i]))
+    page.evaluate("flypend.screen(0)")
+    told = [float(word.replace("−", "-")) for word in page.locator(".values output").all_inner_texts()]
+    away = np.linalg.norm(up.x[i] - up.x_ref[i])
+    wanted = [up.y[i, 2], up.z[i, 2], up.thrust[i], *up.rotor_forces[i], away]
+    np.testing.assert_allclose(told, wanted, atol=0.00501)
+
+
+def test_rotors_turn_by_their_force(visit, up):
+    page = visit(up)
+    force = np.maximum(up.rotor_forces, 0) * 4 / up.vehicle.weight
+    steps = np.diff(up.t)[:, None] * (np.sqrt(force[1:]) + np.sqrt(force[:-1])) / 2
+    turns = pose(page, 2.0)["turned"] / steps.sum(axis=0)
+    np.testing.assert_allclose(turns, turns[0], rtol=1e-5)
+    assert turns[0] > 2 * np.pi  # more than a turn per second in hover
+
+
+# It plays and scrubs ------------------------------------------------------------------------------------------------
+
+
+def test_it_plays_pauses_ends_and_plays_again(visit, up):
+    page = visit(up, speed=0.1)  # slow enough for a click to come before the end
+    page.get_by_role("button", name="Play").click()
+    until(page, "flypend.playing() && flypend.time() > 0.02")
+    page.get_by_role("button", name="Pause").click()
+    until(page, "!flypend.playing()")
+    stopped = page.evaluate("flypend.time()")
+    frames = page.evaluate("flypend.pictures.frames().count")
+    time.sleep(0.3)
+    assert page.evaluate("flypend.time()") == stopped < 1
+    assert page.evaluate("flypend.pictures.frames().count") <= frames + 2  # nothing is drawn while nothing moves
+    page.evaluate("flypend.speed(1), flypend.seek(1.9), flypend.play()")
+    until(page, "!flypend.playing()")
+    assert page.evaluate("flypend.time()") == 2
+    page.get_by_role("button", name="Play again").click()
+    until(page, "flypend.playing() && flypend.time() < 1.5")
+
+
+def test_slow_motion_is_slow(visit, up):
+    page = visit(up, speed=0.25)
+    measure = """async () => {
+        const start = performance.now(), from = flypend.time();
+        flypend.play();
+        await new Promise((done) => setTimeout(done, 1000));
+        flypend.pause();
+        return (flypend.time() - from) / (performance.now() - start) * 1000;
+    }"""
+    assert page.locator("select").input_value() == "0.25"
+    # A frame late at either end, and no frame counts for more than a quarter of a second.
+    assert 0.02 < page.evaluate(measure) < 0.26
+    page.locator("select").select_option("0.1")
+    assert page.evaluate(measure) < 0.11
+
+
+def test_the_time_line_and_the_plots_scrub(visit, up):
+    page = visit(up)
+    page.get_by_label("Time", exact=True).fill("0.8")
+    assert page.evaluate("flypend.time()") == pytest.approx(0.8)
+    line = page.get_by_label("Time", exact=True).bounding_box()
+    page.mouse.click(line["x"] + line["width"] / 2, line["y"] + line["height"] / 2)
+    assert page.evaluate("flypend.time()") == pytest.approx(1.0, abs=0.02)
+    area = page.locator(".plot .area").nth(1).bounding_box()
+    left, right = area["x"] + 46, area["x"] + area["width"] - 12  # as plots.js sets its margins
+    middle = area["y"] + area["height"] / 2
+    page.mouse.move(left + 0.25 * (right - left), middle)
+    page.mouse.down()
+    assert page.evaluate("flypend.time()") == pytest.approx(0.5, abs=0.01)
+    page.mouse.move(left + 0.75 * (right - left), middle, steps=4)
+    page.mouse.up()
+    assert page.evaluate("flypend.time()") == pytest.approx(1.5, abs=0.01)
+    page.evaluate("flypend.screen(0)")
+    cursor = page.locator(".plot .cursor").first.bounding_box()
+    assert cursor["x"] + cursor["width"] / 2 == pytest.approx(left + 0.75 * (right - left), abs=1.5)
+    assert page.locator(".time").inner_text() == f"{page.evaluate('flypend.time()'):.2f} / 2.00 s"
+
+
+def test_times_that_are_none_change_nothing(visit, up):
+    page = visit(up)
+    page.evaluate("flypend.seek(0.7); flypend.seek(NaN); flypend.seek('x'); flypend.speed(0); flypend.speed(-1)")
+    assert page.evaluate("flypend.time()") == 0.7
+    assert page.locator("select").input_value() == "1"
+    page.evaluate("flypend.seek(99)")
+    assert page.evaluate("flypend.time()") == 2
+    page.evaluate("flypend.seek(-99)")
+    assert page.evaluate("flypend.time()") == 0
+    assert page.evaluate("[flypend.camera('none'), flypend.layout('beside'), flypend.theme('red')]") == [False] * 3
+
+
+def test_keys(visit, up):
+    page = visit(up)
+    steps = [
+        ("ArrowRight", 1 / 30), ("Shift+ArrowRight", 1 + 1 / 30), ("ArrowLeft", 1), ("End", 2), ("Shift+ArrowLeft", 1),
+        ("Home", 0),
+    ]  # fmt: skip
+    for key, wanted in steps:
+        page.keyboard.press(key)
+        assert page.evaluate("flypend.time()") == pytest.approx(wanted)
+    page.keyboard.press("Space")
+    assert page.evaluate("flypend.playing()")
+    page.keyboard.press("Space")
+    assert not page.evaluate("flypend.playing()")
+    page.keyboard.press("ArrowDown")
+    page.evaluate("flypend.screen(0)")
+    assert page.locator("select").input_value() == "0.5"
+    page.keyboard.press("4")
+    assert page.get_by_role("button", name="Above").get_attribute("aria-pressed") == "true"
+    page.keyboard.press("t")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+# Cameras -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("camera", ["side", "follow", "overview"])
+@pytest.mark.parametrize("frame", ["down", "flipped"])
+def test_gravity_points_down_the_screen(visit, down, camera, frame):
+    run = down if frame == "down" else down.flipped()
+    page = visit(run)
+    page.evaluate("name => flypend.camera(name)", camera)
+    below = run.vehicle.rod_length * run.y[:, 2] * (1 if run.e3 == "down" else -1)  # bob under pivot
+    assert below[0] < -0.4
+    assert below[-1] > 0.3
+    for i, sign in ((0, -1), (len(run.t) - 1, 1)):
+        page.evaluate("t => flypend.seek(t)", float(run.t[i]))
+        pivot, bob = screen(page)
+        assert sign * (bob[1] - pivot[1]) > 5
+
+
+def test_both_frames_give_the_same_picture(visit, down):
+    places = []
+    for run in (down, down.flipped()):
+        page = visit(run)
+        page.evaluate("flypend.camera('follow'), flypend.seek(0.9)")
+        places.append(screen(page))
+    np.testing.assert_allclose(places[0], places[1], atol=0.05)
+
+
+def test_from_above_the_rod_is_seen_along_gravity(visit, down):
+    page = visit(down)
+    page.evaluate("flypend.camera('axis'), flypend.seek(0.9)")
+    pivot, bob = screen(page)
+    # The camera is on the −e₃ axis of the paper's frame: e₁ to the right, e₂ down the screen.
+    seen, y = bob - pivot, down.at(0.9).y
+    assert np.linalg.norm(y[:2]) > 0.3
+    assert np.dot(seen, y[:2]) / np.linalg.norm(seen) / np.linalg.norm(y[:2]) == pytest.approx(1, abs=1e-6)
+    page.evaluate("flypend.seek(0)")
+    pivot, bob = screen(page)
+    assert np.linalg.norm(bob - pivot) < 0.5  # upright
+
+
+def test_followed_vehicles_stay_in_the_middle(visit, down):
+    page = visit(down)
+    for camera in ("side", "follow", "axis"):
+        page.evaluate("name => flypend.camera(name)", camera)
+        size = page.locator(".picture").bounding_box()
+        for t in (0.2, 2.0):
+            page.evaluate("t => flypend.seek(t)", t)
+            np.testing.assert_allclose(screen(page)[0], [size["width"] / 2, size["height"] / 2], atol=0.6)
+
+
+@pytest.mark.parametrize("viewport", [SMALL, NARROW], ids=["wide", "narrow"])
+def test_the_overview_holds_all_flights(visit, up, down, viewport):
+    page = visit(up, ghost=down, setting={"viewport": viewport})  # which falls 20 m
+    page.evaluate("flypend.camera('overview')")
+    size = page.locator(".picture").bounding_box()
+    for t in np.linspace(0, 2, 9):
+        page.evaluate("t => flypend.seek(t)", t)
+        for place in (*screen(page, 0), *screen(page, 1)):
+            assert np.all(place > 0)
+            assert np.all(place < [size["width"], size["height"]])
+
+
+def test_the_mouse_turns_and_zooms_and_a_double_click_resets(visit, up):
+    page = visit(up)
+    page.evaluate("flypend.camera('side'), flypend.seek(0)")
+    before = screen(page)
+    box = page.locator(".picture").bounding_box()
+    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(*middle)
+    page.mouse.down()
+    page.mouse.move(middle[0] + 90, middle[1] + 40, steps=3)
+    page.mouse.up()
+    turned = screen(page)
+    assert np.linalg.norm((turned[1] - turned[0]) - (before[1] - before[0])) > 10
+    page.mouse.wheel(0, -500)
+    zoomed = screen(page)
+    assert np.linalg.norm(zoomed[1] - zoomed[0]) > 1.5 * np.linalg.norm(turned[1] - turned[0])
+    page.mouse.dblclick(*middle)
+    np.testing.assert_allclose(screen(page), before, atol=0.1)
+
+
+# Two runs ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_ghost_shows(visit, up, lqr):
+    pages = [visit(up), visit(up, ghost=lqr)]
+    for page in pages:
+        page.evaluate("flypend.camera('follow'), flypend.seek(0.1)")
+        screen(page)
+    pivot, bob = screen(pages[1], 1)
+    alone, both = (picture(page) for page in pages)
+    for place in (pivot, bob):
+        x, y = place.astype(int)
+        part = np.s_[y - 12 : y + 12, x - 12 : x + 12]
+        assert np.abs(alone[part] - both[part]).max() > 40
+    np.testing.assert_allclose(pose(pages[1], 0.1, 1)["y"], lqr.y[10], atol=1e-5)
+    names = pages[1].locator(".legend strong").all_inner_texts()
+    assert names == ["inverted law", "lqr law"]
+    assert pages[0].locator(".legend .only strong").is_hidden()
+
+
+def test_side_by_side_each_has_its_picture(visit, up, lqr):
+    page = visit(up, ghost=lqr)
+    page.get_by_role("button", name="Side by side").click()
+    page.evaluate("flypend.camera('side'), flypend.seek(0.4)")
+    width = page.locator(".picture").bounding_box()["width"]
+    for i in (0, 1):
+        assert screen(page, i)[0][0] == pytest.approx((i + 0.5) * width / 2, abs=0.5)
+    captions = page.locator(".motion").all_inner_texts()
+    assert [caption.split(":")[0] for caption in captions] == ["inverted law", "lqr law"]
+    page.keyboard.press("g")
+    assert page.get_by_role("button", name="Overlay").get_attribute("aria-pressed") == "true"
+    screen(page)
+    assert [view.is_visible() for view in page.locator(".motion").all()] == [True, False]
+
+
+def test_two_runs_of_different_length_share_the_clock(visit, up, lqr):
+    page = visit(lqr, ghost=up)
+    assert page.evaluate("flypend.duration()") == 2
+    np.testing.assert_allclose(pose(page, 2.0)["y"], lqr.y[-1], atol=1e-5)  # stays at its end
+    np.testing.assert_allclose(pose(page, 2.0, 1)["y"], up.y[-1], atol=1e-5)
+
+
+def test_runs_of_both_frames_fly_together(visit, down):
+    page = visit(down, ghost=down.flipped())
+    page.evaluate("flypend.seek(1.2)")
+    np.testing.assert_allclose(screen(page, 0), screen(page, 1), atol=0.05)
+
+
+def test_how_a_run_ended_is_said_when_it_has(visit, singular, down):
+    page = visit(singular, ghost=down, layout="beside")
+    end = singular.outcome.time
+    said = page.locator(".ended").first
+    screen(page)
+    assert said.inner_text() == ""
+    page.evaluate("t => flypend.seek(t)", end + 0.1)
+    screen(page)
+    assert said.inner_text() == f"singular at {end:.4g} s"
+    np.testing.assert_allclose(pose(page, 1.0)["x"], singular.x[-1], atol=1e-5)
+
+
+def test_other_runs_can_be_put_into_the_page(visit, up, lqr, down):
+    page = visit(up, ghost=lqr, layout="beside")
+    page.evaluate("flypend.camera('side'), flypend.seek(1.7)")
+    memory = []
+    for run in [down, up] * 3:
+        page.evaluate("run => flypend.load([run])", replay.pack(run))
+        assert page.evaluate("flypend.time()") == 1.7
+        np.testing.assert_allclose(pose(page, 1.7)["y"], run.y[170], atol=1e-5)
+        box = page.locator(".picture").bounding_box()
+        np.testing.assert_allclose(screen(page)[0], [box["width"] / 2, box["height"] / 2], atol=0.6)
+        memory.append(page.locator("main *").count())
+    assert page.locator(".legend p").count() == page.locator(".view").count() == 1
+    assert page.get_by_role("button", name="Side by side").is_hidden()
+    assert len(set(memory)) == 1  # nothing is left behind
+    page.evaluate("runs => flypend.load(runs)", [replay.pack(up), replay.pack(lqr)])
+    page.get_by_role("button", name="Side by side").click()
+    page.evaluate("run => flypend.load([run])", replay.pack(lqr))
+    assert page.evaluate("[flypend.time(), flypend.duration()]") == [1.5, 1.5]
+    told = page.locator(".values output").first.inner_text()
+    assert float(told.replace("−", "-")) == pytest.approx(lqr.y[-1, 2], abs=0.00501)
+
+
+# Everywhere ----------------------------------------------------------------------------------------------------------
+
+
+def test_it_fits_a_narrow_screen_and_answers_fingers(visit, up, lqr):
+    page = visit(up, ghost=lqr, setting={"viewport": NARROW, "has_touch": True, "device_scale_factor": 2})
+    assert page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
+    for control in page.locator("button, select, input, .picture, .plot").all():
+        box = control.bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= NARROW["width"]
+        if control.evaluate("e => e.tagName") in ("BUTTON", "SELECT"):
+            assert box["height"] >= 32
+    page.get_by_role("button", name="Play").tap()
+    until(page, "flypend.time() > 0")
+
+
+def test_it_fits_a_wide_screen_without_scrolling(visit, up, lqr):
+    page = visit(up, ghost=lqr, setting={"viewport": WIDE})
+    size = page.evaluate("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]")
+    assert size == [WIDE["width"], WIDE["height"]]
+
+
+def test_it_follows_the_theme_of_the_system(visit, up):
+    brightness = []
+    for scheme in ("light", "dark"):
+        page = visit(up, setting={"color_scheme": scheme})
+        seen = np.asarray(Image.open(BytesIO(page.screenshot())).convert("L"))
+        brightness.append(np.median(seen))
+    assert brightness[0] > 230
+    assert brightness[1] < 60
+
+
+def test_names_are_text(visit, up):
+    evil = "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 2'>"
+    run = dataclasses.replace(up, law=evil, vehicle=up.vehicle.replace(name=evil))
+    page = visit(run, ghost=run)
+    assert page.title() == f"{evil} law on {evil}"
+    assert page.locator("h1").inner_text() == f"{evil} law on {evil}"
+    assert page.locator(".legend strong").first.inner_text() == f"{evil} law"
+    assert page.evaluate("window.broken") is None
+
+
+def test_a_run_of_one_sample_opens(visit, down):
+    names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
+    first = {name: getattr(down, name)[:1] for name in names}
+    run = dataclasses.replace(down, **first, outcome=fp.Outcome("singular", 0.0, "0/0"), interpolant=None)
+    page = visit(run)
+    page.evaluate("flypend.play()")
+    assert not page.evaluate("flypend.playing()")
+    np.testing.assert_allclose(pose(page, 0.0)["y"], down.y[0], atol=1e-6)
+    assert np.all(np.isfinite(screen(page)))
+
+
+def test_without_3d_graphics_the_plots_work(chromium, up, tmp_path):
+    page = chromium.new_page()
+    page.add_init_script("""const real = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+            return kind.startsWith("webgl") ? null : real.call(this, kind, ...rest);
+        };""")
+    up.to_html(tmp_path / "a.html")
+    page.goto((tmp_path / "a.html").as_uri())
+    assert "WebGL" in page.locator(".note").inner_text()
+    np.testing.assert_allclose(pose(page, 1.0)["y"], up.y[100], atol=1e-5)
+    assert page.locator(".values output").first.inner_text() != ""
+    page.close()
+
+
+def test_in_a_notebook_it_is_isolated(visit, up):
+    page = visit(up, text=f"<!doctype html><title>notebook</title><p>cell</p>{up._repr_html_()}")
+    frame = page.frames[1]
+    until(frame, "window.flypend !== undefined")
+    frame.evaluate("flypend.seek(1)")
+    np.testing.assert_allclose(frame.evaluate("flypend.pose()")["y"], up.y[100], atol=1e-5)
+    assert page.evaluate("window.flypend") is None
+    assert page.title() == "notebook"

@@ -1,0 +1,463 @@
+"""Figures: the drawing has the geometry of the machine, gravity points down, and what is written can be read."""
+
+import dataclasses
+import itertools
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib.colors
+import matplotlib.text
+import numpy as np
+import pytest
+from matplotlib.patches import Circle
+
+import flypend as fp
+from flypend import geometry, palette
+from flypend.model import gravity_vector
+from flypend.paper import experiment
+from flypend.pictures import canvas, drawing, figures
+from flypend.pictures.style import STYLES
+
+ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces")
+
+
+def fly(name, law="corrected", duration=6.5, **options):
+    case = experiment(name)
+    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return fly("4")
+
+
+@pytest.fixture(scope="module")
+def singular():
+    return fly("2", "printed")
+
+
+def at_the_start(run):
+    """A run that ended with its first sample."""
+    first = {name: getattr(run, name)[:1] for name in ARRAYS}
+    signals = {name: values[:1] for name, values in run.signals.items()}
+    outcome = fp.Outcome("singular", 0.0, "0/0")
+    return dataclasses.replace(run, **first, signals=signals, outcome=outcome, interpolant=None)
+
+
+# The drawing ----------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def states():
+    return fp.State.random(np.random.default_rng(1), 40)
+
+
+@pytest.mark.parametrize("name", ["nayak2018", "hehn2011"])
+def test_the_drawing_is_the_machine(states, name):
+    vehicle = fp.vehicle(name)
+    thrust = np.linspace(-2, 2, 40) * vehicle.weight
+    shape = drawing.sketch(states, vehicle, thrust)
+    seen = geometry.apply(np.swapaxes(states.R, -1, -2)[:, None, None], shape.discs - states.x[:, None, None])
+    np.testing.assert_allclose(seen[..., 2], 0, atol=1e-12)  # the rotors turn in the plane of the body
+    np.testing.assert_allclose(seen[..., :-1, :].mean(axis=2), np.tile(vehicle.rotor_positions, (40, 1, 1)), atol=1e-12)
+    radii = geometry.norm(shape.discs - shape.arms[..., 1, None, :])
+    np.testing.assert_allclose(radii, drawing.disc_radius(vehicle))
+    gaps = geometry.norm(vehicle.rotor_positions[:, None] - vehicle.rotor_positions)
+    assert 2 * drawing.disc_radius(vehicle) < gaps[gaps > 0].min()  # and do not touch
+    np.testing.assert_allclose(shape.rod[:, 1] - shape.rod[:, 0], vehicle.rod_length * states.y, atol=1e-12)
+    arrow = shape.thrust[:, 1] - shape.thrust[:, 0]
+    share = np.clip(0.7 * thrust / vehicle.weight, -1.1, 1.1)
+    np.testing.assert_allclose(arrow, (share * vehicle.rod_length)[:, None] * states.z, atol=1e-12)
+    everything = [shape.bob[:, None], shape.discs.reshape(40, -1, 3), shape.thrust]
+    assert geometry.norm(np.concatenate(everything, axis=1) - states.x[:, None]).max() <= drawing.reach(vehicle) + 1e-12
+
+
+def test_the_front_is_where_the_body_axis_points():
+    assert drawing.sketch(fp.State(y=(0, 0, 1)), fp.vehicle("nayak2018")).front.tolist() == [True, False, False, False]
+    vehicle = fp.vehicle("nayak2018")
+    turned = np.array([[1, -1, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 0]]) * 0.2
+    crossed = vehicle.replace(rotor_positions=turned)
+    assert drawing.sketch(fp.State(y=(0, 0, 1)), crossed).front.tolist() == [True, True, False, False]
+
+
+@pytest.mark.parametrize("frame", ["as flown, e₃ down", "turned, e₃ up"])
+def test_gravity_points_down_the_screen(run, frame):
+    shown = run if frame.endswith("down") else run.flipped()
+    assert shown.e3 == ("down" if frame.endswith("down") else "up")
+    gravity = gravity_vector(shown.vehicle, shown.e3)
+    below = geometry.dot(shown.y, gravity) / shown.vehicle.gravity * shown.vehicle.rod_length  # bob under pivot, m
+    assert below.min() < -0.49
+    assert below.max() > 0.49
+    shape = drawing.sketch(drawing.states_at(shown, shown.t), shown.vehicle)
+    level = drawing.camera_for(shown, "side", elevation=0.0)
+    np.testing.assert_allclose(drawing.project(level, shape.bob - shape.pivot)[:, 1], -below, atol=1e-9)
+    camera = drawing.camera_for(shown, "side")
+    down = drawing.project(camera, [0.0, 0.0, -1.0])
+    assert down[0] == pytest.approx(0, abs=1e-12)
+    assert down[1] < -0.9
+
+
+@pytest.mark.parametrize("view", drawing.VIEWS)
+def test_both_frames_give_the_same_picture(run, view):
+    pictures = []
+    for shown in (run, run.flipped()):
+        camera = drawing.camera_for(shown, view, distance=4.0)
+        shape = drawing.sketch(drawing.states_at(shown, run.t), shown.vehicle, drawing.thrust_at(shown, run.t))
+        parts = (shape.discs, shape.arms, shape.rod, shape.thrust)
+        pictures.append(
+            [drawing.project(camera, part.reshape(len(run.t), -1, 3) - shape.pivot[:, None]) for part in parts]
+        )
+    for one, other in zip(*pictures, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-9)
+
+
+@pytest.mark.parametrize("view", drawing.VIEWS)
+def test_cameras_do_not_mirror(run, view):
+    camera = drawing.camera_for(run, view)
+    axes = np.stack([camera.right, camera.up, -np.asarray(camera.direction)])
+    np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(axes) == pytest.approx(1)
+
+
+def test_the_axis_camera_sits_on_minus_e3_of_the_paper_and_looks_along_gravity(run):
+    camera = drawing.camera_for(run, "axis", distance=4.0)
+    to_paper = np.diag([1.0, -1.0, -1.0])
+    eye = to_paper @ (-4.0 * np.asarray(camera.direction))
+    np.testing.assert_allclose(eye, [0, 0, -4.0])
+    assert run.e3 == "down"
+    np.testing.assert_allclose(to_paper @ camera.direction, gravity_vector(run.vehicle, "down") / run.vehicle.gravity)
+    # y → e₃ shrinks to the middle; a rod towards the camera is drawn larger.
+    hanging, inverted, across = (0, 0, -0.5), (0, 0, 0.5), (0.5, 0, 0)
+    np.testing.assert_allclose(drawing.project(camera, [hanging, inverted]), 0, atol=1e-12)
+    assert drawing.magnification(camera, hanging) == pytest.approx(4 / 4.5)
+    assert drawing.magnification(camera, inverted) == pytest.approx(4 / 3.5)
+    np.testing.assert_allclose(drawing.project(camera, across), [0.5, 0])
+
+
+def test_the_side_camera_looks_across_the_motion_and_travel_goes_to_the_right(run):
+    camera = drawing.camera_for(run, "side")
+    states = run.flipped().states
+    assert np.std(states.y @ camera.right) > 5 * np.std(states.y[:, :2] @ np.asarray(camera.direction)[:2])
+    assert (states.x[-1] - states.x[0]) @ camera.right > 0
+    still = dataclasses.replace(run, y=np.tile([0.0, 0, 1], (len(run.t), 1)), y_dot=np.zeros((len(run.t), 3)))
+    travel = (states.x[-1] - states.x[0])[:2]  # a rod that stays vertical leaves the travel of the vehicle
+    assert drawing.main_direction(still)[:2] @ travel > 0.99 * np.linalg.norm(travel)
+
+
+def test_states_between_the_samples_of_a_loaded_run(run):
+    kept = dataclasses.replace(run, interpolant=None)
+    np.testing.assert_allclose(
+        drawing.states_at(kept, run.t).packed(), drawing.states_at(run, run.t).packed(), atol=1e-9
+    )
+    between = (run.t[1:] + run.t[:-1]) / 2
+    exact, guess = drawing.states_at(run, between), drawing.states_at(kept, between)
+    # Linear between samples h apart: h²/8 times the acceleration, here |ÿ| < 40 /s² (h = 0.01 s).
+    assert geometry.norm(exact.y - guess.y).max() < 0.01**2 / 8 * 40
+    np.testing.assert_allclose(drawing.states_at(kept, [-1.0, 99.0]).x, drawing.states_at(kept, run.t[[0, -1]]).x)
+
+
+def test_nothing_is_made_up_between_samples_too_far_apart(run):
+    ends = {name: getattr(run, name)[[0, 1]].copy() for name in ARRAYS}
+    ends |= {
+        "y": np.array([[0.0, 0, 1], [np.sqrt(0.75), 0, -0.5]]),
+        "y_dot": np.zeros((2, 3)),
+        "t": np.array([0.0, 1.0]),
+    }
+    jump = dataclasses.replace(run.flipped(), **ends, signals={})
+    np.testing.assert_allclose(drawing.states_at(jump, [0.4, 0.6]).y, ends["y"])
+
+
+def test_the_thrust_that_carries_points_up_in_both_frames(run):
+    late = run.t[-50:]
+    for shown in (run, run.flipped()):
+        thrust = drawing.thrust_at(shown, late)
+        assert thrust.min() > 0
+        assert (drawing.states_at(shown, late).z[:, 2] > 0.99).all()
+
+
+# The figures ----------------------------------------------------------------------------------------------------
+
+
+def curves(ax):
+    return {line.get_label(): line.get_ydata() for line in ax.get_lines() if not line.get_label().startswith("_")}
+
+
+def words(figure):
+    return [text.get_text() for text in figure.findobj(matplotlib.text.Text) if text.get_text()]
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_the_paper_figure_shows_y3_and_z3_in_the_frame_of_the_run(run, turn):
+    shown = run.flipped() if turn else run
+    upper, lower = figures.paper_figure(shown).axes
+    np.testing.assert_array_equal(upper.get_lines()[-1].get_ydata(), shown.y[:, 2])
+    np.testing.assert_array_equal(lower.get_lines()[-1].get_ydata(), shown.z[:, 2])
+    assert upper.get_lines()[-1].get_ydata()[-1] == pytest.approx(-1 if turn else 1, abs=0.01)
+    poses = {text.get_text(): text.get_position()[1] for ax in (upper, lower) for text in ax.texts}
+    assert poses["hanging"] == (-1 if turn else 1)  # it ends hanging in either frame, and upright
+    assert poses["upright"] == 1
+    assert "(s)" in lower.get_xlabel()
+
+
+def test_a_run_that_did_not_complete_is_marked(singular):
+    end = singular.outcome.time
+    for figure in (figures.paper_figure(singular), figures.full_figure(singular)):
+        figure.canvas.draw()
+        (text,) = (text for text in figure.axes[0].texts if text.get_text() == f"singular\nat {end:.3f} s")
+        assert text.get_window_extent().x1 < figure.axes[0].bbox.x1
+        for ax in figure.axes:
+            assert any(np.array_equal(line.get_xdata(), [end, end]) for line in ax.get_lines())
+            assert ax.get_xlim()[1] > end
+    assert not any("singular" in text for text in words(figures.paper_figure(fly("2", duration=0.3))))
+
+
+def test_the_full_figure_shows_everything_with_units(run):
+    y, z, x, f, tau, v = figures.full_figure(run).axes
+    for ax, name, values in ((y, "y", run.y), (z, "z", run.z), (x, "x", run.x), (tau, r"\tau", run.moment)):
+        for i in range(3):
+            np.testing.assert_array_equal(curves(ax)[f"${name}_{i + 1}$"], values[:, i])
+    np.testing.assert_array_equal(curves(f)["$f$"], run.thrust)
+    np.testing.assert_allclose(curves(f)["hover"], -run.vehicle.weight)
+    total, one, two = (curves(v)[name] for name in ("$V = V_1 + V_2$", "$V_1$", "$V_2$"))
+    np.testing.assert_allclose(total, one + two, rtol=1e-9)
+    units = [ax.get_ylabel().split("(")[1] for ax in (y, z, x, f, tau, v)]
+    assert units == ["–)", "–)", "m)", "N)", "N m)", "1/s²)"]
+
+
+def test_a_law_without_lyapunov_functions_shows_the_rate_of_the_rod(run):
+    last = figures.full_figure(dataclasses.replace(run, signals={})).axes[-1]
+    np.testing.assert_array_equal(curves(last)[r"$\dot{y}_3$"], run.y_dot[:, 2])
+
+
+def test_a_whirling_rod_is_drawn_finer_than_its_samples():
+    whirl = fly("2", "printed", duration=5.0, beta="off")
+    line = figures.paper_figure(whirl).axes[0].get_lines()[-1]
+    t, y3 = line.get_data()
+    rates = np.interp(t, whirl.t, geometry.norm(whirl.y_dot))
+    assert np.max(rates[1:] * np.diff(t)) < 0.3  # rad between points; between samples it is more than 1
+    assert np.max(geometry.norm(whirl.y_dot)[1:] * np.diff(whirl.t)) > 1
+    assert np.abs(np.diff(y3)).max() < 0.3
+
+
+def stamps(figure):
+    return [text for text in words(figure) if text.endswith(" s")]
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 12, 30])
+@pytest.mark.parametrize("view", drawing.VIEWS)
+def test_stop_motion_has_as_many_pictures_as_asked_for(run, count, view):
+    figure = figures.stop_motion(run, count, view=view)
+    times = [float(stamp.removesuffix(" s")) for stamp in stamps(figure)]
+    assert len(times) == count
+    assert sorted(set(times)) == times
+    assert times[-1] == 6.5
+    assert count == 1 or times[0] == 0
+    bobs = [patch for patch in figure.axes[1].patches if isinstance(patch, Circle) and patch.get_facecolor()[2] == 0]
+    assert len(bobs) == count
+
+
+def test_pictures_are_denser_where_the_rod_moves(run):
+    times = figures.snapshot_times(run, 12)
+    assert np.sum(times < 2) >= 7  # nearly all motion of the rod is in the first third of the 6.5 s
+    y = drawing.states_at(run, times).y
+    assert np.degrees(np.arccos(np.clip(geometry.dot(y[1:], y[:-1]), -1, 1))).max() < 60
+
+
+def test_stop_motion_is_the_same_in_both_frames_with_the_bob_under_the_pivot_at_the_end(run):
+    centres = []
+    for shown in (run, run.flipped()):
+        pictures = figures.stop_motion(dataclasses.replace(shown, interpolant=None), 4).axes[1]
+        centres.append([patch.center for patch in pictures.patches if isinstance(patch, Circle)])
+        rod = pictures.get_lines()[-4 - 1].get_xydata()  # the key is four lines
+        assert rod[1, 1] < rod[0, 1] - 0.4
+        assert rod[1, 0] == pytest.approx(rod[0, 0], abs=0.05)
+    np.testing.assert_allclose(*centres, atol=1e-9)
+
+
+def test_stop_motion_of_a_run_that_ended_early(singular):
+    assert "singular" in words(figures.stop_motion(singular))
+    assert len(stamps(figures.stop_motion(at_the_start(singular)))) == 1
+
+
+@pytest.mark.parametrize("view", drawing.VIEWS)
+def test_the_symbol_of_gravity(run, view):
+    ax = canvas.new_figure(3, 3).subplots()
+    drawing.gravity_symbol(ax, view, (0.0, 0.0), 1.0, fontsize=8)
+    assert [text.get_text() for text in ax.texts if text.get_text()] == ["g"]
+    arrows = [text for text in ax.texts if not text.get_text()]
+    if view == "side":
+        assert arrows[0].xy[1] < arrows[0].xyann[1]  # from above to below
+    else:
+        assert not arrows
+        assert len(ax.patches) == 1
+        assert len(ax.get_lines()) == 2
+
+
+def overlaps(figure, monkeypatch):
+    """Pairs of drawn texts that overlap, and texts that leave the figure."""
+    drawn = {}
+    draw = matplotlib.text.Text.draw
+
+    def record(self, renderer, *rest, **more):
+        if self.get_text().strip() and self.get_visible():
+            drawn[id(self)] = (self.get_text(), matplotlib.text.Text.get_window_extent(self, renderer))  # no arrow
+        return draw(self, renderer, *rest, **more)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(matplotlib.text.Text, "draw", record)
+        figure.canvas.draw()
+    assert len(drawn) > 10
+    width, height = figure.bbox.size
+    out = [name for name, box in drawn.values() if box.x0 < 0 or box.y0 < 0 or box.x1 > width or box.y1 > height]
+    pairs = itertools.combinations(drawn.values(), 2)
+    # Boxes hold the space for ascenders and descenders: a pixel and a half of it may be shared.
+    out += [(a, b) for (a, one), (b, two) in pairs if one.padded(-1.5).overlaps(two.padded(-1.5))]
+    return out
+
+
+DRAWN = {
+    "paper": figures.paper_figure,
+    "full": figures.full_figure,
+    "stop motion": figures.stop_motion,
+    "from above, 5": lambda run: figures.stop_motion(run, 5, view="axis"),
+    "3": lambda run: figures.stop_motion(run, 3),
+    "24": lambda run: figures.stop_motion(run, 24),
+}
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+@pytest.mark.parametrize("which", ["2", "4", "5", "printed", "at the start"])
+def test_no_text_is_cut_off_or_overlaps(kind, which, singular, monkeypatch):
+    shown = {"printed": singular, "at the start": at_the_start(singular)}.get(which) or fly(which)
+    assert overlaps(DRAWN[kind](shown), monkeypatch) == []
+
+
+def test_overlaps_are_found(run, monkeypatch):
+    figure = figures.paper_figure(run)
+    figure.axes[0].text(0.1, -1.12, "over the tick labels", ha="right")
+    assert overlaps(figure, monkeypatch)
+
+
+# Files ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("suffix", "head"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]
+)
+def test_figures_are_written_in_the_format_of_the_suffix(run, tmp_path, suffix, head):
+    path = tmp_path / f"a{suffix}"
+    for _ in range(2):  # and over what is there
+        figures.save_figure(figures.paper_figure(run), path)
+    assert path.read_bytes().startswith(head)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_equal_figures_are_equal_files(run, tmp_path):
+    for name in ("a.pdf", "b.pdf", "a.svg", "b.svg"):
+        figures.save_figure(figures.paper_figure(run), tmp_path / name)
+    assert (tmp_path / "a.pdf").read_bytes() == (tmp_path / "b.pdf").read_bytes()
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+
+
+def test_a_figure_that_cannot_be_written_leaves_nothing(run, tmp_path, monkeypatch):
+    figure = figures.paper_figure(run)
+    (tmp_path / "folder.png").mkdir()
+    old = tmp_path / "old.png"
+    old.write_bytes(b"old")
+    for name in ("a.bmp", "a", "none/a.png", "folder.png", f"{'a' * 300}.png"):
+        with pytest.raises(fp.InputError):
+            figures.save_figure(figure, tmp_path / name)
+
+    def full_disk(path, **_):
+        path.write_bytes(b"half of it")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(figure, "savefig", full_disk)
+    with pytest.raises(fp.InputError, match="No space left"):
+        figures.save_figure(figure, old)
+    assert old.read_bytes() == b"old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["folder.png", "old.png"]
+
+
+@pytest.mark.parametrize("count", [0, -3, float("nan"), "many"])
+def test_a_bad_count_is_refused(run, count):
+    with pytest.raises(fp.InputError, match="count"):
+        figures.stop_motion(run, count)
+
+
+def test_an_unknown_view_is_refused(run):
+    with pytest.raises(fp.InputError, match="did you mean 'side'"):
+        figures.stop_motion(run, view="sides")
+
+
+def test_no_window_and_no_pyplot_state():
+    code = "import sys, flypend.pictures.animate; assert not {'matplotlib.pyplot', 'tkinter'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+# One set ------------------------------------------------------------------------------------------------------------
+
+SET = [figures.paper_figure, figures.full_figure, figures.stop_motion]
+
+
+@pytest.mark.parametrize("style", list(STYLES))
+@pytest.mark.parametrize("figure", SET)
+def test_a_style_sets_the_format_and_nothing_is_cut_off(run, figure, style):
+    drawn, form = figure(run, style=style), STYLES[style]
+    width, height = drawn.get_size_inches()
+    assert width == pytest.approx(form.half[0] if figure is figures.paper_figure else form.full[0])
+    if style == "slides" and figure is figures.full_figure:
+        assert width / height == pytest.approx(16 / 9, rel=1e-3)
+    drawn.canvas.draw()
+    used = drawn.get_tightbbox()
+    assert min(used.x0, used.y0) > -0.02
+    assert used.x1 < width + 0.02
+    assert used.y1 < height + 0.02
+
+
+@pytest.mark.parametrize("figure", SET)
+def test_letters_are_as_large_in_print_as_captions_are(run, figure):
+    sizes = [text.get_fontsize() for text in figure(run).findobj(matplotlib.text.Text) if text.get_text()]
+    assert min(sizes) >= 6
+    assert max(sizes) <= 9
+
+
+@pytest.mark.parametrize("figure", SET)
+def test_an_unknown_style_is_refused(run, figure):
+    with pytest.raises(fp.InputError, match="--style: expected one of paper, slides, got 'poster'"):
+        figure(run, style="poster")
+
+
+def test_every_colour_comes_from_the_one_palette():
+    """A hue anywhere else in the package would be a second palette; greys are free."""
+    found = {}
+    for path in Path(figures.__file__).parent.rglob("*.py"):
+        for colour in re.findall(r"#([0-9a-fA-F]{6})\b", path.read_text(encoding="utf-8")):
+            if path.name != "palette.py" and len({colour[:2], colour[2:4], colour[4:]}) > 1:
+                found.setdefault(path.name, []).append(colour)
+    assert not found
+
+
+def luminance(colour):
+    """Relative luminance as WCAG defines it."""
+    c = np.array(matplotlib.colors.to_rgb(colour))
+    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4) @ [0.2126, 0.7152, 0.0722]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("ground", ["paper", "sky"])
+def test_lines_and_words_of_a_page_stand_out_from_its_background(theme, ground):
+    colours = palette.PAGE[theme]
+    assert colours.keys() == palette.PAGE["light"].keys()
+
+    def contrast(role):
+        low, high = sorted((luminance(colours[role]), luminance(colours[ground])))
+        return (high + 0.05) / (low + 0.05)
+
+    assert contrast("ink") > 7  # the levels of WCAG: enhanced, and for small letters
+    assert contrast("muted") > 4.5
+    # Graphics; green and pink of Okabe and Ito are a little paler on white than the 3 of WCAG.
+    assert min(contrast(role) for role in ("rod", "trail", "thrust", "reference", "ghost", "rotor1", "rotor2")) > 3
+    assert min(contrast(role) for role in ("rotor3", "rotor4")) > 2.5

@@ -1,0 +1,454 @@
+"""MuJoCo as the judge: bodies, joints and motors against the package's equations, with and without disturbances."""
+
+import sys
+
+import casadi as ca
+import mujoco
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend import geometry as geo
+from flypend.compile.numeric import as_numpy
+from flypend.flight.integrate import integrate
+from flypend.laws.closed_loop import close_loop
+from flypend.model import disturbed_motion, equations_of_motion, total_energy
+from flypend.model.state import FLIP, SIZE
+from flypend.plants import mujoco as plant
+from flypend.plants.mujoco import MujocoEngine, model_xml
+
+VEHICLES = ["nayak2018", "hehn2011"]
+OFFSET = np.array([0.03, -0.05, 0.08])  # m; a third of the arm
+NOTHING = {"force_on_vehicle": np.zeros(3), "force_on_bob": np.zeros(3), "pivot_offset": np.zeros(3)}
+
+# Accelerations are sums of some ten products of order up to 1e3 (a hundred rad/s² times a hundred), eps each.
+ROUNDOFF = 1e-11
+
+
+def _tilted(name):
+    """The vehicle with principal axes that are not those of the body."""
+    vehicle = fp.vehicle(name)
+    Q = geo.random_rotation(np.random.default_rng(0))
+    return vehicle.replace(inertia=Q @ vehicle.I @ Q.T)
+
+
+def _disturbances(rng, size=()):
+    return {
+        "force_on_vehicle": rng.standard_normal((*size, 3)),
+        "force_on_bob": 0.3 * rng.standard_normal((*size, 3)),
+        "pivot_offset": OFFSET,
+    }
+
+
+def _wrench(rng, vehicle, size=()):
+    """Up to twice the weight, and a moment for some rad/s²."""
+    thrust = vehicle.weight * rng.uniform(0, 2, size)
+    return fp.Wrench(thrust, geo.apply(vehicle.I, rng.uniform(-3, 3, (*size, 3))))
+
+
+def _forces(vehicle, wrench):
+    return vehicle.unmixing() @ np.append(wrench.thrust, wrench.moment)
+
+
+def _external(disturbances):
+    return {name: disturbances[name] for name in ("force_on_vehicle", "force_on_bob")}
+
+
+def _fly(vehicle, start, forces, duration, timestep, disturbances=NOTHING):
+    engine = MujocoEngine(vehicle, timestep=timestep, pivot_offset=disturbances["pivot_offset"])
+    engine.reset(start.packed())
+    external = _external(disturbances)
+    for _ in range(round(duration / timestep)):
+        engine.step(forces, **external)
+    return engine.packed
+
+
+def _integrated(motion, start, duration, *arguments):
+    """The packed state after `duration` from the rates `motion(state, *arguments)`, to 1e-11."""
+    packed = ca.SX.sym("s", SIZE)
+    rates = motion(fp.State.symbolic(packed), *arguments)
+    function = as_numpy(ca.Function("rates", [packed], [ca.densify(ca.cse(rates.packed()))]))
+    run = integrate(lambda t, s: function(s), start.packed(), duration, rtol=1e-11, atol=1e-11)
+    assert run.outcome.status == "completed"
+    return run([duration])[0]
+
+
+def _error(a, b):
+    return np.max(np.abs(a - b))
+
+
+# The derivation of `disturbed_motion` -----------------------------------------------------------------------------
+
+
+def _solved(state, wrench, vehicle, disturbances):
+    """c̈, ω̇, ÿ, T, ẍ from Newton's and Euler's equations as one linear system: nothing is eliminated by hand."""
+    M, m, l, g = vehicle.mass, vehicle.bob_mass, vehicle.rod_length, np.array([0, 0, -vehicle.gravity])
+    R, w, y, o = state.R, state.omega, state.y, disturbances["pivot_offset"]
+    eye, zero, column = np.eye(3), np.zeros((3, 3)), np.zeros((3, 1))
+    rows = [
+        [M * eye, zero, zero, -y[:, None], zero],
+        [zero, vehicle.inertia, zero, -np.cross(o, R.T @ y)[:, None], zero],
+        [zero, zero, m * l * eye, y[:, None], m * eye],
+        [-eye, R @ geo.hat(o), zero, column, eye],
+        [np.zeros((1, 6)), y[None], np.zeros((1, 4))],
+    ]
+    right = [
+        M * g + wrench.thrust * R[:, 2] + disturbances["force_on_vehicle"],
+        wrench.moment - np.cross(w, vehicle.inertia @ w),
+        m * g + disturbances["force_on_bob"],
+        R @ np.cross(w, np.cross(w, o)),
+        [-state.y_dot @ state.y_dot],
+    ]
+    solution = np.linalg.solve(np.vstack([np.hstack(row) for row in rows]), np.concatenate(right))
+    return {"x_ddot": solution[10:13], "omega_dot": solution[3:6], "y_ddot": solution[6:9], "c_ddot": solution[0:3]}
+
+
+@pytest.mark.parametrize("name", VEHICLES)
+def test_disturbed_motion_solves_the_equations_of_newton_and_euler(name):
+    rng, vehicle = np.random.default_rng(1), _tilted(name)
+    for state in fp.State.random(rng, 100):
+        wrench, disturbances = _wrench(rng, vehicle), _disturbances(rng)
+        rates = disturbed_motion(state, wrench, vehicle, "up", **disturbances)
+        wanted = _solved(state, wrench, vehicle, disturbances)
+        for field in ("x_ddot", "omega_dot", "y_ddot"):
+            assert _error(getattr(rates, field), wanted[field]) < ROUNDOFF, field
+
+
+@pytest.mark.parametrize("e3", ["up", "down"])
+@pytest.mark.parametrize("name", VEHICLES)
+def test_without_disturbances_it_is_the_equations_of_motion(name, e3):
+    rng, vehicle = np.random.default_rng(2), _tilted(name)
+    states, wrench = fp.State.random(rng, 1000), _wrench(rng, vehicle, (1000,))
+    ideal = equations_of_motion(states, wrench, vehicle, e3).packed()
+    assert _error(disturbed_motion(states, wrench, vehicle, e3, **NOTHING).packed(), ideal) < ROUNDOFF
+    assert _error(disturbed_motion(states, wrench, vehicle, e3).packed(), ideal) < ROUNDOFF
+
+
+def test_each_disturbance_counts():
+    rng, vehicle = np.random.default_rng(3), fp.vehicle("hehn2011")
+    state, wrench, disturbances = fp.State.random(rng), _wrench(rng, vehicle), _disturbances(rng)
+    full = disturbed_motion(state, wrench, vehicle, "up", **disturbances).packed()
+    for name in disturbances:
+        without = disturbed_motion(state, wrench, vehicle, "up", **{**disturbances, name: np.zeros(3)}).packed()
+        assert _error(without, full) > 0.1, name
+
+
+@pytest.mark.parametrize("name", VEHICLES)
+def test_power_is_what_thrust_moment_and_wind_supply(name):
+    rng, vehicle = np.random.default_rng(4), _tilted(name)
+    states, wrench, disturbances = fp.State.random(rng, 500), _wrench(rng, vehicle, (500,)), _disturbances(rng, (500,))
+    rates = disturbed_motion(states, wrench, vehicle, "up", **disturbances)
+    M, m, l, w = vehicle.mass, vehicle.bob_mass, vehicle.rod_length, states.omega
+    g, o = np.array([0, 0, -vehicle.gravity]), np.broadcast_to(OFFSET, w.shape)
+    c_dot = states.x_dot - geo.apply(states.R, np.cross(w, o))
+    c_ddot = rates.x_ddot - geo.apply(states.R, np.cross(rates.omega_dot, o) + np.cross(w, np.cross(w, o)))
+    p_dot, p_ddot = states.x_dot + l * states.y_dot, rates.x_ddot + l * rates.y_ddot
+    gain = M * geo.dot(c_dot, c_ddot - g) + m * geo.dot(p_dot, p_ddot - g)
+    gain += geo.dot(w, geo.apply(vehicle.inertia, rates.omega_dot))
+    supply = wrench.thrust * geo.dot(states.z, c_dot) + geo.dot(wrench.moment, w)
+    supply += geo.dot(disturbances["force_on_vehicle"], c_dot) + geo.dot(disturbances["force_on_bob"], p_dot)
+    assert _error(gain, supply) < 10 * ROUNDOFF  # products of accelerations and velocities of order ten
+
+
+def test_a_batch_is_its_members_and_numpy_is_casadi():
+    rng, vehicle = np.random.default_rng(5), _tilted("hehn2011")
+    states, wrench, disturbances = fp.State.random(rng, 20), _wrench(rng, vehicle, (20,)), _disturbances(rng, (20,))
+    batch = disturbed_motion(states, wrench, vehicle, "up", **disturbances).packed()
+    symbols = [ca.SX.sym(name, size) for name, size in (("s", SIZE), ("w", 4), ("F_v", 3), ("F_b", 3), ("o", 3))]
+    s, w, F_v, F_b, o = symbols
+    symbolic = disturbed_motion(
+        fp.State.symbolic(s), fp.Wrench(w[0], w[1:]), vehicle, "up",
+        force_on_vehicle=F_v, force_on_bob=F_b, pivot_offset=o,
+    )  # fmt: skip
+    function = ca.Function("rates", symbols, [symbolic.packed()])
+    for k, state in enumerate(states):
+        mine = {name: value if value.ndim == 1 else value[k] for name, value in disturbances.items()}
+        one = fp.Wrench(wrench.thrust[k], wrench.moment[k])
+        assert _error(disturbed_motion(state, one, vehicle, "up", **mine).packed(), batch[k]) < ROUNDOFF
+        values = function(state.packed(), np.append(one.thrust, one.moment), *mine.values())
+        assert _error(np.asarray(values).ravel(), batch[k]) < ROUNDOFF
+
+
+def test_the_frame_turned_by_pi_sees_the_same_motion():
+    rng, vehicle = np.random.default_rng(6), fp.vehicle("nayak2018")
+    states, wrench, disturbances = fp.State.random(rng, 50), _wrench(rng, vehicle, (50,)), _disturbances(rng, (50,))
+    up = disturbed_motion(states, wrench, vehicle, "up", **disturbances)
+    turned = {name: geo.apply(FLIP, value) for name, value in disturbances.items()}
+    down = disturbed_motion(states.flipped(), wrench.flipped(), vehicle, "down", **turned)
+    for field in ("x_ddot", "omega_dot", "y_ddot"):
+        assert _error(geo.apply(FLIP, getattr(down, field)), getattr(up, field)) < ROUNDOFF, field
+
+
+# The model that MuJoCo is given -----------------------------------------------------------------------------------
+
+
+def test_the_model_has_the_masses_of_the_vehicle_and_nothing_touches():
+    vehicle = _tilted("nayak2018")
+    model = mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=1e-3, pivot_offset=OFFSET))
+    body, bob = model.body("vehicle").id, model.body("bob").id
+    assert model.body_mass[body] == vehicle.M
+    assert model.body_mass[bob] == vehicle.m
+    assert model.body_ipos[body].tolist() == (-OFFSET).tolist()
+    assert model.body_ipos[bob].tolist() == [0, 0, vehicle.l]
+    axes = np.empty(9)
+    mujoco.mju_quat2Mat(axes, model.body_iquat[body])
+    axes = axes.reshape(3, 3)
+    assert _error(axes @ np.diag(model.body_inertia[body]) @ axes.T, vehicle.I) < 1e-15
+    assert np.sum(model.body_mass) == vehicle.M + vehicle.m
+    assert model.ngeom > 0
+    assert not np.any(model.geom_contype)
+    assert not np.any(model.geom_conaffinity)
+    assert not np.any(model.dof_damping)
+    assert not np.any(model.dof_armature)
+    assert (model.opt.density, model.opt.viscosity) == (0, 0)
+    assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_planar_body_is_accepted(seed):
+    Q = geo.random_rotation(np.random.default_rng(seed))
+    inertia = Q @ np.diag([1.0, 2.0, 3.0]) @ Q.T  # MuJoCo refuses a third of these as they come, for roundoff
+    vehicle = fp.vehicle("nayak2018").replace(inertia=(inertia + inertia.T) / 2)
+    mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=1e-3))
+
+
+def test_a_rotor_at_the_centre_of_mass_is_accepted():
+    vehicle = fp.vehicle("hehn2011")
+    positions, spins = np.vstack([vehicle.rotor_positions, np.zeros(3)]), [*vehicle.rotor_spins, 1]
+    engine = MujocoEngine(vehicle.replace(rotor_positions=positions, rotor_spins=spins))
+    engine.step(np.ones(5))
+    assert engine.model.nu == 5
+
+
+def _accelerations(engine):
+    """ẍ, ω̇ and ÿ from MuJoCo's accelerations: no integrator is involved."""
+    data = engine.data
+    mujoco.mj_forward(engine.model, data)
+    R, R_rod = (data.body(body).xmat.reshape(3, 3) for body in ("vehicle", "bob"))
+    omega, omega_dot = data.qvel[3:6], data.qacc[3:6]
+    of_vehicle = R_rod.T @ R @ omega
+    w = data.qvel[6:9] + of_vehicle  # of the rod, in its frame
+    w_dot = data.qacc[6:9] + R_rod.T @ R @ omega_dot - np.cross(w, of_vehicle)
+    axis = np.array([0, 0, 1])
+    return {
+        "x_ddot": data.qacc[0:3].copy(),
+        "omega_dot": omega_dot.copy(),
+        "y_ddot": R_rod @ (np.cross(w_dot, axis) + np.cross(w, np.cross(w, axis))),
+    }
+
+
+@pytest.mark.parametrize("name", VEHICLES)
+def test_accelerations_agree_for_any_rotor_forces(name):
+    rng, vehicle = np.random.default_rng(7), _tilted(name)
+    for state in fp.State.random(rng, 50):
+        disturbances, forces = _disturbances(rng), rng.uniform(-1, 4, 4)
+        engine = MujocoEngine(vehicle, pivot_offset=OFFSET)
+        engine.step(forces, **_external(disturbances))  # leaves forces behind, which reset has to take away
+        engine.reset(state.packed())
+        free = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), vehicle, "up", pivot_offset=OFFSET)
+        for field, value in _accelerations(engine).items():
+            assert _error(value, getattr(free, field)) < 1e-9, field
+        engine.data.ctrl[:] = forces
+        engine.data.xfrc_applied[engine.model.body("vehicle").id, :3] = disturbances["force_on_vehicle"]
+        engine.data.xfrc_applied[engine.model.body("bob").id, :3] = disturbances["force_on_bob"]
+        wrench = vehicle.mixing() @ forces
+        rates = disturbed_motion(state, fp.Wrench(wrench[0], wrench[1:]), vehicle, "up", **disturbances)
+        for field, value in _accelerations(engine).items():
+            # the bob's own inertia is 4e-12 of that of the rod, of accelerations up to a hundred
+            assert _error(value, getattr(rates, field)) < 1e-9, field
+
+
+# Motion without feedback ------------------------------------------------------------------------------------------
+
+
+def _errors(name, rng, timesteps, motion, disturbed):
+    """Largest difference of the states after 1 s, one row per start, one column per timestep."""
+    vehicle, rows = _tilted(name) if disturbed else fp.vehicle(name), []
+    for start in fp.State.random(rng, 20):
+        wrench, disturbances = _wrench(rng, vehicle), _disturbances(rng) if disturbed else NOTHING
+        forces, symbolic = _forces(vehicle, wrench), fp.Wrench(wrench.thrust, ca.DM(wrench.moment))
+        ours = _integrated(motion, start, 1.0, symbolic, vehicle, disturbances)
+        rows.append([_error(_fly(vehicle, start, forces, 1.0, h, disturbances), ours) for h in timesteps])
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("name", VEHICLES)
+def test_under_a_constant_wrench_mujoco_moves_as_the_equations_of_motion(name):
+    def ideal(state, wrench, vehicle, _):
+        return equations_of_motion(state, wrench, vehicle, "up")
+
+    coarse, half, fine = _errors(name, np.random.default_rng(8), (8e-3, 4e-3, 0.5e-3), ideal, False).T
+    assert np.max(coarse) < 1e-5
+    assert 14 < np.median(coarse / half) < 18  # order 4: 16
+    assert np.max(fine) < 1e-9  # RK4 leaves 1e-10, the bob's own inertia 3e-10
+
+
+@pytest.mark.parametrize("name", VEHICLES)
+def test_under_disturbances_mujoco_moves_as_disturbed_motion(name):
+    def disturbed(state, wrench, vehicle, disturbances):
+        return disturbed_motion(state, wrench, vehicle, "up", **disturbances)
+
+    coarse, half, fine = _errors(name, np.random.default_rng(9), (8e-3, 4e-3, 0.5e-3), disturbed, True).T
+    assert np.max(coarse) < 2e-4  # moments of wind and rod turn hehn2011 by tens of rad/s
+    assert 14 < np.median(coarse / half) < 18
+    assert np.max(fine) < 4e-9
+
+
+def test_what_remains_is_the_inertia_of_the_bob(monkeypatch):
+    rng, vehicle = np.random.default_rng(10), fp.vehicle("hehn2011")
+    start, wrench = fp.State.random(rng), _wrench(rng, vehicle)
+    constant = fp.Wrench(wrench.thrust, ca.DM(wrench.moment))
+    ours = _integrated(equations_of_motion, start, 1.0, constant, vehicle, "up")
+    remainder = []
+    for inertia in (4e-9, 4e-8, 4e-7):
+        monkeypatch.setattr(plant, "BOB_INERTIA", inertia)
+        remainder.append(_error(_fly(vehicle, start, _forces(vehicle, wrench), 1.0, 1e-3), ours))
+    assert np.allclose(np.divide(remainder[1:], remainder[:-1]), 10, rtol=0.05)  # linear in it
+    assert remainder[0] < 100 * 4e-9  # per s², at rod accelerations below a hundred rad/s²
+
+
+@pytest.mark.parametrize("offset", [np.zeros(3), OFFSET], ids=["centred", "offset"])
+@pytest.mark.parametrize("name", VEHICLES)
+def test_energy_and_momentum_in_free_flight(name, offset):
+    vehicle = _tilted(name)
+    M, m, l, duration = vehicle.M, vehicle.m, vehicle.l, 5.0
+    engine = MujocoEngine(vehicle, pivot_offset=offset)
+
+    def momentum():
+        s = fp.State.from_packed(engine.packed)
+        return M * (s.x_dot - s.R @ np.cross(s.omega, offset)) + m * (s.x_dot + l * s.y_dot)
+
+    for start in fp.State.random(np.random.default_rng(11), 2):
+        engine.reset(start.packed())
+        energy, before = engine.energy(), momentum()
+        if not offset.any():
+            assert abs(energy - total_energy(start, vehicle, "up")) < 1e-11  # J, of one; the bob's inertia again
+        for _ in range(round(duration / engine.timestep)):
+            engine.step(np.zeros(4))
+        # 600 J of kinetic and of potential energy and 27 N s by then: only the roundoff of 1e4 steps, 1e-13 of either
+        assert abs(engine.energy() - energy) < 1e-10
+        assert _error(momentum() - before, (M + m) * duration * np.array([0, 0, -vehicle.g])) < 1e-11
+
+
+# The ideal closed loop --------------------------------------------------------------------------------------------
+
+# A packed state in the frame turned by π about e₁ is this times itself.
+FLIP_PACKED = np.concatenate([[1, -1, -1]] * 2 + [[1, -1, -1, -1, 1, 1, -1, 1, 1]] + [[1, -1, -1]] * 3)
+
+
+def _closed_loop(vehicle, law, start, duration, timestep):
+    """The packed state, in the law's frame (e₃ down), after a flight in MuJoCo under the wrench held over each step."""
+    outputs, unmixing = as_numpy(close_loop(vehicle, law).outputs), vehicle.unmixing()
+    engine = MujocoEngine(vehicle, timestep=timestep)
+    engine.reset(start.flipped().packed())
+    for k in range(round(duration / timestep)):
+        control = outputs(k * timestep, FLIP_PACKED * engine.packed)
+        wrench = fp.Wrench(control[0], control[1:4]).flipped()
+        engine.step(unmixing @ np.append(wrench.thrust, wrench.moment))
+    return FLIP_PACKED * engine.packed
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3])
+@pytest.mark.parametrize("name", VEHICLES)
+def test_the_corrected_law_flies_the_same_in_mujoco(name, seed):
+    vehicle, law, duration = fp.vehicle(name), fp.laws.corrected(), 1.5
+    start = fp.State.random(np.random.default_rng(seed))
+    assert _error(FLIP_PACKED * start.packed(), start.flipped().packed()) < 1e-15
+    run = fp.simulate(vehicle, law, start, duration, rtol=1e-10)
+    end = np.concatenate([np.ravel(getattr(run, field)[-1]) for field in ("x", "x_dot", "R", "omega", "y", "y_dot")])
+    full, half = (_closed_loop(vehicle, law, start, duration, h) - end for h in (1e-3, 0.5e-3))
+    # Holding the wrench delays it by half a step on average: the difference is of first order, and without that part of
+    # second order.
+    assert np.max(np.abs(full)) < 10 * 1e-3
+    assert abs(np.max(np.abs(full)) / np.max(np.abs(half)) - 2) < 0.02
+    assert np.max(np.abs(2 * half - full)) < 30 * 1e-3**2
+
+
+# State in, state out, and what is refused -------------------------------------------------------------------------
+
+
+def test_reset_and_packed_are_inverse():
+    engine = MujocoEngine(_tilted("hehn2011"), pivot_offset=OFFSET)
+    assert _error(engine.packed, fp.State(y=(0, 0, 1)).packed()) == 0
+    states = fp.State.random(np.random.default_rng(12), 300, max_omega=30, max_y_dot=30)
+    for state in states:
+        engine.reset(state.packed())
+        assert _error(engine.packed, state.packed()) < 1e-12
+        rod = engine._R_rod.T @ engine._R @ state.omega + engine.data.qvel[6:9]
+        assert abs(rod[2]) < 1e-12  # no spin about its own axis
+        assert engine.data.time == 0
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("angle", [0, 1e-300, 1e-17, 1e-15, 1e-12, 1e-8, 1e-5])
+def test_reset_near_the_poles(sign, angle):
+    engine = MujocoEngine(fp.vehicle("hehn2011"))
+    for turn in np.diag([1.0, 1, 1]), np.diag([1.0, -1, -1]), np.diag([-1.0, 1, -1]), np.diag([-1.0, -1, 1]):
+        state = fp.State(y=(np.sin(angle), 0, sign * np.cos(angle)), y_dot=(0, 3, 0), R=turn, omega=(1, 2, 3))
+        engine.reset(state.packed())
+        assert _error(engine.packed, state.packed()) < 1e-14
+
+
+def test_a_step_and_a_reset_leave_nothing_behind_but_the_state():
+    forces, wind = np.array([1.0, 2, 1.5, 1.2]), {"force_on_vehicle": (1, 2, 3), "force_on_bob": (3, 2, 1)}
+    used, fresh = (MujocoEngine(fp.vehicle("hehn2011")) for _ in range(2))
+    used.reset(fp.State.random(np.random.default_rng(13)).packed())
+    used.step(forces, **wind)
+    fresh.reset(used.packed)
+    for engine in (used, fresh):
+        engine.step(forces)
+    assert _error(used.packed, fresh.packed) < 1e-12
+    used.step(forces, **wind)
+    used.energy()
+    for engine in (used, fresh):
+        engine.reset(fp.State(y=(1, 0, 0)).packed())
+        engine.energy()  # with the forces at rest that reset leaves
+        engine.step(forces)
+    assert np.array_equal(used.packed, fresh.packed)
+
+
+def test_a_state_that_diverges_is_not_reset_in_silence(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes MUJOCO_LOG.TXT there
+    engine = MujocoEngine(fp.vehicle("hehn2011"))
+    engine.reset(fp.State(y=(0, 0, 1), x_dot=(1e11, 0, 0)).packed())
+    engine.step(np.zeros(4))
+    assert engine.packed[3] == 1e11
+
+
+def test_what_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    vehicle = fp.vehicle("hehn2011")
+    engine = MujocoEngine(vehicle, timestep=1e-3)
+    assert engine.timestep == 1e-3
+    before = engine.packed
+    for wrong in ([1, 2, 3], [1], np.ones(5)):
+        with pytest.raises(fp.InputError, match=r"^forces: expected numbers of shape \(4\), got shape "):
+            engine.step(wrong)
+    for bad in (np.nan, np.inf, -np.inf, 1e11):
+        for arguments in (
+            {"forces": [1, bad, 1, 1]},
+            {"forces": [bad, -bad, 1, 1]},
+            {"forces": np.ones(4), "force_on_vehicle": (0, bad, 0)},
+            {"forces": np.ones(4), "force_on_bob": (0, 0, bad)},
+        ):
+            with pytest.raises(fp.InputError, match=r"^forces: expected finite numbers, got "):
+                engine.step(**arguments)
+    assert np.array_equal(engine.packed, before)
+    with pytest.raises(fp.InputError, match=r"^packed state: expected a single state, got a batch of shape \(2,\)$"):
+        engine.reset(fp.State.random(np.random.default_rng(0), 2).packed())
+    with pytest.raises(fp.InputError, match=r"^y: expected a unit vector"):
+        engine.reset(np.concatenate([fp.State(y=(0, 0, 1)).packed()[:18], np.zeros(6)]))
+    with pytest.raises(fp.InputError, match=r"^timestep: expected a finite number > 0 s"):
+        MujocoEngine(vehicle, timestep=0)
+    for offset in ((1, 2), (0, 0, np.nan), np.zeros((2, 3))):
+        with pytest.raises(fp.InputError, match=r"^pivot_offset: expected"):
+            model_xml(vehicle, timestep=1e-3, pivot_offset=offset)
+    assert not list(tmp_path.iterdir())  # MuJoCo writes its warnings to MUJOCO_LOG.TXT: there were none
+
+
+def test_without_mujoco_there_is_one_clear_line(monkeypatch):
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    line = r"^plant: expected the extra flypend\[mujoco\] to be installed, got no module mujoco$"
+    with pytest.raises(fp.InputError, match=line):
+        MujocoEngine(fp.vehicle("hehn2011"))
+    assert model_xml(fp.vehicle("hehn2011"), timestep=1e-3).startswith("<mujoco")

@@ -107,14 +107,14 @@ def test_the_order_names_nothing_twice_and_the_foundation_exists():
     [
         ({"geometry": "from flypend.model import State", "model": ""}, "flypend.geometry imports flypend.model"),
         (
-            {"model": "def f():\n    import flypend.simulate", "simulate": ""},
-            "flypend.model imports flypend.simulate",
+            {"model": "def f():\n    import flypend.studies", "studies": ""},
+            "flypend.model imports flypend.studies",
         ),
         (
             {"model.state": "from flypend import laws", "laws": "", "model": ""},
             "flypend.model.state imports flypend.laws",
         ),
-        ({"model": "from flypend import State", "": "from flypend.flight.simulate import simulate"}, "(the namespace)"),
+        ({"model": "from flypend import State", "": "from flypend.flight import simulate"}, "(the namespace)"),
         ({"brand_new": ""}, "brand_new is new"),
         ({"laws": "from flypend.laws.a import A", "laws.a": "from flypend.laws import B"}, "cycle: "),
     ],

@@ -13,8 +13,8 @@ from flypend.board.observer import ForceObserver
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.geometry import apply, cross
+from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import upright_wrench
-from flypend.laws.law import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, SIZE
 from flypend.plants.actuation import Actuation, rotor_forces
@@ -32,7 +32,7 @@ class FlightComputer:
     It keeps what a flight computer keeps: the modelled rotor forces, the commands under way, the observer's state.
     """
 
-    def __init__(self, law: Law | Controller, vehicle: Vehicle, plant: Plant) -> None:
+    def __init__(self, law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> None:
         self._plant = plant
         self._latency = law.computer.latency
         self._period = 1 / plant.rate
@@ -90,14 +90,14 @@ def idle_command(vehicle: Vehicle, plant: Plant) -> Any:
     return np.zeros(4) if plant.interface == "rates" else np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
 
 
-def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Callable[..., Any]:
+def command_source(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> Callable[..., Any]:
     """(t, state (24,), modelled rotor forces (n,), external forces (6,)) → command, e₃ up whatever the law's frame.
 
     For the interface "wrench" a command is the rotor forces (n,), with the law's lead; for "rates" it is the thrust and
     the body rates (4,) whose proportional tracking on board gives the law's moment at this instant.
     """
     setting = (vehicle, plant.limits, plant.interface, plant.rate_loop_gain, usable_lead(law, vehicle, plant))
-    if isinstance(law, Law):
+    if isinstance(law, BoundLaw):
         return _compiled_command(law, *setting)
     if law.source is not None:
         if plant.interface != "wrench" or not plant.limits:
@@ -114,7 +114,7 @@ def command_source(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> Cal
     return call
 
 
-def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
+def usable_lead(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> float:
     """The lead of `law`, at most what brings a rotor of `vehicle` to its force in one period of `plant`.
 
     More would make it overshoot between two commands: with a lag of T and a period of h, 1/(1 − e^{−h/T}).
@@ -124,14 +124,14 @@ def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
 
 
 @lru_cache(maxsize=64)
-def _compiled_command(law: Law, *setting: Any) -> Callable[..., Any]:
+def _compiled_command(law: BoundLaw, *setting: Any) -> Callable[..., Any]:
     compiled = as_numpy(law_command(law, *setting))
     none = np.zeros(0)
     return lambda t, state, rotors, forces: compiled(t, state, rotors, forces, none)
 
 
 def law_command(
-    law: Law,
+    law: BoundLaw,
     vehicle: Vehicle,
     limits: bool,
     interface: str,

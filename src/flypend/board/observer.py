@@ -10,7 +10,7 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross
-from flypend.laws.law import Computer
+from flypend.laws import Computer
 from flypend.model import State, Vehicle, linear_momentum
 from flypend.model.state import SIZE
 

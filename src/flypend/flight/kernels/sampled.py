@@ -23,7 +23,7 @@ from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
 from flypend.plants.actuation import rate_loop, steps_in
@@ -53,7 +53,7 @@ class SampledKernel:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     plant: Plant
     criterion: Criterion
     parameters: tuple[str, ...]
@@ -168,7 +168,7 @@ def _flown(plant: Plant) -> list[tuple[int, float, int]]:
 
 def sampled_kernel(
     vehicle: Vehicle,
-    law: Law,
+    law: BoundLaw,
     plant: Plant,
     criterion: Criterion | None = None,
     parameters: tuple[str, ...] = (),
@@ -192,7 +192,7 @@ def sampled_kernel(
 
 @lru_cache(maxsize=64)
 def _structured(
-    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: tuple[str, ...]
+    vehicle: Vehicle, law: BoundLaw, plant: Plant, criterion: Criterion, parameters: tuple[str, ...]
 ) -> SampledKernel:
     problem = sampled_problem(vehicle, law, plant, criterion, parameters)
 
@@ -207,7 +207,7 @@ def _structured(
 
 
 def sampled_problem(
-    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: Sequence[str] = ()
+    vehicle: Vehicle, law: BoundLaw, plant: Plant, criterion: Criterion, parameters: Sequence[str] = ()
 ) -> SampledProblem:
     """A flight of `vehicle` under `law` through `plant` as programs, judged by `criterion`."""
     believed, true = vehicle, plant.true_vehicle(vehicle)
@@ -255,7 +255,7 @@ def _loop(vehicle: Vehicle, plant: Plant) -> ca.Function:
     return rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
 
 
-def _judge(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: int) -> ca.Function:
+def _judge(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, parameters: int) -> ca.Function:
     """(t, state and rotor forces with e₃ up, parameters) → what `criterion.REDUCTIONS` reduce."""
     n = len(vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", parameters)

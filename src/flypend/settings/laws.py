@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from flypend.errors import InputError, one_of, only_known
-from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_dict, law_names
+from flypend.laws import BoundLaw, Controller, Law, inverted, law_from_dict, law_names
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 

@@ -1,7 +1,7 @@
 """Control laws: each a factory whose keyword arguments are its gains and whose result is a `Law`.
 
-A law of one's own is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wrench`: see `from_function`. One that
-knows more of itself (a Lyapunov function, a reference, a frame) is a `Law`.
+A law of one's own is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wrench`: see `from_function`. One
+that knows more of itself (a Lyapunov function, a reference, a frame) is a `Law`.
 """
 
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard

@@ -37,7 +37,7 @@ ROLES: Mapping[str, tuple[str, ...]] = {
     "gains": ("gains", "k"),
 }
 FORMS = (("t", "state"), ("t", "state", "vehicle"), ("t", "state", "vehicle", "gains"))
-# NumPy's functions on symbols: what comes of them is compared with numbers here, so CasADi's page of warning is not needed.
+# NumPy's functions on symbols: what comes of them is compared with numbers here; CasADi need not warn of them.
 warnings.filterwarnings("ignore", message=r"\s*casadi: a numpy function", category=FutureWarning)
 EXPECTED = "a function of (t, state, vehicle, *, gain=default, ...)"
 # A function is tried on a known vehicle in two states: symbols and numbers must then answer the same.
@@ -245,9 +245,7 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
     failure: LawError | None = None
     try:
         wrench = _wrench(call(t, State.symbolic(packed), machine, **gains), call)
-        stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
-        if stacked.shape != (4, 1):
-            raise LawError(_start(call.function), call.name, _SHAPE)
+        stacked = _stacked(wrench, call)
         symbolic = ca.Function("try", [t, packed], [ca.densify(stacked)])
         answers = [np.array(symbolic(0.0, state.packed())).ravel() for state in states]
     except LawError as error:
@@ -277,6 +275,14 @@ def _wrench(answer: Any, call: Located) -> Wrench:
     if not isinstance(wrench, Wrench):
         raise LawError(_start(call.function), call.name, f"it returns {type(answer).__name__}, not a Wrench")
     return wrench
+
+
+def _stacked(wrench: Wrench, call: Located) -> Any:
+    """Thrust and moment (4, 1) in symbols."""
+    stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
+    if stacked.shape != (4, 1):
+        raise LawError(_start(call.function), call.name, _SHAPE)
+    return stacked
 
 
 def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:

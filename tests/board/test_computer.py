@@ -9,7 +9,8 @@ from flypend import geometry as geo
 from flypend.board.computer import usable_lead
 from flypend.board.observer import ForceObserver
 from flypend.laws import Computer
-from flypend.plants import MOTION_CAPTURE, Plant, Wind, flight
+from flypend.flight import sampled
+from flypend.plants import MOTION_CAPTURE, Plant, Wind
 from flypend.plants.equations import EquationsEngine
 
 VEHICLE = fp.vehicle("hehn2011")

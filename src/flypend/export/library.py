@@ -158,7 +158,6 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
         reference=bound.reference,
         gains=bound.gains,
         computer=bound.computer,
-        source=source,
     )
 
 

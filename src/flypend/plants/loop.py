@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flypend.laws import Law
+from flypend.laws import Controller, Law
 from flypend.model import Vehicle
 from flypend.plants.plant import Plant
 
@@ -17,7 +17,7 @@ class Loop:
     ----------
     vehicle : Vehicle
         The vehicle that the law believes in.
-    law : Law
+    law : Law or Controller
         The law, bound to that vehicle.
     plant : Plant
         What stands between the law and the world.
@@ -26,6 +26,6 @@ class Loop:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: Law | Controller
     plant: Plant
     parameters: tuple[str, ...] = ()

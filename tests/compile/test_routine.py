@@ -1,7 +1,5 @@
 """Routines: calls of programs give what CasADi gives, wherever their memory lies."""
 
-import ctypes
-
 import casadi as ca
 import numpy as np
 import pytest
@@ -12,7 +10,7 @@ import flypend as fp
 from flypend.board.program import board
 from flypend.compile.llvm.emit import define_routine
 from flypend.compile.llvm.vector import Lanes
-from flypend.compile.routine import Cell, lower_calls, stretches
+from flypend.compile.routine import lower_calls
 from flypend.plants.loop import Loop
 from flypend.plants.plant import PRESETS
 

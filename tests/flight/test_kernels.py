@@ -323,7 +323,7 @@ def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
     for plant in others:
         other = sampled_kernel(Loop(HEHN, INVERTED, plant), Criterion())
         assert other.function is one.function
-        assert other.plant == plant
+        assert other.loop.plant == plant
         seen.add(other.fly(starts, 0.2, ticks=ticks).final.tobytes())
     assert len(seen) == 1 + len(others)
     for plant in (noisy.replace(noise=None), noisy.replace(wind=Wind(on_bob=(0.1, 0, 0)), noise=None), Plant()):

@@ -307,7 +307,7 @@ def test_without_the_observer_the_wind_does_leave_one(log):
 
 
 def test_with_the_delay_that_is_planned_for_a_throw_raises_no_false_alarm(log):
-    control = fp.laws.inverted().bound(VEHICLE)
+    control = fp.laws.inverted().bind(VEHICLE)
     start = fp.State.random(np.random.default_rng(12345))
     fly(control, start, 2.0, Plant(delay=control.computer.latency))
     quiet = np.max(np.abs(log.forces))
@@ -328,7 +328,7 @@ def test_noise_is_not_taken_for_a_force(log):
 def test_the_lead_does_not_overshoot_within_a_period():
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
     slow, fast = Plant(rate=50.0), Plant(rate=500.0)
-    bound = law.bound(vehicle)
+    bound = law.bind(vehicle)
     assert usable_lead(bound, vehicle, fast) == bound.computer.lead
     assert usable_lead(bound, vehicle, slow) * (1 - np.exp(-0.02 / 0.02)) == pytest.approx(1, abs=1e-12)
     run = fp.simulate(vehicle, law, fp.State(y=(0, np.sin(0.1), np.cos(0.1))), 6.0, plant=slow)

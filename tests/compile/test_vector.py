@@ -90,7 +90,7 @@ def test_comparisons_and_extremes_of_nan():
 @pytest.mark.parametrize(("width", "precision", "tolerance"), [(8, "double", 1e-11), (16, "float", 2e-2)])
 def test_a_closed_loop_is_what_casadi_says(name, width, precision, tolerance):
     vehicle = fp.vehicle("hehn2011")
-    law = getattr(fp.laws, name)().bound(vehicle)
+    law = getattr(fp.laws, name)().bind(vehicle)
     program = ideal_problem(vehicle, law, Criterion()).rates
     states = fp.State.random(np.random.default_rng(2), width).packed().T
     got = run(program, [np.zeros((1, width)), states, np.zeros((0, width))], width, precision)[0]

@@ -23,7 +23,7 @@ from flypend.plants import Noise, Plant, Wind
 from flypend.plants.loop import Loop
 
 NAYAK, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
-CORRECTED, INVERTED = fp.laws.corrected().bound(NAYAK), fp.laws.inverted().bound(HEHN)
+CORRECTED, INVERTED = fp.laws.corrected().bind(NAYAK), fp.laws.inverted().bind(HEHN)
 DURATION = 6.5
 
 
@@ -154,7 +154,7 @@ def explosive(vehicle):
     def control(t, state, vehicle, gains):
         return fp.Wrench(vehicle.weight, ca.mtimes(ca.DM(vehicle.I), state.omega[0] * state.omega))
 
-    return fp.Law(name="explosive", e3="up", control=control, gains={"k": 1.0}).bound(vehicle)
+    return fp.Law(name="explosive", e3="up", control=control, gains={"k": 1.0}).bind(vehicle)
 
 
 def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
@@ -180,7 +180,7 @@ def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
 
 def test_a_singular_lane_ends_as_singular_and_its_neighbours_go_on():
     """The printed law meets |v_e| = 0 in all starts but those where the guard was never near."""
-    law = fp.laws.printed().bound(NAYAK)
+    law = fp.laws.printed().bind(NAYAK)
     kernel = ideal_kernel(NAYAK, law)
     starts = random_starts(16, seed=9)
     flown = kernel.fly(starts, 1.0, rtol=1e-9, workers=1)
@@ -297,7 +297,7 @@ PLANTS = {
 @pytest.mark.parametrize("law", ["inverted", "corrected"])
 def test_the_sampled_kernel_flies_as_python_does(name, law):
     vehicle, plant = (HEHN, PLANTS[name])
-    law = getattr(fp.laws, law)().bound(vehicle)
+    law = getattr(fp.laws, law)().bind(vehicle)
     starts = fp.State.random(np.random.default_rng(2), 3)
     ticks = np.arange(0, round(0.4 * plant.rate) + 1)
     kernel = sampled_kernel(Loop(vehicle, law, plant.replace(seed=0)), Criterion())

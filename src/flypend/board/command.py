@@ -10,8 +10,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.geometry import apply, cross
-from flypend.laws.closed_loop import upright_wrench
-from flypend.laws.law import Controller, Law
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
@@ -22,12 +21,12 @@ from flypend.plants.plant import Plant
 Steering = Callable[[Any, Any, Any, Any, dict[str, Any], Any], Any]
 
 
-def steering(law: Law) -> Steering:
+def steering(law: BoundLaw) -> Steering:
     """The wrench of a bound `law` with the reference that it has."""
-    return lambda t, packed, forces, _, gains, vehicle: upright_wrench(law, t, packed, vehicle, forces, gains)
+    return lambda t, packed, forces, _, gains, vehicle: law.upright(t, packed, forces, gains, vehicle)
 
 
-def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
+def usable_lead(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> float:
     """The lead of `law`, at most what brings a rotor of `vehicle` to its force in one period of `plant`.
 
     More would make it overshoot between two commands: with a lag of T and a period of h, 1/(1 − e^{−h/T}).

@@ -13,9 +13,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
 from flypend.board.program import initial_memory, known, predicting, remembering
 from flypend.compile.numeric import as_numpy
-from flypend.laws.law import Controller
-from flypend.model import State
-from flypend.model.state import FLIP_PACKED
+from flypend.laws import Controller
 from flypend.plants.loop import Loop
 
 NONE = np.zeros(0)
@@ -58,18 +56,11 @@ def _stages(loop: Loop) -> tuple[Callable[..., Any], Callable[..., Any], Callabl
 
 
 def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:
-    law = as_numpy(law_command(loop, believed, steering(loop.law)))
+    law = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
     return lambda t, state, rotors, forces: law(t, state, rotors, forces, NONE, NONE, NONE)
 
 
 def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
     """The same for a `law` that is a Python callable."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
-    sign = 1.0 if law.e3 == "up" else FLIP_PACKED
-
-    def call(t: float, state: Any, rotors: Any, _: Any) -> Any:
-        wrench = law.function(t, State.from_packed(state * sign))
-        wrench = wrench if law.e3 == "up" else wrench.flipped()
-        return end(np.append(wrench.thrust, wrench.moment), state, rotors, NONE)
-
-    return call
+    return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)

@@ -100,7 +100,7 @@ def board(loop: Loop, believed: Believed | None = None, steer: Steering | None =
     """
     believed = believed or Believed.numbers(loop.vehicle)
     predict, remember = predicting(loop, believed), remembering(loop, believed)
-    command = law_command(loop, believed, steer or steering(loop.law), reference)
+    command = law_command(loop, believed, steer or steering(loop.symbolic), reference)
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
     params = ca.MX.sym("params", believed.symbols.numel())

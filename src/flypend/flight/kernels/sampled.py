@@ -23,7 +23,6 @@ from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.laws.law import Law
 from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
 from flypend.plants.actuation import rate_loop
@@ -107,7 +106,7 @@ class SampledKernel:
         seeds = (first_seed + np.arange(runs)).astype(np.int64)
         judged = np.ascontiguousarray(ticks, dtype=np.int64)
         count = number_of_ticks(duration, loop.plant)
-        values = inputs_of(loop.law, loop.parameters, parameters, runs)
+        values = inputs_of(loop.symbolic, loop.parameters, parameters, runs)
         least = np.full((runs, n), vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
         memory = Flown.of_size(runs, SIZE, samples=(len(judged), SIZE + n) if keep else None, steps=False, judged=True)
@@ -248,7 +247,7 @@ def _begin(loop: Loop) -> Program:
 
 def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
     """(t, state and rotor forces with e₃ up, gains) → what `criterion.REDUCTIONS` reduce."""
-    law: Law = loop.law
+    law = loop.symbolic
     n = len(loop.vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))
     own = packed[:SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)

@@ -13,7 +13,7 @@ from flypend.flight.kernels.ideal import MAX_STEPS, IdealKernel, integrate
 from flypend.flight.kernels.sampled import SampledKernel, sampled_kernel
 from flypend.flight.outcome import Outcome
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
 from flypend.plants.loop import Loop
@@ -70,7 +70,9 @@ def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:
     return Outcome(str(STATUS[code]), end, reason)  # type: ignore[arg-type]
 
 
-def flown_by_kernel(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant, ticks: Any) -> Samples:
+def flown_by_kernel(
+    vehicle: Vehicle, law: BoundLaw, start: State, duration: float, plant: Plant, ticks: Any
+) -> Samples:
     """As `flypend.flight.sampled.fly`, at control `ticks` only."""
     kernel = sampled_kernel(Loop(vehicle, law, plant.replace(seed=0)), Criterion())
     return sampled_samples(kernel, start.packed(), duration, ticks, plant.seed)

@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board.computer import led
+from flypend.board.command import led
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.errors import InputError
 from flypend.export import records
@@ -19,7 +19,7 @@ from flypend.laws import BoundLaw, Law
 from flypend.laws.closed_loop import upright_wrench
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
-from flypend.model.allocation import allocate, within
+from flypend.model.allocation import allocate
 from flypend.model.state import FLIP, SIZE
 
 GAINS = 2  # place of the gains among the inputs of a step
@@ -80,6 +80,10 @@ class _SymbolicVehicle:
         self.rotor_spins = spins
         self.weight = (self.M + self.m) * self.g
         self.name = "symbolic"
+
+    def sharing(self) -> tuple[Any, Any, Any]:
+        """As `Vehicle.sharing`, from the symbols."""
+        return ca.horzcat(self.values["per_roll"], self.values["per_pitch"]), self.values["per_yaw"], self.rotor_spins
 
     @property
     def I_inv(self) -> Any:
@@ -219,9 +223,8 @@ def followed(vehicle: Any, path: Any, state: Any) -> Any:
 
 
 def _mix(params: Any, vehicle: Any) -> Program:
-    wrench, v = ca.SX.sym("wrench", 4), vehicle.values
-    tilting = ca.horzcat(v["per_roll"], v["per_pitch"])
-    forces = within(wrench[0], wrench[1:], tilting, v["per_yaw"], vehicle.rotor_spins, vehicle.rotor_limits)
+    wrench = ca.SX.sym("wrench", 4)
+    forces = allocate(wrench[0], wrench[1:], vehicle)
     return lower(ca.Function("mix", [wrench, params], [ca.densify(forces)]))
 
 

@@ -159,7 +159,6 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
         gains=bound.gains,
         table=bound.table,
         computer=bound.computer,
-        source=source,
     )
 
 

@@ -21,6 +21,7 @@ from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.plants import Plant
 from flypend.plants import plant as plant_named
+from flypend.plants.loop import Loop
 
 # Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
 CHUNK = 8
@@ -197,7 +198,7 @@ def fly_packed(
     if isinstance(plant, Plant):
         if times is not None or method is not None or precision != "double":
             raise errors.InputError("times, method, precision", "nothing, in a sampled flight", "a value")
-        return sampled_kernel(vehicle, law, plant.replace(seed=0), criterion, names).fly(
+        return sampled_kernel(Loop(vehicle, law, plant.replace(seed=0), names), criterion).fly(
             packed, duration, ticks=nearest_ticks(grid, plant, duration), first_seed=plant.seed, parameters=values,
             workers=workers, progress=progress,
         )  # fmt: skip

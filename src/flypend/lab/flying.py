@@ -121,7 +121,7 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
 def _sampled_part(
     machine: Tuned, kernel: SampledKernel, gains: Any, state: Any, rotors: Any, duration: float, seed: int
 ) -> Part:
-    plant, e3 = kernel.plant, machine.law.e3
+    plant, e3 = kernel.loop.plant, machine.law.e3
     true = plant.true_vehicle(machine.vehicle)
     if duration < 1 / plant.rate:
         duration = 1 / plant.rate

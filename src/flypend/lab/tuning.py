@@ -22,6 +22,7 @@ from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
 from flypend.plants import Plant
 from flypend.plants import plant as plant_named
+from flypend.plants.loop import Loop
 from flypend.settings.runfile import Flight
 
 MOST = 48
@@ -94,7 +95,7 @@ def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
         method = method_for(flight.rtol, law)
         kernel: Any = ideal_kernel(vehicle, law, criterion, names, method=method)
     else:
-        kernel = sampled_kernel(vehicle, law, plant, criterion, names)
+        kernel = sampled_kernel(Loop(vehicle, law, plant, names), criterion)
     loop = symbolic_loop(vehicle, law, names)
     wrench = ca.densify(ca.vertcat(loop.wrench.thrust, loop.wrench.moment))
     function = ca.Function("wrench", [loop.t, loop.s, loop.p], ca.cse([wrench]))

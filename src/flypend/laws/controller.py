@@ -40,9 +40,10 @@ class Controller:
         Values of its gains, by name.
     computer : Computer
         Lead, prediction and observer around it in a sampled flight.
-    source : callable, optional
-        `source(vehicle, lead)` gives a function (t, packed state (24,) with e₃ up, modelled rotor forces (n,), external
-        forces (6,)) → rotor commands (n,) that stands for law, allocation and lead in a plant with limits.
+    flight_computer : callable, optional
+        `flight_computer(loop, rotors)` gives what stands for the whole flight computer in a sampled flight: its method
+        `command(t, state)` answers a measured state (24,), e₃ up, at t (s) with a command. `loop` is a
+        `plants.loop.Loop`, `rotors` (n,) are the forces that the rotors begin with, N.
     steering : callable, optional
         `steering(vehicle, gains)` gives the `function` for a vehicle, for one that depends on vehicle or gains.
     table : dict of Gain, optional
@@ -58,7 +59,7 @@ class Controller:
     reference: Reference | None = None
     gains: Mapping[str, Any] = field(default_factory=dict)
     computer: Computer = field(default_factory=Computer)
-    source: Callable[[Vehicle, float], Callable[..., Any]] | None = None
+    flight_computer: Callable[[Any, Any], Any] | None = None
     steering: Callable[[Vehicle, Mapping[str, Any]], Steering] | None = None
     table: Mapping[str, Gain] = field(default_factory=dict)
     because: str = ""

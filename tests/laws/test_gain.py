@@ -199,6 +199,20 @@ def test_the_law_converts_frames_once():
         np.testing.assert_allclose(np.array(up).ravel(), [told.thrust, *told.moment], rtol=1e-12, atol=1e-12)
 
 
+def test_the_time_of_a_law_may_be_an_expression():
+    import casadi as ca
+
+    from flypend.laws.references import circle
+    from flypend.model.state import SIZE
+
+    bound, state = fp.laws.inverted(circle()).bind(VEHICLE), fp.State(y=(0, 0, 1))
+    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+    now = ca.Function("now", [t, packed], [bound.upright(t, packed)])
+    later = ca.Function("later", [t, packed], [bound.upright(t + 0.25, packed)])
+    np.testing.assert_array_equal(now(0.75, state.packed()), later(0.5, state.packed()))
+    assert np.any(np.array(now(0.75, state.packed())) != np.array(now(0.5, state.packed())))
+
+
 def test_a_law_by_table_knows_the_names_of_the_registry():
     for name, factory in FACTORIES.items():
         for gain in factory().gains.values():

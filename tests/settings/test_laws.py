@@ -1,5 +1,6 @@
 """Laws from what people write: names, modules, files, tables; and one line for everything that is wrong with them."""
 
+import re
 import sys
 
 import cloudpickle
@@ -8,7 +9,8 @@ import pytest
 
 import flypend as fp
 from flypend.laws import Controller, Law, LawError
-from flypend.settings.laws import absolute, law_from, law_named, table_of
+from flypend.laws.own import fingerprint
+from flypend.settings.laws import absolute, law_from, law_named, note, table_of
 
 VEHICLE = fp.vehicle("hehn2011")
 START = fp.State(y=(0.1, 0.0, np.sqrt(0.99)))
@@ -160,6 +162,22 @@ def test_what_cannot_be_loaded_names_its_line(here, text, message, how):
             law_named("bad.py:f" if how == "file" else "bad:f")
         assert str(caught.value).startswith(message)
         assert "\n" not in str(caught.value)
+
+
+def test_a_law_that_no_kernel_flies_is_told_in_one_line(here):
+    said = note(law_named("laws/mine.py:numeric"))
+    assert re.fullmatch(r"numeric is not written in symbols: .*, laws/mine\.py:9\. It flies step by step .*\.", said)
+    assert note(law_named("laws/mine.py:balance")) == note(law_named("lqr")) == ""
+
+
+def test_the_fingerprint_of_a_controller_changes_with_text_and_gains(here):
+    path = here / "laws" / "mine.py"
+    law = law_named("laws/mine.py:numeric")
+    assert fingerprint(law) == fingerprint(law_named("laws/mine.py:numeric")) == fingerprint(law.bind(VEHICLE))
+    assert fingerprint(law) != fingerprint(law.with_gains({"lift": 2.0}))
+    before = fingerprint(law)
+    path.write_text(TEXT.replace("> 5", "> 6"), encoding="utf-8")
+    assert fingerprint(law_named("laws/mine.py:numeric")) != before
 
 
 @pytest.mark.parametrize("name", ["late", "steers"])

@@ -7,6 +7,7 @@ Its arguments go by their names: `t`, `state`, `vehicle`, and gains, which have 
 
 from __future__ import annotations
 
+import hashlib
 import inspect
 import traceback
 import warnings
@@ -146,6 +147,17 @@ def from_function(
     )  # fmt: skip
 
 
+def fingerprint(controller: Controller) -> bytes:
+    """What tells a `controller` from another: its name, gains and frame, and the text of the file that it is in."""
+    function: Any = controller.steering or controller.function
+    while isinstance(function, Located | _Steer | _Steering):
+        function = function.function
+    file, code = Path(_file(function)), getattr(function, "__code__", None)
+    text = file.read_bytes() if file.is_file() else code.co_code if code else b""
+    said = repr((controller.name, dict(controller.gains), controller.e3, controller.rate, controller.computer))
+    return hashlib.sha256(said.encode() + text).digest()
+
+
 def is_factory(function: Callable[..., Any]) -> bool:
     """Whether a `function` can be called without arguments, and so may make a law."""
     return not _needed(function)
@@ -199,7 +211,7 @@ def _read(
     if form not in FORMS:
         got = ", ".join(p.name for p in needed) or "nothing"
         raise InputError("law", EXPECTED, f"{name} of ({got})")
-    table = {p.name: records.get(p.name, Gain(p.name, p.default)) for p in _defaulted(function)}
+    table = {p.name: records.get(p.name, Gain(p.name, p.default, label=p.name)) for p in _defaulted(function)}
     for gain in table.values():
         if not (is_number(gain.default) or isinstance(gain.default, str)):
             raise InputError("law", "gains that are numbers or words", f"{name} with {gain.name} = {gain.default!r}")

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from flypend.errors import InputError, one_of, only_known
-from flypend.laws import BoundLaw, Controller, Law, inverted, law_from_dict, law_names
+from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_dict, law_names
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 
@@ -78,6 +78,14 @@ def absolute(value: Any, folder: Path) -> Any:
         return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
     file, colon, attribute = value.rpartition(":") if isinstance(value, str) else ("", "", "")
     return f"{(folder / file).resolve()}:{attribute}" if colon and file.endswith(".py") else value
+
+
+def note(law: AnyLaw) -> str:
+    """One line for a `law` that no compiled code flies, "" for others."""
+    if not isinstance(law, Controller):
+        return ""
+    why = f": {law.because}" if law.because else ""
+    return f"{law.name} is not written in symbols{why}. It flies step by step in Python, about a thousand times slower."
 
 
 def table_of(name: str) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from flypend.laws import Law
 from flypend.model import Vehicle
-from flypend.plants.plant import Plant
+from flypend.plants.plant import AnyPlant
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Loop:
         The vehicle that the law believes in.
     law : Law
         The law, bound to that vehicle.
-    plant : Plant
+    plant : Ideal or Sampled
         What stands between the law and the world.
     parameters : tuple of str
         Gains that are inputs of the code, so that they may differ from run to run.
@@ -27,5 +27,5 @@ class Loop:
 
     vehicle: Vehicle
     law: Law
-    plant: Plant
+    plant: AnyPlant
     parameters: tuple[str, ...] = ()

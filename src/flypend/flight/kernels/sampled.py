@@ -6,11 +6,12 @@ import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 from llvmlite import ir
+from numpy.typing import ArrayLike, NDArray
 
 from flypend.board.computer import TWIN_STEP, idle_command, law_command, usable_lead
 from flypend.board.observer import observer_functions
@@ -28,12 +29,29 @@ from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
 from flypend.plants.actuation import rate_loop, steps_in
 from flypend.plants.equations import rotor_lag, rotor_step, step_timing
+from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
-from flypend.plants.plant import Noise, Plant, Wind
+from flypend.plants.plant import Noise, Plant, Sampled, Wind, sampled_plant
 from flypend.plants.schedule import Segment, ahead, within_period
 
 WIDTH = 8
 PIECE = 4 * WIDTH
+
+
+class Ticks(NamedTuple):
+    """Control ticks as the kernel takes them, increasing: which are judged (1 or 0), and samples kept before each."""
+
+    ticks: NDArray[np.int64]
+    judged: NDArray[np.int64]
+    rows: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
+        """The ticks of a run that is judged at some, and whose states are kept at others; `rows` ends with all."""
+        judge, keep = (np.asarray(() if some is None else some, dtype=np.int64) for some in (judge_at, keep_at))
+        ticks = np.union1d(judge, keep)
+        rows = np.append(0, np.cumsum(np.isin(ticks, keep)))
+        return cls(ticks, np.isin(ticks, judge).astype(np.int64), rows.astype(np.int64))
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,40 +60,42 @@ class SampledKernel:
 
     Parameters
     ----------
-    vehicle, law, plant, criterion
-        What flies, what steers it, through what, and what counts as a success.
-    parameters : tuple of str
-        Gains that may differ from run to run.
+    loop : Loop
+        What flies, what steers it, through what, and which gains may differ from run to run.
+    criterion : Criterion
+        What counts as a success.
     function : callable
         The compiled kernel.
     key : str
         What determines the kernel, processor and versions apart.
     """
 
-    vehicle: Vehicle
-    law: Law
-    plant: Plant
+    loop: Loop
     criterion: Criterion
-    parameters: tuple[str, ...]
     function: Any
     key: str
+
+    @property
+    def plant(self) -> Sampled:
+        """The plant of its loop."""
+        return sampled_plant(self.loop.plant)
 
     def through(self, plant: Plant) -> SampledKernel:
         """The same machine code for another `plant` of the same `structure`. Raises ValueError for one of another."""
         if structure(plant) != structure(self.plant):
             raise ValueError("a plant of the same structure is needed")
-        return replace(self, plant=plant)
+        return replace(self, loop=replace(self.loop, plant=plant))
 
     def fly(
         self,
         starts: Any,
         duration: float,
         *,
-        ticks: Any,
+        judge_at: ArrayLike,
+        keep_at: ArrayLike | None = None,
         first_seed: int = 0,
         parameters: Any = None,
         rotors: Any = None,
-        keep: bool = False,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -85,54 +105,54 @@ class SampledKernel:
         ----------
         starts, duration
             Packed states; how long, s.
-        ticks : (t,) of int
+        judge_at : (j,) of int
             Increasing control ticks at which a run is judged.
+        keep_at : (t,) of int, optional
+            Increasing control ticks at which state and rotor forces are kept, in the frame of the law. They change
+            nothing of how a run is judged.
         first_seed : int
             Seed of the first run; the next has the next.
         parameters : (n, k), optional
             Values of the gains that vary; default those of the law.
         rotors : (n, rotors), optional
             Forces with which the rotors begin, N; default the least.
-        keep : bool
-            Whether states and rotor forces at these ticks are kept, too, in the frame of the law.
         workers : int, optional
             Threads; default one per core.
         progress : callable
             Told `(done, runs)`.
         """
-        sign = 1.0 if self.law.e3 == "up" else FLIP_PACKED
+        vehicle, law = self.loop.vehicle, self.loop.law
+        sign = 1.0 if law.e3 == "up" else FLIP_PACKED
         packed = np.ascontiguousarray(starts, dtype=float) * sign
         seeds = (first_seed + np.arange(len(packed))).astype(np.int64)
-        judged = np.ascontiguousarray(ticks, dtype=np.int64)
+        moments = Ticks.of(judge_at, keep_at)
         count = number_of_ticks(duration, self.plant)
-        values = inputs_of(self.law, self.parameters, parameters, len(packed))
-        least = np.full((len(packed), len(self.vehicle.rotor_spins)), self.vehicle.rotor_limits[0])
+        values = inputs_of(self.loop, parameters, len(packed))
+        least = np.full((len(packed), len(vehicle.rotor_spins)), vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
 
-        length = SIZE + len(self.vehicle.rotor_spins)
-        memory = Flown.of_size(
-            len(packed), SIZE, samples=(len(judged), length) if keep else None, steps=False, judged=True
-        )
+        samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + len(vehicle.rotor_spins))
+        memory = Flown.of_size(len(packed), SIZE, samples=samples, steps=False, judged=True)
 
-        numbers = plant_numbers(self.vehicle, self.plant)
+        numbers = plant_numbers(vehicle, self.plant)
 
         def fly(part: slice, out: Flown) -> None:
-            self._call(packed[part], values[part], numbers, seeds[part], count, judged, out)
+            self._call(packed[part], values[part], numbers, seeds[part], count, moments, out)
 
         flown = in_pieces(fly, memory, PIECE, workers, progress)
-        if self.law.e3 == "down":
+        if law.e3 == "down":
             flown.final[...] *= FLIP_PACKED
-            if keep:
+            if flown.samples is not None:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
+    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Ticks, out: Flown) -> None:
         if out.samples is not None:
             out.samples[...] = np.nan
         self.function(
             address(starts), address(values), address(numbers), address(seeds), len(starts), count,
-            address(ticks), len(ticks), address(out.samples), address(out.reductions), address(out.final),
-            address(out.end), address(out.code),
+            address(ticks.ticks), len(ticks.ticks), address(ticks.judged), address(ticks.rows), int(ticks.rows[-1]),
+            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         )  # fmt: skip
 
 
@@ -166,35 +186,29 @@ def _flown(plant: Plant) -> list[tuple[int, float, int]]:
     return [(age, while_, steps_in(while_, plant)) for age, while_ in segments]
 
 
-def sampled_kernel(
-    vehicle: Vehicle,
-    law: Law,
-    plant: Plant,
-    criterion: Criterion | None = None,
-    parameters: tuple[str, ...] = (),
-) -> SampledKernel:
-    """The kernel of flights of `vehicle` under a bound `law` through `plant`, compiled or from the cache.
+def sampled_kernel(loop: Loop, criterion: Criterion | None = None) -> SampledKernel:
+    """The kernel of sampled flights of `loop`, compiled or from the cache.
 
     Parameters
     ----------
-    vehicle, law, plant, criterion
-        As in `SampledKernel`; the engine of the plant must be "equations".
-    parameters : tuple of str
-        Gains that may differ from run to run; lead, latency and observer of the flight computer may not.
+    loop : Loop
+        As in `SampledKernel`; the engine of its plant must be "equations". Lead, latency and observer of the flight
+        computer are no parameters.
+    criterion : Criterion, optional
+        What counts as a success (default: inverted).
 
     Raises
     ------
     InputError
         For an unknown gain, and for a law with operations that cannot be compiled.
     """
-    return _structured(vehicle, law, structure(plant), criterion or Criterion(), parameters).through(plant)
+    plant = sampled_plant(loop.plant)
+    return _structured(replace(loop, plant=structure(plant)), criterion or Criterion()).through(plant)
 
 
 @lru_cache(maxsize=64)
-def _structured(
-    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: tuple[str, ...]
-) -> SampledKernel:
-    problem = sampled_problem(vehicle, law, plant, criterion, parameters)
+def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
+    problem = sampled_problem(loop.vehicle, loop.law, sampled_plant(loop.plant), criterion, loop.parameters)
 
     def module() -> ir.Module:
         lanes = Lanes(ir.Module("flypend"), WIDTH)
@@ -203,7 +217,7 @@ def _structured(
 
     kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
     key = f"sampled, {WIDTH} lanes, states below {MAX_STATE}: {problem!r}"
-    return SampledKernel(vehicle, law, plant, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
+    return SampledKernel(loop, criterion, jit.build(key, module, "kernel", kinds), key)
 
 
 def sampled_problem(

@@ -13,6 +13,7 @@ import numpy as np
 import flypend as fp
 from benchmarks import clock
 from benchmarks.problem import Problem
+from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import MAX_STEPS, Moments, call
 from flypend.plants import Ideal, plant
@@ -96,7 +97,7 @@ def floats(problem: Problem, kernel: Any) -> Iterator[Line]:
 def inverted() -> Iterator[Line]:
     """Ten seconds of the inverted law on the ideal plant."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
     kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method="dp5")
     for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
         (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
@@ -106,8 +107,8 @@ def inverted() -> Iterator[Line]:
 def rotors() -> Iterator[Line]:
     """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
-    kernel = sampled_kernel(Loop(vehicle, law, plant("rotors")))
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
+    kernel = sampled_kernel(Loop(vehicle, law, plant("rotors")), Criterion())
     ticks = np.arange(0, 5001, 5)
     (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, judge_at=ticks, workers=1), repeats=2)
     yield Line("inverted law, 10 s, rotors at 500 Hz", len(starts) / seconds, "flights/s")

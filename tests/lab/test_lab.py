@@ -22,7 +22,7 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.flight.simulate import fly as fly_request
 from flypend.geometry import cross, dot
-from flypend.lab.controls import GAINS, offer, sliders
+from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked, verdict
 from flypend.lab.map import directions, region
@@ -30,6 +30,7 @@ from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Slot, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
+from flypend.laws import law_names
 from flypend.settings.runfile import run_file
 
 OFFER = offer()
@@ -102,7 +103,7 @@ def test_lag_noise_and_wind_change_the_flight_and_compile_nothing(change):
     assert np.abs(first.x - second.x).max() > 1e-3
 
 
-@pytest.mark.parametrize("law", GAINS)
+@pytest.mark.parametrize("law", law_names())
 def test_a_start_is_the_same_pose_for_every_law(law):
     run = fly(setting_of(asked(law, duration=0.05)))
     up = run if run.e3 == "up" else run.flipped()
@@ -243,7 +244,7 @@ def test_a_wrong_setting_is_refused_in_one_line(wrong, field):
 
 
 def test_every_slider_can_be_put_where_it_says():
-    for law in GAINS:
+    for law in law_names():
         setting = asked(law, plant="rotors")
         shown = sliders(setting_of(setting))
         assert len({slider["path"] for slider in shown}) == len(shown) >= 9 - 5 * (law in ("printed", "corrected"))

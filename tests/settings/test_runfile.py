@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 import flypend as fp
 from flypend.flight.request import Flight
 from flypend.flight.simulate import fly
-from flypend.laws import law_names
-from flypend.laws.law import law_from_dict
+from flypend.laws import law_from_dict, law_names
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, run_file
@@ -69,7 +68,7 @@ def test_an_experiment_by_its_name_is_its_row_under_the_corrected_law(name):
     same_state(chosen.starts, row.start)
     assert chosen.vehicle == row.vehicle
     assert chosen.law.name == "corrected"
-    assert chosen.law.gains == row.law().gains
+    assert chosen.law.gains == row.law().values
     assert (chosen.duration, chosen.tolerances.rtol) == (6.5, 1e-9)
 
 
@@ -88,7 +87,7 @@ def test_a_file_of_ones_own(tmp_path):
     chosen = flight(written(tmp_path, OWN))
     same_state(chosen.starts, fp.State(y=(0.6, 0, 0.8), y_dot=(0.8, 0, -0.6)))
     assert chosen.vehicle == fp.vehicle("nayak2018")
-    assert chosen.law.gains == fp.laws.corrected(k_d=1.5).gains
+    assert chosen.law.gains == fp.laws.corrected(k_d=1.5).values
     assert chosen.duration == 2.0
 
 
@@ -122,7 +121,7 @@ def test_an_experiment_with_changes(tmp_path):
     chosen, row = flight(written(tmp_path, text)), experiment("5")
     same_state(chosen.starts, dataclasses.replace(row.start, omega=np.zeros(3)))
     assert chosen.vehicle == row.vehicle.replace(mass=0.3)
-    assert chosen.law.gains == fp.laws.printed(k_d=1, k_1=7, k_2=4, beta="off").gains
+    assert chosen.law.gains == fp.laws.printed(k_d=1, k_1=7, k_2=4, beta="off").values
     assert (chosen.duration, chosen.tolerances.rtol) == (1.0, 1e-8)
 
 
@@ -136,7 +135,7 @@ def test_the_gains_of_an_experiment_are_for_the_laws_of_the_paper():
 def test_the_settings_say_everything_that_was_flown():
     chosen, again = run_file("3", ["vehicle.mass=0.5", "law.gains.k_d=2"])
     assert fp.Vehicle.from_dict(again["vehicle"]) == chosen.vehicle
-    assert law_from_dict(again["law"]).gains == chosen.law.gains
+    assert law_from_dict(again["law"]).values == chosen.law.gains
     same_state(fp.State(**again["start"]), chosen.starts)
     assert again["duration"] == chosen.duration
 
@@ -163,7 +162,7 @@ def test_overrides_change_a_file_and_leave_the_rest(tmp_path):
     path = written(tmp_path, OWN)
     chosen = flight(path, ["vehicle.mass=0.7", "law.gains.k_2=3", "start.x=[1, 2, 3]"])
     assert chosen.vehicle == fp.vehicle("nayak2018").replace(mass=0.7)
-    assert chosen.law.gains == fp.laws.corrected(k_d=1.5, k_2=3).gains
+    assert chosen.law.gains == fp.laws.corrected(k_d=1.5, k_2=3).values
     np.testing.assert_array_equal(chosen.starts.x, [1, 2, 3])
     np.testing.assert_array_equal(chosen.starts.y, [0.6, 0, 0.8])
     assert flight(path, ["vehicle=hehn2011", "vehicle.mass=0.7"]).vehicle.inertia[0, 0] == 3.2e-3

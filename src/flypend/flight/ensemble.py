@@ -16,11 +16,11 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import Flown, fly_all, has_kernel
 from flypend.flight.labelled import dataset, described, state_variables, variable
 from flypend.flight.metrics import Metrics, judged, metrics, wilson
-from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, some_times
+from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import nearest_ticks
 from flypend.flight.simulate import fly
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import Controller, Law
+from flypend.laws import AnyLaw
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
 from flypend.plants import AnyPlant, Sampled
@@ -116,7 +116,7 @@ class Ensemble:
 
 def simulate_ensemble(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     starts: State,
     duration: float,
     *,
@@ -171,8 +171,9 @@ def simulate_ensemble(
         raise errors.InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
     exact = Tolerances(rtol=rtol, atol=atol, method=method, precision=precision)
     flight = Flight(
-        vehicle=vehicle, law=law, starts=starts, duration=duration, plant=plants.plant(plant), tolerances=exact,
-        criterion=criterion or Criterion(), gains=gains or {}, times=some_times(times), judge_period=judge_period,
+        vehicle=vehicle, law=bound_to(vehicle, law), starts=starts, duration=duration, plant=plants.plant(plant),
+        tolerances=exact, criterion=criterion or Criterion(), gains=gains or {}, times=some_times(times),
+        judge_period=judge_period,
     )  # fmt: skip
     return fly_many(flight, engine, workers=workers, progress=progress)
 
@@ -215,7 +216,7 @@ def _about(flight: Flight) -> dict[str, Any]:
     return {"e3": law.e3, "vehicle": flight.vehicle, "law": law.name, "gains": gains, "t": t}
 
 
-def _can_be_sent(law: Law | Controller) -> bool:
+def _can_be_sent(law: AnyLaw) -> bool:
     """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
     import cloudpickle
 

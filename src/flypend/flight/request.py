@@ -14,7 +14,7 @@ from flypend import errors, plants
 from flypend.compile.methods import NAMES as METHODS
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
-from flypend.laws import Controller, Law
+from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 from flypend.plants.loop import Loop
@@ -70,7 +70,7 @@ class Tolerances:
         """The absolute tolerance."""
         return self.rtol if self.atol is None else self.atol
 
-    def method_for(self, law: Law) -> str:
+    def method_for(self, law: BoundLaw) -> str:
         """The Runge-Kutta method: the one asked for, or the faster one, but DOP853 where `law` can be singular.
 
         The error estimate of order 5 steps over a narrow singularity that the other notices.
@@ -86,8 +86,8 @@ class Flight:
     ----------
     vehicle : Vehicle
         What flies.
-    law : Law or Controller
-        What steers it; bound to the vehicle here.
+    law : BoundLaw or Controller
+        What steers it; a Law is bound to the vehicle here.
     starts : State
         A single state, or a batch with one leading axis, in the frame of the law.
     duration : float
@@ -115,7 +115,7 @@ class Flight:
     """
 
     vehicle: Vehicle
-    law: Law | Controller
+    law: BoundLaw | Controller
     starts: State
     duration: float
     plant: AnyPlant = ROTORS
@@ -127,14 +127,12 @@ class Flight:
     seed: int | None = None
 
     def __post_init__(self) -> None:
-        for name, kind in (("vehicle", Vehicle), ("law", Law | Controller), ("starts", State)):
-            if not isinstance(value := getattr(self, name), kind):
-                expected = f"a {getattr(kind, '__name__', 'Law or Controller')}"
-                raise InputError("start" if name == "starts" else name, expected, repr(value)[:80])
+        if not isinstance(self.starts, State):
+            raise InputError("start", "a State", repr(self.starts)[:80])
         if len(self.starts.batch_shape) > 1:
             raise InputError("starts", "a State with one leading batch axis", f"shape {self.starts.batch_shape}")
         put = _setter(self)
-        put("law", self.law.bound(self.vehicle))
+        put("law", bound_to(self.vehicle, self.law))
         put("duration", errors.number("duration", self.duration, above=0, at_most=LONGEST, unit="s"))
         put("judge_period", errors.number("judge_period", self.judge_period, above=0, unit="s"))
         put("plant", _plant_for(self.law, plants.plant(self.plant)))
@@ -149,10 +147,9 @@ class Flight:
             return MappingProxyType({})
         if self.single:
             raise InputError("gains", "nothing for a single start: give them to the law", sorted(self.gains))
-        if not isinstance(self.law, Law):
+        if not isinstance(self.law, BoundLaw):
             raise InputError("gains", "a law in symbols", type(self.law).__name__)
-        errors.only_known("gains", self.gains, self.law.numbers)
-        return MappingProxyType({name: _column(name, value, self.runs) for name, value in self.gains.items()})
+        return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
 
     def _check_together(self) -> None:
         if isinstance(self.plant, Sampled):
@@ -172,8 +169,7 @@ class Flight:
 
     @property
     def loop(self) -> Loop:
-        """What compiled code depends on; of a law in symbols."""
-        assert isinstance(self.law, Law), "a Controller is not compiled"
+        """What compiled code depends on."""
         plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else self.plant
         return Loop(self.vehicle, self.law, plant, tuple(self.gains))
 
@@ -218,11 +214,22 @@ def _setter(record: Any) -> Any:
     return lambda name, value: object.__setattr__(record, name, value)
 
 
-def _plant_for(law: Law | Controller, plant: AnyPlant) -> AnyPlant:
+def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
     """The plant that `law` flies through: a Controller is sampled, and so never in continuous time."""
     if isinstance(plant, Ideal) and isinstance(law, Controller):
         return Sampled(limits=False, lag=0.0, rate=law.rate)
     return plant
+
+
+def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:
+    """`law` as it flies `vehicle`. Raises InputError for what is neither."""
+    for name, value, kind, kinds in (
+        ("vehicle", vehicle, Vehicle, "Vehicle"),
+        ("law", law, AnyLaw, "Law or Controller"),
+    ):
+        if not isinstance(value, kind):
+            raise InputError(name, f"a {kinds}", repr(value)[:80])
+    return law.bind(vehicle)
 
 
 def some_times(times: ArrayLike | None) -> NDArray[np.float64] | None:
@@ -240,9 +247,9 @@ def _increasing(times: NDArray[np.float64] | None, duration: float) -> NDArray[n
     return wanted
 
 
-def _column(name: str, value: ArrayLike, runs: int) -> NDArray[np.float64]:
-    """The values (n,) of one gain, from (n,) or one number for all."""
-    given = errors.array(f"gains.{name}", value, (), batch=True)
+def _column(law: BoundLaw, name: str, value: ArrayLike, runs: int) -> NDArray[np.float64]:
+    """The values (n,) of one gain of `law`, within its bounds, from (n,) or one number for all."""
+    given = law.check_gain(name, value)
     if given.shape not in ((), (runs,)):
         raise InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")
     return np.broadcast_to(given, (runs,))

@@ -15,7 +15,7 @@ from flypend.flight.kernels.tangent import fly_tangents
 from flypend.flight.labelled import dataset, described, state_variables, variable
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight, Tolerances
-from flypend.laws import Law
+from flypend.laws import BoundLaw, Law
 from flypend.laws.linearise import COORDINATES, tangent_basis
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction, project
@@ -83,7 +83,7 @@ class Sensitivity:
 
 def sensitivity(
     vehicle: Vehicle,
-    law: Law,
+    law: Law | BoundLaw,
     start: State,
     duration: float,
     *,
@@ -106,15 +106,20 @@ def sensitivity(
     InputError
         For a law that is not symbolic, a start that is a batch, and gains that the law lacks.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
     if not isinstance(start, State) or start.batch_shape:
         raise InputError("start", "a single State", repr(start)[:80])
     flight = Flight(
-        vehicle=vehicle, law=law, starts=start, duration=duration, plant=Ideal(), tolerances=Tolerances(rtol=rtol)
+        vehicle=vehicle,
+        law=law.bind(vehicle),
+        starts=start,
+        duration=duration,
+        plant=Ideal(),
+        tolerances=Tolerances(rtol=rtol),
     )
-    loop, names = flight.loop, tuple(gains)
-    errors.only_known("gains", dict.fromkeys(names), loop.law.numbers)
+    bound, names = flight.loop.symbolic, tuple(gains)
+    errors.only_known("gains", dict.fromkeys(names), bound.numbers)
     runs, k = len(COORDINATES) + len(names), len(names)
     directions, rates = np.zeros((runs, SIZE)), np.zeros((runs, k))
     directions[: len(COORDINATES)] = tangent_basis(start).T
@@ -128,8 +133,8 @@ def sensitivity(
         by_start=derivatives[:, : len(COORDINATES)],
         by_gains=derivatives[:, len(COORDINATES) :],
         outcome=Outcome(flown.status[first].item(), float(flown.end[first])),
-        e3=loop.law.e3,
+        e3=bound.e3,
         vehicle=vehicle,
-        law=loop.law.name,
-        gains={name: loop.law.numbers[name] for name in names},
+        law=bound.name,
+        gains={name: bound.numbers[name] for name in names},
     )

@@ -11,11 +11,11 @@ from flypend import errors, plants
 from flypend.compile.numeric import as_numpy
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.single import Solution, sampled_samples
-from flypend.flight.request import Flight, Tolerances, some_times
+from flypend.flight.request import Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import Samples
 from flypend.flight.sampled import fly as step_by_step
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import Controller, Law
+from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
@@ -30,7 +30,7 @@ ENGINES = ("kernel", "scipy")
 
 def simulate(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     start: State,
     duration: float,
     *,
@@ -82,8 +82,8 @@ def simulate(
         raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
     exact = Tolerances(rtol=rtol, atol=atol)
     flight = Flight(
-        vehicle=vehicle, law=law, starts=start, duration=duration, plant=plants.plant(plant), tolerances=exact,
-        times=some_times(times),
+        vehicle=vehicle, law=bound_to(vehicle, law), starts=start, duration=duration, plant=plants.plant(plant),
+        tolerances=exact, times=some_times(times),
     )  # fmt: skip
     return fly(flight, engine)
 
@@ -96,7 +96,7 @@ def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
 
 def _ideal(flight: Flight, engine: str) -> Trajectory:
     """The closed loop in continuous time, the wrench acting as commanded."""
-    loop = close_loop(flight.loop.vehicle, flight.loop.law)
+    loop = close_loop(flight.vehicle, flight.loop.symbolic)
     outputs = as_numpy(loop.outputs)
     solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop, outputs)
     wanted, end = flight.moments, solution.outcome.time
@@ -176,5 +176,5 @@ def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
     return flown.at(flight.moments * plant.rate)
 
 
-def _reference(law: Law | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:
+def _reference(law: BoundLaw | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:
     return None if law.reference is None else sampled(law.reference, times)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from flypend.lab.gains import GAINS, gains_of, proposed_gains
+from flypend.lab.gains import proposed_gains, sliders_of
 from flypend.lab.setting import LONGEST, Setting, plain
+from flypend.laws import law_names
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
@@ -29,7 +30,7 @@ def offer() -> dict[str, Any]:
     }
     return {
         "vehicles": vehicle_names(),
-        "laws": list(GAINS),
+        "laws": law_names(),
         "plants": PLANTS,
         "first": first,
         "starts": {name: plain(State(y=y)) for name, y in STARTS.items()},
@@ -56,12 +57,12 @@ def _preset(name: str) -> dict[str, Any]:
 def sliders(setting: Setting) -> list[dict[str, Any]]:
     """The sliders of `setting`: path in it, group, words, unit, value, range, whether logarithmic."""
     flight, law = setting.flight, setting.law
-    given, proposed = gains_of(law, flight.vehicle), proposed_gains(law.name, flight.vehicle)
+    given, proposed = law.gains_for(flight.vehicle), proposed_gains(law.name, flight.vehicle)
     out = []
-    for gain, (words, unit) in GAINS[law.name].items():
-        value, usual = given[gain], proposed[gain]
+    for name in sliders_of(law):
+        value, usual, gain = given[name], proposed[name], law.gains[name]
         low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
-        out.append(_slider(f"law.gains.{gain}", "gains", words, unit, value, low, high, log=True))
+        out.append(_slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, low, high, log=True))
     if isinstance(flight.plant, Sampled):
         out += _plant_sliders(flight.plant, flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]

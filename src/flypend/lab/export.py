@@ -23,7 +23,7 @@ def toml(setting: Setting) -> str:
         "duration": flight.duration,
         "plant": _plant(flight.plant),
         "vehicle": {"base": base, **changed} if changed else base,
-        "law": {"name": law.name, **({"gains": dict(law.gains)} if law.gains else {})},
+        "law": {"name": law.name, **({"gains": dict(law.given)} if law.given else {})},
         "start": _start(flight.starts),
     }
     return (POKED if setting.pokes else "") + toml_text(written)
@@ -38,7 +38,7 @@ def python(setting: Setting) -> str:
     return (
         f"import flypend as fp\n\n"
         f"{POKED if setting.pokes else ''}vehicle = {machine}\n"
-        f"law = fp.laws.{law.name}({_arguments(law.gains)})\n"
+        f"law = fp.laws.{law.name}({_arguments(law.given)})\n"
         f"start = fp.State(\n{start},\n)\n"
         f"run = fp.simulate(vehicle, law, start, duration={flight.duration!r}, plant={_plant_call(flight.plant)})\n"
         f"print(run.outcome)\n"

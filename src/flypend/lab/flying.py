@@ -13,7 +13,6 @@ from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.trajectory import Trajectory
-from flypend.lab.gains import gains_of
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Tell, Tuned, tuned, values
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
@@ -118,7 +117,7 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
 
 
 def _sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
-    e3, true = kernel.loop.law.e3, kernel.plant.true_vehicle(flight.vehicle)
+    e3, true = kernel.loop.law.e3, kernel.loop.sampled.true_vehicle(flight.vehicle)
     samples = sampled_samples(kernel, flight, gains, rotors)
     packed = samples.packed * (1.0 if e3 == "up" else FLIP_PACKED)
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
@@ -147,5 +146,5 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
         e3=law.e3,
         vehicle=machine.vehicle,
         law=law.name,
-        gains=dict(gains_of(law, machine.vehicle)),
+        gains=law.gains_for(machine.vehicle),
     )

@@ -16,9 +16,8 @@ import numpy as np
 from flypend import errors, geometry
 from flypend.errors import InputError
 from flypend.flight.request import Flight
-from flypend.lab.gains import GAINS, proposed_gains
-from flypend.laws import Law
-from flypend.laws.law import law_from_dict
+from flypend.lab.gains import proposed_gains, sliders_of
+from flypend.laws import Law, law_from_dict, law_names
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SHAPES
 from flypend.plants import Ideal
@@ -76,8 +75,8 @@ def setting_of(asked: Any) -> Setting:
     law = given.get("law")
     down = isinstance(law, dict) and law.get("name") in ("printed", "corrected")
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
-    if isinstance(law, dict) and law.get("name") in GAINS and isinstance(law.get("gains"), dict):
-        errors.only_known("law.gains", law["gains"], GAINS[law["name"]])
+    if isinstance(law, dict) and law.get("name") in law_names() and isinstance(law.get("gains"), dict):
+        errors.only_known("law.gains", law["gains"], sliders_of(law_from_dict({"name": law["name"]})))
     flight, settings = _run(given)
     law_asked = law_from_dict(settings["law"])
     _check_size(flight)
@@ -92,7 +91,7 @@ def _run(given: dict[str, Any]) -> RunFile:
             return run_of(given)
     except InputError as error:
         name = given["law"].get("name") if isinstance(given.get("law"), dict) else None
-        if isinstance(name, str) and error.field in GAINS.get(name, {}):
+        if name in law_names() and error.field in law_from_dict({"name": name}).gains:
             raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
         raise
 
@@ -163,8 +162,8 @@ def _check_size(flight: Flight) -> None:
 def _check_gains(law: Law, vehicle: Vehicle) -> None:
     """Whether the gains of `law` are near enough to those proposed for `vehicle` for steps to follow its loops."""
     proposed = proposed_gains(law.name, vehicle)
-    for name, value in law.gains.items():
-        if name in GAINS[law.name] and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
+    for name, value in law.given.items():
+        if law.gains[name].label and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
             expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
 

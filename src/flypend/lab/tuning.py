@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
-from flypend.lab.gains import GAINS, gains_of
+from flypend.lab.gains import sliders_of
 from flypend.lab.setting import SYMBOLS, Setting
-from flypend.laws import Law
+from flypend.laws import BoundLaw, Law, law_from_dict
 from flypend.laws.closed_loop import symbolic_loop
-from flypend.laws.law import law_from_dict
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
 from flypend.plants import Sampled
@@ -48,9 +47,9 @@ class Tuned:
         return self.kernel.loop.vehicle
 
     @property
-    def law(self) -> Law:
+    def law(self) -> BoundLaw:
         """The law of the machine code, whose `names` are inputs."""
-        return self.kernel.loop.law
+        return self.kernel.loop.symbolic
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -69,7 +68,7 @@ _made: OrderedDict[str, Tuned] = OrderedDict()
 def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned:
     """What flies `setting`; `tell` is called if it has to be made first, which takes a second."""
     flight, law = setting.flight, setting.law
-    fixed = {name: value for name, value in law.gains.items() if name not in GAINS[law.name]}
+    fixed = {name: value for name, value in law.given.items() if not law.gains[name].label}
     kept = repr(structure(flight.plant)) if isinstance(flight.plant, Sampled) else "ideal"
     key = json.dumps([flight.vehicle.to_dict(), law.name, fixed, kept, flight.tolerances.rtol], sort_keys=True)
     with SYMBOLS:
@@ -87,12 +86,13 @@ def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned:
 
 def _make(setting: Setting, fixed: dict[str, Any]) -> Tuned:
     flight, asked = setting.flight, setting.law
-    law, names = law_from_dict({"name": asked.name, "gains": fixed}).bound(flight.vehicle), tuple(GAINS[asked.name])
+    tunable, names = law_from_dict({"name": asked.name, "gains": fixed}), sliders_of(asked)
     if asked.name == "lqr":
-        law = by_matrix(gain_matrix(flight.vehicle, asked.gains))
-        names = tuple(law.gains)
+        tunable = by_matrix(gain_matrix(flight.vehicle, asked.values))
+        names = tuple(tunable.gains)
+    law = tunable.bind(flight.vehicle)
     loop = replace(flight.replace(law=law).loop, parameters=names)
-    kernel = kernel_for(loop, goal(law), flight.tolerances)
+    kernel = kernel_for(loop, goal(asked), flight.tolerances)
     symbols = symbolic_loop(loop.vehicle, law, names)
     wrench = ca.densify(ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment))
     return Tuned(kernel, ca.Function("wrench", [symbols.t, symbols.s, symbols.p], ca.cse([wrench])))
@@ -103,9 +103,9 @@ def values(setting: Setting) -> NDArray[np.float64]:
     law, vehicle = setting.law, setting.flight.vehicle
     if law.name == "lqr":
         with SYMBOLS:  # the linearisation is symbolic, too
-            return np.array(list(entries(gain_matrix(vehicle, law.gains)).values()))
-    gains = gains_of(law, vehicle)
-    return np.array([float(gains[name]) for name in GAINS[law.name]])
+            return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
+    gains = law.gains_for(vehicle)
+    return np.array([float(gains[name]) for name in sliders_of(law)])
 
 
 def goal(law: Law) -> Criterion:

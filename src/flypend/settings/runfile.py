@@ -15,8 +15,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.export import compiled
 from flypend.flight.request import Flight, Tolerances
-from flypend.laws import Controller, Law
-from flypend.laws.law import law_from_dict
+from flypend.laws import Controller, Law, law_from_dict
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import read_toml
@@ -199,7 +198,9 @@ def _build(settings: dict[str, Any]) -> RunFile:
     vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
     flight = Flight(
         vehicle=vehicle,
-        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")),
+        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")).bind(
+            vehicle
+        ),
         starts=start_of(table_at(settings, "start")),
         duration=settings["duration"],
         plant=plant_of(settings.get("plant", "rotors")),

@@ -10,7 +10,7 @@ from typing import Any
 from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
-from flypend.flight.request import Flight
+from flypend.flight.request import Flight, bound_to
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import AnyPlant
@@ -72,7 +72,7 @@ def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State
     for law in laws:
         own = starts if law.e3 == "up" else starts.flipped()
         name = _free_name(law.name, flights)
-        flights[name] = Flight(vehicle=vehicle, law=law, starts=own, duration=duration)
+        flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
     return flights
 
 

@@ -144,7 +144,7 @@ def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:
     """The inputs (runs, k) of a kernel of `loop`: `given`, or for None the gains of its law."""
     names = loop.parameters
     if given is None:
-        given = np.broadcast_to([loop.law.numbers[name] for name in names], (runs, len(names)))
+        given = np.broadcast_to([loop.symbolic.numbers[name] for name in names], (runs, len(names)))
     values = np.ascontiguousarray(given, dtype=float)
     if values.shape != (runs, len(names)):
         raise InputError("parameters", f"an array of shape {(runs, len(names))}", f"shape {values.shape}")

@@ -23,8 +23,8 @@ from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
 from flypend.flight.request import Flight
+from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
-from flypend.laws.law import Law
 from flypend.model import State
 from flypend.model.state import MAX_STATE, SIZE, project_symbolic
 from flypend.plants.loop import Loop
@@ -238,7 +238,7 @@ def compiled(key: str, problem: Problem, method: str, precision: str = "double")
 
 def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
     """The closed `loop` as programs, judged by `criterion`, with its parameters as inputs."""
-    vehicle, law = loop.vehicle, loop.law
+    vehicle, law = loop.vehicle, loop.symbolic
     symbols = symbolic_loop(vehicle, law, loop.parameters)
     inputs = [symbols.t, symbols.s, symbols.p]
     state = State.symbolic(symbols.s)
@@ -254,7 +254,7 @@ def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
     )
 
 
-def _margin(symbols: SymbolicLoop, law: Law, inputs: list[Any]) -> Program | None:
+def _margin(symbols: SymbolicLoop, law: BoundLaw, inputs: list[Any]) -> Program | None:
     if law.guard is None:
         return None
     signal = symbols.signals[one_of("law.guard", law.guard.signal, symbols.signals)]

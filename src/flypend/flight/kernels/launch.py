@@ -9,7 +9,7 @@ from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel
 from flypend.flight.kernels.sampled import SampledKernel, sampled_kernel
 from flypend.flight.request import Flight, Tolerances
 from flypend.flight.sampled import nearest_ticks
-from flypend.laws import Law
+from flypend.laws import BoundLaw
 from flypend.plants import Sampled
 from flypend.plants.loop import Loop
 
@@ -17,7 +17,7 @@ from flypend.plants.loop import Loop
 def has_kernel(flight: Flight) -> bool:
     """Whether `flight` can be compiled: a law in symbols, and the package's own equations."""
     own = not isinstance(flight.plant, Sampled) or flight.plant.engine == "equations"
-    return own and isinstance(flight.law, Law)
+    return own and isinstance(flight.law, BoundLaw)
 
 
 def kernel_of(flight: Flight) -> IdealKernel | SampledKernel:
@@ -31,7 +31,7 @@ def kernel_for(loop: Loop, criterion: Criterion, exact: Tolerances) -> IdealKern
     """The kernel of `loop`, judged by `criterion` and, in the ideal plant, as `exact` as that."""
     if isinstance(loop.plant, Sampled):
         return sampled_kernel(loop, criterion)
-    return ideal_kernel(loop, criterion, method=exact.method_for(loop.law), precision=exact.precision)
+    return ideal_kernel(loop, criterion, method=exact.method_for(loop.symbolic), precision=exact.precision)
 
 
 def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = lambda *_: None) -> Flown:
@@ -52,7 +52,7 @@ def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = 
             flight.packed, flight.duration, rtol=exact.rtol, atol=exact.atol, parameters=flight.values,
             judge_at=flight.grid, keep_at=times, max_steps=exact.max_steps, workers=workers, progress=progress,
         )  # fmt: skip
-    plant, duration = kernel.plant, flight.duration
+    plant, duration = kernel.loop.sampled, flight.duration
     return kernel.fly(
         flight.packed, duration, judge_at=nearest_ticks(flight.grid, plant, duration),
         keep_at=None if times is None else nearest_ticks(times, plant, duration), first_seed=flight.seed or 0,

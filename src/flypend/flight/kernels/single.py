@@ -56,7 +56,7 @@ class Solution:
 
 
 def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:
-    guard = kernel.loop.law.guard
+    guard = kernel.loop.symbolic.guard
     reason = guard.reason if code == runge_kutta.SINGULAR and guard is not None else REASONS.get(code, "")
     return Outcome(str(STATUS[code]), end, reason)  # type: ignore[arg-type]
 
@@ -71,7 +71,7 @@ def sampled_samples(
 
     `parameters` (k,) are gains that the kernel takes as inputs, `rotors` the forces (n,) that the rotors begin with.
     """
-    law, plant = kernel.loop.law, kernel.plant
+    law, plant = kernel.loop.law, kernel.loop.sampled
     ticks = nearest_ticks(flight.moments, plant, flight.duration)
     flown = kernel.fly(
         flight.packed, flight.duration, judge_at=(), keep_at=ticks, first_seed=flight.seed or 0,

@@ -55,7 +55,7 @@ def _kernel(loop: Loop) -> jit.Native:
 
 def tangent_problem(closed: Loop) -> Problem:
     """State and direction (48) with parameters and their direction (2 k), of the `closed` loop."""
-    law, k = closed.law, len(closed.parameters)
+    law, k = closed.symbolic, len(closed.parameters)
     loop = symbolic_loop(closed.vehicle, law, closed.parameters)
     both, parameters = ca.SX.sym("sv", 2 * SIZE), ca.SX.sym("pq", 2 * k)
     along = ca.jtimes(loop.rates, loop.s, both[SIZE:])

@@ -79,7 +79,7 @@ def program_digest(study: Study) -> str:
         (flight,) = flights(study, design(study, run, run + 1))
         kernel = kernel_of(flight)
         if isinstance(flight.plant, Sampled):
-            digest.update(plant_numbers(flight.vehicle, flight.plant).tobytes())
+            digest.update(plant_numbers(flight.loop).tobytes())
         digest.update(kernel.key.encode())
     return digest.hexdigest()
 

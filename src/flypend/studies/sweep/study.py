@@ -16,8 +16,7 @@ from flypend.files.toml import toml_text
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import has_kernel
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
-from flypend.laws import Law
-from flypend.laws.law import law_from_dict
+from flypend.laws import BoundLaw, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import read_toml
 from flypend.plants import AnyPlant, Ideal, Sampled
@@ -105,9 +104,9 @@ class Study:
         return tuple(axis.name for axis in self.axes if axis.group == "gains")
 
     @property
-    def law(self) -> Law:
+    def law(self) -> BoundLaw:
         """The law that flies it, which is written in symbols."""
-        return self.flight.loop.law
+        return self.flight.loop.symbolic
 
     def text(self) -> str:
         """The study as TOML, every default spelt out; without what `tune` is told."""
@@ -152,7 +151,7 @@ def _build(given: dict[str, Any]) -> Study:
     start, vary = _start(given)
     flight = _flight(given, start, vary)
     plant = flight.plant
-    found = axes(vary, flight.loop.law.numbers, isinstance(plant, Sampled))
+    found = axes(vary, flight.loop.symbolic, isinstance(plant, Sampled))
     # Not in the order of the file: what is drawn depends on what is said, not on where.
     order = {"plant": 0, "gains": 1, "start": 2}
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
@@ -189,9 +188,10 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         precision=given.get("precision", "double"),
         max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
     )
+    vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
     flight = Flight(
-        vehicle=Vehicle.from_dict(vehicle_table(given["vehicle"])),
-        law=law_from_dict(table_at(given, "law")),
+        vehicle=vehicle,
+        law=law_from_dict(table_at(given, "law")).bind(vehicle),
         starts=_fixed(start, vary),
         duration=given["duration"],
         plant=plant_of(given.get("plant", "rotors")),

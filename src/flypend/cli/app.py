@@ -100,18 +100,21 @@ def run(
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
+    from flypend.flight.simulate import fly
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
-    from flypend.settings.runfile import flight
+    from flypend.settings.runfile import run_file
 
-    chosen = flight(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    chosen = run_file(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    flight = chosen.flight
     style_named(style)
     check_writable(out)
     if html is not None:
         check_file(html, (".html",))
-    trajectory = chosen.fly()
+    trajectory = fly(flight)
     # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
-    settled = chosen.fly(max(SETTLED, chosen.duration)) if trajectory.law == "corrected" else None
+    longer = flight.replace(duration=max(SETTLED, flight.duration))
+    settled = fly(longer) if trajectory.law == "corrected" else None
     from flypend.report.flight import write_flight
     from flypend.report.text import judgement, summary_table
 
@@ -275,7 +278,7 @@ def _plant(name: str) -> Any:
     from flypend import errors
     from flypend.plants import PRESETS
 
-    return errors.one_of("--plant", name, ("ideal", *PRESETS))
+    return PRESETS[errors.one_of("--plant", name, PRESETS)]
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:

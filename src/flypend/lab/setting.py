@@ -8,18 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from threading import RLock
 from typing import Any
 
 import numpy as np
 
 from flypend import errors, geometry
 from flypend.errors import InputError
+from flypend.flight.request import Flight
 from flypend.lab.gains import proposed_gains, sliders_of
 from flypend.laws import Law, law_from_dict, law_names
-from flypend.model import State
+from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SHAPES
-from flypend.plants import Plant
-from flypend.settings.runfile import Flight, flight_of
+from flypend.plants import Ideal
+from flypend.settings.runfile import RunFile, run_of
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
@@ -35,6 +37,7 @@ FURTHEST = 100.0  # of a gain from the one proposed, as a factor
 # Largest entries of a start, SI.
 LARGEST = {"x": 1e3, "x_dot": 1e3, "omega": 100.0, "y_dot": 100.0}
 BODIES = ("bob", "vehicle")
+SYMBOLS = RLock()  # CasADi's symbols are shared by no two threads
 
 
 @dataclass(frozen=True)
@@ -48,9 +51,10 @@ class Poke:
 
 @dataclass(frozen=True)
 class Setting:
-    """A flight to make, the pokes on the way, and its start with e₃ up."""
+    """A flight to make, its law as it was asked for, the pokes on the way, and its start with e₃ up."""
 
     flight: Flight
+    law: Law
     pokes: tuple[Poke, ...]
     start: State
 
@@ -73,10 +77,23 @@ def setting_of(asked: Any) -> Setting:
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
     if isinstance(law, dict) and law.get("name") in law_names() and isinstance(law.get("gains"), dict):
         errors.only_known("law.gains", law["gains"], sliders_of(law_from_dict({"name": law["name"]})))
-    flight = flight_of(given)
+    flight, settings = _run(given)
+    law_asked = law_from_dict(settings["law"])
     _check_size(flight)
-    _check_gains(flight)
-    return Setting(flight, pokes, start)
+    _check_gains(law_asked, flight.vehicle)
+    return Setting(flight, law_asked, pokes, start)
+
+
+def _run(given: dict[str, Any]) -> RunFile:
+    """The run file of what a page asks for, messages about gains beginning with law.gains."""
+    try:
+        with SYMBOLS:  # a law that is bound for the first time may be linearised
+            return run_of(given)
+    except InputError as error:
+        name = given["law"].get("name") if isinstance(given.get("law"), dict) else None
+        if name in law_names() and error.field in law_from_dict({"name": name}).gains:
+            raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
+        raise
 
 
 def plain(state: State) -> dict[str, Any]:
@@ -132,8 +149,7 @@ def _pokes(given: Any) -> tuple[Poke, ...]:
 def _check_size(flight: Flight) -> None:
     if flight.duration > LONGEST:
         raise InputError("duration", f"at most {LONGEST:g} s", f"{flight.duration:g} s")
-    if not isinstance(flight.plant, Plant):
-        errors.one_of("plant", flight.plant, ("ideal", "rotors", "hehn2011"))
+    if isinstance(flight.plant, Ideal):
         return
     if flight.plant.engine != "equations":
         raise InputError("plant.engine", "equations, in the laboratory", flight.plant.engine)
@@ -143,25 +159,13 @@ def _check_size(flight: Flight) -> None:
             raise InputError(f"plant.{name}", f"{low:g} to {high:g}", f"{value:g}")
 
 
-def _check_gains(flight: Flight) -> None:
-    """Whether the law takes its gains for this vehicle, and its loops are no faster than steps can follow."""
-    law = law_of(flight)
-    proposed = proposed_gains(law.name, flight.vehicle)
+def _check_gains(law: Law, vehicle: Vehicle) -> None:
+    """Whether the gains of `law` are near enough to those proposed for `vehicle` for steps to follow its loops."""
+    proposed = proposed_gains(law.name, vehicle)
     for name, value in law.given.items():
         if law.gains[name].label and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
             expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
-    if law.name != "lqr":  # each of its weights is one by itself, and its equation takes a while
-        try:
-            law.bind(flight.vehicle)
-        except InputError as error:
-            raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
-
-
-def law_of(flight: Flight) -> Law:
-    """The law of `flight`; a setting has no controller that is not one."""
-    assert isinstance(flight.law, Law)
-    return flight.law
 
 
 def in_frame(vector: Any, e3: str) -> Any:

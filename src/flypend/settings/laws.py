@@ -88,6 +88,15 @@ def note(law: AnyLaw) -> str:
     return f"{law.name} is not written in symbols{why}. It flies step by step in Python, about a thousand times slower."
 
 
+def law_table(value: Any, key: str = "law") -> dict[str, Any]:
+    """The table of a TOML file for a law, which may be a name; messages begin with `key`. Raises InputError."""
+    if isinstance(value, str):
+        return table_of(value)
+    if not isinstance(value, dict):
+        raise InputError(key, "a table", repr(value))
+    return dict(value)
+
+
 def table_of(name: str) -> dict[str, Any]:
     """The table of a TOML file that says the law called `name`, as `law_named` takes it."""
     return {"function": name} if ":" in name else {"name": name}

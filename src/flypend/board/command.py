@@ -65,7 +65,8 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     rotors, forces = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", 6)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
-    wrench = steer(t + loop.law.computer.latency, packed, forces, path, gains, believed.vehicle)
+    wrench = steer(t, packed, forces, path, gains, believed.vehicle)
+    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)  # when the command acts
     command = finished(loop, believed, wrench, packed, rotors)
     inputs = [t, packed, rotors, forces, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])

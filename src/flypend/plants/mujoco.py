@@ -15,7 +15,6 @@ the motion. What of MuJoCo's conventions matters here, each held by a test:
 
 from __future__ import annotations
 
-import importlib
 from functools import partial
 from typing import Any
 
@@ -144,7 +143,9 @@ class MujocoEngine:
     """
 
     def __init__(self, vehicle: Vehicle, *, timestep: float = 0.5e-3, pivot_offset: Any = (0.0, 0.0, 0.0)) -> None:
-        mujoco = _import_mujoco()
+        errors.require("mujoco", extra="mujoco", for_="plant")
+        import mujoco
+
         self._mujoco = mujoco
         self.model = mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=timestep, pivot_offset=pivot_offset))
         self.data = data = mujoco.MjData(self.model)
@@ -237,14 +238,6 @@ class MujocoEngine:
         """Kinetic plus potential energy, J; the potential energy is zero for both masses at height 0."""
         self._mujoco.mj_forward(self.model, self.data)
         return float(self.data.energy.sum())
-
-
-def _import_mujoco() -> Any:
-    """The module mujoco. Raises InputError if it is not installed."""
-    try:
-        return importlib.import_module("mujoco")
-    except ModuleNotFoundError:
-        raise InputError("plant", "the extra flypend[mujoco] to be installed", "no module mujoco") from None
 
 
 def _numbers(values: Any) -> str:

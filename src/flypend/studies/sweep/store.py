@@ -17,7 +17,7 @@ from uuid import uuid4
 
 import numpy as np
 
-from flypend.errors import InputError
+from flypend.errors import InputError, require
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.study import Study
 
@@ -157,6 +157,7 @@ def checked_path(path: str | Path) -> Path:
 def existing(path: str | Path) -> Store:
     """The store at `path`. Raises InputError if there is none that a sweep has written."""
     path = checked_path(path)
+    require("zarr", extra="studies", for_="store")
     try:
         store = Store(path) if path.is_dir() else None
     except Exception as error:  # not Zarr, or metadata that cannot be read

@@ -14,7 +14,7 @@ from rich.console import Console
 from typer.exceptions import TyperException
 
 from flypend import __version__
-from flypend.cli import studies, viewing
+from flypend.cli import examples, studies, viewing
 from flypend.cli.terminal import bold, console, counter, progress
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
@@ -28,6 +28,7 @@ app = typer.Typer(
 )
 app.add_typer(viewing.app)
 app.add_typer(studies.app)
+app.add_typer(examples.app)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 

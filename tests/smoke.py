@@ -1,6 +1,6 @@
-"""What an installation must be able to do, in half a minute, without pytest: `make lowest` runs it on the oldest versions.
+"""What an installation must be able to do, in half a minute, without pytest; `make lowest` runs it on the oldest.
 
-    python tests/smoke.py             # with the extras that are there
+python tests/smoke.py             # with the extras that are there
 """
 
 import importlib.util
@@ -47,7 +47,9 @@ def check_commands():
     flypend("compare", "--law", "examples.my_law:balance", "--law", "lqr", "--runs", "4", "--duration", "2")
     flypend("export-c", "--out", "c")
     flypend("movie", "swing-up/run.nc", "--out", "flight.gif", "--fps", "5", "--speed", "2")
-    assert all(Path(name).stat().st_size for name in ("figures-out/full.pdf", "flight.html", "c/README.md", "flight.gif"))
+    assert all(
+        Path(name).stat().st_size for name in ("figures-out/full.pdf", "flight.html", "c/README.md", "flight.gif")
+    )
 
 
 def check_extras():

@@ -95,7 +95,7 @@ def floats(problem: Problem, kernel: Any) -> Iterator[Line]:
 def inverted() -> Iterator[Line]:
     """Ten seconds of the inverted law on the ideal plant."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
     kernel = ideal_kernel(vehicle, law, method="dp5")
     for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
         (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
@@ -105,7 +105,7 @@ def inverted() -> Iterator[Line]:
 def rotors() -> Iterator[Line]:
     """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
     kernel = sampled_kernel(vehicle, law, plant("rotors"))
     ticks = np.arange(0, 5001, 5)
     (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, ticks=ticks, workers=1), repeats=2)

@@ -34,7 +34,7 @@ class Problem:
     @cached_property
     def law(self) -> Any:
         """The corrected law with the paper's gains."""
-        return fp.laws.corrected(k_d=1, k_1=9, k_2=4).bound(self.vehicle)
+        return fp.laws.corrected(k_d=1, k_1=9, k_2=4).bind(self.vehicle)
 
     @cached_property
     def programs(self) -> Any:

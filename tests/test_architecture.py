@@ -52,7 +52,6 @@ DATA = {"examples", "vehicles"}
 
 # Who imports modules by names that no reader of the source can know, and which.
 COMPUTED = {
-    "export.records": "those that hold the gains of a law",
     "settings.laws": "the law of a user",
 }
 

@@ -194,7 +194,7 @@ def test_a_command_that_is_named_can_be_typed(at_home, line):
         assert chosen.duration > 0
     laws = options.get("law") or ()
     for law in [laws] if isinstance(laws, str) else laws:
-        assert law_named(law).bound(VEHICLE)
+        assert law_named(law).bind(VEHICLE)
 
 
 @pytest.mark.parametrize("line", ["flypend ladder --step 1", "flypend fly", "flypend compare --runs many"])

@@ -129,7 +129,7 @@ def test_a_sparse_output_is_a_mistake():
 
 def test_arguments_stand_before_what_takes_them():
     vehicle = fp.vehicle("hehn2011")
-    program = ideal_problem(vehicle, fp.laws.inverted().bound(vehicle), Criterion()).rates
+    program = ideal_problem(vehicle, fp.laws.inverted().bind(vehicle), Criterion()).rates
     assert isinstance(program, Program)
     for place, operation in enumerate(program.operations):
         assert operation.name == "input" or all(number < place for number in operation.arguments)

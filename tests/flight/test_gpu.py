@@ -14,7 +14,7 @@ from flypend.flight.kernels.gpu import array_kernel
 jax = pytest.importorskip("jax")
 
 NAYAK, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
-CORRECTED = fp.laws.corrected().bound(NAYAK)
+CORRECTED = fp.laws.corrected().bind(NAYAK)
 
 
 def random_starts(runs, seed=11):
@@ -65,7 +65,7 @@ def test_too_many_steps_end_a_run(corrected):
 
 
 def test_a_singular_run_ends_where_that_of_the_kernel_does():
-    law, starts = fp.laws.printed().bound(NAYAK), random_starts(16, seed=9)
+    law, starts = fp.laws.printed().bind(NAYAK), random_starts(16, seed=9)
     reference = ideal_kernel(NAYAK, law).fly(starts, 1.0, rtol=1e-9)
     flown = array_kernel(NAYAK, law, method="dop853").fly(starts, 1.0, rtol=1e-9)
     assert flown.status.tolist() == reference.status.tolist()
@@ -92,7 +92,7 @@ def test_jax_is_imported_when_it_is_used_and_not_before():
 @pytest.mark.slow
 def test_the_inverted_law_agrees_with_the_kernel():
     """Compiling its 1400 operations takes 20 s."""
-    law, starts = fp.laws.inverted().bound(HEHN), random_starts(16)
+    law, starts = fp.laws.inverted().bind(HEHN), random_starts(16)
     tight = ideal_kernel(HEHN, law).fly(starts, 3.0, rtol=1e-11)
     flown = array_kernel(HEHN, law).fly(starts, 3.0, rtol=1e-9)
     assert np.median(np.max(np.abs(flown.final - tight.final), axis=1)) < 1e-6

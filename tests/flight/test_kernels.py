@@ -20,9 +20,10 @@ from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.flight.sampled import fly
 from flypend.plants import Noise, Plant, Wind
+from flypend.plants.loop import Loop
 
 NAYAK, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
-CORRECTED, INVERTED = fp.laws.corrected().bound(NAYAK), fp.laws.inverted().bound(HEHN)
+CORRECTED, INVERTED = fp.laws.corrected().bind(NAYAK), fp.laws.inverted().bind(HEHN)
 DURATION = 6.5
 
 
@@ -153,7 +154,7 @@ def explosive(vehicle):
     def control(t, state, vehicle, gains):
         return fp.Wrench(vehicle.weight, ca.mtimes(ca.DM(vehicle.I), state.omega[0] * state.omega))
 
-    return fp.Law(name="explosive", e3="up", control=control, gains={"k": 1.0}).bound(vehicle)
+    return fp.Law(name="explosive", e3="up", control=control, gains={"k": 1.0}).bind(vehicle)
 
 
 def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
@@ -179,7 +180,7 @@ def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
 
 def test_a_singular_lane_ends_as_singular_and_its_neighbours_go_on():
     """The printed law meets |v_e| = 0 in all starts but those where the guard was never near."""
-    law = fp.laws.printed().bound(NAYAK)
+    law = fp.laws.printed().bind(NAYAK)
     kernel = ideal_kernel(NAYAK, law)
     starts = random_starts(16, seed=9)
     flown = kernel.fly(starts, 1.0, rtol=1e-9, workers=1)
@@ -296,10 +297,10 @@ PLANTS = {
 @pytest.mark.parametrize("law", ["inverted", "corrected"])
 def test_the_sampled_kernel_flies_as_python_does(name, law):
     vehicle, plant = (HEHN, PLANTS[name])
-    law = getattr(fp.laws, law)().bound(vehicle)
+    law = getattr(fp.laws, law)().bind(vehicle)
     starts = fp.State.random(np.random.default_rng(2), 3)
     ticks = np.arange(0, round(0.4 * plant.rate) + 1)
-    kernel = sampled_kernel(vehicle, law, plant.replace(seed=0))
+    kernel = sampled_kernel(Loop(vehicle, law, plant.replace(seed=0)), Criterion())
     flown = kernel.fly(starts.packed(), 0.4, ticks=ticks, first_seed=plant.seed, keep=True)
     for i in (0, 2):
         samples = fly(vehicle, law, starts[i], 0.4, plant.replace(seed=plant.seed + i))
@@ -312,7 +313,7 @@ def test_the_sampled_kernel_flies_as_python_does(name, law):
 def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
     """Each has its effect, and none is in the code, whose result is that of the flight in Python (above)."""
     noisy = Plant(noise=NOISY, wind=GUSTY, rate=200.0)
-    one = sampled_kernel(HEHN, INVERTED, noisy)
+    one = sampled_kernel(Loop(HEHN, INVERTED, noisy), Criterion())
     others = [
         noisy.replace(lag=0.04), noisy.replace(lag=0.0), noisy.replace(noise=Noise(x=0.01)),
         noisy.replace(wind=Wind(on_bob=(0.1, 0.0, 0.0), gust_on_bob=0.01)), noisy.replace(mismatch={"rotor_lag": 1.5}),
@@ -320,13 +321,13 @@ def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
     starts, ticks = random_starts(2), np.arange(41)
     seen = {one.fly(starts, 0.2, ticks=ticks).final.tobytes()}
     for plant in others:
-        other = sampled_kernel(HEHN, INVERTED, plant)
+        other = sampled_kernel(Loop(HEHN, INVERTED, plant), Criterion())
         assert other.function is one.function
-        assert other.plant == plant
+        assert other.loop.plant == plant
         seen.add(other.fly(starts, 0.2, ticks=ticks).final.tobytes())
     assert len(seen) == 1 + len(others)
     for plant in (noisy.replace(noise=None), noisy.replace(wind=Wind(on_bob=(0.1, 0, 0)), noise=None), Plant()):
-        assert sampled_kernel(HEHN, INVERTED, plant).function is not one.function
+        assert sampled_kernel(Loop(HEHN, INVERTED, plant), Criterion()).function is not one.function
         with pytest.raises(ValueError, match="same structure"):
             one.through(plant)
 
@@ -351,7 +352,7 @@ def filler_of_the_stack(vectors=5000):
 def test_what_nobody_drew_is_zero():
     """Not what memory held before."""
     starts, ticks, total = random_starts(8, seed=3), np.arange(0, 101, 10), np.zeros(16)
-    kernel = sampled_kernel(HEHN, INVERTED, Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0))
+    kernel = sampled_kernel(Loop(HEHN, INVERTED, Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0)), Criterion())
     fill = filler_of_the_stack()
 
     def filled(*arguments):
@@ -366,7 +367,7 @@ def test_what_nobody_drew_is_zero():
 def test_a_sampled_flight_is_the_same_in_any_company():
     plant = PLANTS["noise"]
     starts, ticks = random_starts(70, seed=2), np.arange(0, 41, 4)
-    kernel = sampled_kernel(HEHN, INVERTED, plant.replace(seed=0))
+    kernel = sampled_kernel(Loop(HEHN, INVERTED, plant.replace(seed=0)), Criterion())
     together = kernel.fly(starts, 0.2, ticks=ticks, first_seed=9, keep=True, workers=3)
     for i in (0, 33, 69):
         alone = kernel.fly(starts[i : i + 1], 0.2, ticks=ticks, first_seed=9 + i, keep=True)
@@ -376,7 +377,7 @@ def test_a_sampled_flight_is_the_same_in_any_company():
 
 def test_a_lane_of_a_sampled_flight_that_is_lost_takes_no_other_along():
     starts, ticks = random_starts(8, seed=2), np.arange(0, 101, 10)
-    kernel = sampled_kernel(HEHN, INVERTED, Plant())
+    kernel = sampled_kernel(Loop(HEHN, INVERTED, Plant()), Criterion())
     good = kernel.fly(starts, 0.2, ticks=ticks, keep=True)
     bad = starts.copy()
     bad[2, 16], bad[5, 3] = np.nan, 2e6

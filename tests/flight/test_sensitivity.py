@@ -71,7 +71,7 @@ def test_derivatives_by_gains_are_the_finite_differences(found):
 
 def test_derivatives_are_those_of_an_independent_integration(found):
     """Ṡ = F_s S with the full Jacobian, 24 columns at once, by SciPy at 1e-11, without any projection."""
-    law = CASE.law().bound(CASE.vehicle)
+    law = CASE.law().bind(CASE.vehicle)
     loop = symbolic_loop(CASE.vehicle, law)
     rates = ca.Function("rates", [loop.t, loop.s, loop.p], [loop.rates, ca.jacobian(loop.rates, loop.s)])
 
@@ -114,7 +114,7 @@ def test_the_inverted_law_has_derivatives_by_its_gains():
     vehicle = fp.vehicle("hehn2011")
     start = fp.State(y=(0.6, 0, 0.8))
     found = fp.sensitivity(vehicle, fp.laws.inverted(), start, 0.5, gains=("rod_bandwidth",), rtol=1e-10)
-    value = fp.laws.inverted().bound(vehicle).numbers["rod_bandwidth"]
+    value = fp.laws.inverted().bind(vehicle).numbers["rod_bandwidth"]
     h, ends = 1e-4, []
     for sign in (1, -1):
         law = fp.laws.inverted(rod_bandwidth=value + sign * h)

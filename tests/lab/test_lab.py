@@ -21,7 +21,7 @@ from tornado.websocket import websocket_connect
 import flypend as fp
 from flypend.errors import InputError
 from flypend.geometry import cross, dot
-from flypend.lab.controls import GAINS, offer, sliders
+from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked, verdict
 from flypend.lab.map import directions, region
@@ -29,6 +29,7 @@ from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Slot, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
+from flypend.laws import law_names
 from flypend.settings.runfile import flight
 
 OFFER = offer()
@@ -101,7 +102,7 @@ def test_lag_noise_and_wind_change_the_flight_and_compile_nothing(change):
     assert np.abs(first.x - second.x).max() > 1e-3
 
 
-@pytest.mark.parametrize("law", GAINS)
+@pytest.mark.parametrize("law", law_names())
 def test_a_start_is_the_same_pose_for_every_law(law):
     run = fly(setting_of(asked(law, duration=0.05)))
     up = run if run.e3 == "up" else run.flipped()
@@ -114,7 +115,7 @@ def test_presets_are_the_experiments_of_the_paper():
     for name, preset in OFFER["experiments"].items():
         mine, papers = setting_of(preset).flight, fp.experiments.experiment(name)
         np.testing.assert_allclose(mine.start.packed(), papers.start.packed(), atol=1e-12)
-        assert {key: mine.law.gains[key] for key in papers.gains} == papers.gains
+        assert {key: mine.law.values[key] for key in papers.gains} == papers.gains
         assert (mine.vehicle, mine.duration, mine.law.name) == (papers.vehicle, papers.duration, "corrected")
 
 
@@ -242,7 +243,7 @@ def test_a_wrong_setting_is_refused_in_one_line(wrong, field):
 
 
 def test_every_slider_can_be_put_where_it_says():
-    for law in GAINS:
+    for law in law_names():
         setting = asked(law, plant="rotors")
         shown = sliders(setting_of(setting).flight)
         assert len({slider["path"] for slider in shown}) == len(shown) >= 9 - 5 * (law in ("printed", "corrected"))

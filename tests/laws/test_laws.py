@@ -245,11 +245,11 @@ def _fields(state):
 
 
 def test_the_guard_is_there_where_the_law_is_singular_and_only_there():
-    assert isinstance(fp.laws.printed().guard, Guard)
-    assert fp.laws.printed(beta="off").guard is None
-    assert fp.laws.corrected().guard is None
-    assert fp.laws.corrected(beta="regularized").guard is None
-    assert isinstance(fp.laws.corrected(beta="regularized", beta_floor=0).guard, Guard)
+    assert isinstance(fp.laws.printed().bind(VEHICLE).guard, Guard)
+    assert fp.laws.printed(beta="off").bind(VEHICLE).guard is None
+    assert fp.laws.corrected().bind(VEHICLE).guard is None
+    assert fp.laws.corrected(beta="regularized").bind(VEHICLE).guard is None
+    assert isinstance(fp.laws.corrected(beta="regularized", beta_floor=0).bind(VEHICLE).guard, Guard)
 
 
 # The Lyapunov function -------------------------------------------------------------------------------------------
@@ -361,7 +361,7 @@ def test_a_law_from_a_table():
     assert {"printed", "corrected"} <= set(law_names())
     for name in ("printed", "corrected"):
         law = law_from_dict({"name": name, "gains": {"k_1": 3.5}})
-        assert (law.name, law.e3, law.gains["k_1"]) == (name, "down", 3.5)
+        assert (law.name, law.e3, law.values["k_1"]) == (name, "down", 3.5)
     for table, line in (
         (
             {"name": "corected"},

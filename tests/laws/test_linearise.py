@@ -92,7 +92,7 @@ def flow_derivative(loop, at, h, eps):
 def test_the_matrix_of_the_inverted_law_is_that_of_its_flow(name):
     vehicle, found = VEHICLES[name], inverted(name)
     h = 0.02
-    got, kink = flow_derivative(close_loop(vehicle, fp.laws.inverted().bound(vehicle)), found.at, h, 1e-4)
+    got, kink = flow_derivative(close_loop(vehicle, fp.laws.inverted().bind(vehicle)), found.at, h, 1e-4)
     expected = expm(h * found.A)
     # Rows differ in size by a thousand (a rate over an angle), so each entry is compared with the largest of its row.
     # The third derivative of the flow over the first is (1/angle)²: eps² = 1e-8 times some tens.
@@ -164,7 +164,7 @@ def test_inverted_hover_is_stable_but_for_the_heading(name):
     assert np.all(values[1:].real < -1)
     assert values[1].real == pytest.approx(found.spectral_abscissa, rel=1e-9)
     # Yaw is decoupled: its rate decays as the gain says.
-    assert np.min(np.abs(values + fp.laws.inverted.gains_for(VEHICLES[name])["yaw_damping"])) < 1e-9
+    assert np.min(np.abs(values + fp.laws.inverted().gains_for(VEHICLES[name])["yaw_damping"])) < 1e-9
     np.testing.assert_allclose(found.acceleration, 0, rtol=0, atol=1e-9)
 
 
@@ -172,7 +172,7 @@ def test_inverted_hover_is_stable_but_for_the_heading(name):
 def test_the_height_of_the_inverted_law_has_the_eigenvalues_of_its_gains(name):
     # Upright the bob's height obeys ë = −w² e − 2ζw ė. The saturation of the force, 1/(1 + r⁸)^(1/8) at r = f/limit,
     # takes its derivative down by (1 + r⁸)^(−9/8); and hover sinks until the law asks for what is cut off.
-    vehicle, found, k = VEHICLES[name], inverted(name), fp.laws.inverted.gains_for(VEHICLES[name])
+    vehicle, found, k = VEHICLES[name], inverted(name), fp.laws.inverted().gains_for(VEHICLES[name])
     w, zeta = k["height_bandwidth"], k["height_damping"]
     limit = k["thrust_share"] * vehicle.rotor_limits[1] * 4
     r = vehicle.weight / limit

@@ -12,7 +12,7 @@ from flypend.laws.lqr import gain_matrix, weights
 HEHN, NAYAK = fp.vehicle("hehn2011"), fp.vehicle("nayak2018")
 UPRIGHT = fp.State(y=(0, 0, 1))
 YAW = COORDINATES.index("theta_3")
-DEVIATIONS = dict(fp.laws.lqr().gains)
+DEVIATIONS = fp.laws.lqr().values
 
 
 def hover_model(vehicle):
@@ -165,7 +165,7 @@ def test_it_follows_a_circle_with_the_feedforward():
     offset = fp.Law(
         name="naive",
         e3="up",
-        control=lambda t, state, vehicle, k: naive.bound(vehicle).evaluate(
+        control=lambda t, state, vehicle, k: naive.bind(vehicle).evaluate(
             t, _relative(state, law.reference(t)), vehicle
         ),
         reference=law.reference,
@@ -193,9 +193,9 @@ def test_the_law_is_known_by_name_with_its_gains_and_a_reference():
     law = fp.laws.law_from_dict(
         {"name": "lqr", "gains": {"rod_error": 0.3}, "reference": {"shape": "hover", "x": [1, 0, 0]}}
     )
-    assert (law.name, law.e3, law.gains["rod_error"]) == ("lqr", "up", 0.3)
-    assert law.bound(HEHN) is law.bound(HEHN)
-    assert law.bound(HEHN).gains == law.gains
+    assert (law.name, law.e3, law.values["rod_error"]) == ("lqr", "up", 0.3)
+    assert law.bind(HEHN) is law.bind(HEHN)
+    assert law.bind(HEHN).gains == law.values
     for table, line in (
         ({"name": "lqr", "gains": {"rod_eror": 1}}, r"^law\.gains\.rod_eror: expected one of .*did you mean 'rod_err"),
         ({"name": "lqr", "gains": {"rod_error": -1}}, r"^law\.gains\.rod_error: expected a finite number > 0 rad, got"),
@@ -203,8 +203,3 @@ def test_the_law_is_known_by_name_with_its_gains_and_a_reference():
     ):
         with pytest.raises(fp.InputError, match=line):
             fp.laws.law_from_dict(table)
-
-
-def test_an_unbound_regulator_says_so():
-    with pytest.raises(TypeError, match=r"law\.bound"):
-        fp.laws.lqr().evaluate(0.0, UPRIGHT, HEHN)

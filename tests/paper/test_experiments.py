@@ -82,8 +82,8 @@ def test_a_row_gives_both_laws_with_its_gains():
     row = experiment("3")
     for name in ("printed", "corrected"):
         assert row.law(name).name == name
-        assert {key: row.law(name).gains[key] for key in row.gains} == row.gains
-    assert row.law(yaw_damping=3.0).gains["yaw_damping"] == 3.0
+        assert {key: row.law(name).values[key] for key in row.gains} == row.gains
+    assert row.law(yaw_damping=3.0).values["yaw_damping"] == 3.0
 
 
 def test_an_unknown_experiment_or_law_is_refused_with_the_nearest_name():
@@ -273,7 +273,7 @@ def test_the_printed_law_fails_every_claim_without_beta_as_well(runs, name):
 
 
 def test_the_limit_of_the_acceleration_is_the_price_of_the_speed_floor(settled):
-    floor = fp.laws.corrected().gains["speed_floor"]
+    floor = fp.laws.corrected().values["speed_floor"]
     for run in settled.values():
         # At rest k_p is smaller by the factor 1/(1+s); the rod still moves by 1e-4 /s after 30 s.
         assert norm(pivot_acceleration(run)[-1]) == pytest.approx(9.81 * floor / (1 + floor), rel=1e-3)
@@ -505,7 +505,7 @@ def test_the_page_on_the_gain(sections, runs, findings, settled):
     assert max(terms.values()) == terms["4"]
     rises = [100 * largest_rise(run.signals["V"]) / run.signals["V"][0] for run in runs.corrected.values()]
     agree(quoted(sections[4], r"V rises there by # % to # % of V\(0\)"), [min(rises), max(rises)])
-    floor = fp.laws.corrected().gains["speed_floor"]
+    floor = fp.laws.corrected().values["speed_floor"]
     assert [float(text) for text in quoted(sections[4], r"s = # rad/s")] == [floor]
     price = quoted(sections[4], r"g s/\(1\+s\) = # m/s²")
     agree(price, [9.81 * floor / (1 + floor)])

@@ -374,7 +374,11 @@ def test_reset_and_packed_are_inverse():
     for state in states:
         engine.reset(state.packed())
         assert _error(engine.packed, state.packed()) < 1e-12
-        rod = engine._R_rod.T @ engine._R @ state.omega + engine.data.qvel[6:9]
+        mujoco.mj_kinematics(engine.model, engine.data)
+        R, R_rod = (engine.data.body(name).xmat.reshape(3, 3) for name in ("vehicle", "bob"))
+        np.testing.assert_allclose(R, state.R, rtol=0, atol=1e-12)  # MuJoCo's own reading of its coordinates
+        np.testing.assert_allclose(R_rod[:, 2], state.y, rtol=0, atol=1e-12)
+        rod = R_rod.T @ R @ state.omega + engine.data.qvel[6:9]
         assert abs(rod[2]) < 1e-12  # no spin about its own axis
         assert engine.data.time == 0
 

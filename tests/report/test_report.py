@@ -538,7 +538,7 @@ def test_the_runs_are_those_of_the_experiments(runs):
         for name, run in getattr(runs, group).items():
             row = experiment(name)
             assert (run.law, run.e3, run.vehicle) == (law, "down", row.vehicle)
-            assert run.gains == dict(row.law(law, **chosen).gains)
+            assert run.gains == row.law(law, **chosen).values
             np.testing.assert_allclose(run.states[0].packed(), row.start.packed(), rtol=0, atol=1e-14)
     row = experiment("2")
     flown = fp.simulate(row.vehicle, row.law(), row.start, row.duration, rtol=1e-10)

@@ -12,8 +12,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import flypend as fp
-from flypend.laws import law_names
-from flypend.laws.law import law_from_dict
+from flypend.laws import law_from_dict, law_names
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, Flight, flight
@@ -64,7 +63,7 @@ def test_an_experiment_by_its_name_is_its_row_under_the_corrected_law(name):
     same_state(chosen.start, row.start)
     assert chosen.vehicle == row.vehicle
     assert chosen.law.name == "corrected"
-    assert chosen.law.gains == row.law().gains
+    assert chosen.law.values == row.law().values
     assert (chosen.duration, chosen.rtol) == (6.5, 1e-9)
 
 
@@ -82,7 +81,7 @@ def test_a_file_of_ones_own(tmp_path):
     chosen = flight(written(tmp_path, OWN))
     same_state(chosen.start, fp.State(y=(0.6, 0, 0.8), y_dot=(0.8, 0, -0.6)))
     assert chosen.vehicle == fp.vehicle("nayak2018")
-    assert chosen.law.gains == fp.laws.corrected(k_d=1.5).gains
+    assert chosen.law.values == fp.laws.corrected(k_d=1.5).values
     assert chosen.duration == 2.0
 
 
@@ -116,14 +115,14 @@ def test_an_experiment_with_changes(tmp_path):
     chosen, row = flight(written(tmp_path, text)), experiment("5")
     same_state(chosen.start, dataclasses.replace(row.start, omega=np.zeros(3)))
     assert chosen.vehicle == row.vehicle.replace(mass=0.3)
-    assert chosen.law.gains == fp.laws.printed(k_d=1, k_1=7, k_2=4, beta="off").gains
+    assert chosen.law.values == fp.laws.printed(k_d=1, k_1=7, k_2=4, beta="off").values
     assert (chosen.duration, chosen.rtol) == (1.0, 1e-8)
 
 
 def test_the_gains_of_an_experiment_are_for_the_laws_of_the_paper():
     chosen = flight("5", ["law.name=inverted", "vehicle=hehn2011"])
     assert chosen.law.name == "inverted"
-    assert not {"k_d", "k_1", "k_2"} & set(chosen.law.gains)
+    assert not {"k_d", "k_1", "k_2"} & set(chosen.law.values)
     assert chosen.vehicle == fp.vehicle("hehn2011")
 
 
@@ -131,7 +130,7 @@ def test_the_settings_say_everything_that_was_flown():
     chosen = flight("3", ["vehicle.mass=0.5", "law.gains.k_d=2"])
     again = chosen.settings
     assert fp.Vehicle.from_dict(again["vehicle"]) == chosen.vehicle
-    assert law_from_dict(again["law"]).gains == chosen.law.gains
+    assert law_from_dict(again["law"]).values == chosen.law.values
     same_state(fp.State(**again["start"]), chosen.start)
     assert again["duration"] == chosen.duration
 
@@ -139,8 +138,8 @@ def test_the_settings_say_everything_that_was_flown():
 def test_the_settings_of_a_flight_are_its_own():
     first = flight("2", ["start.y=[0.0, 0.0, 1.0]", "start.y_dot=[0.0, 0.0, 0.0]", "law.gains.k_d=5"])
     second = flight("2")
-    assert first.law.gains["k_d"] == 5
-    assert second.law.gains["k_d"] == 1
+    assert first.law.values["k_d"] == 5
+    assert second.law.values["k_d"] == 1
     same_state(second.start, experiment("2").start)
 
 
@@ -150,7 +149,7 @@ def test_the_settings_of_a_flight_are_its_own():
 def test_overrides_apply_in_order():
     assert flight("2", ["duration=1", "duration=3", "duration=2"]).duration == 2
     chosen = flight("2", ["experiment=3", "law.gains.k_1=1", "law.gains.k_1=2", "law.gains={k_2=6}"])
-    assert {key: chosen.law.gains[key] for key in ("k_d", "k_1", "k_2")} == {"k_d": 1, "k_1": 11, "k_2": 6}
+    assert {key: chosen.law.values[key] for key in ("k_d", "k_1", "k_2")} == {"k_d": 1, "k_1": 11, "k_2": 6}
     same_state(chosen.start, experiment("3").start)
 
 
@@ -158,7 +157,7 @@ def test_overrides_change_a_file_and_leave_the_rest(tmp_path):
     path = written(tmp_path, OWN)
     chosen = flight(path, ["vehicle.mass=0.7", "law.gains.k_2=3", "start.x=[1, 2, 3]"])
     assert chosen.vehicle == fp.vehicle("nayak2018").replace(mass=0.7)
-    assert chosen.law.gains == fp.laws.corrected(k_d=1.5, k_2=3).gains
+    assert chosen.law.values == fp.laws.corrected(k_d=1.5, k_2=3).values
     np.testing.assert_array_equal(chosen.start.x, [1, 2, 3])
     np.testing.assert_array_equal(chosen.start.y, [0.6, 0, 0.8])
     assert flight(path, ["vehicle=hehn2011", "vehicle.mass=0.7"]).vehicle.inertia[0, 0] == 3.2e-3
@@ -483,10 +482,10 @@ positive = st.floats(1e-3, 1e3)
 @given(st.sampled_from(experiment_names()), positive, positive, positive, vectors)
 def test_what_is_in_range_arrives(name, duration, k_1, mass, x):
     chosen = flight(name, [f"duration={duration}", f"law.gains.k_1={k_1}", f"vehicle.mass={mass}", f"start.x={x}"])
-    assert (chosen.duration, chosen.law.gains["k_1"], chosen.vehicle.mass) == (duration, k_1, mass)
+    assert (chosen.duration, chosen.law.values["k_1"], chosen.vehicle.mass) == (duration, k_1, mass)
     np.testing.assert_array_equal(chosen.start.x, x)
     np.testing.assert_array_equal(chosen.start.y, experiment(name).start.y)
-    assert chosen.law.gains["k_2"] == experiment(name).gains["k_2"]
+    assert chosen.law.values["k_2"] == experiment(name).gains["k_2"]
 
 
 def test_a_plant_by_name_can_be_changed_in_one_number():

@@ -210,7 +210,7 @@ def test_laws_of_the_package_are_known_by_name():
 
 
 def test_detuned_is_the_inverted_law_with_other_gains():
-    bound, own = law_named("detuned").bound(VEHICLE), inverted().bound(VEHICLE)
+    bound, own = law_named("detuned").bind(VEHICLE), inverted().bind(VEHICLE)
     assert law_named("detuned").name == "detuned"
     differing = {name for name in own.gains if own.gains[name] != bound.gains[name]}
     assert {"attitude_bandwidth", "rate_feedforward"} <= differing

@@ -17,10 +17,11 @@ from flypend.flight.kernels import Flown, ideal_kernel, method_for, sampled_kern
 from flypend.flight.metrics import Metrics, judged, metrics, wilson
 from flypend.flight.sampled import nearest_ticks
 from flypend.flight.simulate import LEAST_RTOL, SAMPLE_PERIOD, simulate
-from flypend.laws import Controller, Law
+from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.plants import Plant
 from flypend.plants import plant as plant_named
+from flypend.plants.loop import Loop
 
 # Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
 CHUNK = 8
@@ -86,7 +87,7 @@ class Ensemble:
 
 def simulate_ensemble(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     starts: State,
     duration: float,
     *,
@@ -148,7 +149,8 @@ def simulate_ensemble(
                 raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
         return _one_by_one(vehicle, law, starts, duration, plant, rtol, criterion, engine, workers, progress)
 
-    bound = law.bound(vehicle)
+    bound = law.bind(vehicle)
+    assert isinstance(bound, BoundLaw)
     kept = None if times is None else errors.array("times", times, (None,))
     if kept is not None and not (len(kept) and kept[0] >= 0 and kept[-1] <= duration and np.all(np.diff(kept) > 0)):
         raise errors.InputError("times", "increasing times from 0 to the duration", "others")
@@ -165,7 +167,7 @@ def simulate_ensemble(
 
 def fly_packed(
     vehicle: Vehicle,
-    law: Law,
+    law: BoundLaw,
     packed: Any,
     duration: float,
     *,
@@ -188,7 +190,7 @@ def fly_packed(
     `simulate_ensemble`, and so is what raises InputError.
     """
     names = tuple(gains or ())
-    columns = [_column(name, value, len(packed)) for name, value in (gains or {}).items()]
+    columns = [_column(law, name, value, len(packed)) for name, value in (gains or {}).items()]
     values = np.stack(columns, axis=1) if columns else None
     duration = errors.number("duration", duration, above=0, unit="s")
     period = errors.number("judge_period", judge_period, above=0, unit="s")
@@ -196,7 +198,7 @@ def fly_packed(
     if isinstance(plant, Plant):
         if times is not None or method is not None or precision != "double":
             raise errors.InputError("times, method, precision", "nothing, in a sampled flight", "a value")
-        return sampled_kernel(vehicle, law, plant.replace(seed=0), criterion, names).fly(
+        return sampled_kernel(Loop(vehicle, law, plant.replace(seed=0), names), criterion).fly(
             packed, duration, ticks=nearest_ticks(grid, plant, duration), first_seed=plant.seed, parameters=values,
             workers=workers, progress=progress,
         )  # fmt: skip
@@ -209,15 +211,15 @@ def fly_packed(
     return flown if times is None else replace(flown, samples=fly(times=times, keep=True, judge=False).samples)
 
 
-def _column(name: str, value: Any, runs: int) -> Any:
+def _column(law: BoundLaw, name: str, value: Any, runs: int) -> Any:
     """The values (n,) of one gain, from (n,) or one number for all."""
-    given = errors.array(f"gains.{name}", value, (), batch=True)
+    given = law.check_gain(name, value)
     if given.shape not in ((), (runs,)):
         raise errors.InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")
     return np.broadcast_to(given, (runs,))
 
 
-def _can_be_sent(law: Law | Controller) -> bool:
+def _can_be_sent(law: AnyLaw) -> bool:
     """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
     import cloudpickle
 
@@ -230,7 +232,7 @@ def _can_be_sent(law: Law | Controller) -> bool:
 
 def _one_by_one(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     starts: State,
     duration: float,
     plant: str | Plant,
@@ -244,7 +246,7 @@ def _one_by_one(
     from joblib import Parallel, delayed  # processes, which a kernel does not wait for
 
     count = workers or os.cpu_count() or 1
-    bound = law.bound(vehicle)
+    bound = law.bind(vehicle)
 
     def chunk(indices: range) -> list[tuple[Metrics, Any]]:
         return [one(index) for index in indices]

@@ -12,7 +12,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.flight.kernels.tangent import fly_tangents
 from flypend.flight.simulate import LEAST_RTOL
-from flypend.laws import Law
+from flypend.laws import BoundLaw, Law
 from flypend.laws.linearise import COORDINATES, tangent_basis
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, project
@@ -52,7 +52,7 @@ class Sensitivity:
 
 def sensitivity(
     vehicle: Vehicle,
-    law: Law,
+    law: Law | BoundLaw,
     start: State,
     duration: float,
     *,
@@ -75,21 +75,21 @@ def sensitivity(
     InputError
         For a law that is not symbolic, a start that is a batch, and gains that the law lacks.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
     if not isinstance(start, State) or start.batch_shape:
         raise InputError("start", "a single State", repr(start)[:80])
     duration = errors.number("duration", duration, above=0, unit="s")
     rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
-    law, names = law.bound(vehicle), tuple(gains)
-    errors.only_known("gains", dict.fromkeys(names), law.numbers)
+    bound, names = law.bind(vehicle), tuple(gains)
+    errors.only_known("gains", dict.fromkeys(names), bound.numbers)
     runs, k = len(COORDINATES) + len(names), len(names)
     directions, rates = np.zeros((runs, SIZE)), np.zeros((runs, k))
     directions[: len(COORDINATES)] = tangent_basis(start).T
     rates[len(COORDINATES) :] = np.eye(k)
-    values = np.tile([law.numbers[name] for name in names], (runs, 1))
+    values = np.tile([bound.numbers[name] for name in names], (runs, 1))
     starts = np.tile(start.packed(), (runs, 1))
-    flown = fly_tangents(vehicle, law, names, starts, directions, values, rates, duration, rtol)
+    flown = fly_tangents(vehicle, bound, names, starts, directions, values, rates, duration, rtol)
     failed = flown.status[flown.status != "completed"]
     derivatives = flown.final[:, SIZE:].T if not len(failed) else np.full((SIZE, runs), np.nan)
     return Sensitivity(

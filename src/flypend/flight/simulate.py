@@ -12,7 +12,7 @@ from flypend.flight.kernels import ideal_kernel, method_for
 from flypend.flight.kernels.single import Solution, flown_by_kernel
 from flypend.flight.sampled import fly, nearest_ticks
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import Controller, Law
+from flypend.laws import AnyLaw, BoundLaw, Controller, Law
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
@@ -29,7 +29,7 @@ LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 H
 
 def simulate(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     start: State,
     duration: float,
     *,
@@ -78,7 +78,7 @@ def simulate(
         engine.
     """
     _check(vehicle, law, start)
-    law = law.bound(vehicle)
+    bound = law.bind(vehicle)
     duration = errors.number("duration", duration, above=0, at_most=LONGEST, unit="s")
     rtol = errors.number("rtol", rtol, above=0)
     if rtol < LEAST_RTOL:
@@ -87,14 +87,14 @@ def simulate(
     errors.one_of("engine", engine, ("kernel", "scipy"))
     wanted = _sample_times(duration, times)
     if plant == "ideal":
-        if isinstance(law, Law):
-            return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted, engine)
-        plant = Plant(limits=False, lag=0.0, rate=law.rate)
-    return _sampled(vehicle, law, start, duration, plants.plant(plant), wanted, engine)
+        if isinstance(bound, BoundLaw):
+            return _ideal(vehicle, bound, start, duration, rtol, rtol if atol is None else atol, wanted, engine)
+        plant = Plant(limits=False, lag=0.0, rate=bound.rate)
+    return _sampled(vehicle, bound, start, duration, plants.plant(plant), wanted, engine)
 
 
 def _ideal(
-    vehicle: Vehicle, law: Law, start: State, duration: float, rtol: float, atol: float, wanted: Any, engine: str
+    vehicle: Vehicle, law: BoundLaw, start: State, duration: float, rtol: float, atol: float, wanted: Any, engine: str
 ) -> Trajectory:
     """The closed loop in continuous time, the wrench acting as commanded."""
     loop = close_loop(vehicle, law)
@@ -150,10 +150,16 @@ def _by_scipy(
 
 
 def _sampled(
-    vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant, wanted: Any, engine: str
+    vehicle: Vehicle,
+    law: BoundLaw | Controller,
+    start: State,
+    duration: float,
+    plant: Plant,
+    wanted: Any,
+    engine: str,
 ) -> Trajectory:
     """A sampled flight; it is recorded at control ticks, of which those nearest to `wanted` are kept."""
-    if engine == "kernel" and isinstance(law, Law) and plant.engine == "equations":
+    if engine == "kernel" and isinstance(law, BoundLaw) and plant.engine == "equations":
         samples = flown_by_kernel(vehicle, law, start, duration, plant, nearest_ticks(wanted, plant, duration))
     else:
         samples = fly(vehicle, law, start, duration, plant).at(wanted * plant.rate)
@@ -174,12 +180,12 @@ def _sampled(
     )
 
 
-def _reference(law: Law | Controller, times: Any) -> Any:
+def _reference(law: BoundLaw | Controller, times: Any) -> Any:
     return None if law.reference is None else sampled(law.reference, times)
 
 
-def _check(vehicle: Vehicle, law: Law | Controller, start: State) -> None:
-    kinds = (("vehicle", vehicle, Vehicle), ("law", law, Law | Controller), ("start", start, State))
+def _check(vehicle: Vehicle, law: AnyLaw, start: State) -> None:
+    kinds = (("vehicle", vehicle, Vehicle), ("law", law, Law | BoundLaw | Controller), ("start", start, State))
     for name, value, kind in kinds:
         if not isinstance(value, kind):
             raise errors.InputError(name, f"a {getattr(kind, '__name__', 'Law or Controller')}", repr(value))

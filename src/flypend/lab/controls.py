@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from flypend.lab.gains import GAINS, gains_of, proposed_gains
+from flypend.lab.gains import proposed_gains, sliders_of
 from flypend.lab.setting import LONGEST, law_of, plain
+from flypend.laws import law_names
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
@@ -31,7 +32,7 @@ def offer() -> dict[str, Any]:
     }
     return {
         "vehicles": vehicle_names(),
-        "laws": list(GAINS),
+        "laws": law_names(),
         "plants": PLANTS,
         "first": first,
         "starts": {name: plain(State(y=y)) for name, y in STARTS.items()},
@@ -57,12 +58,13 @@ def _preset(name: str) -> dict[str, Any]:
 
 def sliders(flight: Flight) -> list[dict[str, Any]]:
     """The sliders of `flight`: path in the setting, group, words, unit, value, range, whether logarithmic."""
-    given, proposed = gains_of(law_of(flight), flight.vehicle), proposed_gains(law_of(flight).name, flight.vehicle)
+    law = law_of(flight)
+    given, proposed = law.gains_for(flight.vehicle), proposed_gains(law.name, flight.vehicle)
     out = []
-    for gain, (words, unit) in GAINS[law_of(flight).name].items():
-        value, usual = given[gain], proposed[gain]
+    for name in sliders_of(law):
+        value, usual, gain = given[name], proposed[name], law.gains[name]
         low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
-        out.append(_slider(f"law.gains.{gain}", "gains", words, unit, value, low, high, log=True))
+        out.append(_slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, low, high, log=True))
     if flight.plant != "ideal":
         out += _plant_sliders(plant_named(flight.plant), flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]

@@ -28,7 +28,7 @@ def toml(setting: Setting) -> str:
         lines.append(f"vehicle = {_value(base)}")
     else:
         lines += _table("vehicle", {"base": base, **changed})
-    lines += _table("law", {"name": law_of(flight).name, "gains": dict(law_of(flight).gains)})
+    lines += _table("law", {"name": law_of(flight).name, "gains": dict(law_of(flight).given)})
     if isinstance(plant, dict):
         lines += _table("plant", plant)
     lines += _table("start", _start(flight.start))
@@ -44,7 +44,7 @@ def python(setting: Setting) -> str:
     return (
         f"import flypend as fp\n\n"
         f"{POKED if setting.pokes else ''}vehicle = {machine}\n"
-        f"law = fp.laws.{law_of(flight).name}({_arguments(law_of(flight).gains)})\n"
+        f"law = fp.laws.{law_of(flight).name}({_arguments(law_of(flight).given)})\n"
         f"start = fp.State(\n{start},\n)\n"
         f"run = fp.simulate(vehicle, law, start, duration={flight.duration!r}, plant={_plant_call(flight.plant)})\n"
         f"print(run.outcome)\n"

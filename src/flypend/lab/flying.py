@@ -14,7 +14,6 @@ from flypend.flight.outcome import Outcome
 from flypend.flight.sampled import nearest_ticks
 from flypend.flight.simulate import SAMPLE_PERIOD
 from flypend.flight.trajectory import Trajectory
-from flypend.lab.gains import gains_of
 from flypend.lab.setting import Poke, Setting, in_frame, law_of
 from flypend.lab.tuning import Tell, Tuned, tuned, values
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
@@ -122,7 +121,7 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
 def _sampled_part(
     machine: Tuned, kernel: SampledKernel, gains: Any, state: Any, rotors: Any, duration: float, seed: int
 ) -> Part:
-    plant, e3 = kernel.plant, machine.law.e3
+    plant, e3 = kernel.loop.plant, machine.law.e3
     true = plant.true_vehicle(machine.vehicle)
     if duration < 1 / plant.rate:
         duration = 1 / plant.rate
@@ -155,5 +154,5 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
         e3=law.e3,
         vehicle=machine.vehicle,
         law=law.name,
-        gains=dict(gains_of(law, machine.vehicle)),
+        gains=law.gains_for(machine.vehicle),
     )

@@ -14,8 +14,8 @@ import numpy as np
 
 from flypend import errors, geometry
 from flypend.errors import InputError
-from flypend.lab.gains import GAINS, proposed_gains
-from flypend.laws import Law
+from flypend.lab.gains import proposed_gains, sliders_of
+from flypend.laws import Law, law_from_dict, law_names
 from flypend.model import State
 from flypend.model.state import FLIP, SHAPES
 from flypend.plants import Plant
@@ -71,8 +71,8 @@ def setting_of(asked: Any) -> Setting:
     law = given.get("law")
     down = isinstance(law, dict) and law.get("name") in ("printed", "corrected")
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
-    if isinstance(law, dict) and law.get("name") in GAINS and isinstance(law.get("gains"), dict):
-        errors.only_known("law.gains", law["gains"], GAINS[law["name"]])
+    if isinstance(law, dict) and law.get("name") in law_names() and isinstance(law.get("gains"), dict):
+        errors.only_known("law.gains", law["gains"], sliders_of(law_from_dict({"name": law["name"]})))
     flight = flight_of(given)
     _check_size(flight)
     _check_gains(flight)
@@ -147,13 +147,13 @@ def _check_gains(flight: Flight) -> None:
     """Whether the law takes its gains for this vehicle, and its loops are no faster than steps can follow."""
     law = law_of(flight)
     proposed = proposed_gains(law.name, flight.vehicle)
-    for name, value in law.gains.items():
-        if name in GAINS[law.name] and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
+    for name, value in law.given.items():
+        if law.gains[name].label and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
             expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
     if law.name != "lqr":  # each of its weights is one by itself, and its equation takes a while
         try:
-            law.bound(flight.vehicle)
+            law.bind(flight.vehicle)
         except InputError as error:
             raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 

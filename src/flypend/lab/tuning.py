@@ -14,15 +14,15 @@ import numpy as np
 
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel, structure
-from flypend.lab.gains import GAINS, gains_of
+from flypend.lab.gains import sliders_of
 from flypend.lab.setting import law_of
-from flypend.laws import Law
+from flypend.laws import BoundLaw, Law, law_from_dict
 from flypend.laws.closed_loop import symbolic_loop
-from flypend.laws.law import law_from_dict
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
 from flypend.plants import Plant
 from flypend.plants import plant as plant_named
+from flypend.plants.loop import Loop
 from flypend.settings.runfile import Flight
 
 MOST = 48
@@ -37,7 +37,7 @@ class Tuned:
     ----------
     vehicle : Vehicle
         What flies.
-    law : Law
+    law : BoundLaw
         The law of the machine code, whose `names` are inputs.
     names : tuple of str
         Gains that are inputs.
@@ -52,7 +52,7 @@ class Tuned:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     names: tuple[str, ...]
     criterion: Criterion
     plant: Plant | None
@@ -66,7 +66,7 @@ _building = RLock()  # CasADi's symbols are shared by no two threads
 
 def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
     """What flies `flight`; `tell` is called if it has to be made first, which takes a second."""
-    fixed = {name: value for name, value in law_of(flight).gains.items() if name not in GAINS[law_of(flight).name]}
+    fixed = {name: value for name, value in law_of(flight).given.items() if not law_of(flight).gains[name].label}
     plant = None if flight.plant == "ideal" else plant_named(flight.plant).replace(seed=0)
     kept = None if plant is None else repr(structure(plant))
     key = json.dumps([flight.vehicle.to_dict(), law_of(flight).name, fixed, kept, flight.rtol], sort_keys=True)
@@ -85,16 +85,17 @@ def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
 
 def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
     vehicle, criterion = flight.vehicle, goal(law_of(flight))
-    law = law_from_dict({"name": law_of(flight).name, "gains": fixed}).bound(vehicle)
-    names = tuple(GAINS[law.name])
-    if law.name == "lqr":
-        law = by_matrix(gain_matrix(vehicle, law_of(flight).gains))
-        names = tuple(law.gains)
+    asked = law_of(flight)
+    tunable, names = law_from_dict({"name": asked.name, "gains": fixed}), sliders_of(asked)
+    if asked.name == "lqr":
+        tunable = by_matrix(gain_matrix(vehicle, asked.values))
+        names = tuple(tunable.gains)
+    law = tunable.bind(vehicle)
     if plant is None:
         method = method_for(flight.rtol, law)
         kernel: Any = ideal_kernel(vehicle, law, criterion, names, method=method)
     else:
-        kernel = sampled_kernel(vehicle, law, plant, criterion, names)
+        kernel = sampled_kernel(Loop(vehicle, law, plant, names), criterion)
     loop = symbolic_loop(vehicle, law, names)
     wrench = ca.densify(ca.vertcat(loop.wrench.thrust, loop.wrench.moment))
     function = ca.Function("wrench", [loop.t, loop.s, loop.p], ca.cse([wrench]))
@@ -106,9 +107,9 @@ def values(flight: Flight) -> Any:
     law, vehicle = law_of(flight), flight.vehicle
     if law.name == "lqr":
         with _building:  # the linearisation is symbolic, too
-            return np.array(list(entries(gain_matrix(vehicle, law.gains)).values()))
-    gains = gains_of(law, vehicle)
-    return np.array([float(gains[name]) for name in GAINS[law.name]])
+            return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
+    gains = law.gains_for(vehicle)
+    return np.array([float(gains[name]) for name in sliders_of(law)])
 
 
 def goal(law: Law) -> Criterion:

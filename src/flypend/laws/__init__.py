@@ -4,16 +4,26 @@ A law of one's own is `Law(name=..., e3=..., gains={...}, control=function)` wit
 `function(t, state, vehicle, gains) -> Control` written in CasADi expressions; see `flypend.laws.law`.
 """
 
+from flypend.laws.bound import BoundLaw, Computer, Control, Guard
+from flypend.laws.controller import Controller
 from flypend.laws.corrected import corrected
+from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
-from flypend.laws.law import Computer, Control, Controller, Guard, Law, law_from_dict, law_names
+from flypend.laws.law import Law
 from flypend.laws.lqr import lqr
+from flypend.laws.named import law_from_dict, law_names
 from flypend.laws.printed import printed
 
+AnyLaw = Law | BoundLaw | Controller
+
 __all__ = [
+    "AnyLaw",
+    "BoundLaw",
+    "Bounds",
     "Computer",
     "Control",
     "Controller",
+    "Gain",
     "Guard",
     "Law",
     "corrected",

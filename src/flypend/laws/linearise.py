@@ -19,6 +19,7 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, hat, project_tangent, rotation_from_vector, unit
+from flypend.laws.bound import BoundLaw
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion
 from flypend.model.state import SIZE, E3Direction
@@ -111,7 +112,7 @@ class Linearisation:
         return bool(largest <= _ROUNDOFF * np.max(np.abs(self.A)))
 
 
-def linearise(law: Law, vehicle: Vehicle, at: State | None = None) -> Linearisation:
+def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) -> Linearisation:
     """Linearise the closed loop of `vehicle` under `law` about the equilibrium next to `at`, at time 0.
 
     Parameters
@@ -128,11 +129,11 @@ def linearise(law: Law, vehicle: Vehicle, at: State | None = None) -> Linearisat
     InputError
         If there is no equilibrium near `at`, the law is not defined there, or its reference moves.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
-    law = law.bound(vehicle)
-    rates = _closed_loop(law, vehicle)
-    state = _upright(law) if at is None else _single(at)
+    bound = law.bind(vehicle)
+    rates = _closed_loop(bound, vehicle)
+    state = _upright(bound) if at is None else _single(at)
     for _ in range(_NEWTON_STEPS):
         velocity, A = _on_tangent_space(rates, state)
         step = np.linalg.lstsq(A, -velocity, rcond=1e-10)[0]
@@ -209,7 +210,7 @@ def _plane(y: Any) -> Any:
     return np.stack([b_1, cross(y, b_1)])
 
 
-def _closed_loop(law: Law, vehicle: Vehicle) -> ca.Function:
+def _closed_loop(law: BoundLaw, vehicle: Vehicle) -> ca.Function:
     """Packed state (24,) → rates, their derivatives by the state and by time, at time 0."""
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     state = State.symbolic(packed)
@@ -238,7 +239,7 @@ def _check_rest(velocity: Any, A: Any) -> None:
         raise InputError("at", "a state next to an equilibrium", f"rates of attitude or rod of {moving:.3g} rad/s, /s²")
 
 
-def _upright(law: Law) -> State:
+def _upright(law: BoundLaw) -> State:
     x = np.zeros(3) if law.reference is None else np.array(ca.DM(ca.evalf(law.reference(ca.SX(0))))).ravel()
     return State(x=x, y=E3)
 

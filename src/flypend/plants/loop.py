@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flypend.laws import Law
+from flypend.errors import InputError
+from flypend.laws import BoundLaw, Controller
 from flypend.model import Vehicle
 from flypend.plants.plant import Plant
 
@@ -17,7 +18,7 @@ class Loop:
     ----------
     vehicle : Vehicle
         The vehicle that the law believes in.
-    law : Law
+    law : BoundLaw or Controller
         The law, bound to that vehicle.
     plant : Plant
         What stands between the law and the world.
@@ -26,6 +27,13 @@ class Loop:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw | Controller
     plant: Plant
     parameters: tuple[str, ...] = ()
+
+    @property
+    def symbolic(self) -> BoundLaw:
+        """The law, which must be one in symbols. Raises InputError for any other."""
+        if not isinstance(self.law, BoundLaw):
+            raise InputError("law", "a Law, written in symbols", self.law.name)
+        return self.law

@@ -6,12 +6,12 @@ import importlib
 import inspect
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from flypend.errors import InputError, one_of
-from flypend.laws import Controller, Law
-from flypend.laws.law import law_from_dict, law_names
+from flypend.laws import Controller, Law, inverted, law_from_dict, law_names
 
 # Gains of the inverted law with a slow attitude and no rate of its target: in the table to be seen failing.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -28,8 +28,7 @@ def law_named(name: str) -> Law | Controller:
     """
     if ":" not in name:
         if one_of("--law", name, (*law_names(), "detuned")) == "detuned":
-            detuned = law_from_dict({"name": "inverted", "gains": DETUNED})
-            return Law(name="detuned", e3="up", control=detuned.control, for_vehicle=detuned.for_vehicle)
+            return replace(inverted().with_gains(DETUNED), name="detuned")
         return law_from_dict({"name": name})
     module_name, _, attribute = name.partition(":")
     if not all(part.isidentifier() for part in (*module_name.split("."), attribute)):

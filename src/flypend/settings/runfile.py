@@ -18,8 +18,7 @@ from flypend.errors import InputError
 from flypend.export import compiled
 from flypend.flight.simulate import simulate
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import Controller, Law
-from flypend.laws.law import law_from_dict
+from flypend.laws import Controller, Law, law_from_dict
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import read_toml

@@ -225,6 +225,7 @@ def _task(made: Study) -> _Task:
     limits = []
     for name, value in bounds.items():
         low, high = errors.array(f"tune.gains.{name}", value, (2,)).tolist()
+        made.law.check_gain(name, (low, high), "tune.gains")
         if not 0 < low < high:
             raise InputError(f"tune.gains.{name}", "0 < least < largest", [low, high])
         if not low <= made.law.numbers[name] <= high:

@@ -12,7 +12,7 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 
 Progress = Callable[[int, int], Any]
 
@@ -139,7 +139,7 @@ def from_queue(
     progress(runs, runs)
 
 
-def inputs_of(law: Law, names: Sequence[str], given: Any, runs: int) -> Any:
+def inputs_of(law: BoundLaw, names: Sequence[str], given: Any, runs: int) -> Any:
     """The inputs (runs, k) of a kernel whose gains `names` may vary: `given`, or for None those of the `law`."""
     if given is None:
         given = np.broadcast_to([law.numbers[name] for name in names], (runs, len(names)))

@@ -15,7 +15,7 @@ from flypend.compile.methods import method as method_named
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import Flown
 from flypend.flight.kernels.ideal import MAX_STEPS, ideal_problem
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import Vehicle
 
 # Runs that are under way together: what fits a cache, or what fills a GPU.
@@ -38,7 +38,7 @@ class ArrayKernel:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     parameters: tuple[str, ...]
     function: Any
 
@@ -82,7 +82,9 @@ class ArrayKernel:
 
 
 @lru_cache(maxsize=16)
-def array_kernel(vehicle: Vehicle, law: Law, parameters: tuple[str, ...] = (), *, method: str = "dp5") -> ArrayKernel:
+def array_kernel(
+    vehicle: Vehicle, law: BoundLaw, parameters: tuple[str, ...] = (), *, method: str = "dp5"
+) -> ArrayKernel:
     """The closed loop of `vehicle` under a bound `law` in JAX (extra "gpu"), compiled when it first flies.
 
     Parameters

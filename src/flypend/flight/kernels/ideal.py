@@ -22,8 +22,8 @@ from flypend.compile.program import lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
+from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
-from flypend.laws.law import Law
 from flypend.model import State, Vehicle
 from flypend.model.state import MAX_STATE, SIZE, project_symbolic
 
@@ -54,7 +54,7 @@ class IdealKernel:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     criterion: Criterion
     parameters: tuple[str, ...]
     function: Any
@@ -175,7 +175,7 @@ def call(
 @lru_cache(maxsize=64)
 def ideal_kernel(
     vehicle: Vehicle,
-    law: Law,
+    law: BoundLaw,
     criterion: Criterion | None = None,
     parameters: tuple[str, ...] = (),
     *,
@@ -224,7 +224,7 @@ def compiled(key: str, problem: Problem, method: str, precision: str = "double")
     return jit.build(f"{key} {width} lanes, states below {MAX_STATE}", module, "kernel", kinds)
 
 
-def method_for(rtol: float, law: Law) -> str:
+def method_for(rtol: float, law: BoundLaw) -> str:
     """The Runge-Kutta method for a tolerance `rtol`: the faster one, but DOP853 where `law` can be singular.
 
     The error estimate of order 5 steps over a narrow singularity that the other notices.
@@ -232,7 +232,7 @@ def method_for(rtol: float, law: Law) -> str:
     return "dp5" if rtol >= LOOSE and law.guard is None else "dop853"
 
 
-def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:
+def ideal_problem(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:
     """The closed loop of `vehicle` under `law` as programs, judged by `criterion`, with `parameters` as inputs."""
     loop = symbolic_loop(vehicle, law, parameters)
     inputs = [loop.t, loop.s, loop.p]
@@ -249,7 +249,7 @@ def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: 
     )
 
 
-def _margin(loop: SymbolicLoop, law: Law, inputs: list[Any]) -> Any:
+def _margin(loop: SymbolicLoop, law: BoundLaw, inputs: list[Any]) -> Any:
     if law.guard is None:
         return None
     signal = loop.signals[one_of("law.guard", law.guard.signal, loop.signals)]

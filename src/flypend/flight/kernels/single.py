@@ -7,14 +7,16 @@ from typing import Any
 import numpy as np
 
 from flypend.compile.llvm import runge_kutta
+from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import STATUS, Flown, inputs_of
 from flypend.flight.kernels.ideal import MAX_STEPS, IdealKernel, integrate
 from flypend.flight.kernels.sampled import SampledKernel, sampled_kernel
 from flypend.flight.outcome import Outcome
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
+from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 
 REASONS = {
@@ -68,9 +70,11 @@ def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:
     return Outcome(str(STATUS[code]), end, reason)  # type: ignore[arg-type]
 
 
-def flown_by_kernel(vehicle: Vehicle, law: Law, start: State, duration: float, plant: Plant, ticks: Any) -> Samples:
+def flown_by_kernel(
+    vehicle: Vehicle, law: BoundLaw, start: State, duration: float, plant: Plant, ticks: Any
+) -> Samples:
     """As `flypend.flight.sampled.fly`, at control `ticks` only."""
-    kernel = sampled_kernel(vehicle, law, plant.replace(seed=0))
+    kernel = sampled_kernel(Loop(vehicle, law, plant.replace(seed=0)), Criterion())
     return sampled_samples(kernel, start.packed(), duration, ticks, plant.seed)
 
 
@@ -90,7 +94,7 @@ def sampled_samples(
     values = None if parameters is None else np.asarray(parameters)[None]
     begin = None if rotors is None else np.asarray(rotors)[None]
     flown = kernel.fly(start[None], duration, ticks=ticks, first_seed=seed, parameters=values, rotors=begin, keep=True)
-    law, plant = kernel.law, kernel.plant
+    law, plant = kernel.loop.law, kernel.loop.plant
     code, end = int(flown.code[0]), float(flown.end[0])
     outcome = Outcome("completed", end)
     if code != runge_kutta.COMPLETED:

@@ -17,15 +17,15 @@ from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.flight.kernels.flown import Flown
 from flypend.flight.kernels.ideal import MAX_STEPS, call, closed, compiled
+from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import symbolic_loop
-from flypend.laws.law import Law
 from flypend.model import Vehicle
 from flypend.model.state import SIZE, project_symbolic
 
 
 def fly_tangents(
     vehicle: Vehicle,
-    law: Law,
+    law: BoundLaw,
     gains: tuple[str, ...],
     starts: Any,
     directions: Any,
@@ -55,12 +55,12 @@ def fly_tangents(
 
 
 @lru_cache(maxsize=16)
-def _kernel(vehicle: Vehicle, law: Law, gains: tuple[str, ...]) -> jit.Native:
+def _kernel(vehicle: Vehicle, law: BoundLaw, gains: tuple[str, ...]) -> jit.Native:
     problem = tangent_problem(vehicle, law, gains)
     return compiled(f"tangent {problem!r}", problem, "dop853")
 
 
-def tangent_problem(vehicle: Vehicle, law: Law, gains: tuple[str, ...]) -> Problem:
+def tangent_problem(vehicle: Vehicle, law: BoundLaw, gains: tuple[str, ...]) -> Problem:
     """State and direction (48) with gains and their direction (2 k), of the closed loop of `vehicle` under `law`."""
     loop = symbolic_loop(vehicle, law, gains)
     k = len(gains)

@@ -15,6 +15,7 @@ from flypend.flight.ensemble import fly_packed
 from flypend.flight.kernels import Flown, ideal_kernel, method_for, plant_numbers, sampled_kernel
 from flypend.flight.metrics import judged
 from flypend.plants import Plant
+from flypend.plants.loop import Loop
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import Design, design
 from flypend.studies.sweep.study import Study, study
@@ -73,8 +74,9 @@ def program_digest(study: Study) -> str:
     plants = {repr(plant): plant for plant in (study.plant_at(cell) for cell in _plant_cells(study, cells))}
     for plant in plants.values():
         if isinstance(plant, Plant):
-            kernel: Any = sampled_kernel(study.vehicle, study.law, plant.replace(seed=0), study.criterion, study.gains)
-            digest.update(plant_numbers(study.vehicle, plant).tobytes())
+            loop = Loop(study.vehicle, study.law, plant.replace(seed=0), study.gains)
+            kernel: Any = sampled_kernel(loop, study.criterion)
+            digest.update(plant_numbers(loop).tobytes())
         else:
             method = method_for(study.rtol, study.law)
             kernel = ideal_kernel(

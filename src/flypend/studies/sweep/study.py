@@ -15,8 +15,7 @@ from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import BYTES as PRECISIONS
 from flypend.flight.simulate import LEAST_RTOL, SAMPLE_PERIOD
-from flypend.laws import Law
-from flypend.laws.law import law_from_dict
+from flypend.laws import BoundLaw, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import read_toml
 from flypend.plants import Plant
@@ -75,7 +74,7 @@ class Study:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     plant: str | Plant
     duration: float
     rtol: float
@@ -165,13 +164,13 @@ def _build(given: dict[str, Any]) -> Study:
             raise InputError(key, "a value", "nothing")
     vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
     law_table = table_at(given, "law")
-    law = law_from_dict(law_table).bound(vehicle)
+    law = law_from_dict(law_table).bind(vehicle)
     plant = plant_of(given.get("plant", "ideal"))
     plant = plant if plant == "ideal" else plant_named(plant)
     if isinstance(plant, Plant) and plant.engine == "mujoco":
         raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
     start, vary = _start(given)
-    found = axes(vary, law.numbers, plant != "ideal")
+    found = axes(vary, law, plant != "ideal")
     # Not in the order of the file: what is drawn depends on what is said, not on where.
     order = {"plant": 0, "gains": 1, "start": 2}
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))

@@ -58,9 +58,9 @@ fuzz: test-tools setup
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 lock:
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
-	    --custom-compile-command "make lock" --group dev pyproject.toml --upgrade --output-file requirements.lock
+	    --custom-compile-command "make lock" --all-extras --group dev pyproject.toml --upgrade --output-file requirements.lock
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
-	    --custom-compile-command "make lock" --group bench --constraint requirements.lock pyproject.toml \
+	    --custom-compile-command "make lock" --all-extras --group bench --constraint requirements.lock pyproject.toml \
 	    --upgrade --output-file requirements-bench.lock
 
 clean:

@@ -141,7 +141,7 @@ def simulate_ensemble(
         raise errors.InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
     criterion = criterion or Criterion()
     errors.one_of("engine", engine, ("kernel", "scipy"))
-    if not isinstance(plant, Plant) and plant != "ideal":
+    if plant != "ideal":
         plant = plant_named(plant)
     if engine == "scipy" or isinstance(law, Controller) or (isinstance(plant, Plant) and plant.engine == "mujoco"):
         for name, value in (("gains", gains), ("times", times), ("method", method)):

@@ -133,6 +133,7 @@ def _by_kernel(loop: ClosedLoop, start: Any, duration: float, rtol: float, atol:
 def _by_scipy(
     loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, outputs: Any
 ) -> tuple[Integration, Any]:
+    errors.require("scipy", extra="studies", for_="engine")
     from flypend.flight.integrate import integrate  # brings SciPy's integrators, which a kernel does not wait for
 
     guard, margin, reason = loop.law.guard, None, ""

@@ -187,10 +187,11 @@ PRESETS: Mapping[str, Plant] = MappingProxyType(
 def plant(name: str | Plant) -> Plant:
     """The plant called `name` ("rotors", "mujoco", "hehn2011"), or `name` itself if it is one already.
 
-    Raises InputError for an unknown name.
+    Raises InputError for an unknown name, and for MuJoCo where it is not installed.
     """
-    if isinstance(name, Plant):
-        return name
-    if not isinstance(name, str):
+    if not isinstance(name, str | Plant):
         raise InputError("plant", "a Plant or one of " + ", ".join(PRESETS), repr(name))
-    return PRESETS[errors.one_of("plant", name, PRESETS)]
+    found = name if isinstance(name, Plant) else PRESETS[errors.one_of("plant", name, PRESETS)]
+    if found.engine == "mujoco":
+        errors.require("mujoco", extra="mujoco", for_="plant")
+    return found

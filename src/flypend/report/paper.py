@@ -21,7 +21,7 @@ from flypend.paper.claims import SETTLED, Verdict, theorem_claims
 from flypend.paper.defects import Finding, Runs, findings, fly_all
 from flypend.pictures.style import style_named
 from flypend.report import text
-from flypend.report.flight import Task, figure_tasks, movie_tasks
+from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")
@@ -71,6 +71,8 @@ def reproduce(
         If `out` cannot be written, or for an unknown style.
     """
     style_named(style)
+    if not quick:
+        check_movies()
     with staged(out) as folder:
         for name in ("runs", "figures", "movies"):
             if not (quick and name == "movies"):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from flypend import errors
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, Plant
@@ -71,6 +72,8 @@ def ladder(
     progress : callable
         Told `(rung and law, done, total)`.
     """
+    if any(entry == "mujoco" or getattr(entry, "engine", "") == "mujoco" for entry in rungs.values()):
+        errors.require("mujoco", extra="mujoco", for_="rung MuJoCo")
     out = {}
     for rung, plant in rungs.items():
         out[rung] = compare(

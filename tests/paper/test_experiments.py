@@ -168,7 +168,7 @@ def test_a_verdict_turns_at_its_bound_and_only_there(claim, good, bad):
 
 def test_the_rise_of_v_is_over_its_start():
     verdict = theorem_claims(made(v=(4, 1, 3, 0, 1)))[2]
-    assert (verdict.value, verdict.measured) == (0.5, "largest rise of V over V(0)")
+    assert (verdict.value, verdict.measured) == (0.5, "largest rise of V over V(0) at the samples")
 
 
 @pytest.mark.parametrize(("f", "size"), [(-1.0, 0.0), (0.0, 9.81), (-0.9, 0.981), (-1.005, 0.04905)])

@@ -86,17 +86,17 @@ def _rates(_, packed):
     return np.concatenate([y_dot, a, z_dot, u - z * (z @ u) - (z_dot @ z_dot) * z])
 
 
-def test_equations_of_their_own_run_away_from_the_same_start():
+def test_equations_of_their_own_run_away_from_the_same_start(flown):
     start = runaway_starts()[446]
     packed = np.concatenate([start.y, start.y_dot, start.z, start.R @ np.cross(start.omega, E3)])
-    own = solve_ivp(_rates, (0, 12), packed, "DOP853", rtol=1e-9, atol=1e-10)
-    # z̈_d by differences is good to 1e-9, which e^{0.19 t} does not make large.
-    assert norm(own.y[3:6, -1]) == pytest.approx(162.6275, rel=1e-5)
+    own = solve_ivp(_rates, (0, 6), packed, "DOP853", rtol=1e-9, atol=1e-10)
+    # z̈_d by differences is good to 1e-9, which growth by e^{0.2 t} does not make large.
+    assert norm(own.y[3:6, -1]) == pytest.approx(norm(flown[446].y_dot[60]), rel=1e-5)
 
 
 def test_fast_starts_are_lost_and_slow_ones_rarely():
     spins, hangs = counted().counts(200, 12.0)
-    assert (spins, hangs) == (3, 197)
+    assert (spins, hangs) == (6, 194)
     assert counted().counts(200, 3.0) == (0, 200)
 
 

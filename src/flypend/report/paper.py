@@ -18,7 +18,8 @@ from flypend.laws import inverted
 from flypend.model import State, vehicle
 from flypend.paper import experiment, experiment_names
 from flypend.paper.claims import SETTLED, Verdict, theorem_claims
-from flypend.paper.defects import Finding, Runs, findings, fly_all
+from flypend.paper.defects import findings, fly_all
+from flypend.paper.finding import Finding, Runs
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks

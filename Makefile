@@ -4,9 +4,10 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 OLDEST := .venv-lowest
+FRESH := .venv-size
 OUT ?= paper-out
 
-.PHONY: setup paper lab test lowest bench test-tools fuzz web lint lock clean
+.PHONY: setup paper lab test lowest size bench test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -30,7 +31,7 @@ lint: setup
 	$(BIN)/mypy
 
 test: lint test-tools
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --durations=20
 
 # The kernels and their peers side by side; the peers are locked by themselves, so that the tests need none of them.
 bench: setup
@@ -81,5 +82,12 @@ $(OLDEST)/.ready: requirements-lowest.lock
 	    -r requirements-lowest.lock
 	touch $@
 
+# Megabytes of a fresh installation without extras; more than 700 is an error.
+size:
+	$(PYTHON) -m venv --clear $(FRESH)
+	$(FRESH)/bin/python -m pip install --quiet --disable-pip-version-check .
+	du -sm $(FRESH)/lib/python3*/site-packages | tee $(FRESH)/size
+	test $$(cut -f1 $(FRESH)/size) -le 700
+
 clean:
-	rm -rf $(VENV) $(OLDEST) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache

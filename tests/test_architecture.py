@@ -274,7 +274,9 @@ PUBLIC = (
 )
 
 # Records of the package: a parameter called as its class in small letters and annotated with it is documented there.
-RECORDS = ("State", "Vehicle", "Wrench", "Rates", "Law", "Trajectory", "Experiment", "Outcome", "Control", "Guard")
+RECORDS = (
+    "State", "Vehicle", "Wrench", "Rates", "Law", "Flight", "Trajectory", "Experiment", "Outcome", "Control", "Guard",
+)  # fmt: skip
 
 # What a vector (v) and a matrix (m) are stands once, at the head of geometry.py.
 ALWAYS_CLEAR = {"flypend.geometry": {"v", "m"}}

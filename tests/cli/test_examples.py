@@ -16,7 +16,8 @@ import flypend as fp
 from flypend.cli import app as cli
 from flypend.cli.examples import shipped
 from flypend.flight.metrics import metrics
-from flypend.settings.runfile import flight
+from flypend.flight.simulate import fly
+from flypend.settings.runfile import run_file
 from flypend.studies import law_named
 
 ROOT = Path(__file__).parents[2]
@@ -51,28 +52,28 @@ def test_there_are_examples_and_all_are_found():
 
 @pytest.mark.parametrize("path", RUNS, ids=lambda path: path.name)
 def test_a_file_builds_a_flight_and_flies(path):
-    run = flight(str(path), ["duration=0.3"]).fly()
+    run = fly(run_file(str(path), ["duration=0.3"]).flight)
     assert (run.outcome.status, run.t[-1]) == ("completed", pytest.approx(0.3))
-    assert flight(str(path)).duration > 1  # shortened here only
+    assert run_file(str(path)).flight.duration > 1  # shortened here only
 
 
 def test_the_swing_up_swings_up_and_has_limits():
-    chosen = flight(str(EXAMPLES / "swing-up.toml"))
-    np.testing.assert_array_equal(chosen.start.y, [0, 0, -1])
-    run = chosen.fly()
+    chosen = run_file(str(EXAMPLES / "swing-up.toml")).flight
+    np.testing.assert_array_equal(chosen.starts.y, [0, 0, -1])
+    run = fly(chosen)
     judged = metrics(run)
     assert judged.success
     assert judged.peak_force <= chosen.vehicle.rotor_limits[1] + 1e-9
     # Negative control: the law of the paper does not, from the same start.
     paper = ["law.name=corrected", "start.y=[0.0, 0.0, 1.0]"]  # the same pose with e₃ down
-    hanging = flight(str(EXAMPLES / "swing-up.toml"), paper).fly()
+    hanging = fly(run_file(str(EXAMPLES / "swing-up.toml"), paper).flight)
     assert metrics(hanging).cause == "rod"
 
 
 def test_the_other_plant_that_the_swing_up_names_flies_as_well():
     pytest.importorskip("mujoco")
     assert '"mujoco" flies it in MuJoCo' in (EXAMPLES / "swing-up.toml").read_text(encoding="utf-8")
-    run = flight(str(EXAMPLES / "swing-up.toml"), ["plant=mujoco", "duration=0.1"]).fly()
+    run = fly(run_file(str(EXAMPLES / "swing-up.toml"), ["plant=mujoco", "duration=0.1"]).flight)
     assert run.outcome.status == "completed"
 
 
@@ -190,7 +191,7 @@ def test_a_command_that_is_named_can_be_typed(at_home, line):
     """Its options exist and take such values, its files and laws are there."""
     name, options = parsed(line)
     if name == "run":
-        chosen = flight(options["what"], options["override"] or ())
+        chosen = run_file(options["what"], options["override"] or ()).flight
         assert chosen.duration > 0
     laws = options.get("law") or ()
     for law in [laws] if isinstance(laws, str) else laws:

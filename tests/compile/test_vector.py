@@ -17,6 +17,8 @@ from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.laws.closed_loop import close_loop
+from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 
 def compiled(lanes, function, pointers):
@@ -91,7 +93,7 @@ def test_comparisons_and_extremes_of_nan():
 def test_a_closed_loop_is_what_casadi_says(name, width, precision, tolerance):
     vehicle = fp.vehicle("hehn2011")
     law = getattr(fp.laws, name)().bind(vehicle)
-    program = ideal_problem(vehicle, law, Criterion()).rates
+    program = ideal_problem(Loop(vehicle, law, Ideal()), Criterion()).rates
     states = fp.State.random(np.random.default_rng(2), width).packed().T
     got = run(program, [np.zeros((1, width)), states, np.zeros((0, width))], width, precision)[0]
     rates = close_loop(vehicle, law).rates

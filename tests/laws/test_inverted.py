@@ -366,9 +366,9 @@ def test_a_similar_vehicle_flies_a_similar_flight():
         y_dot=start.y_dot / np.sqrt(s),
     )
     times = np.linspace(0, 4, 41)
-    ours = fp.simulate(VEHICLE, LAW, start, 4.0, times=times)
+    ours = fp.simulate(VEHICLE, LAW, start, 4.0, times=times, plant="ideal")
     law = fp.laws.inverted(yaw_damping=GAINS.yaw_damping / np.sqrt(s))
-    theirs = fp.simulate(_similar(VEHICLE, s), law, small, 4.0 * np.sqrt(s), times=times * np.sqrt(s))
+    theirs = fp.simulate(_similar(VEHICLE, s), law, small, 4.0 * np.sqrt(s), times=times * np.sqrt(s), plant="ideal")
     # rtol 1e-9, grown by the throw, in which errors double some ten times.
     np.testing.assert_allclose(theirs.x / s, ours.x, rtol=0, atol=1e-4)
     np.testing.assert_allclose(theirs.y, ours.y, rtol=0, atol=1e-4)
@@ -418,7 +418,7 @@ def test_bandwidths_that_are_not_separated_are_refused():
         with pytest.raises(fp.InputError, match=r"^bandwidths: expected position, rod and attitude each 1\.5 times"):
             fp.laws.inverted(**{name: outside * edge}).bind(VEHICLE)
     with pytest.raises(fp.InputError, match=r"^bandwidths: "):
-        fp.simulate(VEHICLE, fp.laws.inverted(rod_bandwidth=100), fp.State(y=E3), 1.0)
+        fp.simulate(VEHICLE, fp.laws.inverted(rod_bandwidth=100), fp.State(y=E3), 1.0, plant="ideal")
     with pytest.raises(fp.InputError, match=r"^high_above: expected low_below < high_above < 1"):
         fp.laws.inverted(low_below=0.98, high_above=0.97).bind(VEHICLE)
 
@@ -536,7 +536,7 @@ def test_rotor_forces_stay_within_their_limits(i):
 
 @pytest.mark.parametrize("i", range(5))
 def test_from_random_starts_it_inverts_in_the_ideal_plant(i):
-    run = fp.simulate(VEHICLE, LAW, STARTS[i], 10.0)
+    run = fp.simulate(VEHICLE, LAW, STARTS[i], 10.0, plant="ideal")
     assert _succeeds(run)
     assert _excursion(run) < 3
     np.testing.assert_allclose(run.x[-1], 0, atol=2e-4)  # the sag of hover
@@ -574,7 +574,7 @@ def test_it_inverts_from_where_a_pull_vanishes_from_afar_and_spinning(plant, sta
 
 
 def test_inverted_at_rest_it_stays():
-    run = fp.simulate(VEHICLE, LAW, fp.State(y=E3), 3.0)
+    run = fp.simulate(VEHICLE, LAW, fp.State(y=E3), 3.0, plant="ideal")
     assert _excursion(run) < 2e-4
     assert np.max(geo.norm(run.y - E3)) < 1e-12
     run = fp.simulate(VEHICLE, LAW, fp.State(y=E3), 3.0, plant="rotors")
@@ -629,7 +629,7 @@ def test_a_pendulum_that_hangs_at_its_reference_is_no_success():
             vehicle.weight - 2 * state.x[2] - 2 * state.x_dot[2], -0.1 * state.omega
         ),
     )
-    run = fp.simulate(VEHICLE, hanging, fp.State(y=-E3), 10.0)
+    run = fp.simulate(VEHICLE, hanging, fp.State(y=-E3), 10.0, plant="ideal")
     assert geo.norm(run.x[-1]) < 0.2
     assert not _succeeds(run)
 

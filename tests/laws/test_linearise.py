@@ -228,14 +228,16 @@ def test_a_small_perturbation_decays_at_the_slowest_rate(name):
     slowest = vectors[:, np.argmax(values.real)].real
     xi = np.insert(1e-4 * slowest / np.max(np.abs(slowest)), COORDINATES.index("theta_3"), 0.0)
     duration = 2 / rate
-    run = fp.simulate(vehicle, fp.laws.inverted(), retract(found.at, xi), duration, rtol=1e-11)
+    run = fp.simulate(vehicle, fp.laws.inverted(), retract(found.at, xi), duration, rtol=1e-11, plant="ideal")
     final = coordinates_of(run.states[-1], found.at)
     assert np.linalg.norm(final) / np.linalg.norm(xi) == pytest.approx(np.exp(-2), rel=2e-3)  # 1e-4 times curvature
     # Another direction decays at that rate in the end.
     other = 1e-4 * np.random.default_rng(2).standard_normal(16)
     other[8] = 0.0
     late = np.array([6.0, 8.0]) / rate
-    run = fp.simulate(vehicle, fp.laws.inverted(), retract(found.at, other), late[1], rtol=1e-12, times=late)
+    run = fp.simulate(
+        vehicle, fp.laws.inverted(), retract(found.at, other), late[1], rtol=1e-12, times=late, plant="ideal"
+    )
     sizes = [np.linalg.norm(np.delete(coordinates_of(state, found.at), 8)) for state in run.states]
     measured = np.log(sizes[0] / sizes[1]) / (late[1] - late[0])
     assert measured == pytest.approx(rate, rel=0.1)  # what is left of faster modes after six time constants

@@ -24,7 +24,7 @@ SINGLE = 2 * np.finfo(np.float32).eps  # relative, of a number kept in 32 bits
 
 def fly(name="4", law="corrected", duration=1.0, **options):
     case = experiment(name)
-    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration)
+    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration, plant="ideal")
 
 
 @pytest.fixture(scope="module")

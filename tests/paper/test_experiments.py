@@ -197,7 +197,9 @@ def test_a_verdict_says_what_it_measured_and_against_what():
 
 def test_pivot_acceleration_is_the_rate_of_the_velocity():
     row = experiment("1")
-    run = fp.simulate(row.vehicle, row.law(), row.start, 0.2, times=np.linspace(0, 0.2, 2001), rtol=1e-12)
+    run = fp.simulate(
+        row.vehicle, row.law(), row.start, 0.2, times=np.linspace(0, 0.2, 2001), rtol=1e-12, plant="ideal"
+    )
     h, v = run.t[1], run.x_dot
     finite = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / (12 * h)
     # Fourth order in h = 1e-4 s of some 10 m/s², of which 2e-5 is left in a turn of a few steps at 0.039 s.
@@ -239,7 +241,7 @@ def runs():
 @pytest.fixture(scope="module")
 def settled():
     rows = {name: experiment(name) for name in experiment_names()}
-    return {name: fp.simulate(row.vehicle, row.law(), row.start, SETTLED) for name, row in rows.items()}
+    return {name: fp.simulate(row.vehicle, row.law(), row.start, SETTLED, plant="ideal") for name, row in rows.items()}
 
 
 @pytest.mark.parametrize("name", experiment_names())
@@ -281,7 +283,9 @@ def test_the_limit_of_the_acceleration_is_the_price_of_the_speed_floor(settled):
 
 def test_velocity_error_vanishes_like_a_square_root(runs):
     row, end = experiment("2"), runs.printed["2"].outcome.time
-    near = fp.simulate(row.vehicle, row.law("printed"), row.start, 1.0, times=end - np.array([4e-4, 2e-4, 1e-4]))
+    near = fp.simulate(
+        row.vehicle, row.law("printed"), row.start, 1.0, times=end - np.array([4e-4, 2e-4, 1e-4]), plant="ideal"
+    )
     squares = near.signals["velocity_error"][:3] ** 2
     # Straight to zero at t*, up to terms of order |v_e| ~ 1e-2.
     np.testing.assert_allclose(squares[:-1] / squares[1:], 2, rtol=0.05)

@@ -18,7 +18,7 @@ from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.store import existing
 
 STUDY = {
-    "vehicle": "nayak2018", "law": {"name": "corrected"}, "duration": 4.0, "judge_period": 0.1,
+    "vehicle": "nayak2018", "law": {"name": "corrected"}, "plant": "ideal", "duration": 4.0, "judge_period": 0.1,
     "runs": 700, "chunk": 300,
     "criterion": {"target": "e3", "position": 100.0, "rod": 1.0, "axis": 0.3},
     "vary": {"start": {"y": "uniform", "y_dot": {"disc": 2.0}, "R": "uniform", "omega": {"ball": 1.0}},

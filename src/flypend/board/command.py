@@ -37,7 +37,7 @@ def usable_lead(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> f
 
 def command_width(loop: Loop) -> int:
     """Numbers of a command of `loop`: a force for each rotor, or thrust and body rates."""
-    return 4 if loop.plant.interface == "rates" else len(loop.vehicle.rotor_spins)
+    return 4 if loop.sampled.interface == "rates" else len(loop.vehicle.rotor_spins)
 
 
 def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int = 0) -> ca.Function:
@@ -82,7 +82,7 @@ def finish(loop: Loop, believed: Believed) -> ca.Function:
 def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: Any) -> Any:
     """The command for a wrench (4,), e₃ up, in CasADi; NaN for a wrench that is none, which limits would hide."""
     thrust, moment = wrench[0], wrench[1:]
-    vehicle, plant = believed.vehicle, loop.plant
+    vehicle, plant = believed.vehicle, loop.sampled
     if plant.interface == "rates":
         omega = State.symbolic(packed).omega
         free = moment - cross(omega, apply(vehicle.I, omega))
@@ -101,4 +101,4 @@ def led(wanted: Any, rotors: Any, lead: Any) -> Any:
 
 def idle_command(loop: Loop, rotors: Any) -> Any:
     """The command before the first one arrives: `rotors` as they are (n,), N, or no thrust and no rates."""
-    return np.zeros(4) if loop.plant.interface == "rates" else rotors
+    return np.zeros(4) if loop.sampled.interface == "rates" else rotors

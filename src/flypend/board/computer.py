@@ -33,7 +33,7 @@ class SteppedBoard:
     """
 
     def __init__(self, loop: Loop, rotors: Any) -> None:
-        self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.plant)))
+        self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.sampled)))
         self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
         self.predicted: tuple[Any, Any, Any] | None = None
 

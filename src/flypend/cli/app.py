@@ -101,21 +101,24 @@ def run(
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
+    from flypend.flight.simulate import fly
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
     from flypend.report.flight import check_movies
-    from flypend.settings.runfile import flight
+    from flypend.settings.runfile import run_file
 
     if figures and not quick:
         check_movies()
-    chosen = flight(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    chosen = run_file(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    flight = chosen.flight
     style_named(style)
     check_writable(out)
     if html is not None:
         check_file(html, (".html",))
-    trajectory = chosen.fly()
+    trajectory = fly(flight)
     # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
-    settled = chosen.fly(max(SETTLED, chosen.duration)) if trajectory.law == "corrected" else None
+    longer = flight.replace(duration=max(SETTLED, flight.duration))
+    settled = fly(longer) if trajectory.law == "corrected" else None
     from flypend.report.flight import write_flight
     from flypend.report.text import judgement, summary_table
 
@@ -280,9 +283,7 @@ def _plant(name: str) -> Any:
     from flypend import errors
     from flypend.plants import PRESETS, plant
 
-    if errors.one_of("--plant", name, ("ideal", *PRESETS)) != "ideal":
-        plant(name)  # says so if it is not installed
-    return name
+    return plant(errors.one_of("--plant", name, PRESETS))  # says so if it is not installed
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:

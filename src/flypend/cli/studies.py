@@ -72,7 +72,7 @@ def draw_map(
         str | None, typer.Option("--law", help="In place of a store: fly this law from random starts.")
     ] = None,
     vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: name of a vehicle.")] = None,
-    plant: Annotated[str, typer.Option("--plant", help="With --law: ideal, rotors or hehn2011.")] = "ideal",
+    plant: Annotated[str, typer.Option("--plant", help="With --law: rotors, ideal or hehn2011.")] = "rotors",
     runs: Annotated[int, typer.Option("--runs", min=1, help="With --law: number of runs.")] = 100_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="With --law: seed of the starts.")] = 1,
     duration: Annotated[float | None, typer.Option("--duration", help="With --law: seconds per run.")] = None,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
 from flypend.model import Vehicle
-from flypend.plants.plant import Plant
+from flypend.plants.plant import AnyPlant, Sampled, sampled_plant
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Loop:
         The vehicle that the law believes in.
     law : BoundLaw or Controller
         The law, bound to that vehicle.
-    plant : Plant
+    plant : Ideal or Sampled
         What stands between the law and the world.
     parameters : tuple of str
         Gains that are inputs of the code, so that they may differ from run to run.
@@ -28,7 +28,7 @@ class Loop:
 
     vehicle: Vehicle
     law: BoundLaw | Controller
-    plant: Plant
+    plant: AnyPlant
     parameters: tuple[str, ...] = ()
 
     @property
@@ -37,3 +37,8 @@ class Loop:
         if not isinstance(self.law, BoundLaw):
             raise InputError("law", "a Law, written in symbols", self.law.name)
         return self.law
+
+    @property
+    def sampled(self) -> Sampled:
+        """The plant, which must be a sampled one. Raises InputError for the ideal one."""
+        return sampled_plant(self.plant)

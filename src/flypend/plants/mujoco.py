@@ -358,7 +358,7 @@ class MuJoCoWorld:
     @contextmanager
     def lent(cls, loop: Loop) -> Iterator[MuJoCoWorld]:
         """A world for the flights of `loop`: one that is idle, or a new one."""
-        plant = loop.plant
+        plant = loop.sampled
         stretches = within_period(plant.delay, 1 / plant.rate)
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
         timesteps = tuple(length / substeps(length) for length in lengths)

@@ -122,7 +122,7 @@ def _judge(runs: Runs, swing_up: Trajectory) -> Reproduction:
     ends: dict[Column, str] = {}
     for name in experiment_names():
         row = experiment(name)
-        settled = simulate(row.vehicle, row.law("corrected"), row.start, SETTLED)
+        settled = simulate(row.vehicle, row.law("corrected"), row.start, SETTLED, plant=row.plant)
         groups: list[tuple[str, Trajectory, Trajectory]] = [
             ("printed", runs.printed[name], runs.printed[name]),
             ("without beta", runs.without_beta[name], runs.without_beta[name]),

@@ -14,7 +14,7 @@ from flypend.geometry import norm
 from flypend.laws import Law, law_names, references
 from flypend.laws.named import FACTORIES, follows
 from flypend.model import State, vehicle
-from flypend.plants import MOTION_CAPTURE, PRESETS, Plant
+from flypend.plants import MOTION_CAPTURE, sampled_plant
 
 # The rates of their circles are not known here; a period of four seconds is chosen.
 RATE = 2 * np.pi / 4
@@ -27,7 +27,7 @@ CASES: Mapping[str, Callable[[Any], Any]] = {
 PUBLISHED: Mapping[str, str] = {"hover": "offset about 0.05", "circle R = 0.1 m": "error about 0.1"}
 # The latency that every law plans for here, s: theirs, as identified; their controller knew it too.
 LATENCY = 0.03
-PLANT: Plant = PRESETS["hehn2011"].replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
+PLANT = sampled_plant("hehn2011").replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
 DURATION, JUDGED = 20.0, 10.0
 
 

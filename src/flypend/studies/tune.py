@@ -12,9 +12,10 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.flight.ensemble import fly_packed
-from flypend.flight.metrics import judged, wilson
-from flypend.plants import Plant
+from flypend.flight.ensemble import columns_of
+from flypend.flight.kernels import fly_all
+from flypend.flight.metrics import wilson
+from flypend.model import State
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.axes import integer
 from flypend.studies.sweep.design import design
@@ -175,7 +176,7 @@ class _Task:
         """Mean cost of each of `points`, all flown by one call from the starts that are tuned on."""
         values = np.array([list(self.gains(point).values()) for point in points])
         columns = self._flown(values, self.runs, cube.TUNED, workers)
-        return self.objective.cost(columns, self.study.duration).reshape(len(points), self.runs).mean(axis=1)
+        return self.objective.cost(columns, self.study.flight.duration).reshape(len(points), self.runs).mean(axis=1)
 
     def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
         """What these gains do on the starts of the study, the first `MOST_REPORTED` of them."""
@@ -186,7 +187,7 @@ class _Task:
         settled = columns["settling"][success]
         return {
             "gains": gains,
-            "cost": float(self.objective.cost(columns, self.study.duration).mean()),
+            "cost": float(self.objective.cost(columns, self.study.flight.duration).mean()),
             "runs": runs,
             "success": float(success.mean()),
             "wilson_low": low,
@@ -200,15 +201,10 @@ class _Task:
         study = self.study
         packed = np.tile(design(study, 0, runs, stream).packed, (len(values), 1))
         columns = dict(zip(self.names, np.repeat(values, runs, axis=0).T, strict=True))
-        plant = study.plant
-        if isinstance(plant, Plant) and stream == cube.TUNED:  # noise of its own, too
-            plant = plant.replace(seed=plant.seed + 2**32)
-        flown = fly_packed(
-            study.vehicle, study.law, packed, study.duration, plant=plant, rtol=study.rtol, gains=columns,
-            criterion=study.criterion, judge_period=study.judge_period, precision=study.precision,
-            max_steps=study.max_steps, workers=workers,
-        )  # fmt: skip
-        return judged(flown.reductions, flown.status, flown.end, study.vehicle, study.criterion)
+        flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
+        if stream == cube.TUNED:  # noise of its own, too
+            flight = flight.replace(seed=(flight.seed or 0) + 2**32)
+        return columns_of(flight, fly_all(flight, workers=workers))
 
 
 def _task(made: Study) -> _Task:

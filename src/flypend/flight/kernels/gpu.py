@@ -17,6 +17,8 @@ from flypend.flight.kernels.flown import Flown
 from flypend.flight.kernels.ideal import MAX_STEPS, ideal_problem
 from flypend.laws import BoundLaw
 from flypend.model import Vehicle
+from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 # Runs that are under way together: what fits a cache, or what fills a GPU.
 LANES = {"cpu": 256}
@@ -102,7 +104,7 @@ def array_kernel(
 
     from flypend.compile.jax.array_steps import write_integrator
 
-    problem = ideal_problem(vehicle, law, Criterion(), parameters)
+    problem = ideal_problem(Loop(vehicle, law, Ideal(), parameters), Criterion())
     integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
     return ArrayKernel(vehicle, law, parameters, integrator)
 

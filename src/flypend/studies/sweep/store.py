@@ -136,7 +136,7 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         "study": study.text(),
         "program": program,
         "versions": dict(versions),
-        "vehicle": study.vehicle.name,
+        "vehicle": study.flight.vehicle.name,
         "law": study.law.name,
         "e3": study.law.e3,
     }

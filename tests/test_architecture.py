@@ -446,9 +446,14 @@ def test_no_tracked_file_names_a_folder_of_a_machine():
     assert not found
 
 
+INSTALLERS = ("pyproject.toml", "Makefile", "run")
+
+
 def test_what_installs_names_no_registry():
-    files = [path for path in _tracked() if path.name in ("pyproject.toml", "requirements.lock", "Makefile", "run")]
-    assert {"pyproject.toml", "requirements.lock", "Makefile"} <= {path.name for path in files}
+    files = [path for path in _tracked() if path.suffix == ".lock" or path.name in INSTALLERS]
+    assert {*INSTALLERS, "requirements.lock", "requirements-lowest.lock", "requirements-bench.lock"} <= {
+        path.name for path in files
+    }
     for path in files:
         # A homepage is no registry.
         text = re.sub(r"(?ms)^\[project\.urls\].*?(?=^\[|\Z)", "", _text(path))

@@ -7,12 +7,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.version import Version
 
 import flypend as fp
 from flypend import errors
 from flypend.cli import app as cli
-from flypend.flight import ensemble, simulate
-from flypend.report import paper
+from flypend.compile.llvm import jit
 
 ROOT = Path(__file__).parents[2]
 SOURCE = Path(fp.__file__).parent
@@ -40,10 +41,7 @@ def call(tmp_path, monkeypatch, capsys):
         pytest.fail("something was flown first")
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(simulate, "_ideal", flown)
-    monkeypatch.setattr(simulate, "_sampled", flown)
-    monkeypatch.setattr(ensemble, "fly_packed", flown)
-    monkeypatch.setattr(paper, "fly_all", flown)
+    monkeypatch.setattr(jit.Native, "__call__", flown)  # whatever is flown by machine code
 
     def run(*arguments):
         monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
@@ -87,6 +85,12 @@ def test_a_command_names_the_extra_that_it_needs(call, tmp_path, monkeypatch, li
     wanted = f"the extra flypend[{extra}] (pip install 'flypend[{extra}]')"
     assert (code, told) == (2, [f"flypend: {field}: expected {wanted}, got no module {module}"])
     assert sorted(path.name for path in tmp_path.iterdir()) == before
+
+
+def test_a_flight_is_noticed(call):
+    """Negative control: what has all it needs does fly."""
+    with pytest.raises(pytest.fail.Exception, match="flown first"):
+        call("run", "4", "--quick")
 
 
 def test_functions_name_the_extra_that_they_need(monkeypatch):
@@ -170,3 +174,40 @@ def test_the_extras_that_are_named_bring_the_modules():
 def test_the_extra_all_is_all_of_them():
     (everything,) = PROJECT["optional-dependencies"]["all"]
     assert set(re.search(r"\[(.*)\]", everything)[1].split(",")) == set(EXTRAS)
+
+
+def _bounds(requirements):
+    """(name, version) of each lower bound that a list of requirements names for this Python."""
+    found = [Requirement(text) for text in requirements]
+    here = [wanted for wanted in found if wanted.marker is None or wanted.marker.evaluate()]
+    for wanted in here:
+        (bound,) = wanted.specifier
+        assert bound.operator == ">=", wanted
+        yield wanted.name, Version(bound.version)
+
+
+def test_the_oldest_versions_that_are_flown_are_the_bounds():
+    """Where a package has two bounds, the second is for newer Pythons and the larger one."""
+    text = (ROOT / "requirements-lowest.lock").read_text(encoding="utf-8")
+    pinned = [Requirement(line.rstrip(" \\")) for line in re.findall(r"^[\w.-]+==.*$", text, re.MULTILINE)]
+    here = {
+        pin.name: Version(next(iter(pin.specifier)).version)
+        for pin in pinned
+        if not pin.marker or pin.marker.evaluate()
+    }
+    extras = PROJECT["optional-dependencies"]
+    listed = [
+        *PROJECT["dependencies"],
+        *(text for name in extras if name not in ("all", "gpu") for text in extras[name]),
+    ]
+    bounds = {}
+    for name, version in _bounds(listed):
+        bounds[name] = max(version, bounds.get(name, version))
+    assert {"casadi", "numpy", "zarr", "mujoco"} <= set(bounds)
+    # A bound of "xarray>=2024.11" means 2024.11.0; where no such release is, the next one.
+    late = {
+        name: (version, here[name])
+        for name, version in bounds.items()
+        if here[name].release[:2] != (*version.release, 0)[:2]
+    }
+    assert not late

@@ -21,10 +21,12 @@ class ForceObserver:
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
     Ḣ = −(f/Ml) y × z + y × D/l with D = F_b/m − F_v/M. Each unknown term N enters as Ḣ = known + N and is estimated by
     N̂ = L (H − Ĥ), dĤ/dt = known + N̂, so that dN̂/dt = L (N − N̂): first order, exponentially stable, and no derivative
-    of a measurement is taken. With the right model the estimate does not depend on what the law does, so law and
-    observer are a cascade: what is left of a constant force decays like e^{−Lt}, and the law sees it as a vanishing
-    perturbation. D along the rod does not act on the rod and is taken zero. Estimates are limited in length. Sampled,
-    `known` is integrated by the trapezoidal rule: with less, every change of thrust would look like a force.
+    of a measurement is taken. For constant forces the unknown of P is constant, and with the right model the error of
+    its estimate decays like e^{−Lt} whatever the law does. The unknown of H, N = y × D/l, turns with the rod:
+    Ṅ = ẏ × D/l. Its estimate lags while the rod moves, so law and observer are coupled if D ≠ 0; with the rod at rest
+    the lag dies out, and a small enough D leaves hover locally stable. D along the rod does not act on the rod and is
+    taken zero. Estimates are limited in length. Sampled, `known` is integrated by the trapezoidal rule: with less,
+    every change of thrust would look like a force.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ class Gains:
     position_reach : float
         Position errors are softly limited to this length, m.
     descent_limit : float
-        Largest downward acceleration asked of the bob, m/s²; below g, so that the rod's target never turns over.
+        Largest downward acceleration asked of the bob, m/s²; below g, so that it alone cannot turn the target over.
     level_limit : float
         Largest horizontal acceleration asked of the bob, m/s².
     rod_bandwidth, rod_damping : float

@@ -20,6 +20,7 @@ from tornado.websocket import websocket_connect
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.flight.metrics import metrics
 from flypend.flight.simulate import fly as fly_request
 from flypend.geometry import cross, dot
 from flypend.lab.controls import offer, sliders
@@ -31,6 +32,7 @@ from flypend.lab.session import Slot, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
 from flypend.laws import law_names
+from flypend.paper import experiment
 from flypend.settings.runfile import run_file
 
 OFFER = offer()
@@ -114,10 +116,12 @@ def test_a_start_is_the_same_pose_for_every_law(law):
 
 def test_presets_are_the_experiments_of_the_paper():
     for name, preset in OFFER["experiments"].items():
-        mine, papers = setting_of(preset).flight, fp.experiments.experiment(name)
-        np.testing.assert_allclose(mine.start.packed(), papers.start.packed(), atol=1e-12)
-        assert {key: mine.law.gains[key] for key in papers.gains} == papers.gains
-        assert (mine.vehicle, mine.duration, mine.law.name) == (papers.vehicle, papers.duration, "corrected")
+        mine, papers = setting_of(preset), experiment(name)
+        flight = mine.flight
+        np.testing.assert_allclose(flight.starts.packed(), papers.start.packed(), atol=1e-12)
+        assert {key: mine.law.values[key] for key in papers.gains} == papers.gains
+        assert (flight.vehicle, flight.duration, flight.law.name) == (papers.vehicle, papers.duration, "corrected")
+        assert flight.plant == fp.Ideal()
 
 
 def test_a_random_start_is_its_seed():
@@ -129,7 +133,7 @@ def test_a_random_start_is_its_seed():
 def test_the_verdict_names_what_the_law_is_to_do():
     setting = setting_of(asked(duration=6.0))
     told = verdict(fly(setting), tuned(setting))
-    judged = fp.metrics.metrics(fly(setting))
+    judged = metrics(fly(setting))
     assert told["good"] is judged.success is True
     assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])

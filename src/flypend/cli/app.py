@@ -15,7 +15,7 @@ from rich.console import Console
 from typer.exceptions import TyperException
 
 from flypend import __version__
-from flypend.cli import studies, viewing
+from flypend.cli import examples, studies, viewing
 from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, tell_how
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
@@ -29,6 +29,7 @@ app = typer.Typer(
 )
 app.add_typer(viewing.app)
 app.add_typer(studies.app)
+app.add_typer(examples.app)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 
@@ -108,8 +109,11 @@ def run(
     from flypend.flight.simulate import fly
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
+    from flypend.report.flight import check_movies
     from flypend.settings.runfile import run_file
 
+    if figures and not quick:
+        check_movies()
     changes = [*(override or ()), *([f"controller={controller}"] if controller is not None else [])]
     chosen = run_file(what, changes, law)
     flight = chosen.flight
@@ -174,12 +178,13 @@ def compare(
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.studies import compare as fly
 
+    chosen = _plant(plant)
     names = law or ["inverted", "lqr", "corrected", "detuned"]
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
     settings = {**settings, "plant": plant}
     check_writable(out)
     with counter() as tell:
-        result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
+        result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
     write_comparison(result, settings, out)
     console.print(comparison_table(result))
     console.print(f"Report and figure are in {bold(out)}.")
@@ -286,9 +291,9 @@ def _study(
 
 def _plant(name: str) -> Any:
     from flypend import errors
-    from flypend.plants import PRESETS
+    from flypend.plants import PRESETS, plant
 
-    return PRESETS[errors.one_of("--plant", name, PRESETS)]
+    return plant(errors.one_of("--plant", name, PRESETS))  # says so if it is not installed
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:

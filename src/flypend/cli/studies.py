@@ -87,12 +87,14 @@ def draw_map(
 
     With a study or --law the runs are kept in a store beside the picture, so that a run that is stopped goes on.
     """
-    from flypend.errors import InputError
+    from flypend.errors import InputError, require
     from flypend.files.whole import FIGURES, save_figure
     from flypend.pictures.maps import map_figure
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
 
+    for module in ("zarr", "xarray", "distributed", "scipy"):
+        require(module, extra="studies", for_="map")
     if (what is None) == (law is None):
         raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
     if out.suffix.lower() not in FIGURES:

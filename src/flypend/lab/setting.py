@@ -21,7 +21,7 @@ from flypend.laws import Law, law_from_dict, law_names
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SHAPES
 from flypend.plants import Ideal
-from flypend.settings.runfile import RunFile, run_of
+from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
@@ -77,23 +77,21 @@ def setting_of(asked: Any) -> Setting:
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
     if isinstance(law, dict) and law.get("name") in law_names() and isinstance(law.get("gains"), dict):
         errors.only_known("law.gains", law["gains"], sliders_of(law_from_dict({"name": law["name"]})))
-    flight, settings = _run(given)
-    law_asked = law_from_dict(settings["law"])
+    law_asked = _law(given)
+    flight = run_of(given).flight
     _check_size(flight)
-    _check_gains(law_asked, flight.vehicle)
     return Setting(flight, law_asked, pokes, start)
 
 
-def _run(given: dict[str, Any]) -> RunFile:
-    """The run file of what a page asks for, messages about gains beginning with law.gains."""
-    try:
-        with SYMBOLS:  # a law that is bound for the first time may be linearised
-            return run_of(given)
-    except InputError as error:
-        name = given["law"].get("name") if isinstance(given.get("law"), dict) else None
-        if name in law_names() and error.field in law_from_dict({"name": name}).gains:
-            raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
-        raise
+def _law(given: dict[str, Any]) -> Law:
+    """The law that a page asks for, its gains near enough to those proposed for steps to follow its loops."""
+    for key in ("vehicle", "law"):
+        check_plain(key, given.get(key, {}))
+    with np.errstate(all="ignore"):  # as in `run_of`
+        vehicle = Vehicle.from_dict(vehicle_table(given.get("vehicle")))
+        law = law_from_dict(table_at(given, "law"))
+        _check_gains(law, vehicle)
+    return law
 
 
 def plain(state: State) -> dict[str, Any]:
@@ -160,12 +158,17 @@ def _check_size(flight: Flight) -> None:
 
 
 def _check_gains(law: Law, vehicle: Vehicle) -> None:
-    """Whether the gains of `law` are near enough to those proposed for `vehicle` for steps to follow its loops."""
+    """Whether `law` takes its gains for `vehicle`, and its loops are no faster than steps can follow."""
     proposed = proposed_gains(law.name, vehicle)
     for name, value in law.given.items():
         if law.gains[name].label and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
             expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
+    try:
+        with SYMBOLS:  # a law that is bound for the first time may be linearised
+            law.bind(vehicle)
+    except InputError as error:
+        raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 
 
 def in_frame(vector: Any, e3: str) -> Any:

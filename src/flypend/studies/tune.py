@@ -122,6 +122,7 @@ def tune(
     InputError
         For a study that makes no sense or varies what is tuned.
     """
+    errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
     task = _task(made)
     search = _search(task)

@@ -99,15 +99,13 @@ def array_kernel(
     InputError
         Without JAX, for an unknown method or gain, and for a law with operations that cannot be compiled.
     """
-    try:
-        from jax import default_backend
+    errors.require("jax", extra="gpu", for_="engine")
+    from jax import default_backend
 
-        from flypend.compile.jax.array_steps import write_integrator
+    from flypend.compile.jax.array_steps import write_integrator
 
-        problem = ideal_problem(Loop(vehicle, law, Ideal(), parameters), Criterion())
-        integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
-    except ModuleNotFoundError:
-        raise errors.InputError("engine", "JAX, the extra gpu of this package", "an installation without it") from None
+    problem = ideal_problem(Loop(vehicle, law, Ideal(), parameters), Criterion())
+    integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
     return ArrayKernel(vehicle, law, parameters, integrator)
 
 

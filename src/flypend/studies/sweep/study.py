@@ -14,7 +14,6 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.toml import toml_text
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels import has_kernel
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
 from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
@@ -29,8 +28,8 @@ KEYS = (
     "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs", "sampling", "seed",
     "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
-# Runs per chunk, in the ideal plant, in a sampled flight, and step by step: a second or so of one core, or some ten.
-CHUNK, CHUNK_SAMPLED, CHUNK_STEPPED = 32_768, 2_048, 16
+# Runs per chunk, in the ideal plant, in a sampled flight, in MuJoCo, and step by step: some seconds of one core.
+CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
 # A run takes some hundreds of steps; one that takes this many is chattering.
 STEPS = 20_000
 MOST_CHUNK = 1_000_000
@@ -196,7 +195,7 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
     )
     vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
-    flight = Flight(
+    return Flight(
         vehicle=vehicle,
         law=law_from(law_table(given["law"])).bind(vehicle),
         starts=_fixed(start, vary),
@@ -206,14 +205,13 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         criterion=_criterion(given),
         judge_period=given.get("judge_period", SAMPLE_PERIOD),
     )
-    if isinstance(flight.law, BoundLaw) and not has_kernel(flight):
-        raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
-    return flight
 
 
 def _chunk(flight: Flight) -> int:
     if isinstance(flight.law, Controller):
         return CHUNK_STEPPED
+    if isinstance(flight.plant, Sampled) and flight.plant.engine == "mujoco":
+        return CHUNK_MUJOCO
     return CHUNK if isinstance(flight.plant, Ideal) else CHUNK_SAMPLED
 
 

@@ -252,11 +252,10 @@ def export_c(
     light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
 ) -> None:
     """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export."""
-    from flypend import errors
+    from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
     from flypend.laws import Law, inverted
-    from flypend.settings.runfile import vehicle_named
     from flypend.studies import law_named
 
     if light:
@@ -266,7 +265,7 @@ def export_c(
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    write(chosen, vehicle_named(vehicle), out, precision=kind)
+    write(chosen, model.vehicle(vehicle), out, precision=kind)
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
 
 
@@ -274,14 +273,13 @@ def _study(
     names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
 ) -> tuple[list[Any], Any, Any, dict[str, Any]]:
     """Laws, starts and vehicle of a study, checked, and the settings that say so in its report."""
-    from flypend import errors
-    from flypend.settings.runfile import vehicle_named
+    from flypend import errors, model
     from flypend.studies import law_named, paper_starts, random_starts
 
     laws = [law_named(name) for name in names]
     for law in laws:
         tell_how(law)
-    machine = vehicle_named(vehicle)
+    machine = model.vehicle(vehicle)
     errors.number("--duration", duration, above=0, unit="s")
     kind = errors.one_of("--starts", starts, ("random", "paper"))
     batch = paper_starts() if kind == "paper" else random_starts(runs, seed)

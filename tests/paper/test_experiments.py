@@ -82,8 +82,8 @@ def test_a_row_gives_both_laws_with_its_gains():
     row = experiment("3")
     for name in ("printed", "corrected"):
         assert row.law(name).name == name
-        assert {key: row.law(name).gains[key] for key in row.gains} == row.gains
-    assert row.law(yaw_damping=3.0).gains["yaw_damping"] == 3.0
+        assert {key: row.law(name).values[key] for key in row.gains} == row.gains
+    assert row.law(yaw_damping=3.0).values["yaw_damping"] == 3.0
 
 
 def test_an_unknown_experiment_or_law_is_refused_with_the_nearest_name():
@@ -197,7 +197,9 @@ def test_a_verdict_says_what_it_measured_and_against_what():
 
 def test_pivot_acceleration_is_the_rate_of_the_velocity():
     row = experiment("1")
-    run = fp.simulate(row.vehicle, row.law(), row.start, 0.2, times=np.linspace(0, 0.2, 2001), rtol=1e-12)
+    run = fp.simulate(
+        row.vehicle, row.law(), row.start, 0.2, times=np.linspace(0, 0.2, 2001), rtol=1e-12, plant="ideal"
+    )
     h, v = run.t[1], run.x_dot
     finite = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / (12 * h)
     # Fourth order in h = 1e-4 s of some 10 m/s², of which 2e-5 is left in a turn of a few steps at 0.039 s.
@@ -239,7 +241,7 @@ def runs():
 @pytest.fixture(scope="module")
 def settled():
     rows = {name: experiment(name) for name in experiment_names()}
-    return {name: fp.simulate(row.vehicle, row.law(), row.start, SETTLED) for name, row in rows.items()}
+    return {name: fp.simulate(row.vehicle, row.law(), row.start, SETTLED, plant="ideal") for name, row in rows.items()}
 
 
 @pytest.mark.parametrize("name", experiment_names())
@@ -273,7 +275,7 @@ def test_the_printed_law_fails_every_claim_without_beta_as_well(runs, name):
 
 
 def test_the_limit_of_the_acceleration_is_the_price_of_the_speed_floor(settled):
-    floor = fp.laws.corrected().gains["speed_floor"]
+    floor = fp.laws.corrected().values["speed_floor"]
     for run in settled.values():
         # At rest k_p is smaller by the factor 1/(1+s); the rod still moves by 1e-4 /s after 30 s.
         assert norm(pivot_acceleration(run)[-1]) == pytest.approx(9.81 * floor / (1 + floor), rel=1e-3)
@@ -281,7 +283,9 @@ def test_the_limit_of_the_acceleration_is_the_price_of_the_speed_floor(settled):
 
 def test_velocity_error_vanishes_like_a_square_root(runs):
     row, end = experiment("2"), runs.printed["2"].outcome.time
-    near = fp.simulate(row.vehicle, row.law("printed"), row.start, 1.0, times=end - np.array([4e-4, 2e-4, 1e-4]))
+    near = fp.simulate(
+        row.vehicle, row.law("printed"), row.start, 1.0, times=end - np.array([4e-4, 2e-4, 1e-4]), plant="ideal"
+    )
     squares = near.signals["velocity_error"][:3] ** 2
     # Straight to zero at t*, up to terms of order |v_e| ~ 1e-2.
     np.testing.assert_allclose(squares[:-1] / squares[1:], 2, rtol=0.05)
@@ -643,7 +647,7 @@ def test_the_page_on_the_gain(sections, findings, settled):
         quoted(signed, r"k̇_p\(1 − yᵀe₃\) contributes # V\(0\), and the cross term \S+ ẏ·\(z − z_d\) # V\(0\)"), shares
     )
     assert [share < 0 for share in shares[5:]] == [False, False, True, False, True]  # told in words
-    floor = fp.laws.corrected().gains["speed_floor"]
+    floor = fp.laws.corrected().values["speed_floor"]
     assert [float(text) for text in quoted(sections[4], r"s = # rad/s")] == [floor]
     price = quoted(sections[4], r"g s/\(1\+s\) = # m/s²")
     agree(price, [9.81 * floor / (1 + floor)])

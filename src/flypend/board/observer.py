@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-from typing import Any
-
 import casadi as ca
-import numpy as np
 
-from flypend.compile.numeric import as_numpy
+from flypend.board.believed import Believed
 from flypend.geometry import E3, cross
-from flypend.laws.law import Computer
-from flypend.model import State, Vehicle, linear_momentum
+from flypend.laws import Computer
+from flypend.model import State, linear_momentum
 from flypend.model.state import SIZE
 
+# What the observer keeps: whether it has begun, the momenta it believes in, the known rates, and the estimates.
+MEMORY = 1 + 3 * 6
 
-class ForceObserver:
-    """Two momentum observers with one bandwidth L, in the frame with e₃ up.
+
+def observer(believed: Believed, computer: Computer, period: float) -> ca.Function:
+    """Two momentum observers with one bandwidth L, e₃ up: (state, rotors, memory, params) → (memory, forces).
 
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
     Ḣ = −(f/Ml) y × z + y × D/l with D = F_b/m − F_v/M. Each unknown term N enters as Ḣ = known + N and is estimated by
@@ -25,63 +24,39 @@ class ForceObserver:
     its estimate decays like e^{−Lt} whatever the law does. The unknown of H, N = y × D/l, turns with the rod:
     Ṅ = ẏ × D/l. Its estimate lags while the rod moves, so law and observer are coupled if D ≠ 0; with the rod at rest
     the lag dies out, and a small enough D leaves hover locally stable. D along the rod does not act on the rod and is
-    taken zero. Estimates are limited in length. Sampled, `known` is integrated by the trapezoidal rule: with less,
-    every change of thrust would look like a force.
+    taken zero. Estimates are limited in length. `known` is integrated by the trapezoidal rule: with less, every change
+    of thrust would look like a force. The first measurement only sets the momenta.
 
     Parameters
     ----------
-    vehicle : Vehicle
+    believed : Believed
         The vehicle that the law believes in.
     computer : Computer
         Gives `observer`, the bandwidth L, and `force_limit`.
+    period : float
+        Time between two measurements, s.
+
+    Returns
+    -------
+    Function
+        Of state (24,), rotor forces (n,), N, memory (19,) and params; the forces (6,) are those on vehicle and bob, N.
     """
-
-    def __init__(self, vehicle: Vehicle, computer: Computer) -> None:
-        self._on = computer.observer > 0
-        self._momenta: Any = None
-        self._known: Any = None
-        self._estimate: Any = np.zeros(6)
-        if self._on:
-            self._measure, self._update = _compiled(vehicle, computer)
-
-    def update(self, measured: Any, rotors: Any, period: float) -> Any:
-        """Forces on vehicle and bob (6,), N, after a measurement (24,) and `period` seconds under `rotors` (n,)."""
-        if not self._on:
-            return self._estimate
-        if self._momenta is None:
-            self._momenta, self._known = self._measure(measured, rotors)
-            return self._estimate
-        self._momenta, self._known, self._estimate, forces = self._update(
-            measured, rotors, self._momenta, self._known, self._estimate, period
-        )
-        return forces
-
-
-@lru_cache(maxsize=32)
-def _compiled(vehicle: Vehicle, computer: Computer) -> tuple[Any, ...]:
-    return tuple(as_numpy(function) for function in observer_functions(vehicle, computer))
-
-
-def observer_functions(vehicle: Vehicle, computer: Computer) -> tuple[ca.Function, ca.Function]:
-    """The beginning (state, rotors) → (momenta, known), and the update of `ForceObserver` as CasADi functions.
-
-    The update takes (state, rotors, momenta believed, known before, estimate, period) and gives the first three of
-    these anew, and the forces on vehicle and bob (6,), N.
-    """
-    M, m, l, L = vehicle.M, vehicle.m, vehicle.l, computer.observer
-    packed, rotors = ca.SX.sym("s", SIZE), ca.SX.sym("r", len(vehicle.rotor_spins))
-    believed, before, estimate, period = (*(ca.SX.sym(name, 6) for name in "PKN"), ca.SX.sym("T"))
+    vehicle, L = believed.vehicle, computer.observer
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    packed, rotors = ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors)
+    memory = ca.SX.sym("memory", MEMORY)
+    begun, momenta, before, estimate = ca.vertsplit(memory, [0, 1, 7, 13, 19])
     s = State.symbolic(packed)
-    momenta = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
+    measured = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
     f = ca.sum1(rotors)
     known = ca.vertcat(f * s.z - vehicle.weight * E3, -f / (M * l) * cross(s.y, s.z))
-    following = believed + period * ((before + known) / 2 + estimate)
-    unknown = L * (momenta - following)
+    following = momenta + period * ((before + known) / 2 + estimate)
+    following = measured + begun * (following - measured)
+    unknown = L * (measured - following)
     total, difference = unknown[:3], l * cross(unknown[3:], s.y)  # F_v + F_b, and D without its part along the rod
     on_bob = m * M / (M + m) * (difference + total / M)
     limit = computer.force_limit * vehicle.weight
     forces = [force / ca.fmax(1, ca.norm_2(force) / limit) for force in (total - on_bob, on_bob)]
-    outputs = ca.cse([ca.densify(value) for value in (following, known, unknown, ca.vertcat(*forces))])
-    update = ca.Function("observe", [packed, rotors, believed, before, estimate, period], outputs)
-    measure = ca.Function("momenta", [packed, rotors], [ca.densify(momenta), ca.densify(known)])
-    return measure, update
+    kept = ca.vertcat(1, following, known, unknown)
+    outputs = ca.cse([ca.densify(kept), ca.densify(ca.vertcat(*forces))])
+    return ca.Function("observe", [packed, rotors, memory, believed.symbols], outputs)

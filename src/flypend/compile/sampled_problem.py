@@ -5,18 +5,47 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from flypend.compile.program import Program
+from flypend.compile.routine import Routine
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """A while under the command computed `age` ticks ago, in `steps` equal steps.
-
-    `timing` is what a step must know of its length and of the lag, in numbers; none where they are an input.
-    """
+    """A while under the command computed `age` ticks ago, in `steps` equal steps."""
 
     age: int
     steps: int
-    timing: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class EquationsProblem:
+    """A world that is a program of ours.
+
+    Parameters
+    ----------
+    step : Program
+        One step (state, rotors, command, wind, timing, –) → (state, rotors).
+    """
+
+    step: Program
+
+
+@dataclass(frozen=True)
+class MujocoProblem:
+    """A world that MuJoCo moves.
+
+    Parameters
+    ----------
+    seen : Program
+        (qpos, qvel, rotors) → (state, rotors).
+    filtered : bool
+        Whether the rotors are MuJoCo's own filters, and their forces its activations.
+    largest : float
+        Forces beyond this, N, are none.
+    """
+
+    seen: Program
+    filtered: bool
+    largest: float
 
 
 @dataclass(frozen=True)
@@ -25,76 +54,77 @@ class SampledProblem:
 
     Parameters
     ----------
-    command : Program
-        (t, state, rotors, forces, parameters) → command.
-    world, twin : Program
-        One step (state, rotors, command, wind, timing) → (state, rotors) of what flies, and of what the law believes.
-    lag : Program, optional
-        (rotors, command, timing) → rotors of what the law believes in, alone; there is one if there is no `loop`.
+    board : Routine
+        The flight computer: (memory, measurement, reference, gains, params) → (memory, command); see `flypend.board`.
+    begin : Program
+        (rotors) → (memory of the board, command before the first).
+    world : EquationsProblem or MujocoProblem
+        What moves.
     loop : Program, optional
-        (command, omega) → rotor forces, before every step of either; without it a command is the rotor forces.
+        (command, omega, –) → rotor forces, before every step of the world; without it a command is the rotor forces.
     measure : Program, optional
         (state, draws, noise) → state as measured.
     gusts : Program, optional
         (gust, draws, numbers of the wind) → (gust, wind).
-    observe_first, observe : Program, optional
-        Those of the observer of external forces.
     judge : Program
-        (t, state with rotor forces, parameters) → the values that `reductions` reduce at the sample ticks.
+        (t, state with rotor forces, gains) → the values that `reductions` reduce at the sample ticks.
     reductions : tuple of str
         One kind per value: see `Reductions`.
-    ahead, within, flown : tuple of Stretch
-        What the prediction, the model of the rotors and the world go through in a tick. How the world steps through
-        each of its own is an input, as are the noise and the wind.
-    period, latency : float
-        Control period, and the delay that the law plans for, s.
-    idle : tuple of float
-        The command before the first.
+    flown : tuple of Stretch
+        What the world goes through in a tick.
+    timing : int
+        Numbers that a stretch takes as input. How the world steps is an input, as are the noise and the wind.
+    period : float
+        Control period, s.
     random : bool
         Whether numbers are drawn.
     """
 
-    command: Program
-    world: Program
-    twin: Program
-    lag: Program | None
+    board: Routine
+    begin: Program
+    world: EquationsProblem | MujocoProblem
     loop: Program | None
     measure: Program | None
     gusts: Program | None
-    observe_first: Program | None
-    observe: Program | None
     judge: Program
     reductions: tuple[str, ...]
-    ahead: tuple[Stretch, ...]
-    within: tuple[Stretch, ...]
     flown: tuple[Stretch, ...]
+    timing: int
     period: float
-    latency: float
-    idle: tuple[float, ...]
     random: bool
+
+    @property
+    def memory(self) -> int:
+        """Length of the board's memory."""
+        return self.board.inputs[0]
 
     @property
     def size(self) -> int:
         """Length of the state."""
-        return self.command.inputs[1]
+        return self.board.inputs[1] - 1
+
+    @property
+    def gains(self) -> int:
+        """Number of gains that are inputs."""
+        return self.board.inputs[3]
+
+    @property
+    def command(self) -> int:
+        """Length of a command."""
+        return len(self.begin.outputs[1])
 
     @property
     def rotors(self) -> int:
         """Number of rotors."""
-        return self.command.inputs[2]
-
-    @property
-    def parameters(self) -> int:
-        """Number of parameters."""
-        return self.command.inputs[4]
+        return self.begin.inputs[0]
 
     @property
     def inputs(self) -> tuple[int, int, int]:
         """Lengths of the inputs that all flights of a call share: timings of the world, noise and wind."""
         noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
-        return self.world.inputs[4] * len(self.flown), noise, wind
+        return self.timing * len(self.flown), noise, wind
 
     @property
     def depth(self) -> int:
-        """Number of commands that must be remembered."""
-        return 1 + max(stretch.age for stretch in (*self.ahead, *self.within, *self.flown))
+        """Number of commands that are on their way to the world."""
+        return 1 + max(stretch.age for stretch in self.flown)

@@ -10,16 +10,16 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board.computer import led
+from flypend.board.command import led
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.records import Record
+from flypend.laws import BoundLaw, Law
 from flypend.laws.closed_loop import upright_wrench
-from flypend.laws.law import Law
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
-from flypend.model.allocation import allocate, within
+from flypend.model.allocation import allocate
 from flypend.model.state import FLIP, SIZE
 
 GAINS = 2  # place of the gains among the inputs of a step
@@ -51,7 +51,7 @@ class Interface:
         Whether the law follows a reference at all.
     """
 
-    law: Law
+    law: BoundLaw
     vehicle: Vehicle
     gains: Record
     params: Record
@@ -81,6 +81,10 @@ class _SymbolicVehicle:
         self.weight = (self.M + self.m) * self.g
         self.name = "symbolic"
 
+    def sharing(self) -> tuple[Any, Any, Any]:
+        """As `Vehicle.sharing`, from the symbols."""
+        return ca.horzcat(self.values["per_roll"], self.values["per_pitch"]), self.values["per_yaw"], self.rotor_spins
+
     @property
     def I_inv(self) -> Any:
         """Inverse of the inertia matrix."""
@@ -102,24 +106,24 @@ def _inertia(entries: Any) -> Any:
     return ca.vertcat(ca.horzcat(xx, xy, xz), ca.horzcat(xy, yy, yz), ca.horzcat(xz, yz, zz))
 
 
-def interface(law: Law, vehicle: Vehicle) -> Interface:
+def interface(law: Law | BoundLaw, vehicle: Vehicle) -> Interface:
     """The C interface of `law` on `vehicle`.
 
     Raises InputError for a law that cannot be written for a vehicle of symbols, and for a vehicle whose rotors do not
     share thrust and yaw equally.
     """
     allocate(ca.SX.sym("f"), ca.SX.sym("m", 3), vehicle)  # refuses rotors that it cannot share out
-    law = law.bound(vehicle)
+    bound = law.bind(vehicle)
     params = records.params_record(vehicle)
     symbols = ca.SX.sym("params", params.length)
     spins = np.sign(vehicle.unmixing()[:, 3])
     stand_in = _SymbolicVehicle(symbols, params, spins)
-    names, constant, step, reference = _step(law, symbols, stand_in)
+    names, constant, step, reference = _step(bound, symbols, stand_in)
     rotors = records.rotors_record(vehicle)
     return Interface(
-        law=law,
+        law=bound,
         vehicle=vehicle,
-        gains=records.gains_record(law, names),
+        gains=records.gains_record(bound, names),
         constant=constant,
         params=params,
         rotors=rotors,
@@ -132,7 +136,7 @@ def interface(law: Law, vehicle: Vehicle) -> Interface:
     )
 
 
-def _step(law: Law, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], Program, bool]:
+def _step(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], Program, bool]:
     """Gains at run time, gains that are constants, the program of the law, and whether it follows the reference."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
     gains = {name: ca.SX.sym(name) for name in law.numbers if name not in law.fixed}
@@ -172,7 +176,7 @@ def _in_functions(program: Program, names: list[str]) -> tuple[str, ...]:
     return tuple(names[entry] for entry in sorted(found))
 
 
-def streamed_wrench(law: Law, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
+def streamed_wrench(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
     """The wrench (4, 1), e₃ up, of a bound `law` for the numbers of `records.STATE` and `records.REFERENCE`.
 
     `vehicle` has numbers or symbols, as have the `gains`. Raises InputError for a law that needs the time itself.
@@ -181,7 +185,7 @@ def streamed_wrench(law: Law, vehicle: Any, state: Any, reference: Any, gains: A
     flown = law.along(_streamed(reference)) if law.along is not None else law
     wrench = upright_wrench(flown, t, state[:SIZE], vehicle, state[SIZE:], gains)
     if law.along is None and ca.depends_on(wrench, t):
-        raise InputError("law", "one that does not depend on time, or a Law with `along`", law.name)
+        raise InputError("law", "one that does not depend on time, or a Law with a `path`", law.name)
     return ca.densify(ca.substitute(wrench, t, 0))
 
 
@@ -219,9 +223,8 @@ def followed(vehicle: Any, path: Any, state: Any) -> Any:
 
 
 def _mix(params: Any, vehicle: Any) -> Program:
-    wrench, v = ca.SX.sym("wrench", 4), vehicle.values
-    tilting = ca.horzcat(v["per_roll"], v["per_pitch"])
-    forces = within(wrench[0], wrench[1:], tilting, v["per_yaw"], vehicle.rotor_spins, vehicle.rotor_limits)
+    wrench = ca.SX.sym("wrench", 4)
+    forces = allocate(wrench[0], wrench[1:], vehicle)
     return lower(ca.Function("mix", [wrench, params], [ca.densify(forces)]))
 
 

@@ -22,7 +22,7 @@ from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.interface import interface
 from flypend.export.write import core, filled
-from flypend.laws.law import Controller, Law
+from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
@@ -37,7 +37,7 @@ class Library:
     Arrays are the records of `flypend.export.records`, one after the other. Raises InputError without a compiler.
     """
 
-    def __init__(self, law: Law, vehicle: Vehicle, precision: Precision) -> None:
+    def __init__(self, law: Law | BoundLaw, vehicle: Vehicle, precision: Precision) -> None:
         self._of = (law, vehicle, precision)
         self.made = interface(law, vehicle)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
@@ -104,12 +104,12 @@ def _compile(folder: Path) -> Path:
 
 
 @lru_cache(maxsize=16)
-def library(law: Law, vehicle: Vehicle, precision: Precision) -> Library:
+def library(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
     return Library(law, vehicle, precision)
 
 
-def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Controller:
+def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
     """`law` for `vehicle` as a controller whose law, mixing and lead are the exported C, compiled here.
 
     It flies in sampled plants with limits that take rotor forces ("rotors", "mujoco"); prediction and observer stay
@@ -127,10 +127,10 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
     InputError
         As `export_c`, and without a C compiler.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", getattr(law, "name", repr(law)))
     errors.one_of("precision", precision, PRECISIONS)
-    bound = law.bound(vehicle)
+    bound = law.bind(vehicle)
     code = library(bound, vehicle, precision)
     path = _path(bound.reference)
 
@@ -157,8 +157,8 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
         e3=bound.e3,
         reference=bound.reference,
         gains=bound.gains,
+        table=bound.table,
         computer=bound.computer,
-        source=source,
     )
 
 

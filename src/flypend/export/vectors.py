@@ -12,7 +12,7 @@ import numpy as np
 from flypend.compile.c99 import Precision
 from flypend.export import records
 from flypend.export.interface import followed, streamed_wrench
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
 
@@ -31,7 +31,7 @@ class Vectors:
     rotors: Any
 
 
-def vectors(law: Law, vehicle: Vehicle, count: int, seed: int, precision: Precision) -> Vectors:
+def vectors(law: BoundLaw, vehicle: Vehicle, count: int, seed: int, precision: Precision) -> Vectors:
     """`count` random states and references for the bound `law` of `vehicle`, and what Python answers.
 
     Inputs are rounded to `precision` first; the answers are computed in double precision.
@@ -61,7 +61,7 @@ def rounded(values: Any, precision: Precision) -> Any:
 
 
 @lru_cache(maxsize=16)
-def answers(law: Law, vehicle: Vehicle) -> Any:
+def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
     """The CasADi function (state (30), reference (30)) → wrench (4), rotor forces (n) of the bound `law`."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
     wrench = streamed_wrench(law, vehicle, state, reference)

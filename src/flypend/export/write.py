@@ -15,7 +15,7 @@ from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
 from flypend.export.source import ascii_of, functions, initializer, reads, struct, unread
 from flypend.files.staging import staged
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
 
@@ -29,7 +29,7 @@ ADAPTERS = (
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 
-def export_c(law: Law, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double") -> Path:
+def export_c(law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double") -> Path:
     """Write `law` for `vehicle` as C99 into the folder `out`: law, test vectors, adapters, README and CMake file.
 
     The vehicle's numbers and the law's gains are structs that the C code takes at run time; the linear-quadratic law
@@ -58,7 +58,7 @@ def export_c(law: Law, vehicle: Vehicle, out: str | Path, *, precision: Precisio
         For a law that is no `Law`, that uses other functions than the square root or the time itself, a vehicle whose
         rotors do not share thrust and yaw equally, an unknown precision, or a folder that cannot be written.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", repr(law))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
@@ -140,7 +140,7 @@ def _baked(made: Interface) -> str:
     inertia = next(field for field in made.params.fields if field.name == "inertia")
     diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"
     text = f"the number of rotors ({made.rotors.length}), their spins, {diagonal}."
-    options = {name: value for name, value in made.law.gains.items() if isinstance(value, str)}
+    options = made.law.options
     if made.constant:
         text += " Gains: " + ", ".join(f"{name} = {made.law.numbers[name]:.6g}" for name in made.constant) + "."
     if options:

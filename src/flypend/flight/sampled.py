@@ -13,14 +13,16 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board.computer import Commands, FlightComputer, idle_command
+from flypend.board.command import idle_command
+from flypend.board.computer import FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
-from flypend.laws.law import Controller, Law
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE
 from flypend.plants.actuation import Actuation, make_engine
+from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import within_period
@@ -44,21 +46,23 @@ class Samples:
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
-def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant) -> Samples:
+def fly(vehicle: Vehicle, law: BoundLaw | Controller, start: State, duration: float, plant: Plant) -> Samples:
     """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
 
     Rotors start at their least force. Every quantity is recorded at each control tick.
     """
+    loop = Loop(vehicle, law, plant)
     engine = make_engine(plant.true_vehicle(vehicle), plant)
     packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
-    engine.reset(packed, np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]))
+    least = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
+    engine.reset(packed, least)
     world = Actuation(engine, vehicle, plant)
-    computer = FlightComputer(law, vehicle, plant)
+    computer = flight_computer(loop, least)
 
     period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
     measure, next_wind = _chance(plant, ticks)
     states, rotors = [engine.packed], [engine.rotors]
-    commands, segments = Commands(idle_command(vehicle, plant)), within_period(plant.delay, period)
+    commands, segments = Commands(idle_command(loop, least)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
     with np.errstate(all="ignore"):
         for k in range(ticks):
@@ -68,7 +72,6 @@ def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, 
                 outcome = Outcome("singular", k * period, NOT_FINITE)
                 break
             commands.add(command)
-            computer.tick(measured)
             wind = next_wind(k)
             for age, while_ in segments:
                 world.advance(commands[age], while_, wind)
@@ -78,6 +81,30 @@ def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, 
             states.append(engine.packed)
             rotors.append(engine.rotors)
     return Samples(np.arange(len(states)) * period, np.array(states), np.array(rotors), outcome)
+
+
+class Commands:
+    """The commands of a flight by age, 0 for the last one; `idle` before the first."""
+
+    def __init__(self, idle: Any) -> None:
+        self._idle = idle
+        self._given: list[Any] = []
+
+    def add(self, command: Any) -> None:
+        """Take in the command of this tick."""
+        self._given.append(command)
+
+    def __getitem__(self, age: int) -> Any:
+        """The command given `age` ticks before the last."""
+        return self._given[-1 - age] if age < len(self._given) else self._idle
+
+
+def flight_computer(loop: Loop, rotors: Any) -> FlightComputer:
+    """The flight computer of `loop`, for rotors that begin with the forces `rotors` (n,), N."""
+    if isinstance(loop.law, Controller) and loop.law.flight_computer is not None:
+        made: FlightComputer = loop.law.flight_computer(loop, rotors)
+        return made
+    return SteppedBoard(loop, rotors)
 
 
 def number_of_ticks(duration: float, plant: Plant) -> int:

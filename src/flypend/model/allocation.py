@@ -8,11 +8,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.errors import InputError
-from flypend.model import Vehicle
 
-
-def allocate(thrust: Any, moment: Any, vehicle: Vehicle) -> Any:
+def allocate(thrust: Any, moment: Any, vehicle: Any) -> Any:
     """Rotor forces (n,) for a wrench in the frame with e₃ up, as a CasADi expression, each within the rotor limits.
 
     Unmixing gives f_i = r_i + T/n ± q, with r_i what roll and pitch ask for, T the thrust and q what yaw asks for, + on
@@ -27,29 +24,16 @@ def allocate(thrust: Any, moment: Any, vehicle: Vehicle) -> Any:
     moment : SX (3, 1)
         Wanted moment, body frame, N m.
     vehicle : Vehicle
-        Gives mixing and limits.
+        Gives mixing and limits; its numbers may be symbols.
 
     Raises
     ------
     InputError
         For a vehicle whose rotors do not share thrust equally and yaw in two equal groups.
     """
-    unmixing = vehicle.unmixing()
-    n = len(unmixing)
-    per_thrust, per_yaw = unmixing[:, 0], unmixing[:, 3]
-    if not (np.allclose(per_thrust, 1 / n) and np.allclose(np.abs(per_yaw), np.abs(per_yaw[0]))):
-        raise InputError("rotor_positions", "rotors that share thrust and yaw equally", "an asymmetric vehicle")
-    return within(thrust, moment, unmixing[:, 1:3], np.abs(per_yaw[0]), np.sign(per_yaw), vehicle.rotor_limits)
-
-
-def within(thrust: Any, moment: Any, tilting: Any, yawing: Any, spins: Any, limits: Any) -> Any:
-    """The same from numbers or symbols of the vehicle: `thrust` and `moment` as in `allocate`.
-
-    `tilting` (n, 2) are the forces per moment of roll and pitch, `yawing` the size of those of yaw, 1/m; `spins` (n,)
-    the signs of the latter, as numbers; `limits` the least and the largest force, N.
-    """
+    tilting, yawing, spins = vehicle.sharing()
     n = len(spins)
-    low, high = limits[0], limits[1]
+    low, high = vehicle.rotor_limits[0], vehicle.rotor_limits[1]
     asked = ca.mtimes(tilting, moment[:2])
     scaled: dict[int, Any] = {}
     reach: dict[int, tuple[Any, Any]] = {}

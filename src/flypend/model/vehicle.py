@@ -114,6 +114,17 @@ class Vehicle:
         """Matrix (n, 4) from (thrust, moment) to rotor forces, least squares in norm for n > 4; `e3` as in `mixing`."""
         return np.linalg.pinv(self.mixing(e3))
 
+    def sharing(self) -> tuple[Any, float, Any]:
+        """How a wrench is shared: forces per moment of roll and pitch (n, 2), and of yaw, its size and its signs (n,).
+
+        Raises InputError for rotors that do not share thrust equally and yaw in two equal groups.
+        """
+        unmixing = self.unmixing()
+        per_thrust, per_yaw = unmixing[:, 0], unmixing[:, 3]
+        if not (np.allclose(per_thrust, 1 / len(unmixing)) and np.allclose(np.abs(per_yaw), np.abs(per_yaw[0]))):
+            raise InputError("rotor_positions", "rotors that share thrust and yaw equally", "an asymmetric vehicle")
+        return unmixing[:, 1:3], float(np.abs(per_yaw[0])), np.sign(per_yaw)
+
     def _content(self) -> str:
         return repr(self.to_dict())
 

@@ -103,7 +103,7 @@ def gain_depends_on_speed(runs: Runs) -> Finding:
             f"of it from z ≠ z_d, experiment {name}": float(np.trapezoid(cross[during], run.t[during]) / V[0]),
         }
     fourth = experiment("4")
-    verbatim = simulate(fourth.vehicle, fourth.law("printed", speed_floor=0.0), fourth.start, 0.1)
+    verbatim = simulate(fourth.vehicle, fourth.law("printed", speed_floor=0.0), fourth.start, 0.1, plant=fourth.plant)
     evidence["time at which the law to the letter fails in experiment 4, ẏ(0) = 0, s"] = verbatim.outcome.time
     return Finding(
         "k_p in (kpeqn) depends on |ẏ|",
@@ -198,7 +198,9 @@ def free_component(runs: Runs) -> Finding:
     """Defect 8: (setmu) leaves the third component of I⁻¹mu free: any choice gives the same y(t) and z(t)."""
     chosen = experiment("1")
     zero = runs.corrected["1"]
-    damped = simulate(chosen.vehicle, chosen.law(yaw_damping=3.0), chosen.start, chosen.duration, rtol=1e-10)
+    damped = simulate(
+        chosen.vehicle, chosen.law(yaw_damping=3.0), chosen.start, chosen.duration, plant=chosen.plant, rtol=1e-10
+    )
     difference = max(np.max(np.abs(zero.y - damped.y)), np.max(np.abs(zero.z - damped.z)))
     return Finding(
         "Third component of I⁻¹mu in (setmu)",
@@ -249,7 +251,8 @@ def fly_all(progress: Callable[[str], Any] = lambda _: None) -> Runs:
         for name in experiment_names():
             progress(f"experiment {name}, {label}")
             row = experiment(name)
-            out[name] = simulate(row.vehicle, row.law(law, **options), row.start, row.duration, rtol=rtol)
+            chosen = row.law(law, **options)
+            out[name] = simulate(row.vehicle, chosen, row.start, row.duration, plant=row.plant, rtol=rtol)
         return out
 
     return Runs(

@@ -15,6 +15,7 @@ from flypend.model.motion import disturbed_motion
 from flypend.model.state import SIZE, project_symbolic
 
 TIMING_SIZE = 4
+NONE = np.zeros(0)  # the symbols of a vehicle of numbers
 
 
 class EquationsEngine:
@@ -41,7 +42,7 @@ class EquationsEngine:
     def step(self, command: Any, duration: float, wind: Any) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
         timing = step_timing(self._lag, duration)
-        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, timing)
+        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, timing, NONE)
 
 
 @lru_cache(maxsize=64)
@@ -56,21 +57,47 @@ def step_timing(lag: float, duration: float) -> Any:
     return np.array([duration, float(lag > 0), decay, decay**2])  # without a lag nothing is left from the beginning
 
 
-def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0)) -> ca.Function:
-    """One step (state, rotors, command, wind, timing) → (state, rotors) of `vehicle` as a CasADi function.
+def rotor_step(
+    vehicle: Any,
+    pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0),
+    *,
+    symbols: Any = None,
+    rotors: int | None = None,
+    timing: Any = None,
+    project: bool = True,
+    name: str = "rotor_step",
+) -> ca.Function:
+    """One step (state, rotors, command, wind, timing, symbols) → (state, rotors) of `vehicle` as a CasADi function.
 
     Rotor forces follow the command with the time constant of the vehicle, exactly; the motion is integrated by the
-    Runge-Kutta method of order 4 and projected back onto the manifold. `pivot_offset` as in `EquationsEngine`, timing
-    (4,) as `step_timing` gives it: the lag is no constant of the function.
+    Runge-Kutta method of order 4 and projected back onto the manifold.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What flies; its numbers may be symbols, for code that takes them at run time.
+    pivot_offset : (3,)
+        As in `EquationsEngine`.
+    symbols : SX (k, 1), optional
+        The symbols of such a vehicle.
+    rotors : int, optional
+        Its number of rotors.
+    timing : (4,), optional
+        What `step_timing` gives. It becomes a constant of the function, whose input `timing` is then empty.
+    project : bool
+        Whether the state is projected; a prediction of some steps projects its end only.
+    name : str
+        Name of the function.
     """
-    n = len(vehicle.rotor_spins)
-    packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
-    wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", TIMING_SIZE)
+    n = rotors or len(vehicle.rotor_spins)
+    packed, forces_before, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
+    wind, given = ca.SX.sym("w", 6), ca.SX.sym("h", TIMING_SIZE if timing is None else 0)
+    timing = given if timing is None else ca.SX(ca.DM(timing))
     h = timing[0]
     mixing = vehicle.mixing()
 
     def rates(s: Any, forces: Any) -> Any:
-        wrench = mixing @ forces
+        wrench = ca.mtimes(mixing, forces)
         motion = disturbed_motion(
             State.symbolic(s),
             Wrench(wrench[0], wrench[1:]),
@@ -82,19 +109,21 @@ def rotor_step(vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.
         )
         return motion.packed()
 
-    start, middle, end = (_lagging(rotors, command, timing[i]) for i in (1, 2, 3))
+    start, middle, end = (_lagging(forces_before, command, timing[i]) for i in (1, 2, 3))
     k_1 = rates(packed, start)
     k_2 = rates(packed + h / 2 * k_1, middle)
     k_3 = rates(packed + h / 2 * k_2, middle)
     k_4 = rates(packed + h * k_3, end)
-    result = project_symbolic(packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4))
+    result = packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4)
+    if project:
+        result = project_symbolic(result)
     outputs = ca.cse([ca.densify(result), ca.densify(end)])
-    return ca.Function("rotor_step", [packed, rotors, command, wind, timing], outputs)
+    inputs = [packed, forces_before, command, wind, given, ca.SX(0, 1) if symbols is None else symbols]
+    return ca.Function(name, inputs, outputs)
 
 
-def rotor_lag(vehicle: Vehicle) -> ca.Function:
-    """The rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
-    n = len(vehicle.rotor_spins)
+def rotor_lag(n: int) -> ca.Function:
+    """The `n` rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
     rotors, command, timing = ca.SX.sym("r", n), ca.SX.sym("u", n), ca.SX.sym("h", TIMING_SIZE)
     return ca.Function("rotor_lag", [rotors, command, timing], [_lagging(rotors, command, timing[3])])
 

@@ -15,15 +15,27 @@ the motion. What of MuJoCo's conventions matters here, each held by a test:
 
 from __future__ import annotations
 
+import ctypes
 import importlib
-from functools import partial
-from typing import Any
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache, partial
+from pathlib import Path
+from typing import Any, ClassVar
 
+import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
+from flypend.geometry import hat
 from flypend.model import State, Vehicle
+from flypend.model.state import SIZE
+from flypend.plants.loop import Loop
+from flypend.plants.schedule import steps_in, within_period
 
 # Moment of inertia of the bob about itself per m l², and its least value in kg m²: MuJoCo refuses a moving body below
 # 1e-15. It is the relative error of the rod's moment of inertia about the pivot; after 1 s of flight it shows as 1e-10
@@ -37,7 +49,7 @@ MAX_FORCE = 1e10
 _TEMPLATE = """\
 <mujoco model="flypend">
   <option integrator="RK4" timestep="{timestep!r}" gravity="0 0 {gravity!r}">
-    <flag constraint="disable" contact="disable" autoreset="disable" energy="enable"/>
+    <flag constraint="disable" contact="disable" autoreset="disable" energy="{energy}"/>
   </option>
   <default>
     <geom type="capsule" mass="0" contype="0" conaffinity="0"/>
@@ -65,10 +77,17 @@ _ROTOR = """\
       <site name="rotor{k}" pos="{pos}"/>
       <geom name="disc{k}" type="cylinder" pos="{pos}" size="{disc!r} {thin!r}" rgba="0 0.45 0.7 0.5"/>"""
 _ARM = '      <geom name="arm{k}" fromto="{center} {pos}" size="{thin!r}" rgba="0.2 0.2 0.2 1"/>'
-_MOTOR = '    <motor name="rotor{k}" site="rotor{k}" gear="0 0 1 0 0 {torque!r}"/>'
+_MOTOR = '    <general name="rotor{k}" site="rotor{k}" gear="0 0 1 0 0 {torque!r}"{filter}/>'
+_FILTER = ' dyntype="filter" dynprm="{lag!r}"'
+
+# Longest step of a flight, s. RK4 leaves 1e-7 of the state after a second of tumbling, and the rotors, which are
+# filters of MuJoCo's own, are integrated with it.
+FLIGHT_STEP = 2e-3
 
 
-def model_xml(vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.0, 0.0)) -> str:
+def model_xml(
+    vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.0, 0.0), lag: float = 0.0, energy: bool = True
+) -> str:
     """The MJCF (MuJoCo's XML) of `vehicle` in a world with z up; its controls are the rotor forces in N.
 
     Parameters
@@ -79,6 +98,10 @@ def model_xml(vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.
         Step of the integrator, s.
     pivot_offset : (3,)
         Ball joint relative to the vehicle's centre of mass, body frame, m.
+    lag : float
+        Time constant, s, with which forces follow the controls; 0 for none.
+    energy : bool
+        Whether MuJoCo computes the energy at every step.
 
     Returns
     -------
@@ -118,8 +141,12 @@ def model_xml(vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.
         i=max(BOB_INERTIA * vehicle.m * vehicle.l**2, LEAST_BOB_INERTIA),
         thin=thin,
         thick=4 * thin,
+        energy="enable" if energy else "disable",
         rotors="\n".join(rotors),
-        motors="\n".join(_MOTOR.format(k=k, torque=float(torque)) for k, torque in enumerate(torques)),
+        motors="\n".join(
+            _MOTOR.format(k=k, torque=float(torque), filter=_FILTER.format(lag=lag) if lag > 0 else "")
+            for k, torque in enumerate(torques)
+        ),
     )
 
 
@@ -136,6 +163,8 @@ class MujocoEngine:
         Step of the integrator (RK4), s.
     pivot_offset : (3,)
         Ball joint relative to the vehicle's centre of mass, body frame, m.
+    lag : float
+        Time constant, s, with which the rotors follow `step`'s forces; 0 for none.
 
     Raises
     ------
@@ -143,18 +172,24 @@ class MujocoEngine:
         If mujoco is not installed, or as `model_xml`.
     """
 
-    def __init__(self, vehicle: Vehicle, *, timestep: float = 0.5e-3, pivot_offset: Any = (0.0, 0.0, 0.0)) -> None:
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        *,
+        timestep: float = 0.5e-3,
+        pivot_offset: Any = (0.0, 0.0, 0.0),
+        lag: float = 0.0,
+    ) -> None:
         mujoco = _import_mujoco()
         self._mujoco = mujoco
-        self.model = mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=timestep, pivot_offset=pivot_offset))
+        self._see = _compiled_view(len(vehicle.rotor_spins))
+        xml = model_xml(vehicle, timestep=timestep, pivot_offset=pivot_offset, lag=lag)
+        self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = data = mujoco.MjData(self.model)
         self._advance = partial(mujoco.mj_step, self.model, data)
-        self._update_frames = partial(mujoco.mj_kinematics, self.model, data)
         # Views into MuJoCo's memory, bound once: an attribute of `data` costs as much as a product of matrices.
-        self._x, self._x_dot = data.qpos[0:3], data.qvel[0:3]
-        self._omega, self._rod_rates = data.qvel[3:6], data.qvel[6:9]
-        self._R, self._R_rod = data.body("vehicle").xmat.reshape(3, 3), data.body("bob").xmat.reshape(3, 3)
-        self._rows, self._y = self._R.reshape(9), self._R_rod[:, 2]
+        self._qpos, self._qvel = data.qpos, data.qvel
+        self._rotors = data.act if lag > 0 else data.ctrl
         self._forces, self._all_external = data.ctrl, data.xfrc_applied.reshape(-1)
         self._on_vehicle, self._on_bob = (data.body(name).xfrc_applied[:3] for name in ("vehicle", "bob"))
 
@@ -163,43 +198,35 @@ class MujocoEngine:
         """Step of the integrator, s."""
         return float(self.model.opt.timestep)
 
-    def reset(self, packed: Any) -> None:
+    def reset(self, packed: Any, rotors: Any = None) -> None:
         """Set the state, at time 0; the rod does not spin about its own axis.
 
         Parameters
         ----------
         packed : (24,)
             As `State.packed`, frame with e₃ up: x, x_dot of the pivot, R by rows, omega (body frame), y, y_dot.
+        rotors : (n,), optional
+            Forces that the rotors begin with, N; default 0.
 
         Raises
         ------
         InputError
             As `State.from_packed`, and for a batch.
         """
-        state = State.from_packed(packed)
-        if state.batch_shape:
-            raise InputError("packed state", "a single state", f"a batch of shape {state.batch_shape}")
-        mujoco, data = self._mujoco, self.data
-        mujoco.mj_resetData(self.model, data)
-        quat_wxyz, rod_wxyz, inverse = np.empty(4), np.empty(4), np.empty(4)
-        mujoco.mju_mat2Quat(quat_wxyz, state.R.ravel())
-        mujoco.mju_quatZ2Vec(rod_wxyz, state.y)
-        mujoco.mju_negQuat(inverse, quat_wxyz)
-        self._x[:], data.qpos[3:7] = state.x, quat_wxyz
-        mujoco.mju_mulQuat(data.qpos[7:11], inverse, rod_wxyz)
-        self._update_frames()
-        rod_omega = np.cross(state.y, state.y_dot)  # world frame
-        self._x_dot[:], self._omega[:] = state.x_dot, state.omega
-        self._rod_rates[:] = self._R_rod.T @ (rod_omega - self._R @ state.omega)
+        begin = mujoco_coordinates(packed)
+        self._mujoco.mj_resetData(self.model, self.data)
+        self._qpos[:], self._qvel[:] = begin[:POSITIONS], begin[POSITIONS:]
+        self._rotors[:] = 0.0 if rotors is None else rotors
 
     @property
     def packed(self) -> Any:
         """The state (24,) in the order of `State.packed`, frame with e₃ up; x and x_dot are those of the pivot."""
-        self._update_frames()
-        R_rod = self._R_rod
-        a, b, _ = self._rod_rates + (self._R @ self._omega) @ R_rod  # angular velocity of the rod, in its frame
-        y_dot = b * R_rod[:, 0] - a * R_rod[:, 1]  # R_rod ((a, b, c) × e₃)
-        return np.concatenate((self._x, self._x_dot, self._rows, self._omega, self._y, y_dot))
+        return self._see(self._qpos, self._qvel, self._rotors)[0]
+
+    @property
+    def rotors(self) -> Any:
+        """The forces of the rotors (n,), N."""
+        return np.array(self._rotors)
 
     def step(
         self,
@@ -239,12 +266,132 @@ class MujocoEngine:
         return float(self.data.energy.sum())
 
 
+POSITIONS, VELOCITIES = 11, 9
+
+
+def mujoco_coordinates(packed: Any) -> NDArray[np.float64]:
+    """MuJoCo's qpos (11,) and qvel (9,), one after the other, of a `packed` state (24,), e₃ up.
+
+    The rod does not spin about its own axis. Raises InputError as `State.from_packed`, and for a batch.
+    """
+    state = State.from_packed(packed)
+    if state.batch_shape:
+        raise InputError("packed state", "a single state", f"a batch of shape {state.batch_shape}")
+    mujoco = _import_mujoco()
+    quat_wxyz, rod_wxyz, inverse, relative, rows = (np.empty(k) for k in (4, 4, 4, 4, 9))
+    mujoco.mju_mat2Quat(quat_wxyz, state.R.ravel())
+    mujoco.mju_quatZ2Vec(rod_wxyz, state.y)
+    mujoco.mju_negQuat(inverse, quat_wxyz)
+    mujoco.mju_mulQuat(relative, inverse, rod_wxyz)
+    mujoco.mju_quat2Mat(rows, rod_wxyz)
+    rod_omega = np.cross(state.y, state.y_dot)  # world frame
+    rod_rates = rows.reshape(3, 3).T @ (rod_omega - state.R @ state.omega)
+    return np.concatenate([state.x, quat_wxyz, relative, state.x_dot, state.omega, rod_rates])
+
+
+def seen_by_mujoco(rotors: int) -> ca.Function:
+    """(qpos (11,), qvel (9,), rotor forces (n,)) → (packed state (24,), rotor forces (n,)) for n `rotors`, e₃ up."""
+    qpos, qvel = ca.SX.sym("qpos", POSITIONS), ca.SX.sym("qvel", VELOCITIES)
+    forces = ca.SX.sym("r", rotors)
+    R = _rotation(qpos[3:7])
+    rod = R @ _rotation(qpos[7:11])
+    rates = qvel[6:9] + rod.T @ (R @ qvel[3:6])  # angular velocity of the rod, in its frame
+    y_dot = rates[1] * rod[:, 0] - rates[0] * rod[:, 1]  # rod ((a, b, c) × e₃)
+    state = State(x=qpos[:3], x_dot=qvel[:3], R=R, omega=qvel[3:6], y=rod[:, 2], y_dot=y_dot)
+    return ca.Function("seen", [qpos, qvel, forces], [ca.cse(ca.densify(state.packed())), forces])
+
+
+def _rotation(quat_wxyz: Any) -> Any:
+    """The rotation matrix of a quaternion, which need not have length 1."""
+    w, v = quat_wxyz[0], quat_wxyz[1:]
+    turn = hat(v)
+    return ca.SX.eye(3) + 2 / ca.sumsqr(quat_wxyz) * (w * turn + turn @ turn)
+
+
+@lru_cache(maxsize=8)
+def _compiled_view(rotors: int) -> Any:
+    return as_numpy(seen_by_mujoco(rotors))
+
+
+def substeps(duration: float) -> int:
+    """Number of MuJoCo's steps in `duration` (s) of a flight, none longer than `FLIGHT_STEP`."""
+    return max(1, int(np.ceil(duration / FLIGHT_STEP - 1e-9)))
+
+
+class MuJoCoWorld:
+    """MuJoCo's world of the flights of one loop, told to compiled code by its addresses; one thread at a time.
+
+    MuJoCo's step is called from machine code as a C function: `mjModel` and `mjData` are passed as they are.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What truly flies; its `rotor_lag` is used.
+    pivot_offset : (3,)
+        As in `MujocoEngine`.
+    timesteps : tuple of float
+        Step of the integrator in each stretch of a control period, s.
+    """
+
+    _idle: ClassVar[dict[Any, list[MuJoCoWorld]]] = {}
+
+    def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...], timesteps: tuple[float, ...]) -> None:
+        mujoco = _import_mujoco()
+        library = _library()
+        self._models = [
+            mujoco.MjModel.from_xml_string(
+                model_xml(vehicle, timestep=h, pivot_offset=pivot_offset, lag=vehicle.rotor_lag, energy=False)
+            )
+            for h in timesteps
+        ]
+        self._data = data = mujoco.MjData(self._models[0])
+        self._models_at = np.array([model._address for model in self._models], dtype=np.uint64)
+        arrays = (data.qpos, data.qvel, data.act if vehicle.rotor_lag > 0 else data.ctrl, data.ctrl, data.xfrc_applied)
+        functions = (library.mj_step, library.mj_resetData)
+        self._fixed = (
+            data._address, *(array.ctypes.data for array in arrays),
+            *(ctypes.cast(function, ctypes.c_void_p).value for function in functions),
+        )  # fmt: skip
+        self._begins: Any = None
+
+    @classmethod
+    @contextmanager
+    def lent(cls, loop: Loop) -> Iterator[MuJoCoWorld]:
+        """A world for the flights of `loop`: one that is idle, or a new one."""
+        plant = loop.sampled
+        stretches = within_period(plant.delay, 1 / plant.rate)
+        lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
+        timesteps = tuple(length / substeps(length) for length in lengths)
+        key = (plant.true_vehicle(loop.vehicle), tuple(plant.pivot_offset), timesteps)
+        idle = cls._idle.setdefault(key, [])
+        world = idle.pop() if idle else cls(*key)
+        try:
+            yield world
+        finally:
+            idle.append(world)
+
+    def addresses(self, starts: Any) -> tuple[int, ...]:
+        """What compiled code is told, for packed `starts` (n, 24 or more), e₃ up, which it will fly."""
+        self._begins = np.stack([mujoco_coordinates(start[:SIZE]) for start in starts])
+        return (*self._fixed, self._begins.ctypes.data, self._models_at.ctypes.data)
+
+
+@lru_cache(maxsize=1)
+def _library() -> ctypes.CDLL:
+    """MuJoCo's C library, the one that its Python package has loaded."""
+    folder = Path(_import_mujoco().__file__).parent
+    found = sorted(
+        path for path in folder.iterdir() if re.fullmatch(r"(lib)?mujoco.*\.(so|dylib|dll)[.\d]*", path.name)
+    )
+    if not found:
+        raise InputError("plant", "a mujoco package with its C library", "none beside it")
+    return ctypes.CDLL(str(found[0]))
+
+
 def _import_mujoco() -> Any:
     """The module mujoco. Raises InputError if it is not installed."""
-    try:
-        return importlib.import_module("mujoco")
-    except ModuleNotFoundError:
-        raise InputError("plant", "the extra flypend[mujoco] to be installed", "no module mujoco") from None
+    errors.require("mujoco", extra="mujoco", for_="plant")
+    return importlib.import_module("mujoco")
 
 
 def _numbers(values: Any) -> str:

@@ -6,8 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from flypend.plants.plant import Plant
+
 # Times closer than this are one, s.
 SAME = 1e-9
+PLANT_STEP = 1e-3  # s, of the Runge-Kutta method: a rotor lags 20 times as long
 
 
 class Segment(NamedTuple):
@@ -39,3 +42,14 @@ def _split(latency: float, period: float) -> tuple[int, float]:
     whole = int(np.floor((latency + SAME) / period))
     rest = latency - whole * period
     return whole, rest if rest > SAME else 0.0
+
+
+def steps_in(duration: float, plant: Plant, longest: float | None = None) -> int:
+    """Number of equal steps of an engine in `duration` (s), none longer than `longest` (s).
+
+    Default is the step of the rate loop, or that of the equations; MuJoCo divides a step by itself.
+    """
+    if longest is None:
+        own = duration if plant.engine == "mujoco" else PLANT_STEP
+        longest = 1 / plant.rate_loop_rate if plant.interface == "rates" else own
+    return max(1, int(np.ceil(duration / longest - SAME)))

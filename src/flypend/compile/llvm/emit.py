@@ -9,6 +9,7 @@ from llvmlite import ir
 
 from flypend.compile.llvm.vector import Code, Lanes, Value
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, interpret
+from flypend.compile.routine import Cell, Routine, stretches
 
 
 def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]]) -> list[list[Value]]:
@@ -60,5 +61,42 @@ def define(lanes: Lanes, program: Program) -> ir.Function:
     for target, values in zip(targets, results, strict=True):
         for i, value in enumerate(values):
             code.store(value, target, i)
+    code.builder.ret_void()
+    return function
+
+
+def define_routine(lanes: Lanes, routine: Routine) -> ir.Function:
+    """`routine` as a function of the module, and the programs that it calls: one pointer per input, then per output.
+
+    Inputs and outputs must not overlap.
+    """
+    called = [define(lanes, program) for program in routine.programs]
+    function, code = lanes.function(routine.name, len(routine.inputs) + len(routine.outputs))
+    targets = function.args[len(routine.inputs) :]
+    memories = [code.reserve(length) for length in routine.memories]
+
+    def load(cell: Cell) -> Value:
+        if cell.memory == "constant":
+            return code.value(cell.value)
+        return code.load(function.args[cell.number] if cell.memory == "input" else memories[cell.number], cell.place)
+
+    def vector(cells: Sequence[Cell]) -> ir.Value:
+        """Where the vector with these cells begins: where it is, or in memory of its own."""
+        found = stretches(cells)
+        if len(found) == 1 and found[0][0].memory != "constant":
+            first = found[0][0]
+            base = function.args[first.number] if first.memory == "input" else memories[first.number]
+            return code.vector_at(base, first.place)
+        gathered = code.reserve(len(cells))
+        for i, cell in enumerate(cells):
+            code.store(load(cell), gathered, i)
+        return gathered
+
+    for call in routine.calls:
+        arguments = [vector(cells) for cells in call.inputs]
+        code.call(called[call.program], *arguments, *(memories[number] for number in call.outputs))
+    for target, cells in zip(targets, routine.outputs, strict=True):
+        for i, cell in enumerate(cells):
+            code.store(load(cell), target, i)
     code.builder.ret_void()
     return function

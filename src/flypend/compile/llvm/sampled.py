@@ -6,28 +6,34 @@ neighbours. `flypend.flight.sampled` is the same, one flight at a time, in Pytho
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from llvmlite import ir
 
-from flypend.compile.llvm.emit import define
+from flypend.compile.llvm.emit import define, define_routine
 from flypend.compile.llvm.random import PER_TICK, define_normals
 from flypend.compile.llvm.reductions import Reductions
 from flypend.compile.llvm.runge_kutta import COMPLETED, DIVERGED, UNDEFINED
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
-from flypend.compile.sampled_problem import SampledProblem, Stretch
+from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, World
+from flypend.compile.sampled_problem import EquationsProblem, SampledProblem
 from flypend.model.state import MAX_STATE
 
+INTEGERS = ("runs", "ticks", "sample_count", "row_count")
 ARGUMENTS = (
-    "starts", "parameters", "plant", "seeds", "runs", "ticks", "sample_ticks", "sample_count",
+    "starts", "parameters", "plant", "seeds", "runs", "ticks",
+    "sample_ticks", "sample_count", "judged", "rows", "row_count",
     "samples", "reductions", "final", "end", "status",
 )  # fmt: skip
-INTEGERS = ("runs", "ticks", "sample_count")
+GUSTS = 18  # place of the numbers that gusts draw
+
+
+def arguments(problem: SampledProblem) -> tuple[str, ...]:
+    """Names of the arguments of the kernel of `problem`: `ARGUMENTS`, and for MuJoCo's world its addresses."""
+    return ARGUMENTS if isinstance(problem.world, EquationsProblem) else ARGUMENTS + MUJOCO_ARGUMENTS
 
 
 def write_kernel(lanes: Lanes, problem: SampledProblem) -> None:
-    """Write the function "kernel" for `problem` into the module of `lanes`; its arguments are `ARGUMENTS`."""
-    kinds = [I64 if name in INTEGERS else POINTER for name in ARGUMENTS]
+    """Write the function "kernel" for `problem` into the module of `lanes`; see `arguments`."""
+    kinds = [I64 if name in INTEGERS else POINTER for name in arguments(problem)]
     function = ir.Function(lanes.module, ir.FunctionType(VOID, kinds), "kernel")
     _Kernel(lanes, problem, function).write()
 
@@ -38,25 +44,29 @@ class _Kernel:
     def __init__(self, lanes: Lanes, problem: SampledProblem, function: ir.Function) -> None:
         self.lanes, self.problem = lanes, problem
         self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
-        self.at = dict(zip(ARGUMENTS, function.args, strict=True))
-        names = ("command", "world", "twin", "lag", "loop", "measure", "gusts", "observe_first", "observe")
-        programs = {name: getattr(problem, name) for name in names}
+        self.at = dict(zip(arguments(problem), function.args, strict=True))
+        self.board = define_routine(lanes, problem.board)
+        programs = {name: getattr(problem, name) for name in ("begin", "measure", "gusts")}
         self.call = {name: define(lanes, program) for name, program in programs.items() if program is not None}
         self.normals = define_normals(lanes) if problem.random else None
         n, k = problem.size, problem.rotors
-        self.state, self.next, self.measured, self.imagined = (code.reserve(n + k) for _ in range(4))
-        self.model, self.planned = code.reserve(k), code.reserve(k)  # forces of the rotors that the law believes in
-        self.P, self.wind, self.gust = code.reserve(problem.parameters), code.reserve(6), code.reserve(6)
-        self.ring = code.reserve(problem.depth * len(problem.idle))
-        self.forces, self.draws = code.reserve(6), code.reserve(PER_TICK)
-        self.believed, self.known, self.estimate = (code.reserve(6) for _ in range(3))
-        self.t, self.alive, self.status, self.end, self.timing = (
-            code.reserve(i) for i in (1, 1, 1, 1, problem.world.inputs[4])
-        )
+        self.state, self.next = code.reserve(n + k), code.reserve(n + k)
+        self.measured = code.reserve(1 + n)  # with the time in front
+        self.memory, self.none = code.reserve(2 * problem.memory), code.reserve(1)  # before and after a tick
+        self.P, self.wind, self.gust = code.reserve(problem.gains), code.reserve(6), code.reserve(6)
+        self.ring, self.draws = code.reserve(problem.depth * problem.command), code.reserve(PER_TICK)
+        self.t, self.alive, self.status, self.end = (code.reserve(1) for _ in range(4))
         self.timings, self.noise, self.blowing = (code.reserve(length) for length in problem.inputs)
         self.seeds, self.tick_of_lane = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
         self.cursor = code.reserve(1, I64)
         self.results = Reductions(code, problem.judge, problem.reductions)
+        self.world = self._world()
+
+    def _world(self) -> World:
+        world = self.problem.world
+        if isinstance(world, EquationsProblem):
+            return Equations(self.code, self.problem, world, self.next)
+        return Mujoco(self.code, self.problem, world, self.next, self.at)
 
     def write(self) -> None:
         code, builder, width = self.code, self.code.builder, self.lanes.width
@@ -96,19 +106,18 @@ class _Kernel:
         with code.count(self.lanes.width) as lane:
             run = self._run(lane)
             self._copy(self.at["starts"], run, self.state, lane, problem.size + problem.rotors)
-            self._copy(self.at["parameters"], run, self.P, lane, problem.parameters)
+            self._copy(self.at["parameters"], run, self.P, lane, problem.gains)
             code.put(code.scalar(self.at["seeds"], run, I64), self.seeds, lane)
             self.results.reset(lane)
-        for i in range(problem.rotors):
-            code.store(code.load(self.state, problem.size + i), self.model, i)
+        command = code.reserve(problem.command)
+        code.call(self.call["begin"], code.vector_at(self.state, problem.size), self.memory, command)
         for slot in range(problem.depth):
-            for i, value in enumerate(problem.idle):
-                # Commands that are rotor forces: the rotors are at what they were told.
-                before = value if problem.loop is not None else code.load(self.state, problem.size + i)
-                code.store(before, self.ring, slot * len(problem.idle) + i)
-        for memory in (self.gust, self.wind, self.forces, self.believed, self.known, self.estimate):
+            self._move(command, code.vector_at(self.ring, slot * problem.command), problem.command)
+        for memory in (self.gust, self.wind):
             for i in range(6):
                 code.store(0.0, memory, i)
+        self._move(self.state, self.next, problem.size + problem.rotors)
+        self.world.begin(self.first)
         code.store(1.0, self.alive)
         code.store(float(COMPLETED), self.status)
         ticks = code.value(code.builder.sitofp(self.at["ticks"], self.lanes.scalar))
@@ -141,31 +150,36 @@ class _Kernel:
         code, problem = self.code, self.problem
         time = code.value(code.builder.sitofp(tick, self.lanes.scalar)) * problem.period
         self._draw(tick)
+        code.store(time, self.measured)
+        measured = code.vector_at(self.measured, 1)
         if problem.measure is not None:
-            code.call(self.call["measure"], self.state, self.draws, self.noise, self.measured)
+            code.call(self.call["measure"], self.state, self.draws, self.noise, measured)
         else:
-            self._move(self.state, self.measured, problem.size)
-        self._observe(tick)
-        self._imagine(problem.ahead, tick)
-        code.store(time + problem.latency, self.t)
-        commanded = code.vector_at(self.ring, self._slot(tick, 0))
-        code.call(self.call["command"], self.t, self.imagined, self.planned, self.forces, self.P, commanded)
-        self._end_runs(self._undefined(commanded), UNDEFINED, time)
-        self._move_model(tick)
+            self._move(self.state, measured, problem.size)
+        command = code.vector_at(self.ring, self._slot(tick, 0))
+        before, after = self._memories(tick)
+        code.call(self.board, before, self.measured, self.none, self.P, self.none, after, command)
+        self._end_runs(self._undefined(command), UNDEFINED, time)
         if problem.gusts is not None:
-            drawn = code.vector_at(self.draws, 18)
+            drawn = code.vector_at(self.draws, GUSTS)
             code.call(self.call["gusts"], self.gust, drawn, self.blowing, self.gust, self.wind)
-        self._move(self.state, self.next, problem.size + problem.rotors)
-        rotors = code.vector_at(self.next, problem.size)
-        for k, stretch in enumerate(problem.flown):
-            timing = code.vector_at(self.timings, k * problem.world.inputs[4])
+        for place, stretch in enumerate(problem.flown):
+            timing = code.vector_at(self.timings, place * problem.timing)
             command = code.vector_at(self.ring, self._slot(tick, stretch.age))
-            with code.count(stretch.steps):
-                self._step("world", self.next, rotors, command, self.wind, timing)
+            self.world.advance(place, stretch, command, self.wind, timing)
+        self.world.show()
         self._end_runs(self._lost(), DIVERGED, time)
         alive = code.load(self.alive) > 0.0
         with code.count(problem.size + problem.rotors) as i:
-            code.store(code.select(alive, code.load(self.next, i), code.load(self.state, i)), self.state, i)
+            kept = code.select(alive, code.load(self.next, i), code.load(self.state, i))
+            code.store(kept, self.state, i)
+            code.store(kept, self.next, i)
+
+    def _memories(self, tick: ir.Value) -> tuple[ir.Value, ir.Value]:
+        """The board's memory before and after `tick`: two places that take turns."""
+        builder, length = self.code.builder, ir.Constant(I64, self.problem.memory)
+        odd = builder.mul(builder.and_(tick, ir.Constant(I64, 1)), length)
+        return self.code.vector_at(self.memory, odd), self.code.vector_at(self.memory, builder.sub(length, odd))
 
     def _draw(self, tick: ir.Value) -> None:
         code = self.code
@@ -175,74 +189,11 @@ class _Kernel:
             code.put(tick, self.tick_of_lane, ir.Constant(I64, lane))
         code.call(self.normals, self.seeds, self.tick_of_lane, self.draws)
 
-    def _observe(self, tick: ir.Value) -> None:
-        code, builder = self.code, self.code.builder
-        if self.problem.observe is None:
-            return
-        with builder.if_else(builder.icmp_signed("==", tick, ir.Constant(I64, 0))) as (first, later):
-            with first:
-                code.call(self.call["observe_first"], self.measured, self.model, self.believed, self.known)
-            with later:
-                code.store(self.problem.period, self.t)
-                momenta = (self.believed, self.known, self.estimate)
-                code.call(self.call["observe"], self.measured, self.model, *momenta, self.t, *momenta, self.forces)
-
-    def _imagine(self, stretches: Sequence[Stretch], tick: ir.Value) -> None:
-        """State and rotors of the twin after `stretches` from the measurement."""
-        self._move(self.measured, self.imagined, self.problem.size)
-        self._move(self.model, self.planned, self.problem.rotors)
-        self._advance(stretches, tick)
-
-    def _move_model(self, tick: ir.Value) -> None:
-        """Move the rotors that the law believes in over the period: with the twin, if their command depends on it."""
-        code = self.code
-        if self.problem.lag is None:
-            self._imagine(self.problem.within, tick)
-            self._move(self.planned, self.model, self.problem.rotors)
-            return
-        for stretch in self.problem.within:
-            for i, value in enumerate(stretch.timing):
-                code.store(value, self.timing, i)
-            command = code.vector_at(self.ring, self._slot(tick, stretch.age))
-            with code.count(stretch.steps):
-                code.call(self.call["lag"], self.model, command, self.timing, self.model)
-
-    def _advance(self, stretches: Sequence[Stretch], tick: ir.Value) -> None:
-        """Move the twin through `stretches`; equal ones that follow each other become a loop."""
-        code, builder = self.code, self.code.builder
-        place = 0
-        while place < len(stretches):
-            first = stretches[place]
-            alike = 1
-            while place + alike < len(stretches) and stretches[place + alike] == Stretch(
-                first.age - alike, first.steps, first.timing
-            ):
-                alike += 1
-            for i, value in enumerate(first.timing):
-                code.store(value, self.timing, i)
-            with code.count(alike) as younger:
-                age = builder.sub(ir.Constant(I64, first.age), younger)
-                command = code.vector_at(self.ring, self._slot(tick, age))
-                with code.count(first.steps):
-                    self._step("twin", self.imagined, self.planned, command, self.forces, self.timing)
-            place += alike
-
-    def _step(
-        self, which: str, state: ir.Value, rotors: ir.Value, command: ir.Value, wind: ir.Value, timing: ir.Value
-    ) -> None:
-        code = self.code
-        if self.problem.loop is not None:
-            forces = code.reserve(self.problem.rotors)
-            code.call(self.call["loop"], command, code.vector_at(state, 15), forces)
-            command = forces
-        code.call(self.call[which], state, rotors, command, wind, timing, state, rotors)
-
-    def _slot(self, tick: ir.Value, age: int | ir.Value) -> ir.Value:
+    def _slot(self, tick: ir.Value, age: int) -> ir.Value:
         """Index of the first vector of the command computed `age` ticks before `tick`."""
         builder, depth = self.code.builder, ir.Constant(I64, self.problem.depth)
-        age = ir.Constant(I64, age) if isinstance(age, int) else age
-        slot = builder.srem(builder.add(builder.sub(tick, age), depth), depth)
-        return builder.mul(slot, ir.Constant(I64, len(self.problem.idle)))
+        slot = builder.srem(builder.add(builder.sub(tick, ir.Constant(I64, age)), depth), depth)
+        return builder.mul(slot, ir.Constant(I64, self.problem.command))
 
     def _move(self, source: ir.Value, target: ir.Value, length: int) -> None:
         with self.code.count(length) as i:
@@ -253,7 +204,7 @@ class _Kernel:
     def _undefined(self, commanded: ir.Value) -> Value:
         code = self.code
         total = code.value(0.0)
-        for i in range(len(self.problem.idle)):
+        for i in range(self.problem.command):
             total = total + 0.0 * code.load(commanded, i)
         return ~total.compare("==", 0.0)
 
@@ -287,19 +238,21 @@ class _Kernel:
             time = code.value(builder.sitofp(tick, self.lanes.scalar)) * self.problem.period
             code.store(time, self.t)
             alive = code.load(self.alive) > 0.0
-            self.results.update(alive, self.t, self.state, self.P)
-            kept = builder.icmp_unsigned("!=", builder.ptrtoint(self.at["samples"], I64), ir.Constant(I64, 0))
-            with code.when(kept):
-                self._store_samples(cursor)
-            builder.store(builder.add(cursor, ir.Constant(I64, 1)), self.cursor)
+            with code.when(builder.icmp_signed("!=", code.scalar(self.at["judged"], cursor, I64), ir.Constant(I64, 0))):
+                self.results.update(alive, self.t, self.state, self.P)
+            following = builder.add(cursor, ir.Constant(I64, 1))
+            row, after = (code.scalar(self.at["rows"], place, I64) for place in (cursor, following))
+            with code.when(builder.icmp_signed(">", after, row)):  # none is, where the caller keeps none
+                self._store_samples(row)
+            builder.store(following, self.cursor)
 
-    def _store_samples(self, cursor: ir.Value) -> None:
+    def _store_samples(self, kept: ir.Value) -> None:
         code, builder = self.code, self.code.builder
         length = self.problem.size + self.problem.rotors
         with code.count(self.lanes.width) as lane:
             run = builder.add(self.first, lane)
             with code.when(builder.icmp_signed("<", run, self.at["runs"])):
-                row = builder.add(builder.mul(run, self.at["sample_count"]), cursor)
+                row = builder.add(builder.mul(run, self.at["row_count"]), kept)
                 with code.count(length) as i:
                     here = builder.add(builder.mul(i, ir.Constant(I64, self.lanes.width)), lane)
                     there = builder.add(builder.mul(row, ir.Constant(I64, length)), i)

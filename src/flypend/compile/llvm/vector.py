@@ -55,6 +55,8 @@ class Lanes:
         function = ir.Function(self.module, ir.FunctionType(VOID, [POINTER] * pointers), name)
         function.linkage = "internal"
         function.attributes.add("noinline")
+        # Without it LLVM finds out too late that it spills vectors, and half of the spills straddle two cache lines.
+        function.attributes.alignstack = max(16, self.size)
         return function, Code(self, ir.IRBuilder(function.append_basic_block()))
 
 

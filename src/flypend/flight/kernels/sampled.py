@@ -1,39 +1,58 @@
-"""The kernel of sampled flights: everything that `flypend.flight.sampled` does, in the package's own equations."""
+"""The kernel of sampled flights: the board and a world around it, compiled for many flights at a time."""
 
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 from llvmlite import ir
+from numpy.typing import ArrayLike, NDArray
 
-from flypend.board.computer import TWIN_STEP, idle_command, law_command, usable_lead
-from flypend.board.observer import observer_functions
+from flypend.board.command import idle_command
+from flypend.board.program import board, initial_memory
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, write_kernel
+from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, arguments, write_kernel
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
-from flypend.compile.sampled_problem import SampledProblem, Stretch
+from flypend.compile.routine import lower_calls
+from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.laws.law import Law
-from flypend.model import State, Vehicle
+from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
-from flypend.plants.actuation import rate_loop, steps_in
-from flypend.plants.equations import rotor_lag, rotor_step, step_timing
+from flypend.plants.actuation import rate_loop
+from flypend.plants.equations import TIMING_SIZE, rotor_step, step_timing
+from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
+from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, seen_by_mujoco, substeps
 from flypend.plants.plant import Noise, Plant, Wind
-from flypend.plants.schedule import Segment, ahead, within_period
+from flypend.plants.schedule import steps_in, within_period
 
 WIDTH = 8
-PIECE = 4 * WIDTH
+# Runs that a thread takes at a time; MuJoCo flies one after the other, each some tens of milliseconds.
+PIECE, PIECE_MUJOCO = 4 * WIDTH, 1
+
+
+class Ticks(NamedTuple):
+    """Control ticks as the kernel takes them, increasing: which are judged (1 or 0), and samples kept before each."""
+
+    ticks: NDArray[np.int64]
+    judged: NDArray[np.int64]
+    rows: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
+        """The ticks of a run that is judged at some, and whose states are kept at others; `rows` ends with all."""
+        judge, keep = (np.asarray(() if some is None else some, dtype=np.int64) for some in (judge_at, keep_at))
+        ticks = np.union1d(judge, keep)
+        rows = np.append(0, np.cumsum(np.isin(ticks, keep)))
+        return cls(ticks, np.isin(ticks, judge).astype(np.int64), rows.astype(np.int64))
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,40 +61,37 @@ class SampledKernel:
 
     Parameters
     ----------
-    vehicle, law, plant, criterion
-        What flies, what steers it, through what, and what counts as a success.
-    parameters : tuple of str
-        Gains that may differ from run to run.
+    loop : Loop
+        What flies, what steers it, through what; its `parameters` are the gains that may differ from run to run.
+    criterion : Criterion
+        What counts as a success.
     function : callable
         The compiled kernel.
     key : str
         What determines the kernel, processor and versions apart.
     """
 
-    vehicle: Vehicle
-    law: Law
-    plant: Plant
+    loop: Loop
     criterion: Criterion
-    parameters: tuple[str, ...]
     function: Any
     key: str
 
     def through(self, plant: Plant) -> SampledKernel:
         """The same machine code for another `plant` of the same `structure`. Raises ValueError for one of another."""
-        if structure(plant) != structure(self.plant):
+        if structure(plant) != structure(self.loop.sampled):
             raise ValueError("a plant of the same structure is needed")
-        return replace(self, plant=plant)
+        return replace(self, loop=replace(self.loop, plant=plant))
 
     def fly(
         self,
         starts: Any,
         duration: float,
         *,
-        ticks: Any,
+        judge_at: ArrayLike,
+        keep_at: ArrayLike | None = None,
         first_seed: int = 0,
         parameters: Any = None,
         rotors: Any = None,
-        keep: bool = False,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -85,55 +101,60 @@ class SampledKernel:
         ----------
         starts, duration
             Packed states; how long, s.
-        ticks : (t,) of int
+        judge_at : (j,) of int
             Increasing control ticks at which a run is judged.
+        keep_at : (t,) of int, optional
+            Increasing control ticks at which state and rotor forces are kept, in the frame of the law. They change
+            nothing of how a run is judged.
         first_seed : int
             Seed of the first run; the next has the next.
         parameters : (n, k), optional
             Values of the gains that vary; default those of the law.
         rotors : (n, rotors), optional
             Forces with which the rotors begin, N; default the least.
-        keep : bool
-            Whether states and rotor forces at these ticks are kept, too, in the frame of the law.
         workers : int, optional
             Threads; default one per core.
         progress : callable
             Told `(done, runs)`.
         """
-        sign = 1.0 if self.law.e3 == "up" else FLIP_PACKED
+        loop, vehicle = self.loop, self.loop.vehicle
+        sign = 1.0 if loop.law.e3 == "up" else FLIP_PACKED
         packed = np.ascontiguousarray(starts, dtype=float) * sign
-        seeds = (first_seed + np.arange(len(packed))).astype(np.int64)
-        judged = np.ascontiguousarray(ticks, dtype=np.int64)
-        count = number_of_ticks(duration, self.plant)
-        values = inputs_of(self.law, self.parameters, parameters, len(packed))
-        least = np.full((len(packed), len(self.vehicle.rotor_spins)), self.vehicle.rotor_limits[0])
+        runs, n = len(packed), len(vehicle.rotor_spins)
+        seeds = (first_seed + np.arange(runs)).astype(np.int64)
+        moments = Ticks.of(judge_at, keep_at)
+        count = number_of_ticks(duration, loop.sampled)
+        values = inputs_of(loop, parameters, runs)
+        least = np.full((runs, n), vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
-
-        length = SIZE + len(self.vehicle.rotor_spins)
-        memory = Flown.of_size(
-            len(packed), SIZE, samples=(len(judged), length) if keep else None, steps=False, judged=True
-        )
-
-        numbers = plant_numbers(self.vehicle, self.plant)
+        samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + n)
+        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=True)
+        numbers = plant_numbers(loop)
+        piece = PIECE if loop.sampled.engine == "equations" else PIECE_MUJOCO
 
         def fly(part: slice, out: Flown) -> None:
-            self._call(packed[part], values[part], numbers, seeds[part], count, judged, out)
+            self._call(packed[part], values[part], numbers, seeds[part], count, moments, out)
 
-        flown = in_pieces(fly, memory, PIECE, workers, progress)
-        if self.law.e3 == "down":
+        flown = in_pieces(fly, memory, piece, workers, progress)
+        if loop.law.e3 == "down":
             flown.final[...] *= FLIP_PACKED
-            if keep:
+            if flown.samples is not None:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
+    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Ticks, out: Flown) -> None:
         if out.samples is not None:
             out.samples[...] = np.nan
-        self.function(
+        given = (
             address(starts), address(values), address(numbers), address(seeds), len(starts), count,
-            address(ticks), len(ticks), address(out.samples), address(out.reductions), address(out.final),
-            address(out.end), address(out.code),
+            address(ticks.ticks), len(ticks.ticks), address(ticks.judged), address(ticks.rows), int(ticks.rows[-1]),
+            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         )  # fmt: skip
+        if self.loop.sampled.engine == "equations":
+            self.function(*given)
+        else:
+            with MuJoCoWorld.lent(self.loop) as world:
+                self.function(*given, *world.addresses(starts))
 
 
 def structure(plant: Plant) -> Plant:
@@ -151,10 +172,14 @@ def _without_lag(plant: Plant) -> dict[str, float]:
     return {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
 
 
-def plant_numbers(vehicle: Vehicle, plant: Plant) -> Any:
-    """The numbers of `plant` that the machine code takes, as `SampledProblem.inputs` counts them."""
-    period, lag = 1 / plant.rate, plant.true_vehicle(vehicle).rotor_lag
-    timings = [step_timing(lag, while_ / steps) for _, while_, steps in _flown(plant)]
+def plant_numbers(loop: Loop) -> Any:
+    """The numbers of the plant of `loop` that the machine code takes, as `SampledProblem.inputs` counts them."""
+    plant = loop.sampled
+    period, lag = 1 / plant.rate, plant.true_vehicle(loop.vehicle).rotor_lag
+    if plant.engine == "equations":
+        timings = [step_timing(lag, while_ / steps) for _, while_, steps in _flown(plant)]
+    else:
+        timings = [np.array([float(substeps(while_ / steps))]) for _, while_, steps in _flown(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
     wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
     return np.concatenate([*timings, *noise, *wind])
@@ -166,99 +191,87 @@ def _flown(plant: Plant) -> list[tuple[int, float, int]]:
     return [(age, while_, steps_in(while_, plant)) for age, while_ in segments]
 
 
-def sampled_kernel(
-    vehicle: Vehicle,
-    law: Law,
-    plant: Plant,
-    criterion: Criterion | None = None,
-    parameters: tuple[str, ...] = (),
-) -> SampledKernel:
-    """The kernel of flights of `vehicle` under a bound `law` through `plant`, compiled or from the cache.
+def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
+    """The kernel of flights of `loop`, judged by `criterion`, compiled or from the cache.
 
     Parameters
     ----------
-    vehicle, law, plant, criterion
-        As in `SampledKernel`; the engine of the plant must be "equations".
-    parameters : tuple of str
-        Gains that may differ from run to run; lead, latency and observer of the flight computer may not.
+    loop : Loop
+        Vehicle, bound law, sampled plant, and the gains that may differ from run to run; lead, latency and observer of
+        the flight computer may not.
+    criterion : Criterion
+        What counts as a success.
 
     Raises
     ------
     InputError
         For an unknown gain, and for a law with operations that cannot be compiled.
     """
-    return _structured(vehicle, law, structure(plant), criterion or Criterion(), parameters).through(plant)
+    compiled = structure(loop.sampled)
+    if loop.sampled.engine == "mujoco" and loop.sampled.true_vehicle(loop.vehicle).rotor_lag == 0:
+        compiled = compiled.replace(lag=0.0)  # rotors without lag are no filters
+    return _structured(replace(loop, plant=compiled), criterion).through(loop.sampled)
 
 
 @lru_cache(maxsize=64)
-def _structured(
-    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: tuple[str, ...]
-) -> SampledKernel:
-    problem = sampled_problem(vehicle, law, plant, criterion, parameters)
+def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
+    problem = sampled_problem(loop, criterion)
+    width = WIDTH if isinstance(problem.world, EquationsProblem) else 1
 
     def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), WIDTH)
+        lanes = Lanes(ir.Module("flypend"), width)
         write_kernel(lanes, problem)
         return lanes.module
 
-    kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    key = f"sampled, {WIDTH} lanes, states below {MAX_STATE}: {problem!r}"
-    return SampledKernel(vehicle, law, plant, criterion, parameters, jit.build(key, module, "kernel", kinds), key)
+    kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in arguments(problem)]
+    key = f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}"
+    return SampledKernel(loop, criterion, jit.build(key, module, "kernel", kinds), key)
 
 
-def sampled_problem(
-    vehicle: Vehicle, law: Law, plant: Plant, criterion: Criterion, parameters: Sequence[str] = ()
-) -> SampledProblem:
-    """A flight of `vehicle` under `law` through `plant` as programs, judged by `criterion`."""
-    believed, true = vehicle, plant.true_vehicle(vehicle)
-    period, latency = 1 / plant.rate, law.computer.latency
-    setting = (believed, plant.limits, plant.interface, plant.rate_loop_gain, usable_lead(law, believed, plant))
-    watched = law.computer.observer > 0
-    observer = [lower(f) for f in observer_functions(believed, law.computer)] if watched else [None, None]
-
-    def imagined(segments: Sequence[Segment]) -> tuple[Stretch, ...]:
-        made = []
-        for age, duration in segments:
-            steps = steps_in(duration, plant, TWIN_STEP)
-            made.append(Stretch(age, steps, tuple(step_timing(believed.rotor_lag, duration / steps).tolist())))
-        return tuple(made)
-
+def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
+    """The flights of `loop` as programs, judged by `criterion`."""
+    vehicle, plant = loop.vehicle, loop.sampled
+    true = plant.true_vehicle(vehicle)
+    flight_computer = board(loop)
     rates = plant.interface == "rates"
+    world: EquationsProblem | MujocoProblem
+    if plant.engine == "equations":
+        world = EquationsProblem(lower(rotor_step(true, plant.pivot_offset, name="world")))
+    else:
+        seen = lower(seen_by_mujoco(len(vehicle.rotor_spins)))
+        world = MujocoProblem(seen, filtered=true.rotor_lag > 0, largest=MAX_FORCE)
+    on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
     return SampledProblem(
-        command=lower(law_command(law, *setting, parameters)),
-        world=_named(rotor_step(true, plant.pivot_offset), "world"),
-        twin=_named(rotor_step(believed), "twin"),
-        lag=None if rates else lower(rotor_lag(believed)),
-        loop=_named(_loop(believed, plant), "loop") if rates else None,
+        board=lower_calls(flight_computer.step),
+        begin=_begin(loop),
+        world=world,
+        loop=lower(on_board) if rates else None,
         measure=lower(measurement()) if plant.noise is not None else None,
         gusts=lower(gusts()) if plant.wind is not None else None,
-        observe_first=observer[0],
-        observe=observer[1],
-        judge=lower(_judge(vehicle, law, criterion, len(parameters))),
+        judge=lower(_judge(loop, criterion)),
         reductions=REDUCTIONS,
-        ahead=imagined(ahead(latency, period)),
-        within=imagined(within_period(latency, period)),
         flown=tuple(Stretch(age, steps) for age, _, steps in _flown(plant)),
-        period=period,
-        latency=latency,
-        idle=tuple(idle_command(believed, plant).tolist()),
+        timing=TIMING_SIZE if plant.engine == "equations" else 1,
+        period=1 / plant.rate,
         random=is_random(plant),
     )
 
 
-def _named(function: ca.Function, name: str) -> Program:
-    program = lower(function)
-    return Program(name, program.inputs, program.operations, program.outputs)
+def _begin(loop: Loop) -> Program:
+    """(rotors) → (memory of the board, command before the first)."""
+    rotors = ca.SX.sym("r", len(loop.vehicle.rotor_spins))
+    outputs = [ca.densify(initial_memory(loop, rotors)), ca.densify(ca.SX(idle_command(loop, rotors)))]
+    return lower(ca.Function("begin", [rotors], outputs))
 
 
-def _loop(vehicle: Vehicle, plant: Plant) -> ca.Function:
-    return rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
-
-
-def _judge(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: int) -> ca.Function:
-    """(t, state and rotor forces with e₃ up, parameters) → what `criterion.REDUCTIONS` reduce."""
-    n = len(vehicle.rotor_spins)
-    t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", parameters)
+def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
+    """(t, state and rotor forces with e₃ up, gains) → what `criterion.REDUCTIONS` reduce."""
+    law = loop.symbolic
+    n = len(loop.vehicle.rotor_spins)
+    t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))
     own = packed[:SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)
-    seen = observed(t, State.symbolic(own), packed[SIZE:], vehicle, law.reference, criterion, law.e3)
+    seen = observed(t, State.symbolic(own), packed[SIZE:], loop.vehicle, law.reference, criterion, law.e3)
     return ca.Function("judge", [t, packed, p], [ca.densify(seen)])
+
+
+__all__ = ["ARGUMENTS", "SampledKernel", "plant_numbers", "sampled_kernel", "sampled_problem", "structure"]

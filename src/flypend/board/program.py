@@ -1,0 +1,202 @@
+"""The flight computer as one program: (memory, measurement, reference, gains, params) → (memory, command).
+
+From it come the kernel of sampled flights, flights in MuJoCo, the reference in Python, and the exported C. In one
+control period it observes external forces, predicts the state at which its command will act, evaluates the law there,
+shares the wrench among the rotors, leads them, and moves on its model of the rotors and the list of commands under way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.board import observer as observing
+from flypend.board.believed import Believed
+from flypend.board.command import Steering, command_width, idle_command, law_command, steering
+from flypend.model.state import SIZE, project_symbolic
+from flypend.plants.actuation import rate_loop
+from flypend.plants.equations import rotor_lag, rotor_step, step_timing
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Plant
+from flypend.plants.schedule import Segment, ahead, steps_in, within_period
+
+# Longest step of the prediction, s. It is shorter than the dynamics that it predicts and costs a tenth of the plant's.
+TWIN_STEP = 1e-2
+
+
+@dataclass(frozen=True, eq=False)
+class Board:
+    """The flight computer of a loop.
+
+    Parameters
+    ----------
+    loop : Loop
+        What it flies.
+    believed : Believed
+        The vehicle that its equations are written for.
+    reference : int
+        Length of the reference that it is given at every step.
+    step : Function
+        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
+        `remembering`, one after the other. A measurement is time (s) and state (24,), e₃ up.
+    """
+
+    loop: Loop
+    believed: Believed
+    reference: int
+    step: ca.Function
+
+
+def initial_memory(loop: Loop, rotors: Any) -> Any:
+    """The memory (k,) of the board of `loop` before its first step, for `rotors` (n,) as they are, N.
+
+    Numbers or CasADi symbols.
+    """
+    parts = [rotors, np.zeros(observer_memory(loop)), *[idle_command(loop, rotors)] * depth(loop)]
+    return ca.vertcat(*parts) if isinstance(rotors, ca.SX) else np.concatenate(parts)
+
+
+def known(plant: Plant) -> Plant:
+    """What a flight computer knows of its `plant`: rate, limits, interface and rate loop, and nothing of the world."""
+    return Plant(
+        rate=plant.rate, limits=plant.limits, interface=plant.interface, rate_loop_rate=plant.rate_loop_rate,
+        rate_loop_gain=plant.rate_loop_gain,
+    )  # fmt: skip
+
+
+def observer_memory(loop: Loop) -> int:
+    """Numbers that the observer keeps."""
+    return observing.MEMORY if loop.law.computer.observer > 0 else 0
+
+
+def depth(loop: Loop) -> int:
+    """Number of commands that are remembered: all that still act, or will, when the next command is planned to act."""
+    return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop))))
+
+
+def memory_size(loop: Loop) -> int:
+    """Numbers that the board keeps from step to step."""
+    return len(loop.vehicle.rotor_spins) + observer_memory(loop) + depth(loop) * command_width(loop)
+
+
+def board(loop: Loop, believed: Believed | None = None, steer: Steering | None = None, reference: int = 0) -> Board:
+    """The flight computer of `loop`.
+
+    Parameters
+    ----------
+    loop : Loop
+        Vehicle, bound law, sampled plant, and the gains that are inputs. Of the plant it uses what a flight computer
+        knows: rate, limits, interface and the gain of the rate loop.
+    believed : Believed, optional
+        The vehicle that equations are written for; default the numbers of that of `loop`.
+    steer : Steering, optional
+        The wrench of the law; default with the law's own reference.
+    reference : int
+        Length of the reference that `steer` takes.
+    """
+    believed = believed or Believed.numbers(loop.vehicle)
+    predict, remember = predicting(loop, believed), remembering(loop, believed)
+    command = law_command(loop, believed, steer or steering(loop.symbolic), reference)
+    memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
+    path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
+    params = ca.MX.sym("params", believed.symbols.numel())
+    kept, forces, state, rotors = predict(memory, measurement, params)
+    given = command(measurement[0], state, rotors, forces, path, gains, params)
+    after = remember(memory, kept, measurement, forces, given, params)
+    names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
+    step = ca.Function("board", [memory, measurement, path, gains, params], [after, given], *names)
+    return Board(loop, believed, reference, step)
+
+
+class _Twin:
+    """The board's model of vehicle and rotors, as calls of functions on MX symbols."""
+
+    def __init__(self, loop: Loop, believed: Believed, params: Any) -> None:
+        self._plant, self._believed, self._params = loop.sampled, believed, params
+        self._steps: dict[float, ca.Function] = {}
+        self._loop = None
+        if loop.sampled.interface == "rates":
+            plant = loop.sampled
+            self._loop = rate_loop(believed.vehicle, plant.limits, plant.rate_loop_gain, believed.symbols)
+
+    def advance(self, state: Any, rotors: Any, command: Any, duration: float, forces: Any) -> tuple[Any, Any]:
+        """State and rotors `duration` seconds later, under a `command` that is held and external `forces`."""
+        steps = steps_in(duration, self._plant, TWIN_STEP)
+        step = self._of_length(duration / steps)
+        for _ in range(steps):
+            wanted = command if self._loop is None else self._loop(command, state[15:18], self._params)
+            state, rotors = step(state, rotors, wanted, forces, ca.MX(0, 1), self._params)
+        return state, rotors
+
+    def _of_length(self, duration: float) -> ca.Function:
+        """A step of `duration` s, which is a constant of it."""
+        length = round(duration, 12)  # the same step, whatever roundoff cut it out
+        if length not in self._steps:
+            believed = self._believed
+            self._steps[length] = rotor_step(
+                believed.vehicle, symbols=believed.symbols, rotors=believed.rotors,
+                timing=step_timing(believed.lag, length), project=False, name=f"twin_{round(1e9 * length)}",
+            )  # fmt: skip
+        return self._steps[length]
+
+
+def _ahead(loop: Loop) -> tuple[Segment, ...]:
+    return ahead(loop.law.computer.latency, 1 / loop.sampled.rate)
+
+
+def _within(loop: Loop) -> tuple[Segment, ...]:
+    return within_period(loop.law.computer.latency, 1 / loop.sampled.rate)
+
+
+def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
+    """Modelled rotors, the observer's memory, and the commands under way, the youngest first."""
+    n, k, width = len(loop.vehicle.rotor_spins), observer_memory(loop), command_width(loop)
+    ends = [0, n, n + k, *(n + k + width * (i + 1) for i in range(depth(loop)))]
+    rotors, kept, *commands = ca.vertsplit(memory, ends)
+    return rotors, kept, commands
+
+
+def predicting(loop: Loop, believed: Believed) -> ca.Function:
+    """(memory, measurement, params) → observer's memory, forces (6,), state (24,) and rotors (n,) at actuation."""
+    memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
+    params = ca.MX.sym("params", believed.symbols.numel())
+    rotors, kept, commands = _parts(loop, memory)
+    state, forces = measurement[1:], ca.MX(ca.DM.zeros(6))
+    if observer_memory(loop):
+        observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
+        kept, forces = observe(state, rotors, kept, params)
+    twin = _Twin(loop, believed, params)
+    for age, duration in _ahead(loop):  # the command of this step is not there yet: the youngest has age 1
+        state, rotors = twin.advance(state, rotors, commands[age - 1], duration, forces)
+    if _ahead(loop):
+        state = _projection()(state)
+    return ca.Function("predict", [memory, measurement, params], [kept, forces, state, rotors])
+
+
+def _projection() -> ca.Function:
+    """A predicted state → that state on the manifold, which its few steps left by less than their error."""
+    packed = ca.SX.sym("s", SIZE)
+    return ca.Function("project", [packed], [ca.densify(project_symbolic(packed))])
+
+
+def remembering(loop: Loop, believed: Believed) -> ca.Function:
+    """(memory, observer's memory, measurement, forces, command, params) → memory."""
+    memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
+    kept, forces = ca.MX.sym("kept", observer_memory(loop)), ca.MX.sym("forces", 6)
+    command, params = ca.MX.sym("command", command_width(loop)), ca.MX.sym("params", believed.symbols.numel())
+    rotors, _, commands = _parts(loop, memory)
+    under_way = [command, *commands]
+    if loop.sampled.interface == "rates":  # the rotors depend on how the body turns
+        state, twin = measurement[1:], _Twin(loop, believed, params)
+        for age, duration in _within(loop):
+            state, rotors = twin.advance(state, rotors, under_way[age], duration, forces)
+    else:
+        lag = rotor_lag(believed.rotors)
+        for age, duration in _within(loop):
+            rotors = lag(rotors, under_way[age], ca.MX(ca.DM(step_timing(believed.lag, duration))))
+    after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])
+    return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])

@@ -114,7 +114,7 @@ def test_a_file_that_differs_is_replaced_only_if_asked(tmp_path):
 
 @pytest.mark.parametrize("direction", [0.0, 2.0, 4.0])
 def test_the_law_of_ones_own_balances_a_tilt(at_home, direction):
-    law = law_named("examples.my_law:balance")
+    law = law_named("examples/my_law.py:balance")
     tilt = np.array([np.sin(0.2) * np.cos(direction), np.sin(0.2) * np.sin(direction), np.cos(0.2)])
     run = fp.simulate(VEHICLE, law, fp.State(y=tilt), 12.0, plant="rotors")
     assert metrics(run).success
@@ -122,8 +122,8 @@ def test_the_law_of_ones_own_balances_a_tilt(at_home, direction):
 
 
 def test_the_law_of_ones_own_does_not_swing_up_as_it_says(at_home):
-    law = law_named("examples.my_law:balance")
-    assert "does not swing up" in inspect.getdoc(law.control)
+    law = law_named("examples/my_law.py:balance")
+    assert "does not swing up" in inspect.getdoc(law.control.function.function)
     for y in ((0, 0, -1), (np.sin(0.1), 0, -np.cos(0.1))):
         judged = metrics(fp.simulate(VEHICLE, law, fp.State(y=y), 6.0, plant="rotors"))
         assert judged.cause in ("rod", "diverged")
@@ -183,7 +183,7 @@ def test_commands_are_found():
     assert {"run", "compare", "ladder"} <= found
     assert len(commands()) >= 8
     assert any(line.startswith("flypend run examples/swing-up.toml --out") for line in commands())
-    assert any("examples.my_law:balance --law inverted --runs 20" in line for line in commands())
+    assert any("examples/my_law.py:balance --law inverted --runs 20" in line for line in commands())
 
 
 @pytest.mark.parametrize("line", commands())

@@ -27,7 +27,7 @@ PLANTS = {
 def flown(plant, starts, duration, **options):
     kernel = sampled_kernel(Loop(VEHICLE, INVERTED, plant), Criterion())
     ticks = np.arange(0, round(duration * plant.rate) + 1)
-    return kernel.fly(starts, duration, ticks=ticks, keep=True, first_seed=plant.seed, **options)
+    return kernel.fly(starts, duration, judge_at=ticks, keep_at=ticks, first_seed=plant.seed, **options)
 
 
 @pytest.mark.parametrize("name", PLANTS)

@@ -601,8 +601,8 @@ def test_rounding_is_judged_by_the_digits_given():
     assert quoted("is 1, 2.5 and −3e-2 m, at most 4 m", "is # m, at most # m") == ["1", "2.5", "-3e-2", "4"]
 
 
-def test_the_page_has_the_eight_defects_and_names_their_computations(sections):
-    assert list(sections) == list(range(1, 9))
+def test_the_page_has_the_sixteen_defects_and_names_their_computations(sections):
+    assert list(sections) == list(range(1, 17))
     named = {number: re.findall(r"Computation \(`(\w+)`\)", text) for number, text in sections.items()}
     for number, names in named.items():
         assert names in ([], [DEFECTS[number - 1].__name__])
@@ -629,13 +629,24 @@ def test_the_page_on_beta(sections, runs):
     assert all(np.max(norm(run.moment)) > 1e3 * float(moment) for run in runs.printed.values())
 
 
-def test_the_page_on_the_gain(sections, runs, findings, settled):
-    evidence = findings[3].evidence
-    terms = {key.split("experiment ")[1][0]: value for key, value in evidence.items() if key.startswith("largest |k̇_p")}
-    agree(quoted(sections[4], r"up to # in experiment 4"), [terms["4"]])
-    assert max(terms.values()) == terms["4"]
-    rises = [100 * largest_rise(run.signals["V"]) / run.signals["V"][0] for run in runs.corrected.values()]
-    agree(quoted(sections[4], r"V rises there by # % to # % of V\(0\)"), [min(rises), max(rises)])
+def of(finding, pattern, names=FIVE):
+    """Values of the evidence whose name is `pattern`, "#" standing for each of `names`."""
+    return [finding.evidence[pattern.replace("#", name)] for name in names]
+
+
+def test_the_page_on_the_gain(sections, findings, settled):
+    gain = findings[3]
+    terms = of(gain, "largest |k̇_p (1 − yᵀe₃)|, experiment #, 1/s³")
+    agree(quoted(sections[4], r"reaches # in experiment 4"), [max(terms)])
+    assert max(terms) == terms[3]
+    rises = np.array(of(gain, "largest rise of V, experiment #, over V(0)"))
+    agree(quoted(sections[4], r"V rises by # % of V\(0\)"), 100 * rises)
+    signed = sections[4].replace("+", "")
+    shares = [*of(gain, "of it from k̇_p, experiment #"), *of(gain, "of it from z ≠ z_d, experiment #")]
+    agree(
+        quoted(signed, r"k̇_p\(1 − yᵀe₃\) contributes # V\(0\), and the cross term \S+ ẏ·\(z − z_d\) # V\(0\)"), shares
+    )
+    assert [share < 0 for share in shares[5:]] == [False, False, True, False, True]  # told in words
     floor = fp.laws.corrected().values["speed_floor"]
     assert [float(text) for text in quoted(sections[4], r"s = # rad/s")] == [floor]
     price = quoted(sections[4], r"g s/\(1\+s\) = # m/s²")
@@ -672,6 +683,55 @@ def test_the_page_on_the_free_component(sections, findings):
     bound, *ends = quoted(sections[8], r"agree to #, while ω₃ ends at # and at # rad/s")
     assert difference < float(bound)
     agree(ends, [zero, damped])
+
+
+def test_the_page_on_the_cascade(sections, findings):
+    cascade, both = findings[8], [str(member) for member in stability.RUNAWAYS]
+    begun, ended = of(cascade, "|ẏ| at 0 s, start #, rad/s", both), of(cascade, "|ẏ| at 12 s, start #, rad/s", both)
+    pattern = r"Member 446 goes from # to # rad/s in 12 s, member 1990 from # to # rad/s"
+    agree(quoted(sections[9], pattern), [begun[0], ended[0], begun[1], ended[1]])
+    agree(quoted(sections[9], r"At 12 s z·z_d is #;"), of(cascade, "z·z_d at 12 s, start #", both))
+    growth = of(cascade, "growth of ln |ẏ| in the last second, start #, 1/s", both)
+    predicted = of(cascade, "−k_d z·z_d, mean of that second, start #, 1/s", both)
+    agree(quoted(sections[9], r"ln\|ẏ\| grows at # /s, where −k_d z·z_d predicts # /s"), growth + predicted)
+    products = [np.mean(of(cascade, f"|ẏ| |v_e| at # s, start {member}, 1/s²", ("11", "12"))) for member in both]
+    agree(quoted(sections[9], r"\|ẏ\|\|v_e\| stays at # /s²"), products)
+    errors = [value for key, value in cascade.evidence.items() if key.startswith("Lemma 2: error")]
+    agree(quoted(sections[9], r"has an error of # left after 2 s at 2, 20 and 60 rad/s"), errors)
+
+
+def test_the_page_on_the_target(sections, findings):
+    target = findings[9].evidence
+    agree(quoted(sections[10], r"s\* = # rad/s, no unusual"), [target["s*, rad/s"]])
+    agree(
+        quoted(sections[10], r"z_d turns by #°"),
+        [target["z_d turns, from 0.0001 rad/s below s* to 0.0001 above, degrees"]],
+    )
+    moments = [target[f"|moment| at s* + {ahead} rad/s, N m"] for ahead in ("0.01", "0.0001")]
+    agree(quoted(sections[10], r"# N m at 0.01 rad/s from s\* and # N m at 0.0001 rad/s"), moments)
+    agree(quoted(sections[10], r"passes at \|f_p\| = # /s²"), [target["least |f_p| over the corrected runs, 1/s²"]])
+
+
+def test_the_page_on_the_proof(sections, findings):
+    *growing, claimed, moving = findings[10].evidence.values()
+    agree(quoted(sections[11], r"has # growing modes"), growing)
+    agree(quoted(sections[11], r"the claimed V̇ is #, but \|ÿ\| = # /s²"), [claimed, moving])
+
+
+def test_the_page_on_the_thrust(sections, findings):
+    thrust = findings[12].evidence
+    agree(quoted(sections[13], r"−\(M\+m\)g = # N; −Ml is # kg m"), [thrust["−(M+m)g, N"], thrust["−Ml, kg m"]])
+    agree(quoted(sections[13], r"f at 6.5 s is # N in the five"), of(findings[12], "f at 6.5 s, experiment #, N"))
+
+
+def test_the_page_on_units_frames_and_conclusions(sections, findings):
+    agree(quoted(sections[14], r"k_p is # /s² if one computes in seconds and # /s²"), findings[13].evidence.values())
+    agree(quoted(sections[15], r"∂V/∂x₃ = # N.*?Rᵀe₃ are #° apart"), findings[14].evidence.values())
+    apart, heading, second = findings[15].evidence.values()
+    bound, told = quoted(sections[16], r"to #, and its heading at 6.5 s is # rad away")
+    assert apart < float(bound)
+    agree([told], [heading])
+    assert second < 1e-9  # "is 0"
 
 
 def test_the_claims_are_those_of_the_report():

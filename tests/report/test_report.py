@@ -575,7 +575,7 @@ def test_the_report_judges_every_law_on_every_experiment(report):
 
 
 def test_the_defects_of_the_report_follow_from_the_runs_on_disk(reproduced, runs, report):
-    assert len(report["defects"]) == len(DEFECTS) == 8
+    assert len(report["defects"]) == len(DEFECTS) == 16
     assert all(defect["shown"] is True for defect in report["defects"])
     for told, wanted in zip(report["defects"], findings(runs), strict=True):
         assert told["title"] == wanted.title
@@ -593,7 +593,7 @@ def test_the_report_for_people_says_the_same(reproduced, report):
     verdicts, *evidence = tables(told)
     for table in (verdicts, *evidence):
         well_formed(table)
-    assert len(evidence) == 8
+    assert len(evidence) == 16
     for row, entry in zip(verdicts[4:], report["claims"], strict=True):
         assert [cell.strip() for cell in row[:3]] == [entry["law"], entry["experiment"], entry["run"]]
         assert [cell.strip() for cell in row[3:]] == [
@@ -601,7 +601,7 @@ def test_the_report_for_people_says_the_same(reproduced, report):
         ]
     for table, defect in zip(evidence, report["defects"], strict=True):
         assert [row[1].strip() for row in table[2:]] == [text.number(v) for v in defect["evidence"].values()]
-    assert re.findall(r"^### (\d)\. (.*)$", told, flags=re.MULTILINE) == [
+    assert re.findall(r"^### (\d+)\. (.*)$", told, flags=re.MULTILINE) == [
         (str(i), defect["title"]) for i, defect in enumerate(report["defects"], 1)
     ]
 

@@ -20,7 +20,7 @@ from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, 
 from flypend.flight.sampled import nearest_ticks
 from flypend.flight.simulate import fly
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import AnyLaw
+from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
 from flypend.plants import AnyPlant, Sampled
@@ -81,6 +81,11 @@ class Ensemble:
     def __len__(self) -> int:
         """Number of runs."""
         return len(self.success)
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The fields of `Metrics` as arrays (n,), by name."""
+        return {entry.name: getattr(self, entry.name) for entry in fields(Metrics)}
 
     @property
     def rate(self) -> float:
@@ -187,14 +192,15 @@ def fly_many(
     """
     errors.one_of("engine", engine, ENGINES)
     if engine == "scipy" or not has_kernel(flight):
-        for name, value in (("gains", flight.gains), ("method", flight.tolerances.method)):
+        steered = isinstance(flight.law, Controller)
+        for name, value in (("gains", flight.gains and not steered), ("method", flight.tolerances.method)):
             if value:
                 raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
         return _one_by_one(flight, engine, workers, progress)
     return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
 
 
-def columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
+def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
     """The fields of `Metrics` as arrays (n,), of a `flight` that a kernel has `flown`."""
     return judged(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion)
 
@@ -202,7 +208,7 @@ def columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
 def _gathered(flight: Flight, flown: Flown) -> Ensemble:
     samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
     return Ensemble(
-        starts=flight.starts, final=State.trusted(flown.final), **columns_of(flight, flown), **_about(flight),
+        starts=flight.starts, final=State.trusted(flown.final), **_columns_of(flight, flown), **_about(flight),
         samples=samples,
     )  # fmt: skip
 

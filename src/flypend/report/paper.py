@@ -149,7 +149,8 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         "## Claims of Theorem 1",
         text.verdicts_markdown(result.verdicts, result.ends),
         "A claim holds on a run only if the run exists to its end. V rises under the corrected law as well: the paper "
-        "leaves out a term of V̇₁ (defect 4), and without beta a cross term remains. y = e₃ hangs (defect 2).",
+        "leaves out a term of V̇₁ (defect 4), and without beta a cross term remains. y = e₃ hangs (defect 2). The "
+        "starts of the paper converge under the corrected law; others run away (defect 9).",
         "## The promise kept by another law",
         f"The inverted law on {result.swing_up.vehicle.name}, from hanging at rest, rotors with limits and lag: "
         f"{text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png).",

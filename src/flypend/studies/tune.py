@@ -12,8 +12,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.flight.ensemble import columns_of
-from flypend.flight.kernels import fly_all
+from flypend.flight.ensemble import columns_of, fly_compiled
 from flypend.flight.metrics import wilson
 from flypend.model import State
 from flypend.studies.sweep import cube
@@ -203,7 +202,7 @@ class _Task:
         flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
         if stream == cube.TUNED:  # noise of its own, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
-        return columns_of(flight, fly_all(flight, workers=workers))
+        return columns_of(flight, fly_compiled(flight, study.engine, workers=workers))
 
 
 def _task(made: Study) -> _Task:

@@ -11,8 +11,8 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS
-from flypend.flight.ensemble import columns_of
-from flypend.flight.kernels import fly_all, kernel_of, plant_numbers
+from flypend.flight.ensemble import columns_of, fly_compiled
+from flypend.flight.kernels import kernel_of, plant_numbers
 from flypend.flight.request import Flight
 from flypend.model import State
 from flypend.plants import Sampled
@@ -53,7 +53,7 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
     """The columns of runs `first` to `last` (not included) of `study`, of the sample `stream`, on one core."""
     drawn = design(study, first, last, stream)
-    parts = [(flight, fly_all(flight, workers=1)) for flight in flights(study, drawn, first)]
+    parts = [(flight, fly_compiled(flight, study.engine, workers=1)) for flight in flights(study, drawn, first)]
     judged = [columns_of(flight, flown) for flight, flown in parts]
     columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
     cause = np.zeros(last - first, dtype=np.uint8)

@@ -253,4 +253,6 @@ def test_the_wheel_carries_the_program(tmp_path):
 
     (wheel,) = WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"])
     names = zipfile.ZipFile(wheel).namelist()
-    assert {"flypend/web/replay.js", "flypend/web/lab.js", "flypend/web/THREE-LICENSE.txt"} <= set(names)
+    assert {"flypend/pages/web/replay.js", "flypend/pages/web/lab.js", "flypend/pages/web/THREE-LICENSE.txt"} <= set(
+        names
+    )

@@ -481,7 +481,7 @@ def test_a_fast_sampled_flight_converges_to_the_ideal_one_with_order_one(control
 @ENGINES
 def test_a_law_with_e3_down_flies_the_same_as_its_mirror_with_e3_up(engine):
     packed = ca.SX.sym("s", 24)
-    wrench = CORRECTED.evaluate(0, fp.State.symbolic(packed), VEHICLE).wrench
+    wrench = CORRECTED.bind(VEHICLE).evaluate(0, fp.State.symbolic(packed), VEHICLE).wrench
     function = ca.Function("corrected", [packed], [ca.vertcat(-wrench.thrust, ca.diag([1, -1, -1]) @ wrench.moment)])
 
     def mirrored(t, state):

@@ -22,7 +22,8 @@ from flypend.files.staging import check_writable, staged
 from flypend.geometry import norm
 from flypend.paper import experiment, experiment_names
 from flypend.paper.claims import SETTLED, Verdict, theorem_claims
-from flypend.paper.defects import DEFECTS, Finding, Runs, findings
+from flypend.paper.defects import DEFECTS, findings
+from flypend.paper.finding import Finding, Runs
 from flypend.report import paper, text
 from flypend.report.flight import movie_tasks, write_flight
 from flypend.report.paper import Reproduction, reproduce
@@ -574,7 +575,7 @@ def test_the_report_judges_every_law_on_every_experiment(report):
 
 
 def test_the_defects_of_the_report_follow_from_the_runs_on_disk(reproduced, runs, report):
-    assert len(report["defects"]) == len(DEFECTS) == 8
+    assert len(report["defects"]) == len(DEFECTS) == 16
     assert all(defect["shown"] is True for defect in report["defects"])
     for told, wanted in zip(report["defects"], findings(runs), strict=True):
         assert told["title"] == wanted.title
@@ -592,7 +593,7 @@ def test_the_report_for_people_says_the_same(reproduced, report):
     verdicts, *evidence = tables(told)
     for table in (verdicts, *evidence):
         well_formed(table)
-    assert len(evidence) == 8
+    assert len(evidence) == 16
     for row, entry in zip(verdicts[4:], report["claims"], strict=True):
         assert [cell.strip() for cell in row[:3]] == [entry["law"], entry["experiment"], entry["run"]]
         assert [cell.strip() for cell in row[3:]] == [
@@ -600,7 +601,7 @@ def test_the_report_for_people_says_the_same(reproduced, report):
         ]
     for table, defect in zip(evidence, report["defects"], strict=True):
         assert [row[1].strip() for row in table[2:]] == [text.number(v) for v in defect["evidence"].values()]
-    assert re.findall(r"^### (\d)\. (.*)$", told, flags=re.MULTILINE) == [
+    assert re.findall(r"^### (\d+)\. (.*)$", told, flags=re.MULTILINE) == [
         (str(i), defect["title"]) for i, defect in enumerate(report["defects"], 1)
     ]
 

@@ -4,6 +4,7 @@ import dataclasses
 import math
 import string
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, run_file
 
+SWING_UP = str(Path(fp.__file__).parent / "examples" / "swing-up.toml")
 OWN = """
 vehicle = "nayak2018"
 duration = 2.0
@@ -274,7 +276,7 @@ def test_gains_of_another_law_are_unknown():
         ("law.gains.k_d=true", "law.gains.k_d: expected a finite number > 0 1/s, got True"),
         ("law.gains.beta=1", "law.gains.beta: expected one of off, regularized, got 1"),
         ("law.gains=[1]", "law.gains: expected a table, got [1]"),
-        ("law=printed", "law: expected a table, got 'printed'"),
+        ("law=3", "law: expected the name of a law, or a table, got 3"),
         ("law.name=[1]", "law.name: expected one of .*, got [1]"),
         ("start=[1]", "start: expected a table, got [1]"),
         ("vehicle=[1, 2]", "vehicle: expected a table, got [1, 2]"),
@@ -314,7 +316,7 @@ def test_a_missing_key_is_named(tmp_path, key):
         ('name = "corrected", ', "", "law.name: expected one of .*, got None"),
         ('"corrected"', "3", "law.name: expected one of .*, got 3"),
         ("{ k_d = 1.5 }", "1", "law.gains: expected a table of gains, got 1"),
-        ('{ name = "corrected", gains = { k_d = 1.5 } }', '"corrected"', "law: expected a table, got 'corrected'"),
+        ('{ name = "corrected", gains = { k_d = 1.5 } }', "5", "law: expected the name of a law, or a table, got 5"),
         ("[start]", "[[start]]", "start: expected a list of numbers, got .*"),
         ("duration = 2.0", '"dura\\ntion" = 2.0', "run: expected printable keys, got 'dura\\ntion'"),
         ("duration = 2.0", '"dura tion" = 2.0', "dura tion: expected .* (did you mean 'duration'?)"),
@@ -494,7 +496,7 @@ def test_what_is_in_range_arrives(name, duration, k_1, mass, x):
 
 
 def test_a_plant_by_name_can_be_changed_in_one_number():
-    plain = flight("examples/swing-up.toml", ["plant.lag=0.05", "plant.noise.x=0.01"]).plant
+    plain = flight(SWING_UP, ["plant.lag=0.05", "plant.noise.x=0.01"]).plant
     assert (plain.lag, plain.noise.x, plain.rate) == (0.05, 0.01, 500.0)
     with pytest.raises(fp.InputError, match=r"^plant: expected a base with numbers, such as 'rotors', got the ideal"):
         flight("1", ["plant=ideal", "plant.lag=0.05"])
@@ -502,6 +504,6 @@ def test_a_plant_by_name_can_be_changed_in_one_number():
 
 def test_what_would_never_end_is_refused():
     with pytest.raises(fp.InputError, match=r"^duration: expected at most 20000 s, got 1e\+07$"):
-        flight("examples/swing-up.toml", ["duration=1e7"])
+        flight(SWING_UP, ["duration=1e7"])
     with pytest.raises(fp.InputError, match=r"^plant\.rate: expected at most 10000 Hz, got 1e\+06$"):
-        flight("examples/swing-up.toml", ["plant.rate=1e6"])
+        flight(SWING_UP, ["plant.rate=1e6"])

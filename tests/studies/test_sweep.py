@@ -23,7 +23,7 @@ from flypend.paper import experiment
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import CAUSES, fly_range
 from flypend.studies.sweep.design import design
-from flypend.studies.sweep.store import existing, lock_of
+from flypend.studies.sweep.store import alone, existing, lock_of
 
 SHORT = {
     "vehicle": "nayak2018",
@@ -353,6 +353,38 @@ def test_two_sweeps_do_not_write_one_store(tmp_path):
         fcntl.flock(file, fcntl.LOCK_EX)
         with pytest.raises(fp.InputError, match="a store that no other sweep is writing"):
             fp.sweep(SHORT, path, workers=1)
+
+
+def test_a_lock_whose_name_is_gone_holds_nobody_out(tmp_path):
+    """A sweep that opened the lock just before another removed it would hold what a third one never sees."""
+    fcntl = pytest.importorskip("fcntl")
+    path = tmp_path / "a.zarr"
+    fp.sweep(SHORT, path, workers=1)
+    store = existing(path)
+    with lock_of(path).open("w") as early:
+        with alone(store):
+            assert lock_of(path).stat().st_ino == os.fstat(early.fileno()).st_ino
+            with pytest.raises(BlockingIOError):
+                fcntl.flock(early, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        assert not lock_of(path).exists()
+        fcntl.flock(early, fcntl.LOCK_EX | fcntl.LOCK_NB)  # free, and worth nothing
+        with alone(store), pytest.raises(fp.InputError, match="one in use"), alone(store):
+            pytest.fail("two hold one store")
+
+
+def test_a_lock_left_by_a_killed_sweep_is_no_lock(tmp_path):
+    path = tmp_path / "a.zarr"
+    fp.sweep(SHORT, path, workers=1)
+    code = (
+        "import os, signal, sys; from flypend.studies.sweep.store import alone, existing\n"
+        "with alone(existing(sys.argv[1])): os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, str(path)], check=False, timeout=60)
+    assert done.returncode == -signal.SIGKILL
+    assert lock_of(path).exists()
+    with alone(existing(path)):
+        pass
+    assert not lock_of(path).exists()
 
 
 def test_a_scheduler_that_does_not_answer_is_told(tmp_path, monkeypatch):

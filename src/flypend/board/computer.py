@@ -34,7 +34,6 @@ class SteppedBoard:
 
     def __init__(self, loop: Loop, rotors: Any) -> None:
         self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.sampled)))
-        self._latency = loop.law.computer.latency
         self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
         self.predicted: tuple[Any, Any, Any] | None = None
 
@@ -43,7 +42,7 @@ class SteppedBoard:
         measurement = np.append(t, measured)
         kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
         self.predicted = (state, rotors, forces)
-        command = self._steer(t + self._latency, state, rotors, forces)
+        command = self._steer(t, state, rotors, forces)
         self._memory = self._remember(self._memory, kept, measurement, forces, command, NONE)
         return command
 
@@ -63,4 +62,5 @@ def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:
 def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
     """The same for a `law` that is a Python callable."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
-    return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)
+    latency = law.computer.latency
+    return lambda t, state, rotors, _: end(law.upright(t + latency, state), state, rotors, NONE)

@@ -19,12 +19,13 @@ def observer(believed: Believed, computer: Computer, period: float) -> ca.Functi
 
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
     Ḣ = −(f/Ml) y × z + y × D/l with D = F_b/m − F_v/M. Each unknown term N enters as Ḣ = known + N and is estimated by
-    N̂ = L (H − Ĥ), dĤ/dt = known + N̂, so that dN̂/dt = L (N − N̂), and no derivative of a measurement is taken. For
-    linear momentum N = F_v + F_b: with the right model the error of a constant sum decays like e^{−Lt} whatever the law
-    does. For the rod N = y × D/l turns with the rod, so that the estimate follows it with the lag 1/L, and law and
-    observer are coupled unless D = 0 or the rod rests. D along the rod does not act on the rod and is taken zero.
-    Estimates are limited in length. `known` is integrated by the trapezoidal rule: with less, every change of thrust
-    would look like a force. The first measurement only sets the momenta.
+    N̂ = L (H − Ĥ), dĤ/dt = known + N̂, so that dN̂/dt = L (N − N̂): first order, exponentially stable, and no derivative
+    of a measurement is taken. For constant forces the unknown of P is constant, and with the right model the error of
+    its estimate decays like e^{−Lt} whatever the law does. The unknown of H, N = y × D/l, turns with the rod:
+    Ṅ = ẏ × D/l. Its estimate lags while the rod moves, so law and observer are coupled if D ≠ 0; with the rod at rest
+    the lag dies out, and a small enough D leaves hover locally stable. D along the rod does not act on the rod and is
+    taken zero. Estimates are limited in length. `known` is integrated by the trapezoidal rule: with less, every change
+    of thrust would look like a force. The first measurement only sets the momenta.
 
     Parameters
     ----------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import signal
 import sys
+import traceback
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, Any
@@ -14,8 +15,8 @@ from rich.console import Console
 from typer.exceptions import TyperException
 
 from flypend import __version__
-from flypend.cli import studies, viewing
-from flypend.cli.terminal import bold, console, counter, progress
+from flypend.cli import examples, studies, viewing
+from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, tell_how
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
 
@@ -28,6 +29,7 @@ app = typer.Typer(
 )
 app.add_typer(viewing.app)
 app.add_typer(studies.app)
+app.add_typer(examples.app)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 
@@ -43,8 +45,11 @@ def _root(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
     ] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show the whole traceback of a mistake, as in flypend --debug run 1.")
+    ] = False,
 ) -> None:
-    pass
+    """Options of all commands."""  # main looks for --debug itself: it must know when nothing else could be read
 
 
 @app.command()
@@ -74,6 +79,7 @@ def run(
         str, typer.Argument(help="An experiment of the paper (1, 2, 2-projected, 3, 4, 5) or a TOML file.")
     ],
     out: Out = Path("run-out"),
+    law: Annotated[str | None, typer.Option("--law", help=f"In place of the law there: {LAW_HELP}.")] = None,
     override: Annotated[
         list[str] | None,
         typer.Option(
@@ -92,7 +98,7 @@ def run(
 ) -> None:
     """Fly one experiment, or one's own vehicle, law, gains and start.
 
-    A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, gains),
+    A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, or function, and gains),
     [bold]start[/bold] (x, x_dot, R, omega, y, y_dot), [bold]duration[/bold] in seconds, and optionally
     [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]experiment[/bold], which brings all but the
     plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
@@ -103,10 +109,15 @@ def run(
     from flypend.flight.simulate import fly
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
+    from flypend.report.flight import check_movies
     from flypend.settings.runfile import run_file
 
-    chosen = run_file(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    if figures and not quick:
+        check_movies()
+    changes = [*(override or ()), *([f"controller={controller}"] if controller is not None else [])]
+    chosen = run_file(what, changes, law)
     flight = chosen.flight
+    tell_how(flight.law)
     style_named(style)
     check_writable(out)
     if html is not None:
@@ -139,7 +150,7 @@ def run(
 
 Laws = Annotated[
     list[str] | None,
-    typer.Option("--law", help="inverted, lqr, corrected, printed, detuned, or module:name of one's own; repeat it."),
+    typer.Option("--law", help=f"What steers: {LAW_HELP}; repeat it."),
 ]
 Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts read with e₃ up.")]
 Runs = Annotated[int, typer.Option("--runs", help="Number of random starts.", min=1)]
@@ -167,12 +178,13 @@ def compare(
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.studies import compare as fly
 
+    chosen = _plant(plant)
     names = law or ["inverted", "lqr", "corrected", "detuned"]
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
     settings = {**settings, "plant": plant}
     check_writable(out)
     with counter() as tell:
-        result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
+        result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
     write_comparison(result, settings, out)
     console.print(comparison_table(result))
     console.print(f"Report and figure are in {bold(out)}.")
@@ -233,7 +245,7 @@ def lab(
 
 @app.command("export-c")
 def export_c(
-    law: Annotated[str, typer.Option("--law", help="inverted, lqr, corrected, printed, or module:name.")] = "inverted",
+    law: Annotated[str, typer.Option("--law", help=f"What to write: {LAW_HELP}.")] = "inverted",
     vehicle: VehicleName = "hehn2011",
     out: Out = Path("c-out"),
     precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
@@ -250,7 +262,8 @@ def export_c(
         errors.one_of("--law", law, ("inverted",))
     chosen = inverted(form="light") if light else law_named(law)
     if not isinstance(chosen, Law):
-        raise InputError("--law", "a law written in symbols", repr(law))
+        because = f" ({chosen.because})" if chosen.because else ""
+        raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
     write(chosen, model.vehicle(vehicle), out, precision=kind)
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
@@ -264,6 +277,8 @@ def _study(
     from flypend.studies import law_named, paper_starts, random_starts
 
     laws = [law_named(name) for name in names]
+    for law in laws:
+        tell_how(law)
     machine = model.vehicle(vehicle)
     errors.number("--duration", duration, above=0, unit="s")
     kind = errors.one_of("--starts", starts, ("random", "paper"))
@@ -274,9 +289,9 @@ def _study(
 
 def _plant(name: str) -> Any:
     from flypend import errors
-    from flypend.plants import PRESETS
+    from flypend.plants import PRESETS, plant
 
-    return PRESETS[errors.one_of("--plant", name, PRESETS)]
+    return plant(errors.one_of("--plant", name, PRESETS))  # says so if it is not installed
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
@@ -298,6 +313,8 @@ def main() -> None:
     try:
         code = app(standalone_mode=False)
     except (InputError, TyperException) as error:
+        if "--debug" in sys.argv[1:]:
+            traceback.print_exc()
         message = error.format_message() if isinstance(error, TyperException) else str(error)
         if message:  # without arguments the help has been printed already
             line = " ".join(f"flypend: {message}".split())

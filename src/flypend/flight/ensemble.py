@@ -21,7 +21,7 @@ from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, 
 from flypend.flight.sampled import nearest_ticks
 from flypend.flight.simulate import fly
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import AnyLaw
+from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
 from flypend.plants import AnyPlant, Sampled
@@ -82,6 +82,11 @@ class Ensemble:
     def __len__(self) -> int:
         """Number of runs."""
         return len(self.success)
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The fields of `Metrics` as arrays (n,), by name."""
+        return {entry.name: getattr(self, entry.name) for entry in fields(Metrics)}
 
     @property
     def rate(self) -> float:
@@ -188,25 +193,19 @@ def fly_many(
     """
     errors.one_of("engine", engine, ENGINES)
     if engine == "scipy" or (engine == "kernel" and not has_kernel(flight)):
-        for name, value in (("gains", flight.gains), ("method", flight.tolerances.method)):
+        steered = isinstance(flight.law, Controller)
+        for name, value in (("gains", flight.gains and not steered), ("method", flight.tolerances.method)):
             if value:
                 raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
         return _one_by_one(flight, engine, workers, progress)
-    return _gathered(flight, fly_compiled(flight, engine, workers=workers, progress=progress))
-
-
-def fly_compiled(
-    flight: Flight, engine: str = "kernel", *, workers: int | None = None, progress: Progress = lambda *_: None
-) -> Flown:
-    """Fly every start of `flight` by machine code; `engine` is "kernel" or "jax", the rest as in `fly_many`."""
     if engine == "kernel":
-        return fly_all(flight, workers=workers, progress=progress)
+        return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
     flown = fly_on_jax(flight)
     progress(flight.runs, flight.runs)
-    return flown
+    return _gathered(flight, flown)
 
 
-def columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
+def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
     """The fields of `Metrics` as arrays (n,), of a `flight` that a kernel has `flown`."""
     return judged(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion)
 
@@ -214,7 +213,7 @@ def columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
 def _gathered(flight: Flight, flown: Flown) -> Ensemble:
     samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
     return Ensemble(
-        starts=flight.starts, final=State.trusted(flown.final), **columns_of(flight, flown), **_about(flight),
+        starts=flight.starts, final=State.trusted(flown.final), **_columns_of(flight, flown), **_about(flight),
         samples=samples,
     )  # fmt: skip
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from flypend import errors
 from flypend.files.netcdf import Variable
 from flypend.model import State, Vehicle
 from flypend.model.state import SHAPES, E3Direction
@@ -51,6 +52,7 @@ def described(vehicle: Vehicle, law: str, gains: Mapping[str, Any], e3: E3Direct
 
 def dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xarray.Dataset:
     """The `variables` with the labels of their axes as an `xarray.Dataset`; its data frame has rows if they have."""
+    errors.require("xarray", extra="studies", for_="to_xarray")
     import xarray
 
     used = {dim for entry in variables.values() for dim in entry.dims}

@@ -147,8 +147,6 @@ class Flight:
             return MappingProxyType({})
         if self.single:
             raise InputError("gains", "nothing for a single start: give them to the law", sorted(self.gains))
-        if not isinstance(self.law, BoundLaw):
-            raise InputError("gains", "a law in symbols", type(self.law).__name__)
         return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
 
     def _check_together(self) -> None:
@@ -204,9 +202,15 @@ class Flight:
         return replace(self, plant=plant, seed=None)
 
     def member(self, i: int) -> Flight:
-        """Run `i` alone, with its own seed. A flight whose gains differ has no such members."""
-        assert not self.gains
-        return replace(self, starts=self.starts[i], seed=(self.seed or 0) + i)
+        """Run `i` alone, with its own seed, and its own gains where it has a Controller.
+
+        A flight whose gains differ has no such members under a law in symbols.
+        """
+        law = self.law
+        if self.gains:
+            assert isinstance(law, Controller)
+            law = law.with_gains({name: float(value[i]) for name, value in self.gains.items()})
+        return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i)
 
 
 def _setter(record: Any) -> Any:
@@ -247,7 +251,7 @@ def _increasing(times: NDArray[np.float64] | None, duration: float) -> NDArray[n
     return wanted
 
 
-def _column(law: BoundLaw, name: str, value: ArrayLike, runs: int) -> NDArray[np.float64]:
+def _column(law: BoundLaw | Controller, name: str, value: ArrayLike, runs: int) -> NDArray[np.float64]:
     """The values (n,) of one gain of `law`, within its bounds, from (n,) or one number for all."""
     given = law.check_gain(name, value)
     if given.shape not in ((), (runs,)):

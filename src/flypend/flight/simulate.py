@@ -128,6 +128,7 @@ def _by_kernel(flight: Flight) -> Solution:
 
 
 def _by_scipy(flight: Flight, loop: ClosedLoop, outputs: Any) -> Integration:
+    errors.require("scipy", extra="studies", for_="engine")
     from flypend.flight.integrate import integrate  # brings SciPy's integrators, which a kernel does not wait for
 
     guard, margin, reason = loop.law.guard, None, ""

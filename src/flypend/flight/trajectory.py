@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flypend import errors
-from flypend.files.netcdf import Variable, write_netcdf
+from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
 from flypend.files.whole import whole_file
 from flypend.flight.labelled import AXES, dataset, described, variable
 from flypend.flight.outcome import Outcome
@@ -229,27 +229,23 @@ class Trajectory:
 
 def load(path: str | Path) -> Trajectory:
     """Read the run that `Trajectory.save` wrote to `path`. Raises InputError if the file cannot be read as one."""
-    import xarray
-
     try:
-        with xarray.open_dataset(path, engine="scipy") as opened:
-            return _from_dataset(opened.load())
+        return _from_file(*read_netcdf(Path(path)))
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        # What xarray and SciPy raise for a file that is no NetCDF, is cut short, or lacks a part.
+        # What a file that is no NetCDF, is cut short, or lacks a part makes of itself.
         told = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
         raise errors.InputError(str(path), "a run saved by flypend", told) from None
 
 
-def _from_dataset(data: xarray.Dataset) -> Trajectory:
-    attributes = data.attrs
+def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Trajectory:
     missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
     if missing:
         raise ValueError(f"a file without the attributes {missing}")
-    arrays: dict[str, Any] = {name: data[name].values for name in ("t", *_ARRAYS)}
-    arrays["drift"] = data["drift"].values if "drift" in data else np.zeros((0, 3))  # a dataset that xarray wrote
+    arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
+    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # what xarray wrote
     return Trajectory(
         **arrays,
-        signals={name: data[name].values for name in json.loads(attributes["signals"])},
+        signals={name: variables[name].values for name in json.loads(attributes["signals"])},
         outcome=Outcome(attributes["outcome"], float(attributes["outcome_time"]), attributes["outcome_reason"]),
         e3=attributes["e3"],
         vehicle=Vehicle.from_dict(json.loads(attributes["vehicle"])),

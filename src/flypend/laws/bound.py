@@ -188,7 +188,7 @@ class BoundLaw:
         Parameters
         ----------
         t, packed : SX
-            Time, and the packed state (24, 1) with e₃ up.
+            Time, a symbol or an expression, and the packed state (24, 1) with e₃ up, a symbol.
         forces : SX (6, 1), optional
             External forces on vehicle and bob, N; default none.
         gains : dict, optional
@@ -197,8 +197,11 @@ class BoundLaw:
             A vehicle whose constants are symbols; default the law's own.
         """
         external = None if forces is None else (forces[:3], forces[3:])
-        wrench = self.evaluate(t, State.symbolic(packed), vehicle or self.vehicle, external, gains).wrench
+        time = t if isinstance(t, ca.SX) and t.is_symbolic() else ca.SX.sym("t")  # references are differentiated by it
+        wrench = self.evaluate(time, State.symbolic(packed), vehicle or self.vehicle, external, gains).wrench
         stacked = ca.densify(ca.vertcat(wrench.thrust, wrench.moment))
+        if time is not t:
+            stacked = ca.substitute(stacked, time, t)
         if self.e3 == "up":
             return stacked
         return ca.substitute(stacked, packed, packed * FLIP_PACKED) * FLIP_WRENCH

@@ -18,7 +18,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.geometry import E3, cross, hat, project_tangent, unit
+from flypend.geometry import E3, cross, hat, project_tangent, rotation_from_vector, unit
 from flypend.laws.bound import BoundLaw
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion
@@ -192,14 +192,12 @@ def tangent_basis(at: State) -> Any:
 
 def retract(at: State, xi: Any) -> State:
     """The state with coordinates `xi` (16,) about `at`, a single state with ω = 0 and ẏ = 0; |ξ_y| < 1."""
-    from scipy.spatial.transform import Rotation  # for those who linearise
-
     b, xi = _plane(at.y), np.asarray(xi, dtype=float)
     height = np.sqrt(1 - xi[12:14] @ xi[12:14])
     return State(
         x=at.x + xi[0:3],
         x_dot=at.x_dot + xi[3:6],
-        R=at.R @ Rotation.from_rotvec(xi[6:9]).as_matrix(),
+        R=at.R @ rotation_from_vector(xi[6:9]),
         omega=xi[9:12],
         y=xi[12:14] @ b + height * at.y,
         y_dot=xi[14:16] @ b - xi[12:14] @ xi[14:16] / height * at.y,

@@ -16,6 +16,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend.geometry import E3, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
@@ -26,6 +27,8 @@ from flypend.laws.references import Path, Reference, hover
 from flypend.laws.sphere import ANTIPODE_FLOOR
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle, Wrench
+
+Matrix = NDArray[np.float64]
 
 ENTRIES = [
     (f"K_{i}_{j}", i, j) for i in range(4) for j, coordinate in enumerate(COORDINATES) if coordinate not in SYMMETRIES
@@ -116,15 +119,30 @@ def entries(K: Any) -> dict[str, float]:
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     """K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its column of the heading is zero."""
     A, B = _about_hover(vehicle)
-    from scipy.linalg import solve_continuous_are  # for those who fly this law
-
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
     A, B = A[np.ix_(keep, keep)], B[keep]
-    P = solve_continuous_are(A, B, Q[np.ix_(keep, keep)], R)
+    P = solve_riccati(A, B, Q[np.ix_(keep, keep)], R)
     K = np.zeros((4, len(COORDINATES)))
     K[:, keep] = np.linalg.solve(R, B.T @ P)
     return K
+
+
+def solve_riccati(A: Matrix, B: Matrix, Q: Matrix, R: Matrix) -> Matrix:
+    """The stabilising solution P (n, n) of AᵀP + P A − P B R⁻¹Bᵀ P + Q = 0, for A (n, n), B (n, k), Q (n, n), R (k, k).
+
+    From the stable invariant subspace of the Hamiltonian matrix; two of Kleinman's steps, each a Lyapunov equation,
+    bring it from the accuracy of eigenvectors to that of the numbers.
+    """
+    n, G = len(A), B @ np.linalg.solve(R, B.T)
+    values, vectors = np.linalg.eig(np.block([[A, -G], [-Q, -A.T]]))
+    stable = vectors[:, np.argsort(values.real)[:n]]
+    P = np.linalg.solve(stable[:n].T, stable[n:].T).T.real
+    for _ in range(2):
+        closed, one = A - G @ P, np.eye(n)  # closedᵀ P + P closed = −(Q + P G P)
+        P = np.linalg.solve(np.kron(one, closed.T) + np.kron(closed.T, one), -(Q + P @ G @ P).ravel()).reshape(n, n)
+        P = (P + P.T) / 2
+    return P
 
 
 @lru_cache(maxsize=16)

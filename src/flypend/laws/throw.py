@@ -10,8 +10,8 @@ from flypend.geometry import E1, E3, cross, dot, norm, scale, tangent_part, unit
 from flypend.laws.references import Path, Reference
 from flypend.model import Vehicle
 
-# A continuous pull on S² vanishes somewhere opposite to its aim. Not at rest hanging, where people start: the point is
-# moved aside by this angle, rad.
+# A continuous pull on S² vanishes somewhere; here it does opposite to its aim. That point is moved aside by this angle,
+# rad, off the rod that hangs at rest under its reference, where people start.
 ANTIPODE_SHIFT = 0.03
 
 
@@ -167,6 +167,7 @@ def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Any) -> Any:
 
     Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy
     E = |ẏ|²/2 + w² y₃ and E = w² upright at rest. The rest of F, M l κ (E/w² − 1) ẏ, makes Ė = −κ (E/w² − 1) |ẏ|².
+    E is all that it steers: circling on a cone of the same energy, the rod is left alone.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     w_squared = vehicle.weight / (M * l)
@@ -187,7 +188,7 @@ def limited_force(F: Any, limit: Any) -> Any:
 
 
 def lifted(F: Any, tilt: Any) -> Any:
-    """F with its vertical part raised until it is no further than `tilt` (rad, below π) from e₃."""
+    """F with its vertical part raised until it is no further than `tilt` (rad, below π) from e₃; 0 stays 0."""
     level = ca.sqrt(F[0] ** 2 + F[1] ** 2 + 1e-12)
     return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
 

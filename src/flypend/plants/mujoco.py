@@ -390,10 +390,8 @@ def _library() -> ctypes.CDLL:
 
 def _import_mujoco() -> Any:
     """The module mujoco. Raises InputError if it is not installed."""
-    try:
-        return importlib.import_module("mujoco")
-    except ModuleNotFoundError:
-        raise InputError("plant", "the extra flypend[mujoco] to be installed", "no module mujoco") from None
+    errors.require("mujoco", extra="mujoco", for_="plant")
+    return importlib.import_module("mujoco")
 
 
 def _numbers(values: Any) -> str:

@@ -198,13 +198,14 @@ PRESETS: Mapping[str, AnyPlant] = MappingProxyType(
 def plant(name: str | AnyPlant) -> AnyPlant:
     """The plant called `name` ("ideal", "rotors", "mujoco", "hehn2011"), or `name` itself if it is one already.
 
-    Raises InputError for an unknown name.
+    Raises InputError for an unknown name, and for MuJoCo where it is not installed.
     """
-    if isinstance(name, Ideal | Sampled):
-        return name
-    if not isinstance(name, str):
+    if not isinstance(name, str | Ideal | Sampled):
         raise InputError("plant", "a Plant, Ideal() or one of " + ", ".join(PRESETS), repr(name))
-    return PRESETS[errors.one_of("plant", name, PRESETS)]
+    found = PRESETS[errors.one_of("plant", name, PRESETS)] if isinstance(name, str) else name
+    if isinstance(found, Sampled) and found.engine == "mujoco":
+        errors.require("mujoco", extra="mujoco", for_="plant")
+    return found
 
 
 def sampled_plant(name: str | AnyPlant) -> Sampled:

@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Iterable
 from copy import deepcopy
 from dataclasses import fields
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,12 +16,13 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.export import compiled
 from flypend.flight.request import Flight, Tolerances
-from flypend.laws import Controller, Law, law_from_dict
+from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import read_toml
 from flypend.paper import experiment, experiment_names
 from flypend.plants import AnyPlant, Ideal, Noise, Wind, plant
+from flypend.settings.laws import absolute, law_from, law_table, table_of
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
@@ -33,15 +35,18 @@ class RunFile(NamedTuple):
     settings: dict[str, Any]
 
 
-def run_file(what: str, overrides: Iterable[str] = ()) -> RunFile:
+def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -> RunFile:
     """The run called `what`: an experiment of the paper by name, or the path of a TOML file.
 
-    `overrides` are texts such as `law.gains.k_d=2`, applied in order; the value is TOML, or else a plain word.
+    `law`, as on the command line, takes the place of the law there. `overrides` are texts such as `law.gains.k_d=2`,
+    applied in order; the value is TOML, or else a plain word.
 
     Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
     """
     try:
         settings = _read(what)
+        if law is not None:
+            settings["law"] = table_of(law)
         for override in overrides:
             _override(settings, override)
         return run_of(settings)
@@ -64,7 +69,10 @@ def _read(what: str) -> dict[str, Any]:
     if what in experiment_names():
         return {"experiment": what}
     if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any name at all)
-        return read_toml(what)
+        settings = read_toml(what)
+        if "law" in settings:
+            settings["law"] = absolute(settings["law"], Path(what).parent)
+        return settings
     raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
 
 
@@ -92,13 +100,17 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     out = deepcopy(settings)
     if isinstance(out.get("vehicle"), str):
         out["vehicle"] = {"base": out["vehicle"]}
+    if "law" in out:
+        out["law"] = absolute(law_table(out["law"]), Path.cwd())
     if "experiment" in out:
         row = experiment(str(out["experiment"]))
         start = {name: getattr(row.start, name).tolist() for name in SHAPES}
         out["start"] = start | table_at(out, "start")
-        law = {"name": "corrected"} | table_at(out, "law")
-        gains = dict(row.gains) if law["name"] in ("printed", "corrected") else {}
-        out["law"] = law | {"gains": gains | table_at(law, "gains", "law.gains")}
+        law = table_at(out, "law")
+        law = law if "function" in law else {"name": "corrected"} | law
+        if law.get("name") in ("printed", "corrected"):
+            law["gains"] = dict(row.gains) | table_at(law, "gains", "law.gains")
+        out["law"] = law
         out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")
         out["duration"] = out.get("duration", row.duration)
         out["plant"] = out.get("plant", row.plant)
@@ -151,10 +163,12 @@ def plant_of(value: Any) -> AnyPlant:
     return base.replace(**given)
 
 
-def _controller(law: Law, vehicle: Vehicle, kind: Any) -> Law | Controller:
+def _controller(law: Law | Controller, vehicle: Vehicle, kind: Any) -> Law | Controller:
     """The law itself, or its exported C, compiled: `kind` is "python", "c" (double precision) or "c-float"."""
     if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
         return law
+    if isinstance(law, Controller):
+        raise InputError("controller", "python, for a law that is not written in symbols", repr(kind))
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 
@@ -178,6 +192,8 @@ def _override(settings: dict[str, Any], text: str) -> None:
             errors.only_known("", [key], KEYS)
         if key in ("vehicle", "plant") and depth == 0 and isinstance(table.get(key), str):
             table[key] = {"base": table[key]}
+        if key == "law" and depth == 0 and isinstance(table.get(key), str):
+            table[key] = table_of(table[key])
         table = table.setdefault(key, {})
         if not isinstance(table, dict):
             raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
@@ -193,9 +209,7 @@ def _build(settings: dict[str, Any]) -> RunFile:
     vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
     flight = Flight(
         vehicle=vehicle,
-        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")).bind(
-            vehicle
-        ),
+        law=_controller(law_from(settings["law"]), vehicle, settings.get("controller", "python")).bind(vehicle),
         starts=start_of(table_at(settings, "start")),
         duration=settings["duration"],
         plant=plant_of(settings.get("plant", "rotors")),

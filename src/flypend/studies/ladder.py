@@ -69,11 +69,12 @@ def ladder(
     progress : callable
         Told `(rung and law, done, total)`.
     """
+    worlds = {rung: plants.plant(plant) for rung, plant in rungs.items()}  # says so if one is not installed
     flights = flights_of(vehicle, laws, starts, duration)
     return Ladder(
         {
-            rung: compared(flights, plants.plant(plant), workers=workers, progress=partial(_told, progress, rung))
-            for rung, plant in rungs.items()
+            rung: compared(flights, plant, workers=workers, progress=partial(_told, progress, rung))
+            for rung, plant in worlds.items()
         }
     )
 

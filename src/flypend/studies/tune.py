@@ -12,7 +12,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.flight.ensemble import columns_of, fly_compiled
+from flypend.flight.ensemble import fly_many
 from flypend.flight.metrics import wilson
 from flypend.model import State
 from flypend.studies.sweep import cube
@@ -122,6 +122,7 @@ def tune(
     InputError
         For a study that makes no sense or varies what is tuned.
     """
+    errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
     task = _task(made)
     search = _search(task)
@@ -202,7 +203,7 @@ class _Task:
         flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
         if stream == cube.TUNED:  # noise of its own, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
-        return columns_of(flight, fly_compiled(flight, study.engine, workers=workers))
+        return fly_many(flight, study.engine, workers=workers).columns
 
 
 def _task(made: Study) -> _Task:

@@ -110,15 +110,13 @@ def array_kernel(loop: Loop, criterion: Criterion | None = None, *, method: str 
     InputError
         Without JAX, for an unknown method or gain, and for a law with operations that cannot be compiled.
     """
-    try:
-        from jax import default_backend
+    errors.require("jax", extra="gpu", for_="engine")
+    from jax import default_backend
 
-        from flypend.compile.jax.array_steps import write_integrator
+    from flypend.compile.jax.array_steps import write_integrator
 
-        problem = ideal_problem(loop, criterion or Criterion())
-        integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
-    except ModuleNotFoundError:
-        raise errors.InputError("engine", "the extra flypend[gpu] to be installed", "no module jax") from None
+    problem = ideal_problem(loop, criterion or Criterion())
+    integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
     return ArrayKernel(loop, integrator)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import Flown, Progress
 from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel
@@ -15,15 +14,12 @@ from flypend.plants.loop import Loop
 
 
 def has_kernel(flight: Flight) -> bool:
-    """Whether `flight` can be compiled: a law in symbols, and the package's own equations."""
-    own = not isinstance(flight.plant, Sampled) or flight.plant.engine == "equations"
-    return own and isinstance(flight.law, BoundLaw)
+    """Whether `flight` can be compiled: whether its law is one in symbols."""
+    return isinstance(flight.law, BoundLaw)
 
 
 def kernel_of(flight: Flight) -> IdealKernel | SampledKernel:
     """The kernel of `flight`, compiled or from the cache. Raises InputError where none can be made."""
-    if not has_kernel(flight):
-        raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
     return kernel_for(flight.loop, flight.criterion, flight.tolerances)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.laws import BoundLaw
+from flypend.laws import BoundLaw, Controller
 
 # Unit vectors and rotations are uniform; vectors uniform in a ball, rates of the rod in a disc; numbers have ranges.
 UNIFORM = {"y": 2, "R": 3}
@@ -55,7 +55,7 @@ class Axis:
         return self.low + (self.high - self.low) * u
 
 
-def axes(table: Mapping[str, Any], law: BoundLaw, plant: bool) -> tuple[Axis, ...]:
+def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> tuple[Axis, ...]:
     """What the table `vary` of a study says, for a `law`, under a sampled `plant` or the ideal one.
 
     Raises InputError for what is unknown or out of range.

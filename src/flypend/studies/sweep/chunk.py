@@ -11,9 +11,11 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS
-from flypend.flight.ensemble import columns_of, fly_compiled
+from flypend.flight.ensemble import fly_many
 from flypend.flight.kernels import kernel_of, plant_numbers
 from flypend.flight.request import Flight
+from flypend.laws import Controller
+from flypend.laws.own import fingerprint
 from flypend.model import State
 from flypend.plants import Sampled
 from flypend.studies.sweep import cube
@@ -53,8 +55,8 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
     """The columns of runs `first` to `last` (not included) of `study`, of the sample `stream`, on one core."""
     drawn = design(study, first, last, stream)
-    parts = [(flight, fly_compiled(flight, study.engine, workers=1)) for flight in flights(study, drawn, first)]
-    judged = [columns_of(flight, flown) for flight, flown in parts]
+    parts = [fly_many(flight, study.engine, workers=1) for flight in flights(study, drawn, first)]
+    judged = [flown.columns for flown in parts]
     columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
     cause = np.zeros(last - first, dtype=np.uint8)
     for code, word in enumerate(CAUSES[1:], start=1):
@@ -62,7 +64,7 @@ def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) 
     out = {name: value.astype(np.float32) for name, value in drawn.columns.items()}
     out |= {name: columns[name].astype(np.float32) for name in FLOATS}
     out |= {"success": columns["success"], "cause": cause}
-    return out | ({"final": np.concatenate([flown.final for _, flown in parts])} if study.final else {})
+    return out | ({"final": np.concatenate([flown.final.packed() for flown in parts])} if study.final else {})
 
 
 def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:
@@ -71,12 +73,18 @@ def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:
 
 
 def program_digest(study: Study) -> str:
-    """Digest of what is flown, down to the last operation: law, vehicle, plants and criterion as compiled."""
+    """Digest of what is flown, down to the last operation: law, vehicle, plants and criterion as compiled.
+
+    Of a law that is not compiled it is the text of its file.
+    """
     digest = hashlib.sha256()
     cells = int(np.prod(study.shape, dtype=object))
     for cell in _plant_cells(study, cells):
         run = cell * study.samples
         (flight,) = flights(study, design(study, run, run + 1))
+        if isinstance(flight.law, Controller):
+            digest.update(fingerprint(flight.law) + repr((flight.plant, flight.criterion)).encode())
+            continue
         kernel = kernel_of(flight)
         if isinstance(flight.plant, Sampled):
             digest.update(plant_numbers(flight.loop).tobytes())

@@ -14,22 +14,22 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.toml import toml_text
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels import has_kernel
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
-from flypend.laws import BoundLaw, law_from_dict
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import read_toml
 from flypend.plants import AnyPlant, Ideal, Sampled
+from flypend.settings.laws import absolute, law_from, law_table, table_of
 from flypend.settings.runfile import check_plain, plant_of, start_of, table_at, vehicle_table
 from flypend.studies.sweep.axes import Axis, axes, integer
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
 KEYS = (
-    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "engine", "runs", "sampling",
-    "seed", "chunk", "final", "criterion", "start", "vary", "tune",
+    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "engine", "runs",
+    "sampling", "seed", "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
-# Runs per chunk, in the ideal plant and in a sampled flight: a second or so of one core.
-CHUNK, CHUNK_SAMPLED = 32_768, 2_048
+# Runs per chunk, in the ideal plant, in a sampled flight, in MuJoCo, and step by step: some seconds of one core.
+CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
 # A run takes some hundreds of steps; one that takes this many is chattering.
 STEPS = 20_000
 MOST_CHUNK = 1_000_000
@@ -108,9 +108,9 @@ class Study:
         return tuple(axis.name for axis in self.axes if axis.group == "gains")
 
     @property
-    def law(self) -> BoundLaw:
-        """The law that flies it, which is written in symbols."""
-        return self.flight.loop.symbolic
+    def law(self) -> BoundLaw | Controller:
+        """The law that flies it."""
+        return self.flight.law
 
     def text(self) -> str:
         """The study as TOML, every default spelt out; without what `tune` is told."""
@@ -132,12 +132,18 @@ class Study:
         return plant_of(table)
 
 
-def study(what: str | Path | Mapping[str, Any]) -> Study:
+def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study:
     """The study of a TOML file, or of its content as a dict `what`; docs/studies/studies.md lists the keys.
+
+    `law`, as on the command line, takes the place of the law there.
 
     Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
     """
     settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
+    if "law" in settings and not isinstance(what, Mapping):
+        settings["law"] = absolute(settings["law"], Path(what).parent)
+    if law is not None:
+        settings["law"] = table_of(law)
     try:
         for key, value in settings.items():
             check_plain(key, value)
@@ -155,7 +161,7 @@ def _build(given: dict[str, Any]) -> Study:
     start, vary = _start(given)
     flight = _flight(given, start, vary)
     plant = flight.plant
-    found = axes(vary, flight.loop.symbolic, isinstance(plant, Sampled))
+    found = axes(vary, flight.law, isinstance(plant, Sampled))
     # Not in the order of the file: what is drawn depends on what is said, not on where.
     order = {"plant": 0, "gains": 1, "start": 2}
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
@@ -166,7 +172,7 @@ def _build(given: dict[str, Any]) -> Study:
         samples=integer("runs", given.get("runs", 1), 1),
         sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
         seed=integer("seed", given.get("seed", 1), 0),
-        chunk=integer("chunk", given.get("chunk", CHUNK if isinstance(plant, Ideal) else CHUNK_SAMPLED), 1),
+        chunk=integer("chunk", given.get("chunk", _chunk(flight)), 1),
         final=_flag("final", given.get("final", False)),
         settings={},
         tune=table_at(given, "tune"),
@@ -177,7 +183,7 @@ def _build(given: dict[str, Any]) -> Study:
         "duration": flight.duration, "rtol": exact.rtol, "judge_period": flight.judge_period,
         "precision": exact.precision, "max_steps": exact.max_steps, "engine": made.engine,
         "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
-        "vehicle": flight.vehicle.to_dict(), "law": table_at(given, "law"),
+        "vehicle": flight.vehicle.to_dict(), "law": absolute(law_table(given["law"]), Path.cwd()),
         "plant": _plant_table(given.get("plant", "rotors")),
         "criterion": asdict(flight.criterion), "start": start, "vary": vary,
     }  # fmt: skip
@@ -194,9 +200,9 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
     )
     vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
-    flight = Flight(
+    return Flight(
         vehicle=vehicle,
-        law=law_from_dict(table_at(given, "law")).bind(vehicle),
+        law=law_from(law_table(given["law"])).bind(vehicle),
         starts=_fixed(start, vary),
         duration=given["duration"],
         plant=plant_of(given.get("plant", "rotors")),
@@ -204,9 +210,14 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         criterion=_criterion(given),
         judge_period=given.get("judge_period", SAMPLE_PERIOD),
     )
-    if not has_kernel(flight):
-        raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
-    return flight
+
+
+def _chunk(flight: Flight) -> int:
+    if isinstance(flight.law, Controller):
+        return CHUNK_STEPPED
+    if isinstance(flight.plant, Sampled) and flight.plant.engine == "mujoco":
+        return CHUNK_MUJOCO
+    return CHUNK if isinstance(flight.plant, Ideal) else CHUNK_SAMPLED
 
 
 def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -280,7 +291,7 @@ def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, du
     papers = law in ("printed", "corrected")
     return {
         "vehicle": vehicle or ("nayak2018" if papers else "hehn2011"),
-        "law": {"name": law},
+        "law": table_of(law),
         "plant": plant,
         "duration": duration if duration is not None else 6.5 if papers else 10.0,
         "judge_period": 0.1,

@@ -552,7 +552,7 @@ def test_flying_tells_each_run_before_it(monkeypatch):
 
     def fly(vehicle, law, start, duration, plant, rtol):
         assert plant == "ideal"
-        flown.append((law.name, law.gains["beta"], duration))
+        flown.append((law.name, law.bind(vehicle).gains["beta"], duration))
         assert len(told) == len(flown)
         return len(flown)
 

@@ -108,7 +108,7 @@ class State:
 
     @classmethod
     def trusted(cls, packed: Any) -> Self:
-        """Build states from `packed` vectors (..., 24) unchecked, for integrator output (NaN after the end of a run)."""
+        """Build states from `packed` vectors (..., 24) unchecked: integrator output, NaN after the end of a run."""
         return cls._unchecked(split(packed))
 
     @classmethod

@@ -1,29 +1,74 @@
-"""flypend models, controls and simulates a spherical pendulum on a quadrotor, on R³ × SO(3) × S²."""
+"""flypend models, controls and simulates a spherical pendulum on a quadrotor, on R³ × SO(3) × S².
 
-from flypend import laws
-from flypend.errors import InputError
-from flypend.export import export_c
-from flypend.flight.ensemble import Ensemble, simulate_ensemble
-from flypend.flight.outcome import Outcome
-from flypend.flight.request import Flight
-from flypend.flight.sensitivity import Sensitivity, sensitivity
-from flypend.flight.simulate import simulate
-from flypend.flight.trajectory import Trajectory, load
-from flypend.laws import Controller, Law
-from flypend.model import State, Vehicle, Wrench, vehicle
-from flypend.plants import Ideal, Noise, Plant, Wind
-from flypend.studies.sweep import Study, study, sweep
-from flypend.studies.tune import Objective, Tuned, tune
+Names are imported when they are first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from flypend import laws
+    from flypend.errors import InputError
+    from flypend.export import export_c
+    from flypend.flight.criterion import Criterion
+    from flypend.flight.ensemble import Ensemble, simulate_ensemble
+    from flypend.flight.metrics import Metrics, metrics
+    from flypend.flight.outcome import Outcome
+    from flypend.flight.request import Flight, Tolerances
+    from flypend.flight.sensitivity import Sensitivity, sensitivity
+    from flypend.flight.simulate import simulate
+    from flypend.flight.trajectory import Trajectory, load
+    from flypend.laws import BoundLaw, Controller, Gain, Law
+    from flypend.laws.linearise import linearise
+    from flypend.model.state import State, Wrench
+    from flypend.model.vehicle import Vehicle, vehicle
+    from flypend.plants import Ideal, Noise, Plant, Wind
+    from flypend.studies.compare import Comparison, compare
+    from flypend.studies.starts import random_starts
+    from flypend.studies.sweep.run import sweep
+    from flypend.studies.sweep.study import Study, study
+    from flypend.studies.tune import Objective, Tuned, tune
 
 __version__ = "0.1.0"
 
+# Where each name is defined.
+_WHERE = {
+    "errors": ("InputError",),
+    "export": ("export_c",),
+    "flight.criterion": ("Criterion",),
+    "flight.ensemble": ("Ensemble", "simulate_ensemble"),
+    "flight.metrics": ("Metrics", "metrics"),
+    "flight.outcome": ("Outcome",),
+    "flight.request": ("Flight", "Tolerances"),
+    "flight.sensitivity": ("Sensitivity", "sensitivity"),
+    "flight.simulate": ("simulate",),
+    "flight.trajectory": ("Trajectory", "load"),
+    "laws": ("BoundLaw", "Controller", "Gain", "Law"),
+    "laws.linearise": ("linearise",),
+    "model": ("State", "Vehicle", "Wrench", "vehicle"),
+    "plants": ("Ideal", "Noise", "Plant", "Wind"),
+    "studies.compare": ("Comparison", "compare"),
+    "studies.starts": ("random_starts",),
+    "studies.sweep": ("Study", "study", "sweep"),
+    "studies.tune": ("Objective", "Tuned", "tune"),
+}
+_MODULES = {name: f"flypend.{module}" for module, names in _WHERE.items() for name in names}
+
 __all__ = [
+    "BoundLaw",
+    "Comparison",
     "Controller",
+    "Criterion",
     "Ensemble",
     "Flight",
+    "Gain",
     "Ideal",
     "InputError",
     "Law",
+    "Metrics",
     "Noise",
     "Objective",
     "Outcome",
@@ -31,14 +76,19 @@ __all__ = [
     "Sensitivity",
     "State",
     "Study",
+    "Tolerances",
     "Trajectory",
     "Tuned",
     "Vehicle",
     "Wind",
     "Wrench",
+    "compare",
     "export_c",
     "laws",
+    "linearise",
     "load",
+    "metrics",
+    "random_starts",
     "sensitivity",
     "simulate",
     "simulate_ensemble",
@@ -47,3 +97,18 @@ __all__ = [
     "tune",
     "vehicle",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        found = getattr(import_module(_MODULES[name]), name)
+    elif not name.startswith("_") and find_spec(f"flypend.{name}") is not None:
+        found = import_module(f"flypend.{name}")
+    else:
+        raise AttributeError(f"module 'flypend' has no attribute {name!r}")
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import signal
 import sys
+import traceback
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,7 +16,7 @@ from typer.exceptions import TyperException
 
 from flypend import __version__
 from flypend.cli import examples, studies, viewing
-from flypend.cli.terminal import bold, console, counter, progress
+from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, tell_how
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
 
@@ -44,8 +45,11 @@ def _root(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
     ] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show the whole traceback of a mistake, as in flypend --debug run 1.")
+    ] = False,
 ) -> None:
-    pass
+    """Options of all commands."""  # main looks for --debug itself: it must know when nothing else could be read
 
 
 @app.command()
@@ -75,6 +79,7 @@ def run(
         str, typer.Argument(help="An experiment of the paper (1, 2, 2-projected, 3, 4, 5) or a TOML file.")
     ],
     out: Out = Path("run-out"),
+    law: Annotated[str | None, typer.Option("--law", help=f"In place of the law there: {LAW_HELP}.")] = None,
     override: Annotated[
         list[str] | None,
         typer.Option(
@@ -93,7 +98,7 @@ def run(
 ) -> None:
     """Fly one experiment, or one's own vehicle, law, gains and start.
 
-    A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, gains),
+    A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, or function, and gains),
     [bold]start[/bold] (x, x_dot, R, omega, y, y_dot), [bold]duration[/bold] in seconds, and optionally
     [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]experiment[/bold], which brings all but the
     plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
@@ -109,8 +114,10 @@ def run(
 
     if figures and not quick:
         check_movies()
-    chosen = run_file(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    changes = [*(override or ()), *([f"controller={controller}"] if controller is not None else [])]
+    chosen = run_file(what, changes, law)
     flight = chosen.flight
+    tell_how(flight.law)
     style_named(style)
     check_writable(out)
     if html is not None:
@@ -143,7 +150,7 @@ def run(
 
 Laws = Annotated[
     list[str] | None,
-    typer.Option("--law", help="inverted, lqr, corrected, printed, detuned, or module:name of one's own; repeat it."),
+    typer.Option("--law", help=f"What steers: {LAW_HELP}; repeat it."),
 ]
 Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts read with e₃ up.")]
 Runs = Annotated[int, typer.Option("--runs", help="Number of random starts.", min=1)]
@@ -238,27 +245,27 @@ def lab(
 
 @app.command("export-c")
 def export_c(
-    law: Annotated[str, typer.Option("--law", help="inverted, lqr, corrected, printed, or module:name.")] = "inverted",
+    law: Annotated[str, typer.Option("--law", help=f"What to write: {LAW_HELP}.")] = "inverted",
     vehicle: VehicleName = "hehn2011",
     out: Out = Path("c-out"),
     precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
     light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
 ) -> None:
     """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export."""
-    from flypend import errors
+    from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
     from flypend.laws import Law, inverted
-    from flypend.settings.runfile import vehicle_named
     from flypend.studies import law_named
 
     if light:
         errors.one_of("--law", law, ("inverted",))
     chosen = inverted(form="light") if light else law_named(law)
     if not isinstance(chosen, Law):
-        raise InputError("--law", "a law written in symbols", repr(law))
+        because = f" ({chosen.because})" if chosen.because else ""
+        raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    write(chosen, vehicle_named(vehicle), out, precision=kind)
+    write(chosen, model.vehicle(vehicle), out, precision=kind)
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
 
 
@@ -266,12 +273,13 @@ def _study(
     names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
 ) -> tuple[list[Any], Any, Any, dict[str, Any]]:
     """Laws, starts and vehicle of a study, checked, and the settings that say so in its report."""
-    from flypend import errors
-    from flypend.settings.runfile import vehicle_named
+    from flypend import errors, model
     from flypend.studies import law_named, paper_starts, random_starts
 
     laws = [law_named(name) for name in names]
-    machine = vehicle_named(vehicle)
+    for law in laws:
+        tell_how(law)
+    machine = model.vehicle(vehicle)
     errors.number("--duration", duration, above=0, unit="s")
     kind = errors.one_of("--starts", starts, ("random", "paper"))
     batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
@@ -305,6 +313,8 @@ def main() -> None:
     try:
         code = app(standalone_mode=False)
     except (InputError, TyperException) as error:
+        if "--debug" in sys.argv[1:]:
+            traceback.print_exc()
         message = error.format_message() if isinstance(error, TyperException) else str(error)
         if message:  # without arguments the help has been printed already
             line = " ".join(f"flypend: {message}".split())

@@ -22,7 +22,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from flypend.cli.terminal import bold, console
+from flypend.cli.terminal import LAW_HELP, bold, console, stepped, tell_how
 
 app = typer.Typer()
 
@@ -33,6 +33,7 @@ Scheduler = Annotated[
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Cores of this machine to use; default all.")]
 Processes = Annotated[bool, typer.Option("--processes", help="Use worker processes in place of threads.")]
+Law = Annotated[str | None, typer.Option("--law", help=f"In place of the law of the study: {LAW_HELP}.")]
 Force = Annotated[bool, typer.Option("--force", help="Begin anew, whatever a sweep has left there.")]
 
 
@@ -44,6 +45,7 @@ def sweep(
     workers: Workers = None,
     processes: Processes = False,
     force: Force = False,
+    law: Law = None,
 ) -> None:
     """Fly a study of up to 10⁷ runs into a Zarr store.
 
@@ -52,7 +54,9 @@ def sweep(
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep import sweep as fly
 
-    made = study_from(study)
+    made = study_from(study, law)
+    tell_how(made.law)
+    processes = processes or stepped(made.law)
     with run_counter(made.law.name) as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
@@ -69,7 +73,7 @@ def draw_map(
     ] = None,
     y: Annotated[str | None, typer.Option("--y", help="Quantity up the plane.")] = None,
     law: Annotated[
-        str | None, typer.Option("--law", help="In place of a store: fly this law from random starts.")
+        str | None, typer.Option("--law", help=f"In place of a store, from random starts: {LAW_HELP}.")
     ] = None,
     vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: name of a vehicle.")] = None,
     plant: Annotated[str, typer.Option("--plant", help="With --law: rotors, ideal or hehn2011.")] = "rotors",
@@ -115,6 +119,7 @@ def tune(
     study: StudyFile,
     out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")] = Path("tune-out"),
     workers: Workers = None,
+    law: Law = None,
 ) -> None:
     """Improve gains on the objective of a study, by CMA-ES; report on starts that were not tuned on.
 
@@ -126,7 +131,8 @@ def tune(
     from flypend.studies.sweep import study as study_from
     from flypend.studies.tune import tune as search
 
-    made = study_from(study)
+    made = study_from(study, law)
+    tell_how(made.law)
     check_writable(out)
     with run_counter("generations") as tell:
         result = search(made, workers=workers, progress=tell)
@@ -143,8 +149,9 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
     from flypend.studies.sweep import sweep as fly
 
     made = study_from(content)
+    tell_how(made.law)
     with run_counter(made.law.name) as tell:
-        flown = fly(made, store, workers=workers, force=force, progress=tell)
+        flown = fly(made, store, workers=workers, processes=stepped(made.law), force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 
 

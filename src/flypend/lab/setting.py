@@ -20,6 +20,7 @@ from flypend.lab.gains import proposed_gains, sliders_of
 from flypend.laws import Law, law_from_dict, law_names
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SHAPES
+from flypend.model.vehicle import vehicle_names
 from flypend.plants import Ideal
 from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
 
@@ -87,6 +88,9 @@ def _law(given: dict[str, Any]) -> Law:
     """The law that a page asks for, its gains near enough to those proposed for steps to follow its loops."""
     for key in ("vehicle", "law"):
         check_plain(key, given.get(key, {}))
+    machine = given.get("vehicle")
+    named = machine.get("base") if isinstance(machine, dict) else machine
+    errors.one_of("vehicle", named, vehicle_names())  # a page reads no files
     with np.errstate(all="ignore"):  # as in `run_of`
         vehicle = Vehicle.from_dict(vehicle_table(given.get("vehicle")))
         law = law_from_dict(table_at(given, "law"))

@@ -269,7 +269,8 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
     except InputError as error:
         if failure is None:
             return ""  # written with functions of CasADi that numbers do not go through
-        raise (error if "SX" in failure.said or "an if on" in failure.said else failure) from None
+        told = error if "SX" in failure.said or "an if on" in failure.said else failure
+        raise told from told.__cause__
     if failure is not None:
         return f"{failure.said}, {failure.where}"
     same = np.allclose(answers, numbers, rtol=_AGREEMENT, atol=_AGREEMENT)

@@ -176,7 +176,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         return tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(str(path), "a readable TOML file", error.strerror or error) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except ValueError as error:  # no TOML, no text, or a name that no file can have
         raise InputError(str(path), "a TOML file", error) from None
 
 
@@ -186,8 +186,10 @@ def vehicle_names() -> list[str]:
     return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
 
 
-def vehicle(name: str) -> Vehicle:
-    """Load the vehicle `name` shipped with the package. Raises InputError for an unknown name."""
+def vehicle(name: str | Path) -> Vehicle:
+    """Load the vehicle `name` shipped with the package, or the TOML file at the path `name`. Raises InputError."""
+    if isinstance(name, Path) or (isinstance(name, str) and name.endswith(".toml")):
+        return Vehicle.from_toml(name)
     errors.one_of("vehicle", name, vehicle_names())
     with resources.as_file(resources.files("flypend") / "vehicles" / f"{name}.toml") as path:
         return Vehicle.from_toml(path)

@@ -93,7 +93,7 @@ def law_table(value: Any, key: str = "law") -> dict[str, Any]:
     if isinstance(value, str):
         return table_of(value)
     if not isinstance(value, dict):
-        raise InputError(key, "a table", repr(value))
+        raise InputError(key, "the name of a law, or a table", repr(value))
     return dict(value)
 
 

@@ -94,11 +94,6 @@ def check_plain(key: str, value: Any) -> None:
         raise InputError(key, "an integer of 64 bits", f"one of {value.bit_length()} bits")
 
 
-def vehicle_named(name: str) -> Vehicle:
-    """The vehicle called `name`, or in the TOML file at that path. Raises InputError."""
-    return Vehicle.from_toml(name) if name.endswith(".toml") else vehicle(name)
-
-
 def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     """Fill in what `experiment` stands for, and expand the vehicle to a table."""
     errors.only_known("", settings, KEYS)

@@ -55,7 +55,7 @@ web:
 
 # A minute of libFuzzer per law and precision under ASan and UBSan, and cppcheck on each.
 fuzz: test-tools setup
-	$(BIN)/pytest -m slow tests/test_c_tools.py
+	$(BIN)/pytest -m slow tests/export/test_c_tools.py
 
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \

@@ -1,4 +1,4 @@
-"""One kind of mistake in input, told in one line: the field, what was expected, what came."""
+"""Input validation. Every bad input raises InputError with one line: field, expected value, value received."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class InputError(ValueError):
 
 
 def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool = False) -> Any:
-    """`value` as a finite float array of `shape` (None: any length); with `batch`, further axes may precede.
+    """Convert `value` to a finite float array of `shape` (None: any length); `batch` allows leading batch axes.
 
     Raises InputError.
     """
@@ -49,7 +49,7 @@ def number(
     at_most: float | None = None,
     unit: str = "",
 ) -> float:
-    """`value` as a finite float inside the bounds given. Raises InputError."""
+    """Convert `value` to a finite float within the given bounds. Raises InputError."""
     bound = f" > {above:g}" if above is not None else f" >= {at_least:g}" if at_least is not None else ""
     expected = f"a finite number{bound}{' ' + unit if unit else ''}"
     if isinstance(value, bool | str):
@@ -67,7 +67,7 @@ def number(
 
 
 def one_of(field: str, value: Any, known: Iterable[str]) -> str:
-    """`value` if it is among `known`; else InputError, with the nearest known name."""
+    """Return `value` if it is in `known`. Otherwise raise InputError, suggesting the closest known name."""
     names = list(known)
     if value in names:
         return str(value)
@@ -77,7 +77,7 @@ def one_of(field: str, value: Any, known: Iterable[str]) -> str:
 
 
 def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
-    """Raise InputError for the first name in `given` that is not `known`."""
+    """Raise InputError for the first name in `given` that is not in `known`."""
     names = list(known)
     for name in given:
         if name not in names:
@@ -85,9 +85,9 @@ def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
 
 
 def require(module: str, *, extra: str, for_: str) -> None:
-    """Raise InputError unless `module` is installed, which the `extra` of this package brings and `for_` needs.
+    """Raise InputError unless `module` is installed. `extra` is the extra that installs it, `for_` the field to blame.
 
-    The module is looked up, not imported. Call it before any work is done.
+    The module is located, not imported. Call this before doing any work.
     """
     if importlib.util.find_spec(module) is None:
         wanted = f"the extra flypend[{extra}] (pip install 'flypend[{extra}]')"

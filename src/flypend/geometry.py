@@ -3,10 +3,10 @@
 Conventions
 -----------
 A *vector* is a NumPy array of shape (..., 3) or a CasADi expression of shape (3, 1); a batch of B vectors is
-(B, 3) in both (the batch axis comes in front). A *matrix* is a NumPy array of shape (..., 3, 3) or a single CasADi
+(B, 3) in both (leading batch axis). A *matrix* is a NumPy array of shape (..., 3, 3) or a single CasADi
 expression of shape (3, 3): CasADi has no third axis, so batches of matrices exist in NumPy only.
 
-S² has no identity and no composition; the only structure used is that of a sphere embedded in R³.
+S² has no identity element and no composition; only its embedding in R³ is used.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def is_symbolic(value: Any) -> bool:
 
 
 def _components(v: Vector) -> tuple[Any, Any, Any]:
-    """The three components of a vector, each with the batch shape."""
+    """Return the three components of a vector, each with the batch shape."""
     if not is_symbolic(v):
         array = np.asarray(v, dtype=float)
         if array.shape[-1:] != (3,):
@@ -45,17 +45,17 @@ def _components(v: Vector) -> tuple[Any, Any, Any]:
 
 
 def _vector(a: Any, b: Any, c: Any, batched: bool) -> Vector:
-    """Join three components; `batched` chooses (B, 3) instead of (3, 1) for CasADi expressions."""
+    """Stack three components. For CasADi expressions, `batched` selects (B, 3) instead of (3, 1)."""
     if any(is_symbolic(component) for component in (a, b, c)):
         return ca.horzcat(a, b, c) if batched else ca.vertcat(a, b, c)
     return np.stack(np.broadcast_arrays(a, b, c), axis=-1)
 
 
 def _batched(*vectors: Vector) -> bool:
-    """Whether the result of CasADi vectors is a batch; NumPy batches mix with them only as constants of shape (3,)."""
+    """Whether the CasADi vectors are a batch. A NumPy operand beside CasADi must be a single vector of shape (3,)."""
     symbolic = [v for v in vectors if is_symbolic(v)]
     if symbolic and any(np.ndim(v) > 1 for v in vectors if not is_symbolic(v)):
-        raise ValueError("a NumPy batch does not mix with a CasADi expression; give it as a CasADi batch (B, 3)")
+        raise ValueError("cannot mix a NumPy batch with a CasADi expression; pass it as a CasADi batch (B, 3)")
     return any(v.shape[1] == 3 for v in symbolic)
 
 
@@ -64,7 +64,7 @@ def _sqrt(value: Scalar) -> Scalar:
 
 
 def dot(a: Vector, b: Vector) -> Scalar:
-    """Inner product ⟨a, b⟩ over the last axis; returns the batch shape (a CasADi scalar or (B, 1) column)."""
+    """Inner product ⟨a, b⟩ over the last axis, with the batch shape (in CasADi a scalar or a (B, 1) column)."""
     (a1, a2, a3), (b1, b2, b3) = _components(a), _components(b)
     return a1 * b1 + a2 * b2 + a3 * b3
 
@@ -80,7 +80,7 @@ def smooth_norm(a: Vector, floor: float) -> Scalar:
 
 
 def scale(s: Scalar, v: Vector) -> Vector:
-    """Scalar times vector with the batch axis in front: `s` has the batch shape, `v` one axis more."""
+    """Scalar times vector with leading batch axes: `s` has the batch shape, `v` has one more axis."""
     v1, v2, v3 = _components(v)
     return _vector(s * v1, s * v2, s * v3, _batched(v))
 
@@ -92,12 +92,12 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def unit(a: Vector) -> Vector:
-    """a / |a|, undefined (NaN) at 0; also the projection of R³ without the origin onto S²."""
+    """a / |a|, the projection of R³ without the origin onto S²; NaN at 0."""
     return scale(1 / norm(a), a)
 
 
 def hat(v: Vector) -> Matrix:
-    """The skew matrix v̂ with v̂ w = v × w, shape (..., 3, 3)."""
+    """Skew-symmetric matrix v̂ with v̂ w = v × w, shape (..., 3, 3)."""
     v1, v2, v3 = _components(v)
     if is_symbolic(v):
         if _batched(v):
@@ -109,7 +109,7 @@ def hat(v: Vector) -> Matrix:
 
 
 def vee(m: Matrix) -> Vector:
-    """Inverse of `hat`; of a matrix that is not skew it takes the skew part."""
+    """Inverse of `hat`; uses the skew-symmetric part of `m`."""
     if is_symbolic(m):
         return ca.vertcat(m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]) / 2
     m = np.asarray(m, dtype=float)
@@ -118,48 +118,48 @@ def vee(m: Matrix) -> Vector:
 
 
 def hat_squared(y: Vector, v: Vector) -> Vector:
-    """ŷ² v = y × (y × v), for unit y minus the part of v tangent to S² at y.
+    """ŷ² v = y × (y × v): for unit y, minus the part of v tangent to S² at y.
 
-    Not written y(y·v) − v: off the sphere that form makes |y| unstable near the inverted pose.
+    Not written as y(y·v) − v: off the sphere, that form makes |y| unstable near the inverted pose.
     """
     return cross(y, cross(y, v))
 
 
 def tangent_part(y: Vector, v: Vector) -> Vector:
-    """P_y v = v − (y·v) y, the part of v tangent to S² at the unit vector y; see `hat_squared` for the dynamics."""
+    """P_y v = v − (y·v) y, the part of v tangent to S² at the unit vector y. Dynamics use `hat_squared` instead."""
     return v - scale(dot(y, v), y)
 
 
 def apply(m: Matrix, v: Vector) -> Vector:
-    """Matrix times vector with the batch axis in front."""
+    """Matrix times vector with leading batch axes."""
     if is_symbolic(m) or is_symbolic(v):
         return ca.mtimes(m, v.T).T if is_symbolic(v) and v.shape[1] == 3 else ca.mtimes(m, v)
     return np.einsum("...ij,...j->...i", np.asarray(m, dtype=float), np.asarray(v, dtype=float))
 
 
 def transport(phi: Vector, phi_d: Vector, phi_d_dot: Vector) -> Vector:
-    """Transport map τ(φ, φ_d) φ̇_d = (φ_d × φ̇_d) × φ from T_{φ_d}S² to T_φ S² (Lemma 2)."""
+    """Transport map τ(φ, φ_d) φ̇_d = (φ_d × φ̇_d) × φ from T_{φ_d}S² to T_φS² (Lemma 2)."""
     return cross(cross(phi_d, phi_d_dot), phi)
 
 
 def transport_derivative(phi: Vector, phi_dot: Vector, phi_d: Vector, phi_d_dot: Vector, phi_d_ddot: Vector) -> Vector:
     """Covariant derivative ∇_φ̇ (τ(φ, φ_d) φ̇_d) along φ(t), φ_d(t): the feedforward of Lemma 2.
 
-    ⟨φ, φ_d × φ̇_d⟩ (φ × φ̇) + (φ_d × φ̈_d) × φ. The paper prints φ̈ in place of φ̈_d.
+    Equal to ⟨φ, φ_d × φ̇_d⟩ (φ × φ̇) + (φ_d × φ̈_d) × φ. The paper misprints φ̈_d as φ̈.
     """
     omega_d = cross(phi_d, phi_d_dot)
     return scale(dot(phi, omega_d), cross(phi, phi_dot)) + cross(cross(phi_d, phi_d_ddot), phi)
 
 
 def project_tangent(y: Vector, v: Vector) -> Vector:
-    """Orthogonal projection of v onto the plane normal to y (y need not be unit)."""
+    """Orthogonal projection of v onto the plane normal to y, which need not be a unit vector."""
     return v - scale(dot(y, v) / dot(y, y), y)
 
 
 def project_rotation(m: Any) -> Any:
-    """The rotation nearest to each matrix of shape (..., 3, 3) in the Frobenius norm (NumPy only).
+    """Nearest rotation to each matrix of shape (..., 3, 3) in the Frobenius norm (NumPy only).
 
-    Raises `numpy.linalg.LinAlgError` if a matrix holds NaN or infinity.
+    Raises `numpy.linalg.LinAlgError` if a matrix contains NaN or infinity.
     """
     u, _, vt = np.linalg.svd(np.asarray(m, dtype=float))
     sign = np.linalg.det(u @ vt)
@@ -168,14 +168,14 @@ def project_rotation(m: Any) -> Any:
 
 
 def rotation_defect(m: Any) -> Any:
-    """How far matrices of shape (..., 3, 3) are from SO(3): the Frobenius norm of mᵀm − 1, or 2 for det m < 0."""
+    """Distance of matrices (..., 3, 3) from SO(3): Frobenius norm of mᵀm − 1, and at least 2 unless det m > 0."""
     m = np.asarray(m, dtype=float)
     defect = np.linalg.norm(np.swapaxes(m, -1, -2) @ m - np.eye(3), axis=(-2, -1))
     return np.where(np.linalg.det(m) > 0, defect, np.maximum(defect, 2.0))
 
 
 def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
-    """Rotation matrices (..., 3, 3) of the quaternions `quat_xyzw` (..., 4), order x, y, z, w, normalised first."""
+    """Rotation matrices (..., 3, 3) of the quaternions `quat_xyzw` (..., 4), order x, y, z, w, normalised on input."""
     q = np.asarray(quat_xyzw, dtype=float)
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
     v, w = q[..., :3], q[..., 3, None, None]
@@ -184,17 +184,17 @@ def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
 
 
 def rotation_from_vector(vector: Any) -> Any:
-    """Rotation matrix (3, 3) by the angle |`vector`| in rad about the direction of `vector` (3,): exp of its hat."""
+    """Rotation matrix (3, 3) of the rotation vector `vector` (3,), rad: exp(v̂)."""
     v = np.asarray(vector, dtype=float)
     half = np.linalg.norm(v) / 2
     return rotation_from_quat_xyzw(np.append(np.sinc(half / np.pi) / 2 * v, np.cos(half)))
 
 
 def quat_xyzw_from_rotation(m: Any) -> Any:
-    """Unit quaternions (..., 4), order x, y, z, w, of rotation matrices `m` (..., 3, 3); their largest entry is > 0."""
+    """Unit quaternions (..., 4), order x, y, z, w, of rotation matrices `m` (..., 3, 3); the largest entry is > 0."""
     m = np.asarray(m, dtype=float)
     i = range(3)
-    four_q_q = np.empty((*m.shape[:-2], 4, 4))  # 4 q qᵀ, of which every column is along q and the largest is used
+    four_q_q = np.empty((*m.shape[:-2], 4, 4))  # 4 q qᵀ: every column is parallel to q; take the largest
     four_q_q[..., :3, :3] = m + np.swapaxes(m, -1, -2)
     trace = np.trace(m, axis1=-2, axis2=-1)
     four_q_q[..., i, i] += (1 - trace)[..., None]
@@ -206,17 +206,17 @@ def quat_xyzw_from_rotation(m: Any) -> Any:
 
 
 def random_sphere(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
-    """Unit vectors uniform on S², shape (*size, 3), drawn from the generator `rng`."""
+    """Unit vectors uniform on S², shape (*size, 3), drawn from `rng`."""
     return unit(rng.standard_normal((*size, 3)))
 
 
 def random_rotation(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
-    """Rotations uniform on SO(3) (Haar), shape (*size, 3, 3), drawn from the generator `rng`."""
+    """Rotations uniform on SO(3) (Haar measure), shape (*size, 3, 3), drawn from `rng`."""
     return rotation_from_quat_xyzw(rng.standard_normal((*size, 4)))
 
 
 def random_tangent(rng: np.random.Generator, y: Any, max_length: float) -> Any:
-    """Tangent vectors at the unit vectors y (..., 3), uniform in the disc of radius `max_length`, drawn from `rng`."""
+    """Tangent vectors at the unit vectors y (..., 3), uniform in a disc of radius `max_length`, drawn from `rng`."""
     y = np.asarray(y, dtype=float)
     direction = unit(project_tangent(y, rng.standard_normal(y.shape)))
     return scale(max_length * np.sqrt(rng.random(y.shape[:-1])), direction)

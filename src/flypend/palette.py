@@ -1,14 +1,14 @@
-"""The colours of every picture, movie and page, which readers of every kind of colour vision can tell apart."""
+"""Colours of all figures, movies and pages, distinguishable under every type of colour vision."""
 
 from __future__ import annotations
 
 from typing import Any
 
-# Okabe and Ito's palette; lines differ in style and width as well, for print in grey.
+# The Okabe-Ito palette. Lines also differ in style and width, so that figures survive greyscale printing.
 INK, GREY = "#1a1a1a", "#8c8c8c"
 BLUE, RED, GREEN, ORANGE, SKY, PINK = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#56b4e9", "#cc79a7"
-SERIES = (BLUE, RED, GREEN, PINK, ORANGE, SKY, "#000000")  # of laws or members that stand side by side
-REAR = "#d9d9d9"  # rotors; the front ones are orange
+SERIES = (BLUE, RED, GREEN, PINK, ORANGE, SKY, "#000000")  # one per law or run in a comparison
+REAR = "#d9d9d9"  # rear rotors; front rotors are orange
 
 _LIGHT = {
     "paper": "#ffffff", "panel": "#ffffff", "sky": "#f3f5f7", "ink": INK, "muted": "#5f6368", "line": "#e1e4e8",
@@ -22,4 +22,4 @@ _DARK = {
     "trail": SKY, "reference": "#dc93bb", "ghost": "#8fb0d0",
     "rotor1": SKY, "rotor2": "#f0803c", "rotor3": "#1fc296", "rotor4": "#dc93bb",
 }  # fmt: skip
-PAGE: dict[str, Any] = {"light": _LIGHT, "dark": _DARK}  # colours of roles, for pages in a browser
+PAGE: dict[str, Any] = {"light": _LIGHT, "dark": _DARK}  # colours by role, for browser pages

@@ -1,4 +1,4 @@
-"""The vehicle that the flight computer believes in: its numbers, or symbols that exported code fills in at run time."""
+"""The nominal vehicle of the flight computer: numeric, or symbolic for exported code that receives it at run time."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from flypend.model import Vehicle
 
 @dataclass(frozen=True)
 class Believed:
-    """A vehicle that equations can be written for.
+    """The nominal vehicle, with numeric or symbolic parameters.
 
     Parameters
     ----------
     vehicle : Vehicle
-        A vehicle, or what has its attributes as symbols.
+        A vehicle, or an object with the same attributes as symbols.
     rotors : int
         Number of its rotors.
     lag : float
-        Time constant of its rotors, s, always a number: no code takes an exponential at run time.
+        Time constant of its rotors, s. Always a number: no generated code evaluates an exponential at run time.
     symbols : SX (k, 1)
-        The symbols that it is written in; none for a vehicle of numbers.
+        The symbols of `vehicle`; empty for a numeric vehicle.
     """
 
     vehicle: Any
@@ -33,5 +33,5 @@ class Believed:
 
     @classmethod
     def numbers(cls, vehicle: Vehicle) -> Believed:
-        """A `vehicle` whose numbers are constants of the equations."""
+        """The nominal `vehicle` with its parameters as constants of the equations."""
         return cls(vehicle, len(vehicle.rotor_spins), vehicle.rotor_lag)

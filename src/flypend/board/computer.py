@@ -1,4 +1,4 @@
-"""The flight computer step by step in Python: the reference of the kernels, and the way of laws that are no symbols."""
+"""The flight computer stepped from Python: the reference for the kernels, and the only way to fly a callable law."""
 
 from __future__ import annotations
 
@@ -20,16 +20,17 @@ NONE = np.zeros(0)
 
 
 class FlightComputer(Protocol):
-    """What a sampled flight asks once per control period."""
+    """A flight computer, called once per control period."""
 
     def command(self, t: float, measured: Any) -> Any:
-        """The command for the state `measured` (24,), e₃ up, at time `t` (s)."""
+        """Return the command for the `measured` state (24,), e₃-up frame, at time `t` (s)."""
 
 
 class SteppedBoard:
-    """The board of `loop`, stage by stage, starting with rotor forces `rotors` (n,), N.
+    """The board of `loop`, stage by stage, with initial rotor forces `rotors` (n,), N.
 
-    `predicted` is the last state (24,), rotor forces (n,) and external forces (6,) that a command was computed for.
+    `predicted` holds the state (24,), rotor forces (n,) and external forces (6,) that the last command was computed
+    for.
     """
 
     def __init__(self, loop: Loop, rotors: Any) -> None:
@@ -38,7 +39,7 @@ class SteppedBoard:
         self.predicted: tuple[Any, Any, Any] | None = None
 
     def command(self, t: float, measured: Any) -> Any:
-        """The command for the state `measured` (24,), e₃ up, at time `t` (s)."""
+        """Return the command for the `measured` state (24,), e₃-up frame, at time `t` (s)."""
         measurement = np.append(t, measured)
         kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
         self.predicted = (state, rotors, forces)
@@ -60,7 +61,7 @@ def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:
 
 
 def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
-    """The same for a `law` that is a Python callable."""
+    """Like `_compiled`, for a callable `law`."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
     latency = law.computer.latency
     return lambda t, state, rotors, _: end(law.upright(t + latency, state), state, rotors, NONE)

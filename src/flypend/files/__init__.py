@@ -1,1 +1,1 @@
-"""Whole files, whole folders, NetCDF: what is written appears whole or not at all."""
+"""Atomic writes of files and folders, and NetCDF."""

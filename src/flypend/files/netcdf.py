@@ -1,8 +1,8 @@
-"""Named arrays as a NetCDF file (classic format, 64-bit offsets), written and read with NumPy alone.
+"""Named arrays in NetCDF files (classic format, 64-bit offsets), read and written with NumPy alone.
 
-Written out here because SciPy, which does the same, would be a fifth of an installation. The format is that of the
-NetCDF User's Guide, appendix B: a header of dimensions, attributes and variables, then the numbers, all big-endian and
-padded to four bytes. Of its record dimension only what a run needs is known: no record, for an array that is empty.
+SciPy can do this too, but would make up a fifth of an installation. The format follows appendix B of the NetCDF User's
+Guide: a header of dimensions, attributes and variables, then the data, big-endian and padded to four bytes. Record
+dimensions are not supported, except that the writer stores an array of length 0 as one with no records.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ MAGIC = b"CDF\x02"
 
 
 class Variable(NamedTuple):
-    """An array, of numbers or strings, with the names of its dimensions and its attributes, as xarray takes it."""
+    """An array of numbers or strings with its dimension names and attributes: the arguments of `xarray.Variable`."""
 
     dims: tuple[str, ...]
     values: Any
@@ -29,7 +29,7 @@ class Variable(NamedTuple):
 
 
 def write_netcdf(path: Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
-    """Write `variables` and the `attributes` of the whole, texts and numbers, to `path`. Raises OSError."""
+    """Write `variables` and the global `attributes` (strings and numbers) to `path`. Raises OSError."""
     stored = {name: _stored(name, variable) for name, variable in variables.items()}
     sizes = {dim: size for v in stored.values() for dim, size in zip(v.dims, v.values.shape, strict=True)}
     blocks = [_padded(variable.values.tobytes()) for variable in stored.values()]
@@ -39,7 +39,7 @@ def write_netcdf(path: Path, variables: Mapping[str, Variable], attributes: Mapp
 
 
 def _stored(name: str, variable: Variable) -> Variable:
-    """`variable` in a type that the format has: floats big-endian, texts as characters along one more dimension."""
+    """Convert `variable` to a NetCDF type: big-endian floats; strings as characters along an extra dimension."""
     dims, values, about = variable.dims, np.asarray(variable.values), variable.attributes
     if values.dtype.kind == "U":
         encoded = np.char.encode(values, "utf-8")
@@ -91,30 +91,30 @@ def _padded(content: bytes) -> bytes:
 
 
 def read_netcdf(path: Path) -> tuple[dict[str, Variable], dict[str, Any]]:
-    """The variables of the file at `path`, texts as bytes of one character, and the attributes of the whole.
+    """Read the variables of the file at `path`, strings as arrays of single characters, and its global attributes.
 
     Raises
     ------
     OSError
-        For a file that cannot be read.
+        If the file cannot be read.
     ValueError
-        For one that is no NetCDF of the classic format, is cut short, or has records.
+        If it is not NetCDF in the classic format, is truncated, or has records.
     """
     return _Reader(path.read_bytes()).file()
 
 
 class _Reader:
-    """The content of a file, and how far it has been read."""
+    """The bytes of a file and the read position."""
 
     def __init__(self, content: bytes) -> None:
         self._content, self._at = content, 4
         if content[:4] not in (b"CDF\x01", MAGIC):
-            raise ValueError("not a NetCDF file of the classic format")
+            raise ValueError("not a NetCDF file in the classic format")
         self._offset = 4 if content[3] == 1 else 8
 
     def file(self) -> tuple[dict[str, Variable], dict[str, Any]]:
         if self._int():
-            raise ValueError("a file with records")
+            raise ValueError("files with records are not supported")
         dimensions = [(self._text(), self._int()) for _ in self._entries(DIMENSIONS)]
         attributes = self._attributes()
         return dict(self._variable(dimensions) for _ in self._entries(VARIABLES)), attributes
@@ -123,12 +123,12 @@ class _Reader:
         name = self._text()
         own = [dimensions[self._int()] for _ in range(self._int())]
         about, dtype = self._attributes(), self._dtype()
-        self._int()  # the size, which follows from the shape
+        self._int()  # size in bytes, implied by the shape
         begin = int.from_bytes(self._take(self._offset))
         shape = tuple(size for _, size in own)
         data = self._content[begin : begin + math.prod(shape) * dtype.itemsize]
         if len(data) != math.prod(shape) * dtype.itemsize:
-            raise ValueError(f"a file that ends inside {name}")
+            raise ValueError(f"truncated inside {name}")
         values = np.frombuffer(data, dtype).reshape(shape).astype(dtype.newbyteorder("="))
         return name, Variable(tuple(dim for dim, _ in own), values, about)
 
@@ -147,13 +147,13 @@ class _Reader:
     def _dtype(self) -> np.dtype[Any]:
         kind = self._int()
         if kind not in KINDS:
-            raise ValueError(f"numbers of an unknown type ({kind})")
+            raise ValueError(f"unknown data type ({kind})")
         return np.dtype(KINDS[kind])
 
     def _entries(self, tag: int) -> range:
         found, count = self._int(), self._int()
         if found != tag and (found or count):
-            raise ValueError("a header that is damaged")
+            raise ValueError("corrupt header")
         return range(count)
 
     def _text(self) -> str:
@@ -168,6 +168,6 @@ class _Reader:
     def _take(self, count: int) -> bytes:
         content = self._content[self._at : self._at + count]
         if len(content) != count:
-            raise ValueError("a file that ends inside its header")
+            raise ValueError("truncated inside the header")
         self._at += count
         return content

@@ -1,4 +1,4 @@
-"""An output folder that is filled elsewhere first, so that nothing half-written is left behind."""
+"""Output folders written to a staging folder first, so that no partial output is left behind."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from flypend.errors import InputError
 
 
 def check_writable(out: str | Path) -> None:
-    """Raise InputError if `out` cannot become a folder that can be written. Leaves nothing behind."""
+    """Raise InputError unless `out` is, or can be created as, a writable folder. Leaves the file system unchanged."""
     _open(Path(out)).rmdir()
 
 
 @contextmanager
 def staged(out: str | Path) -> Iterator[Path]:
-    """Give a temporary folder beside `out`; when the block ends well, move its files into `out`, else drop them.
+    """Yield a staging folder. If the block succeeds, move its files into `out`; otherwise discard them.
 
-    Raises InputError, before anything is computed, if `out` cannot become a folder that can be written.
+    Raises InputError on entry unless `out` is, or can be created as, a writable folder.
     """
     out = Path(out)
     folder = _open(out)
     try:
         yield folder
         moves = [(path, out / path.relative_to(folder)) for path in sorted(folder.rglob("*")) if path.is_file()]
-        for _, target in moves:  # before the first file is moved
+        for _, target in moves:  # check all targets before moving the first file
             _check_free(target, out)
         for source, target in moves:
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -36,14 +36,14 @@ def staged(out: str | Path) -> Iterator[Path]:
     except OSError as error:
         where = error.filename
         if isinstance(where, str | Path) and not any(Path(where).is_relative_to(place) for place in (folder, out)):
-            raise  # something else is missing, such as a program
+            raise  # unrelated to `out`, such as a missing executable
         raise _unwritable(out, error) from None
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
 
 def _open(out: Path) -> Path:
-    """A fresh folder on the file system of `out`: inside it if it exists, else beside it."""
+    """Create a temporary folder on the same file system as `out`: inside it if it exists, otherwise beside it."""
     if os.path.lexists(out) and not out.is_dir():
         raise InputError(str(out), "a folder", "a file" if out.exists() else "a link that leads nowhere")
     try:
@@ -54,7 +54,7 @@ def _open(out: Path) -> Path:
 
 
 def _check_free(target: Path, out: Path) -> None:
-    """Raise InputError if something in `out` stands where the file `target` or one of its folders has to be."""
+    """Raise InputError if an existing path in `out` blocks the file `target` or one of its parent folders."""
     if target.is_dir():
         raise InputError(str(target), "a file or nothing", "a folder")
     for folder in target.relative_to(out).parents:

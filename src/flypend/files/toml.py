@@ -1,4 +1,4 @@
-"""Settings as TOML."""
+"""Writing settings as TOML."""
 
 from __future__ import annotations
 
@@ -9,5 +9,5 @@ import tomli_w
 
 
 def toml_text(settings: Mapping[str, Any]) -> str:
-    """`settings` (numbers, words, lists of them, tables) as TOML that reads back as the same."""
+    """Serialise `settings` (numbers, strings, lists of these, tables) as TOML that round-trips exactly."""
     return tomli_w.dumps(settings)

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Atomic file writes: a file appears complete or not at all."""
 
 from __future__ import annotations
 
@@ -18,40 +18,40 @@ FIGURES = (".png", ".pdf", ".svg")
 
 
 def save_figure(figure: Figure, path: str | Path) -> None:
-    """Write `figure` to `path` (.png at its dots per inch, .pdf or .svg), whole or not at all.
+    """Write `figure` atomically to `path` (.png at the figure's dpi, .pdf or .svg).
 
-    Raises InputError for another suffix or a file that cannot be written.
+    Raises InputError for any other suffix or an unwritable file.
     """
-    import matplotlib as mpl  # here, for those who write other files
+    import matplotlib as mpl  # imported here because other writers do not need it
 
     with whole_file(path, FIGURES) as partial:
-        # Type 42 keeps text in a PDF as text, which publishers ask for; no dates, so equal figures are equal files.
+        # Type 42 fonts keep PDF text as text, as publishers require. Without dates, equal figures give identical files.
         metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(partial.suffix.lower())
         with mpl.rc_context({"pdf.fonttype": 42, "svg.hashsalt": "flypend"}):
             figure.savefig(partial, dpi="figure", metadata=metadata)
 
 
 def save_both(figure: Figure, path: Path) -> None:
-    """Write `figure` to files called `path`, as vectors (.pdf) and as .png. Raises InputError as `save_figure`."""
+    """Write `figure` to `path` with the suffixes .png and .pdf appended. Raises InputError like `save_figure`."""
     for suffix in (".png", ".pdf"):
         save_figure(figure, path.with_name(path.name + suffix))
 
 
 def check_file(path: str | Path, suffixes: Sequence[str]) -> None:
-    """Raise InputError if `path` ends in none of `suffixes` or cannot be written. Leaves what is there as it is."""
+    """Raise InputError if `path` has none of `suffixes` or is not writable. Leaves any existing file untouched."""
     with suppress(_DroppedError), whole_file(path, suffixes):
         raise _DroppedError
 
 
 class _DroppedError(Exception):
-    """Leaves `whole_file` without a file."""
+    """Raised inside `whole_file` to abandon the write."""
 
 
 @contextmanager
 def whole_file(path: str | Path, suffixes: Sequence[str]) -> Iterator[Path]:
-    """Yield a name beside `path` to write to; what is there when the block ends becomes `path`, else it is removed.
+    """Yield a temporary path beside `path`. If the block succeeds, rename it to `path`; otherwise delete it.
 
-    Raises InputError if `path` ends in none of `suffixes` or cannot be written.
+    Raises InputError if `path` has none of `suffixes` or is not writable.
     """
     path = Path(path)
     if path.suffix.lower() not in suffixes:

@@ -15,11 +15,11 @@ GAINS = table(
     (
         *PAPER_GAINS,
         Gain(
-            "speed_floor", 1e-2, "rad/s", "s in √(|ẏ|² + s²), which stands for |ẏ| in (kpeqn) and is smooth",
+            "speed_floor", 1e-2, "rad/s", "s in √(|ẏ|² + s²), which stands for |ẏ| in (kpeqn) and keeps it smooth",
             POSITIVE,
         ),
         Gain(
-            "beta", "off", doc="Off leaves a cascade; regularized divides by |v_e|² + beta_floor², and loses more",
+            "beta", "off", doc="Off leaves a cascade; regularized divides by |v_e|² + beta_floor², and is worse",
             choices=("off", "regularized"),
         ),
         Gain("beta_floor", 0.1, "1/s", "Floor of |v_e| in beta; at 0 beta is minimum-norm, and singular", NOT_NEGATIVE),

@@ -115,9 +115,8 @@ def inverted_control(
     def axis(turned: Any) -> Any:
         return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * E3
 
-    if (
-        k.form == "light"
-    ):  # the demand is held while the rest is differentiated, and its direction turns steadily: ω̇_d = 0
+    if k.form == "light":
+        # The demand is held while the rest is differentiated, and its direction turns steadily: ω̇_d = 0.
         e, v = errors_at(*ahead)
         wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
@@ -132,9 +131,8 @@ def inverted_control(
     # ż_d up to a part along z_d, which the transport of Lemma 2 does not see.
     z_d, z_d_dot = scale(per_length, wanted), scale(per_length, wanted_dot)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
-    spring = scale(
-        1 / ca.sqrt((1 + dot(z, z_d)) / 2 + ANTIPODE_FLOOR), tangent_part(z, z_d)
-    )  # 2 sin(θ/2), to 0 only at θ = π
+    # 2 sin(θ/2) of the angle θ between z and z_d; it goes to 0 only at θ = π.
+    spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + ANTIPODE_FLOOR), tangent_part(z, z_d))
     stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
     # No faster than the vehicle can stop: the spring alone would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e

@@ -1,7 +1,7 @@
 """The physics: a spherical pendulum whose pivot is the centre of mass of a quadrotor, on R³ × SO(3) × S².
 
-Glossary (the paper's letter, the word at the boundary)
---------------------------------------------------------
+Glossary (symbol in the paper, name in the code)
+------------------------------------------------
 M, m, l     `mass` of the quadrotor, `bob_mass`, `rod_length`; kg, kg, m
 I           `inertia` of the quadrotor about its centre of mass, body frame; kg m²
 x, ẋ        position and velocity of the pivot, world frame; m, m/s
@@ -9,11 +9,11 @@ R           rotation, body to world; z = R e₃ is the thrust axis
 ω           `omega`, angular velocity in the body frame; rad/s
 y, ẏ        unit vector from the pivot to the bob and its rate, world frame; –, 1/s
 f, τ        `thrust` along z, N, and `moment` in the body frame, N m: together the `wrench`
-e₃          third axis of the world, "up" (against gravity) or, as in the paper, "down" (along gravity)
+e₃          third axis of the world frame: "up" (against gravity) or, as in the paper, "down" (along gravity)
 
-In a frame with e₃ up, f ≥ 0, y = e₃ is the inverted pose and y = −e₃ hangs. In the paper's frame e₃ points along
-gravity, so f ≤ 0 carries the vehicle, y = e₃ hangs, and its moment μ enters as τ = −μ. A rotation by π about e₁ of
-the world and of the body takes one frame to the other (`State.flipped`, `Wrench.flipped`).
+In the e₃-up frame, f ≥ 0, y = e₃ is the inverted pose and y = −e₃ the hanging one. In the paper's e₃-down frame,
+f ≤ 0 carries the vehicle, y = e₃ is the hanging pose, and the paper's moment μ enters as τ = −μ. Rotating both world
+and body frame by π about e₁ converts between the two (`State.flipped`, `Wrench.flipped`).
 """
 
 from flypend.model.dynamics import (

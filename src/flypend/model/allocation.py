@@ -1,4 +1,4 @@
-"""From a wrench to rotor forces within limits: roll and pitch before thrust before yaw."""
+"""Control allocation within rotor limits, in order of priority: roll and pitch, thrust, yaw."""
 
 from __future__ import annotations
 
@@ -10,26 +10,29 @@ import numpy as np
 
 
 def allocate(thrust: Any, moment: Any, vehicle: Any) -> Any:
-    """Rotor forces (n,) for a wrench in the frame with e₃ up, as a CasADi expression, each within the rotor limits.
+    """Allocate a wrench in the e₃-up frame to rotor forces (n,) within their limits, as a CasADi expression.
 
-    Unmixing gives f_i = r_i + T/n ± q, with r_i what roll and pitch ask for, T the thrust and q what yaw asks for, + on
-    the rotors of one spin and − on those of the other. With a = T/n + q and b = T/n − q the limits say that a and b
-    lie each in an interval of its own. So, in this order: the r_i of each spin are scaled until their interval is not
-    empty, the mean of a and b (thrust) is brought into reach, and their difference (yaw) into what is left.
+    Unmixing yields f_i = r_i + T/n ± q, where r_i is the share of roll and pitch, T the thrust and q the share of yaw,
+    with + on rotors of one spin direction and − on the others. Let a = T/n + q and b = T/n − q. The rotor limits
+    confine a to one interval and b to another. The steps, in order of priority:
+
+    1. Scale the r_i of each spin direction until its interval is not empty (roll and pitch).
+    2. Clip the mean of a and b to its feasible range (thrust).
+    3. Clip their difference to the range that remains (yaw).
 
     Parameters
     ----------
     thrust : SX
-        Wanted thrust, N.
+        Desired thrust, N.
     moment : SX (3, 1)
-        Wanted moment, body frame, N m.
+        Desired moment, body frame, N m.
     vehicle : Vehicle
-        Gives mixing and limits; its numbers may be symbols.
+        Source of the mixing matrix and rotor limits; its parameters may be symbolic.
 
     Raises
     ------
     InputError
-        For a vehicle whose rotors do not share thrust equally and yaw in two equal groups.
+        If the rotors do not share thrust equally, or yaw as two groups of equal magnitude.
     """
     tilting, yawing, spins = vehicle.sharing()
     n = len(spins)
@@ -48,7 +51,7 @@ def allocate(thrust: Any, moment: Any, vehicle: Any) -> Any:
     mean = _clip(thrust / n, (a_low + b_low) / 2, (a_high + b_high) / 2)
     q = _clip(yawing * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low))
     forces = ca.vertcat(*(scaled[i] + mean + spins[i] * q for i in range(n)))
-    return _clip(forces, low, high)  # roundoff
+    return _clip(forces, low, high)  # guards against roundoff
 
 
 def _clip(value: Any, low: Any, high: Any) -> Any:

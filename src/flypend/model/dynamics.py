@@ -1,4 +1,4 @@
-"""Rates of a state, derivatives along the flow, energies, momentum and tension, on NumPy batches and CasADi symbols."""
+"""State rates, Lie derivatives, energies, momentum and rod tension, for NumPy batches and CasADi expressions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from flypend.model.vehicle import Vehicle
 
 
 class Rates(NamedTuple):
-    """Time derivative of a state: x_dot, x_ddot, R_dot, omega_dot, y_dot, y_ddot, in the order of `State.packed`."""
+    """Time derivative of a state: x_dot, x_ddot, R_dot, omega_dot, y_dot, y_ddot, ordered like `State.packed`."""
 
     x_dot: Any
     x_ddot: Any
@@ -24,7 +24,7 @@ class Rates(NamedTuple):
     y_ddot: Any
 
     def packed(self) -> Any:
-        """The rates as one vector (..., 24)."""
+        """Return the rates as one vector (..., 24)."""
         if is_symbolic(self.y_dot):
             parts = [ca.vec(part.T) if part.shape == (3, 3) else part for part in self]
             return ca.vertcat(*parts)
@@ -33,14 +33,14 @@ class Rates(NamedTuple):
 
 
 def gravity_vector(vehicle: Vehicle, e3: E3Direction) -> Any:
-    """Gravity g⃗ in the world frame, m/s²: −g e₃ for `e3` "up", +g e₃ for "down" (the paper's frame)."""
+    """Gravity vector g⃗ in the world frame, m/s²: −g e₃ for `e3` = "up", +g e₃ for "down" (the paper's frame)."""
     return (-vehicle.g if errors.one_of("e3", e3, ("up", "down")) == "up" else vehicle.g) * E3
 
 
 def lie_derivative(h: Any, state: State, rates: Rates, t: Any = None) -> Any:
-    """Time derivative of the expression `h` along the flow: L(h) = ∂h/∂s · ṡ (+ ∂h/∂t), by CasADi.
+    """Lie derivative of the CasADi expression `h` along the flow: L(h) = ∂h/∂s · ṡ (+ ∂h/∂t).
 
-    `state` holds the symbols that `h` is written in, `rates` their rates, `t` the symbol of time if `h` names it.
+    `state` holds the symbols in `h`, `rates` their time derivatives. Pass the time symbol `t` if `h` depends on it.
     """
     symbols, velocity = state.packed(), rates.packed()
     if t is not None:
@@ -54,14 +54,14 @@ def bob_position(state: State, vehicle: Vehicle) -> Any:
 
 
 def kinetic_energy(state: State, vehicle: Vehicle) -> Any:
-    """Kinetic energy of quadrotor and bob, (lq) + (lp), J; omega in the body frame that the inertia is given in."""
+    """Kinetic energy of quadrotor and bob, (lq) + (lp), J; inertia and omega must share a body frame."""
     bob_velocity = state.x_dot + vehicle.l * state.y_dot
     rotation = dot(apply(vehicle.I, state.omega), state.omega)
     return (vehicle.M * dot(state.x_dot, state.x_dot) + rotation + vehicle.m * dot(bob_velocity, bob_velocity)) / 2
 
 
 def potential_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Any:
-    """Potential energy −M⟨g⃗, x⟩ − m⟨g⃗, x + l y⟩, J; with e₃ "down" it is the paper's (pe)."""
+    """Potential energy −M⟨g⃗, x⟩ − m⟨g⃗, x + l y⟩, J; for `e3` = "down" this is the paper's (pe)."""
     moment = vehicle.M * state.x + vehicle.m * bob_position(state, vehicle)
     gravity = gravity_vector(vehicle, e3)
     return -sum(gravity[i] * (moment[i] if is_symbolic(moment) else moment[..., i]) for i in range(3))
@@ -78,6 +78,6 @@ def linear_momentum(state: State, vehicle: Vehicle) -> Any:
 
 
 def rod_tension(state: State, wrench: Wrench, vehicle: Vehicle) -> Any:
-    """Tension T of the rod, N: positive pulls (a cable would do), negative pushes (only a rod can)."""
+    """Rod tension T, N: positive in tension (a cable would suffice), negative in compression (needs a rod)."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     return m / (M + m) * (M * l * dot(state.y_dot, state.y_dot) - wrench.thrust * dot(state.y, state.z))

@@ -1,6 +1,6 @@
-"""The equations of motion, as the paper has them and with what the laws do not know of: one formula for both.
+"""Equations of motion: the paper's, and the same with disturbances that the laws do not model, from one formula.
 
-Each works on NumPy batches and on CasADi symbols.
+Both functions accept NumPy batches and CasADi expressions.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Di
 
         M ẍ = M g⃗ + f z + T y,   m (ẍ + l ÿ) = m g⃗ − T y,   Ṙ = R ω̂,   I ω̇ + ω × I ω = τ
 
-    are the paper's (xeqn_txt), (ddty_notfin) and (Rfin) with τ = −μ and T the tension of the rod.
+    These are the paper's (xeqn_txt), (ddty_notfin) and (Rfin), with τ = −μ and T the rod tension.
     """
     return disturbed_motion(state, wrench, vehicle, e3)
 
@@ -35,34 +35,34 @@ def disturbed_motion(
     force_on_bob: Any = (0.0, 0.0, 0.0),
     pivot_offset: Any = (0.0, 0.0, 0.0),
 ) -> Rates:
-    """Rates of `state` under `wrench` and external forces, the pivot lying beside the centre of mass.
+    """Rates of `state` under `wrench` and external forces, with the pivot offset from the centre of mass.
 
-    With c the centre of mass, o the offset in the body frame, x = c + R o the pivot and T the tension of the rod,
+    With c the centre of mass, o the pivot offset in the body frame, x = c + R o the pivot and T the rod tension,
 
         M c̈ = M g⃗ + f z + F_v + T y,   m (ẍ + l ÿ) = m g⃗ + F_b − T y                              (1), (2)
         I ω̇ + ω × I ω = τ + o × Rᵀ(T y),   ẍ = c̈ + s,   s = R (ω̇ × o + ω × (ω × o))               (3), (4)
 
-    (3) splits ω̇ = α + T a and with it s = s₀ + T R (a × o), where a = I⁻¹(o × Rᵀy). (1)/M + (4) − (2)/m is
+    By (3), ω̇ = α + T a and s = s₀ + T R (a × o), where a = I⁻¹(o × Rᵀy). Then (1)/M + (4) − (2)/m reads
 
         −l ÿ = f z/M + h + T (1/m + 1/M) y,   h = F_v/M − F_b/m + s,                                      (5)
 
-    in which gravity cancels. Its part along y, with y · ÿ = −|ẏ|², gives T; what multiplies T on the left is positive:
+    in which gravity cancels. Projecting (5) onto y, with y · ÿ = −|ẏ|², yields T; the factor of T is positive:
 
         T (1/m + 1/M + (o × Rᵀy) · a) = l |ẏ|² − y · (f z/M + h₀),   h₀ = F_v/M − F_b/m + s₀                (6)
 
-    The part of (5) tangent to S² gives ÿ, and M (4) + (1) + (2) gives ẍ. With F_v = F_b = o = 0 these are the paper's
-    (ddty), (xeqn_txt) and (Rfin).
+    The part of (5) tangent to S² yields ÿ, and M (4) + (1) + (2) yields ẍ. For F_v = F_b = o = 0 these reduce to the
+    paper's (ddty), (xeqn_txt) and (Rfin).
 
     Parameters
     ----------
     state : State
-        State, or batch of states; `state.x` and `state.x_dot` are those of the pivot. NumPy arrays or CasADi symbols.
+        State or batch of states; `state.x` and `state.x_dot` refer to the pivot. NumPy arrays or CasADi expressions.
     wrench : Wrench
         Thrust f (N) along z = R e₃ and moment τ (N m, body frame), at the centre of mass.
     vehicle : Vehicle
-        What flies.
+        Vehicle parameters.
     e3 : "up" or "down"
-        Direction of the third axis of the world in which all of this is written.
+        Direction of the third axis of the world frame, for all arguments and results.
     force_on_vehicle, force_on_bob : (..., 3)
         F_v at the centre of mass and F_b at the bob, world frame, N.
     pivot_offset : (..., 3)
@@ -71,7 +71,7 @@ def disturbed_motion(
     Returns
     -------
     Rates
-        Of the state, `x_ddot` being the acceleration of the pivot.
+        Rates of the state; `x_ddot` is the acceleration of the pivot.
     """
     vehicle = vehicle.seen(e3)
     M, m, l, I = vehicle.M, vehicle.m, vehicle.l, vehicle.I
@@ -80,7 +80,7 @@ def disturbed_motion(
     f, z, F_v = wrench.thrust, state.z, scale(1.0, force_on_vehicle)
     speed_squared = dot(state.y_dot, state.y_dot)
 
-    arm = cross(o, apply(_transposed(R), y))  # moment per tension, body frame
+    arm = cross(o, apply(_transposed(R), y))  # moment per unit tension, body frame
     a = apply(vehicle.I_inv, arm)  # (3)
     alpha = apply(vehicle.I_inv, wrench.moment - cross(omega, apply(I, omega)))
     s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
@@ -96,5 +96,5 @@ def disturbed_motion(
 
 
 def _transposed(R: Any) -> Any:
-    """Rᵀ, batch axes in front."""
+    """Rᵀ, with leading batch axes."""
     return R.T if is_symbolic(R) else np.swapaxes(R, -1, -2)

@@ -1,4 +1,4 @@
-"""State on R³ × SO(3) × S² and wrench, as NumPy arrays (with batch axes in front) or CasADi symbols."""
+"""State on R³ × SO(3) × S² and wrench, as NumPy arrays (with leading batch axes) or CasADi expressions."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from flypend import errors, geometry
 
 E3Direction = Literal["up", "down"]
 
-# A rotation by π about e₁, which takes the frame with e₃ up to the one with e₃ down and back.
+# Rotation by π about e₁, which converts between the e₃-up and e₃-down frames.
 FLIP = np.diag([1.0, -1.0, -1.0])
 
-# Input rounded to four decimals (0.7071 for 1/√2) is accepted and projected; anything further off is an error.
+# Input rounded to four decimals (0.7071 for 1/√2) is accepted and projected; a larger error is rejected.
 MANIFOLD_TOLERANCE = 1e-4
 
 SHAPES: dict[str, tuple[int, ...]] = {
     "x": (3,), "x_dot": (3,), "R": (3, 3), "omega": (3,), "y": (3,), "y_dot": (3,)
 }  # fmt: skip
 SIZE = 24
-# A state this large has left every machine that the model could describe (m, m/s, rad/s).
+# Beyond this magnitude (m, m/s, rad/s) the state is unphysical and the run has diverged.
 MAX_STATE = 1e6
-# The same rotation on a packed state: x, x_dot, R (both sides), omega, y, y_dot change sign component by component.
+# FLIP on a packed state: x, x_dot, R (from both sides), omega, y, y_dot each change sign componentwise.
 FLIP_PACKED = np.concatenate(
     [np.tile(np.diag(FLIP), 2), np.outer(np.diag(FLIP), np.diag(FLIP)).ravel(), np.tile(np.diag(FLIP), 3)]
 )
@@ -32,7 +32,7 @@ FLIP_PACKED = np.concatenate(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class State:
-    """State of vehicle and pendulum; every field may carry the same batch axes in front.
+    """State of vehicle and pendulum. All fields may have the same leading batch axes.
 
     Parameters
     ----------
@@ -46,12 +46,13 @@ class State:
         Unit vector from the pivot to the bob and its rate (1/s), world frame; y_dot is tangent: y · y_dot = 0.
         y_dot defaults to 0.
 
-    R, y and y_dot within 1e-4 of the manifold (numbers rounded for print) are projected onto it.
+    R, y and y_dot within 1e-4 of the manifold (such as rounded numbers from a paper) are projected onto it.
 
     Raises
     ------
     InputError
-        If a shape is wrong, a number is not finite, R is not a rotation, y not a unit vector, or y_dot not tangent.
+        If a shape is wrong, a number is not finite, R is not a rotation, y is not a unit vector, or y_dot is not
+        tangent.
     """
 
     x: Any = (0.0, 0.0, 0.0)
@@ -82,11 +83,11 @@ class State:
 
     @property
     def batch_shape(self) -> tuple[int, ...]:
-        """Shape of the batch axes, () for a single state."""
+        """Shape of the batch axes; () for a single state."""
         return tuple(self.y.shape[:-1])
 
     def packed(self) -> Any:
-        """The state as one vector (..., 24): x, x_dot, R by rows, omega, y, y_dot."""
+        """Return the state as one vector (..., 24): x, x_dot, R in row-major order, omega, y, y_dot."""
         if geometry.is_symbolic(self.y):
             return ca.vertcat(self.x, self.x_dot, ca.vec(self.R.T), self.omega, self.y, self.y_dot)
         rows = self.R.reshape((*self.batch_shape, 9))
@@ -94,7 +95,7 @@ class State:
 
     @classmethod
     def symbolic(cls, packed: Any) -> Self:
-        """The state whose fields are slices of the CasADi vector `packed` of length 24 (no checks)."""
+        """Build a state whose fields are slices of the CasADi vector `packed` (24, 1), without checks."""
         return cls(
             x=packed[0:3], x_dot=packed[3:6], R=ca.reshape(packed[6:15], 3, 3).T, omega=packed[15:18],
             y=packed[18:21], y_dot=packed[21:24],
@@ -102,12 +103,12 @@ class State:
 
     @classmethod
     def from_packed(cls, packed: Any) -> Self:
-        """The state(s) of vectors (..., 24) in the order of `packed`. Raises InputError like the constructor."""
+        """Build states from vectors (..., 24) in the order of `packed`. Raises InputError like the constructor."""
         return cls(**split(errors.array("packed state", packed, (SIZE,), batch=True)))
 
     @classmethod
     def trusted(cls, packed: Any) -> Self:
-        """The state(s) of `packed` vectors (..., 24) as they are: what an integrator left, and NaN after its end."""
+        """Build states from `packed` vectors (..., 24) unchecked: integrator output, NaN after the end of a run."""
         return cls._unchecked(split(packed))
 
     @classmethod
@@ -120,15 +121,15 @@ class State:
         return made
 
     def flipped(self) -> State:
-        """The same physical state in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""
+        """Return the same physical state in the frame rotated by π about e₁ (e₃ up to e₃ down, or back)."""
         vectors = {name: geometry.apply(FLIP, getattr(self, name)) for name in SHAPES if name != "R"}
         return State(**vectors, R=FLIP @ self.R @ FLIP)
 
     def __getitem__(self, index: Any) -> State:
-        """Members of a batch: `index` applies to the batch axes."""
+        """Select members of a batch; `index` applies to the batch axes."""
         if not self.batch_shape:
             raise IndexError("a single state has no members; only a batch of states can be indexed")
-        # What is on the manifold stays as it is, to the last bit.
+        # Members are on the manifold already. Projecting again would change the last bits.
         return type(self)._unchecked({name: getattr(self, name)[index] for name in SHAPES})
 
     def __len__(self) -> int:
@@ -147,12 +148,12 @@ class State:
         max_y_dot: float = 3.0,
         max_x_dot: float = 2.0,
     ) -> Self:
-        """Random states at x = 0: y uniform on S², R uniform on SO(3), rates uniform in the disc or ball.
+        """Random states at x = 0: y uniform on S², R uniform on SO(3), rates uniform in a disc or ball.
 
         Parameters
         ----------
         rng : numpy.random.Generator
-            Source of randomness; the same generator state gives the same states.
+            Random number generator; equal generator states yield equal states.
         size : int or tuple of int
             Batch shape.
         max_omega, max_y_dot, max_x_dot : float
@@ -171,7 +172,7 @@ class State:
 
 
 def split(packed: Any) -> dict[str, Any]:
-    """Fields of packed states (..., 24), unchecked: a dict of arrays with the shapes of `State`."""
+    """Split packed states (..., 24) into a dict of arrays with the shapes of the fields of `State`, unchecked."""
     packed = np.asarray(packed)
     out, start = {}, 0
     for name, shape in SHAPES.items():
@@ -184,7 +185,7 @@ def split(packed: Any) -> dict[str, Any]:
 def project(packed: Any) -> tuple[Any, Any]:
     """Project packed states (..., 24) onto the manifold.
 
-    Returns the projected vectors and the drift (..., 3) before it: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
+    Returns the projected vectors and the drift (..., 3) before projection: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
     """
     value = split(packed)
     drift = np.stack(
@@ -205,16 +206,16 @@ def project(packed: Any) -> tuple[Any, Any]:
 
 @dataclass(frozen=True, eq=False)
 class Wrench:
-    """What the rotors do to the vehicle: `thrust` (N) along z = R e₃ and `moment` (..., 3) in the body frame (N m).
+    """Wrench of the rotors: `thrust` (N) along z = R e₃ and `moment` (..., 3) in the body frame (N m).
 
-    With e₃ up, thrust ≥ 0; in the paper's frame (e₃ down) the thrust that carries the vehicle is negative.
+    In the e₃-up frame, thrust ≥ 0. In the paper's e₃-down frame, the thrust that carries the vehicle is negative.
     """
 
     thrust: Any
     moment: Any
 
     def flipped(self) -> Wrench:
-        """The same wrench in the frame turned by π about e₁."""
+        """Return the same wrench in the frame rotated by π about e₁."""
         return Wrench(-self.thrust, geometry.apply(FLIP, self.moment))
 
 
@@ -228,7 +229,7 @@ def _batch_shape(values: dict[str, Any]) -> tuple[int, ...]:
 
 def _check_manifold(values: dict[str, Any]) -> None:
     defect = np.max(geometry.rotation_defect(values["R"]), initial=0.0)
-    if defect > 3 * MANIFOLD_TOLERANCE:  # nine entries, each off by half a unit of the fourth decimal: at most 3e-4
+    if defect > 3 * MANIFOLD_TOLERANCE:  # nine entries, each rounded to the fourth decimal: at most 3e-4
         mirrored = np.any(np.linalg.det(values["R"]) < 0)
         got = "determinant < 0" if mirrored else f"‖RᵀR − 1‖ = {defect:.3g}"
         raise errors.InputError("R", "a rotation (RᵀR = 1, det R = 1)", got)
@@ -249,9 +250,9 @@ assert tuple(field.name for field in fields(State)) == tuple(SHAPES)
 
 
 def project_symbolic(packed: Any) -> Any:
-    """Project a packed state (24, 1) that a small step took off the manifold back onto it, in CasADi.
+    """Project a packed CasADi state (24, 1), close to the manifold, onto it.
 
-    For R one Newton step of the polar decomposition, R(3 − RᵀR)/2, squares the error: 1e-8 becomes 1e-16.
+    R takes one Newton step of the polar decomposition, R(3 − RᵀR)/2, which squares the error: 1e-8 becomes 1e-16.
     """
     s = State.symbolic(packed)
     y = s.y / ca.norm_2(s.y)

@@ -1,4 +1,4 @@
-"""Vehicle: the constants of one machine, loaded from TOML, checked once, and its rotor mixing."""
+"""Vehicle parameters, loaded from TOML and validated once, and the rotor mixing."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from flypend.model.state import FLIP, E3Direction
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Vehicle:
-    """A quadrotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
+    """A multirotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
 
     Parameters
     ----------
@@ -26,25 +26,25 @@ class Vehicle:
     mass, bob_mass, rod_length : float
         M (kg), m (kg), l (m).
     inertia : (3,) or (3, 3)
-        Principal moments, or the matrix, about the centre of mass in the body frame; kg m².
+        Principal moments or inertia matrix about the centre of mass, body frame; kg m².
     gravity : float
         g, m/s².
     rotor_positions : (n, 3)
         Positions of the n ≥ 4 rotors relative to the centre of mass, body frame; m.
     rotor_spins : (n,)
-        Sign of the reaction torque of each rotor about the up axis: +1 for one that spins clockwise seen from above.
+        Sign of the reaction torque of each rotor about the up axis: +1 for a rotor spinning clockwise seen from above.
     drag_ratio : float
-        c, torque per thrust of a rotor; m.
+        c, torque per unit thrust of a rotor; m.
     rotor_limits : (2,)
-        Least and largest force of one rotor; N.
+        Minimum and maximum force of one rotor; N.
     rotor_lag : float
-        Time constant of a rotor's force; s.
+        Time constant of the first-order lag of the rotor forces; s.
 
     Raises
     ------
     InputError
-        For numbers not finite or out of range, an inertia that is not symmetric positive definite or violates the
-        triangle inequality, spins other than ±1, and rotors that cannot produce every wrench.
+        If a number is not finite or out of range, the inertia is not symmetric positive definite or violates the
+        triangle inequality, a spin is not ±1, or the rotors cannot produce every wrench.
     """
 
     name: str = "unnamed"
@@ -84,12 +84,12 @@ class Vehicle:
     M = property(lambda self: self.mass, doc="Mass of the quadrotor, kg.")
     m = property(lambda self: self.bob_mass, doc="Mass of the bob, kg.")
     l = property(lambda self: self.rod_length, doc="Length of the rod, m.")
-    g = property(lambda self: self.gravity, doc="Gravity constant, m/s².")
+    g = property(lambda self: self.gravity, doc="Gravitational acceleration, m/s².")
     I = property(lambda self: self.inertia, doc="Inertia matrix, body frame, kg m².")
     I_inv = property(lambda self: np.linalg.inv(self.inertia), doc="Inverse of the inertia matrix.")
 
     def seen(self, e3: E3Direction) -> Vehicle:
-        """The vehicle in the body frame of `e3` ("up" or "down"): products of inertia change sign with the axes."""
+        """Return the vehicle with its inertia in the body frame of `e3` ("up" or "down")."""
         turned = FLIP @ self.inertia @ FLIP
         if errors.one_of("e3", e3, ("up", "down")) == "up" or np.array_equal(turned, self.inertia):
             return self
@@ -97,27 +97,27 @@ class Vehicle:
 
     @property
     def weight(self) -> float:
-        """(M + m) g, the thrust of hover, N."""
+        """Hover thrust (M + m) g, N."""
         return (self.mass + self.bob_mass) * self.gravity
 
     def mixing(self, e3: E3Direction = "up") -> Any:
         """Matrix (4, n) from rotor forces to (thrust, moment) in the body frame of `e3` ("up" or "down").
 
-        With e₃ down, the thrust row is negative; its negative is the first row of the paper's (transfmu), whose
-        other rows are those of this matrix.
+        For `e3` = "down" the thrust row is negative: the negative of the first row of the paper's (transfmu). The
+        other rows agree with (transfmu).
         """
         x, y, _ = self.rotor_positions.T
         up = np.array([np.ones_like(x), y, -x, self.drag_ratio * self.rotor_spins])
         return up if errors.one_of("e3", e3, ("up", "down")) == "up" else np.diag([-1.0, 1.0, -1.0, -1.0]) @ up
 
     def unmixing(self, e3: E3Direction = "up") -> Any:
-        """Matrix (n, 4) from (thrust, moment) to rotor forces, least squares in norm for n > 4; `e3` as in `mixing`."""
+        """Matrix (n, 4) from (thrust, moment) to rotor forces, of minimum norm for n > 4; `e3` as in `mixing`."""
         return np.linalg.pinv(self.mixing(e3))
 
     def sharing(self) -> tuple[Any, float, Any]:
-        """How a wrench is shared: forces per moment of roll and pitch (n, 2), and of yaw, its size and its signs (n,).
+        """Rotor forces per unit roll and pitch moment (n, 2), and per unit yaw moment as magnitude and signs (n,).
 
-        Raises InputError for rotors that do not share thrust equally and yaw in two equal groups.
+        Raises InputError if the rotors do not share thrust equally, or yaw as two groups of equal magnitude.
         """
         unmixing = self.unmixing()
         per_thrust, per_yaw = unmixing[:, 0], unmixing[:, 3]
@@ -129,26 +129,26 @@ class Vehicle:
         return repr(self.to_dict())
 
     def __eq__(self, other: object) -> bool:
-        """Whether `other` is a vehicle with the same numbers."""
+        """Whether `other` is a vehicle with the same field values."""
         return isinstance(other, Vehicle) and self._content() == other._content()
 
     def __hash__(self) -> int:
         return hash(self._content())
 
     def replace(self, **changes: Any) -> Self:
-        """A copy with the given fields in `changes` replaced and everything checked again. Raises InputError."""
+        """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
         errors.only_known("vehicle", changes, _FIELDS)
         return replace(self, **changes)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields as plain numbers and lists, the content of a vehicle TOML."""
+        """Return the fields as plain numbers and lists, as in a vehicle TOML file."""
         return {
             name: value.tolist() if isinstance(value := getattr(self, name), np.ndarray) else value for name in _FIELDS
         }
 
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
-        """A vehicle from the content `values` of its TOML; messages begin with `field`. Raises InputError."""
+        """Build a vehicle from the parsed TOML `values`. Raises InputError with field names prefixed by `field`."""
         errors.only_known(field, values, _FIELDS)
         for name in _REQUIRED:
             if name not in values:
@@ -160,7 +160,7 @@ class Vehicle:
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """The vehicle in the TOML file at `path`. Raises InputError, also if the file cannot be read."""
+        """Load a vehicle from the TOML file at `path`. Raises InputError, also if the file cannot be read."""
         return cls.from_dict(read_toml(path))
 
 
@@ -171,7 +171,7 @@ _REQUIRED = (
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """The content of a TOML file. Raises InputError if it cannot be read or is not TOML."""
+    """Parse a TOML file. Raises InputError if it cannot be read or is not TOML."""
     try:
         return tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
@@ -181,13 +181,13 @@ def read_toml(path: str | Path) -> dict[str, Any]:
 
 
 def vehicle_names() -> list[str]:
-    """Names of the vehicles that come with the package."""
+    """Names of the vehicles shipped with the package."""
     folder = resources.files("flypend") / "vehicles"
     return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
 
 
 def vehicle(name: str | Path) -> Vehicle:
-    """The vehicle called `name` that comes with the package, or in the TOML file at that path. Raises InputError."""
+    """Load the vehicle `name` shipped with the package, or the TOML file at the path `name`. Raises InputError."""
     if isinstance(name, Path) or (isinstance(name, str) and name.endswith(".toml")):
         return Vehicle.from_toml(name)
     errors.one_of("vehicle", name, vehicle_names())

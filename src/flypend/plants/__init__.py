@@ -1,4 +1,4 @@
-"""From the ideal closed loop towards the machine: limits, lag, sampling, delay, noise, wind, and a second engine."""
+"""Plants: from the ideal closed loop to rotor limits, lag, sampling, delay, noise, wind and a second engine."""
 
 from flypend.plants.plant import (
     MOTION_CAPTURE,

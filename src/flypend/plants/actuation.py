@@ -1,4 +1,4 @@
-"""Between command and motion: rotors in front of either engine, and the rate loop on board."""
+"""Actuation between command and motion: the rotors of either engine, and the onboard rate loop."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OMEGA = slice(15, 18)
 
 
 class Engine(Protocol):
-    """What integrates the motion, in the frame with e₃ up."""
+    """Integrator of the motion, in the e₃-up frame."""
 
     @property
     def packed(self) -> Any:
@@ -30,17 +30,17 @@ class Engine(Protocol):
 
     @property
     def rotors(self) -> Any:
-        """The forces of the rotors (n,), N."""
+        """The rotor forces (n,), N."""
 
     def reset(self, packed: Any, rotors: Any) -> None:
         """Set the packed state (24,) and the rotor forces (n,), N."""
 
     def step(self, command: Any, duration: float, wind: Any) -> None:
-        """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,), N."""
+        """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
 
 
 class Mujoco:
-    """MuJoCo in equal steps of its own, the rotors being its filters.
+    """MuJoCo as an engine, with equal internal time steps; its actuator filters model the rotor lag.
 
     Parameters
     ----------
@@ -56,12 +56,12 @@ class Mujoco:
 
     @property
     def packed(self) -> Any:
-        """The packed state (24,); NaN once a force was none, or too large for MuJoCo."""
+        """The packed state (24,); NaN once a force has been NaN or too large for MuJoCo."""
         return np.full(SIZE, np.nan) if self._lost else self._engine.packed
 
     @property
     def rotors(self) -> Any:
-        """The forces of the rotors (n,), N."""
+        """The rotor forces (n,), N."""
         return self._engine.rotors
 
     def reset(self, packed: Any, rotors: Any) -> None:
@@ -70,7 +70,7 @@ class Mujoco:
         self._lost = False
 
     def step(self, command: Any, duration: float, wind: Any) -> None:
-        """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,)."""
+        """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,), N."""
         from flypend.plants.mujoco import substeps
 
         steps = substeps(duration)
@@ -84,28 +84,28 @@ class Mujoco:
 
 
 def make_engine(vehicle: Vehicle, plant: Plant) -> Engine:
-    """The engine that `plant` names, for the vehicle that truly flies."""
+    """Create the engine of `plant` for `vehicle`, the true vehicle."""
     if plant.engine == "equations":
         return EquationsEngine(vehicle, plant.pivot_offset)
     return Mujoco(vehicle, plant.pivot_offset)
 
 
 class Actuation:
-    """Turns a command, held over a while, into motion of an engine.
+    """Advances an engine under a command with zero-order hold.
 
-    A command is the rotor forces (n,), or for the interface "rates" the collective thrust and the body rates (4,),
-    which a proportional loop on board tracks: τ = I k (ω_command − ω) + ω × I ω.
+    A command is the rotor forces (n,). For the interface "rates" it is collective thrust and body rates (4,), tracked
+    by an onboard proportional loop: τ = I k (ω_command − ω) + ω × I ω.
 
     Parameters
     ----------
     engine : Engine
-        What moves.
+        Integrates the motion.
     vehicle : Vehicle
-        The vehicle that the rate loop believes in.
+        Nominal vehicle of the rate loop.
     plant : Plant
-        Gives interface, limits, rate and gain of the loop.
+        Source of the interface, the limits, and the rate and gain of the rate loop.
     step : float, optional
-        Longest step of the engine, s; default that of the plant, or of its rate loop.
+        Maximum step of the engine, s; default that of the plant or of its rate loop.
     """
 
     def __init__(self, engine: Engine, vehicle: Vehicle, plant: Plant, step: float | None = None) -> None:
@@ -117,7 +117,7 @@ class Actuation:
             self._loop = _compiled_rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
 
     def advance(self, command: Any, duration: float, wind: Any) -> None:
-        """Hold `command` for `duration` seconds under `wind` (6,)."""
+        """Hold `command` for `duration` (s) under `wind` (6,), N."""
         steps = steps_in(duration, self._plant, self._longest)
         for _ in range(steps):
             forces = self._loop(command, self.engine.packed[OMEGA], NONE) if self._rates else command
@@ -130,9 +130,10 @@ def _compiled_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
 
 
 def rate_loop(vehicle: Any, limits: bool, gain: float, symbols: Any = None, name: str = "rate_loop") -> ca.Function:
-    """The loop (command (4,), omega (3,), symbols) → rotor forces, with `gain` (1/s), within `limits` if set.
+    """Rate loop (command (4,), omega (3,), symbols) → rotor forces (n,), N, as a CasADi function.
 
-    `vehicle` and `symbols` as in `rotor_step`.
+    `gain` is in 1/s; `limits` says whether the forces are kept within the rotor limits. `vehicle`, `symbols` and
+    `name` as in `rotor_step`.
     """
     command, omega = ca.SX.sym("c", 4), ca.SX.sym("omega", 3)
     gyroscopic = cross(omega, apply(vehicle.I, omega))
@@ -142,7 +143,7 @@ def rate_loop(vehicle: Any, limits: bool, gain: float, symbols: Any = None, name
 
 
 def rotor_forces(thrust: Any, moment: Any, vehicle: Any, limits: bool) -> Any:
-    """Rotor forces (n,) for a wrench in CasADi: allocated within the limits of `vehicle`, or simply unmixed."""
+    """Rotor forces (n,), N, for a wrench, in CasADi: allocated within the limits of `vehicle`, or just unmixed."""
     if limits:
         return allocate(thrust, moment, vehicle)
     return ca.densify(ca.mtimes(vehicle.unmixing(), ca.vertcat(thrust, moment)))

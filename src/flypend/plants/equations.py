@@ -1,4 +1,4 @@
-"""The package's own engine: one Runge-Kutta step of vehicle, pendulum and rotors as a compiled function."""
+"""The built-in engine: one Runge-Kutta step of vehicle, pendulum and rotors as a compiled function."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from flypend.model.motion import disturbed_motion
 from flypend.model.state import SIZE, project_symbolic
 
 TIMING_SIZE = 4
-NONE = np.zeros(0)  # the symbols of a vehicle of numbers
+NONE = np.zeros(0)  # symbols of a vehicle with numeric parameters
 
 
 class EquationsEngine:
-    """Vehicle and pendulum with rotors that lag, in the frame with e₃ up, advanced by classical Runge-Kutta steps.
+    """Vehicle, pendulum and rotors with first-order lag, integrated by classical Runge-Kutta steps, e₃-up frame.
 
     Parameters
     ----------
     vehicle : Vehicle
-        The vehicle that flies; its `rotor_lag` is used.
+        The true vehicle, including its `rotor_lag`.
     pivot_offset : (3,)
-        Ball joint relative to the centre of mass, body frame, m.
+        Position of the ball joint relative to the centre of mass, body frame, m.
     """
 
     def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0)) -> None:
@@ -52,9 +52,9 @@ def _compiled_step(vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> Callabl
 
 @lru_cache(maxsize=256)
 def step_timing(lag: float, duration: float) -> Any:
-    """What `rotor_step` must know of its `duration` h (s): h, and e^{−t/T} at 0, h/2 and h for a `lag` of T (s)."""
+    """Timing input (4,) of `rotor_step` for a `duration` h and a `lag` T (s): h, and e^{−t/T} at t = 0, h/2 and h."""
     decay = np.exp(-duration / (2 * lag)) if lag > 0 else 0.0
-    return np.array([duration, float(lag > 0), decay, decay**2])  # without a lag nothing is left from the beginning
+    return np.array([duration, float(lag > 0), decay, decay**2])  # without a lag the initial force decays at once
 
 
 def rotor_step(
@@ -69,23 +69,23 @@ def rotor_step(
 ) -> ca.Function:
     """One step (state, rotors, command, wind, timing, symbols) → (state, rotors) of `vehicle` as a CasADi function.
 
-    Rotor forces follow the command with the time constant of the vehicle, exactly; the motion is integrated by the
-    Runge-Kutta method of order 4 and projected back onto the manifold.
+    The rotor forces follow the command as an exact first-order lag with the time constant of the vehicle. The motion
+    is integrated by the classical Runge-Kutta method of order 4 and projected onto the manifold.
 
     Parameters
     ----------
     vehicle : Vehicle
-        What flies; its numbers may be symbols, for code that takes them at run time.
+        Vehicle parameters; they may be symbolic, for code that receives them at run time.
     pivot_offset : (3,)
         As in `EquationsEngine`.
     symbols : SX (k, 1), optional
-        The symbols of such a vehicle.
+        The symbols of a symbolic vehicle.
     rotors : int, optional
-        Its number of rotors.
+        Number of rotors of a symbolic vehicle.
     timing : (4,), optional
-        What `step_timing` gives. It becomes a constant of the function, whose input `timing` is then empty.
+        Output of `step_timing`. If given, it is compiled in as a constant and the input `timing` is empty.
     project : bool
-        Whether the state is projected; a prediction of some steps projects its end only.
+        Whether to project the state; a prediction over several steps projects only its end.
     name : str
         Name of the function.
     """
@@ -123,11 +123,11 @@ def rotor_step(
 
 
 def rotor_lag(n: int) -> ca.Function:
-    """The `n` rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
+    """Lag of the `n` rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
     rotors, command, timing = ca.SX.sym("r", n), ca.SX.sym("u", n), ca.SX.sym("h", TIMING_SIZE)
     return ca.Function("rotor_lag", [rotors, command, timing], [_lagging(rotors, command, timing[3])])
 
 
 def _lagging(rotors: Any, command: Any, decay: Any) -> Any:
-    """Rotor forces that a `command` draws from `rotors`, when `decay` = e^{−t/T} of the difference is left."""
+    """First-order response of the forces `rotors` to `command` after t, with `decay` = e^{−t/T}."""
     return command + (rotors - command) * decay

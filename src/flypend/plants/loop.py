@@ -1,4 +1,4 @@
-"""The closed loop as one record: what flies, what steers it, and what stands between the two."""
+"""The closed loop as one record: vehicle, law and plant."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from flypend.plants.plant import AnyPlant, Sampled, sampled_plant
 
 @dataclass(frozen=True)
 class Loop:
-    """A vehicle under a bound law through a plant: everything that compiled code depends on.
+    """Vehicle, bound law and plant: everything that compiled code depends on.
 
     Parameters
     ----------
     vehicle : Vehicle
-        The vehicle that the law believes in.
+        The nominal vehicle, which the law assumes.
     law : BoundLaw or Controller
         The law, bound to that vehicle.
     plant : Ideal or Sampled
-        What stands between the law and the world.
+        The plant.
     parameters : tuple of str
-        Gains that are inputs of the code, so that they may differ from run to run.
+        Names of gains that are inputs of the compiled code, so they can differ between runs.
     """
 
     vehicle: Vehicle
@@ -33,12 +33,12 @@ class Loop:
 
     @property
     def symbolic(self) -> BoundLaw:
-        """The law, which must be one in symbols. Raises InputError for any other."""
+        """The law, which must be symbolic. Raises InputError otherwise."""
         if not isinstance(self.law, BoundLaw):
             raise InputError("law", "a Law, written in symbols", self.law.name)
         return self.law
 
     @property
     def sampled(self) -> Sampled:
-        """The plant, which must be a sampled one. Raises InputError for the ideal one."""
+        """The plant, which must be sampled. Raises InputError for the ideal plant."""
         return sampled_plant(self.plant)

@@ -1,6 +1,6 @@
-"""What the sensors and the air add, from normal numbers: the measured state, and gusts.
+"""Measurement noise and wind gusts as functions of standard normal draws.
 
-How much they add are inputs of both functions, so that one compiled flight serves all amounts.
+The noise and wind parameters are inputs of the functions, so one compiled flight serves all values.
 """
 
 from __future__ import annotations
@@ -16,20 +16,21 @@ from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.plant import Noise, Wind
 
-# Of the numbers that one control tick draws, the first 18 are for the measurement and the next 6 for the gusts.
+# Each control tick draws 24 numbers: the first 18 are for the measurement, the other 6 for the gusts.
 MEASUREMENT, GUSTS = slice(0, 18), slice(18, 24)
 NOISE_SIZE, WIND_SIZE = 6, 9
 
 
 def noise_numbers(noise: Noise | None) -> Any:
-    """The numbers (6,) of `noise` that `measurement` takes: its fields, in their order."""
+    """Parameters (6,) of `noise` for `measurement`: its fields in declaration order."""
     return np.zeros(NOISE_SIZE) if noise is None else np.array(astuple(noise), dtype=float)
 
 
 def wind_numbers(wind: Wind | None, period: float) -> Any:
-    """The numbers (9,) of `wind` that `gusts` takes, for gusts that last for a control `period`, s.
+    """Parameters (9,) of `wind` for `gusts`, with gusts held constant over a control `period`, s.
 
-    What is left of a gust after a period, what each axis of that on vehicle and on bob gains, and the constant forces.
+    The decay of a gust over one period, the standard deviations (N) of its per-axis increments on vehicle and bob, and
+    the constant forces on both, N.
     """
     if wind is None:
         return np.zeros(WIND_SIZE)
@@ -40,12 +41,12 @@ def wind_numbers(wind: Wind | None, period: float) -> Any:
 
 
 def measurement() -> ca.Function:
-    """(state (24,), draws (18,), `noise_numbers`) → the state as measured, on the manifold, as a CasADi function."""
+    """CasADi function (state (24,), draws (18,), `noise_numbers`) → measured state (24,), on the manifold."""
     packed, draws, sigma = ca.SX.sym("s", SIZE), ca.SX.sym("n", 18), ca.SX.sym("sigma", NOISE_SIZE)
     noise = dict(zip((entry.name for entry in fields(Noise)), ca.vertsplit(sigma), strict=True))
     s, draw = State.symbolic(packed), [draws[3 * i : 3 * i + 3] for i in range(6)]
     turn = noise["attitude"] * draw[2]
-    angle = ca.norm_2(turn) + 1e-150  # 0/0 at a draw of exactly zero
+    angle = ca.norm_2(turn) + 1e-150  # avoids 0/0 for a draw of exactly zero
     first, second = ca.sin(angle) / angle, 2 * (ca.sin(angle / 2) / angle) ** 2
     rotation = ca.SX.eye(3) + first * hat(turn) + second * hat(turn) @ hat(turn)
     y = unit(s.y + noise["y"] * tangent_part(s.y, draw[4]))
@@ -61,7 +62,7 @@ def measurement() -> ca.Function:
 
 
 def gusts() -> ca.Function:
-    """(gust (6,), draws (6,), `wind_numbers`) → the next gust and the force of the wind on vehicle and bob (6,), N."""
+    """CasADi function (gust (6,), draws (6,), `wind_numbers`) → next gust (6,), wind force on vehicle and bob (6,)."""
     gust, draws, numbers = ca.SX.sym("g", 6), ca.SX.sym("n", 6), ca.SX.sym("w", WIND_SIZE)
     decay, on_vehicle, on_bob, constant = numbers[0], numbers[1], numbers[2], numbers[3:]
     following = decay * gust + ca.vertcat(on_vehicle * draws[:3], on_bob * draws[3:])

@@ -1,16 +1,16 @@
-"""MuJoCo as an independent judge of the dynamics: bodies, joints and motors, none of the package's equations.
+"""MuJoCo as an independent check of the dynamics: bodies, joints and motors, none of the package's equations.
 
-The vehicle is a free body, the rod a ball joint, the bob a point mass, each rotor a motor at its place; MuJoCo derives
-the motion. What of MuJoCo's conventions matters here, each held by a test:
+The vehicle is a free body, the rod a ball joint, the bob a point mass and each rotor a motor at its position; MuJoCo
+derives the motion. The relevant MuJoCo conventions, each verified by a test:
 
-- `qpos` of a free joint is position and quaternion (w, x, y, z) of the body's frame, `qvel` its linear velocity in the
-  world frame and its angular velocity in the body frame. The body's frame is put at the pivot and its inertia beside
-  it, so position and velocity are those of the pivot.
+- `qpos` of a free joint is position and quaternion (w, x, y, z) of the body frame, `qvel` its linear velocity in the
+  world frame and its angular velocity in the body frame. The body frame is placed at the pivot and the inertia is
+  offset from it, so position and velocity are those of the pivot.
 - `qvel` of a ball joint is the angular velocity of the child relative to the parent, in the child's frame.
 - `xfrc_applied` acts at a body's centre of mass and is constant in the world frame during a step; a motor on a site
-  turns with the body within the stages of RK4.
-- RK4 is of order 4 in attitude since MuJoCo 4.0. Before, it is of order 2 where the axis of rotation turns: after 1 s
-  in steps of 0.5 ms the state is off by up to 8e-5 (MuJoCo 3.2) instead of 5e-10.
+  rotates with the body within the stages of RK4.
+- RK4 is fourth order in attitude since MuJoCo 4.0. Earlier versions are second order if the rotation axis changes:
+  after 1 s in 0.5 ms steps the state error reaches 8e-5 (MuJoCo 3.2) instead of 5e-10.
 """
 
 from __future__ import annotations
@@ -37,13 +37,14 @@ from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.schedule import steps_in, within_period
 
-# Moment of inertia of the bob about itself per m l², and its least value in kg m²: MuJoCo refuses a moving body below
-# 1e-15. It is the relative error of the rod's moment of inertia about the pivot; after 1 s of flight it shows as 1e-10
-# of the state. It is also all the inertia about the rod's own axis, about which roundoff therefore spins the rod, to
-# 0.04 rad/s in 10 s at rates of 20 rad/s; nothing feels that. At 1e-15 MuJoCo warns of a singular inertia matrix.
+# Moment of inertia of the bob about its centre per m l², and its minimum in kg m²: MuJoCo rejects a moving body below
+# 1e-15. It is the relative error of the rod's moment of inertia about the pivot, and changes the state by 1e-10 after
+# 1 s of flight. It is also the only inertia about the rod's own axis, so roundoff spins the rod about that axis (to
+# 0.04 rad/s in 10 s at rates of 20 rad/s), with no effect on the motion. At 1e-15 MuJoCo warns of a singular inertia
+# matrix.
 BOB_INERTIA, LEAST_BOB_INERTIA = 4e-12, 1e-14
 
-# MuJoCo takes the force of a motor as zero where it is NaN or larger than this (N), and only warns.
+# MuJoCo replaces a motor force that is NaN or larger than this (N) by zero, with only a warning.
 MAX_FORCE = 1e10
 
 _TEMPLATE = """\
@@ -80,38 +81,39 @@ _ARM = '      <geom name="arm{k}" fromto="{center} {pos}" size="{thin!r}" rgba="
 _MOTOR = '    <general name="rotor{k}" site="rotor{k}" gear="0 0 1 0 0 {torque!r}"{filter}/>'
 _FILTER = ' dyntype="filter" dynprm="{lag!r}"'
 
-# Longest step of a flight, s. RK4 leaves 1e-7 of the state after a second of tumbling, and the rotors, which are
-# filters of MuJoCo's own, are integrated with it.
+# Maximum step in a flight, s. With RK4 the state error is 1e-7 after a second of tumbling. The rotor lag, a MuJoCo
+# actuator filter, is integrated with the same steps.
 FLIGHT_STEP = 2e-3
 
 
 def model_xml(
     vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.0, 0.0), lag: float = 0.0, energy: bool = True
 ) -> str:
-    """The MJCF (MuJoCo's XML) of `vehicle` in a world with z up; its controls are the rotor forces in N.
+    """MJCF (MuJoCo's XML) model of `vehicle` in a z-up world; its controls are the rotor forces in N.
 
     Parameters
     ----------
     vehicle : Vehicle
-        What flies. Each rotor pushes along the body's third axis at its place and twists by drag_ratio · spin.
+        Vehicle parameters. Each rotor exerts a force along the body's third axis and a torque of drag_ratio · spin per
+        unit force.
     timestep : float
         Step of the integrator, s.
     pivot_offset : (3,)
-        Ball joint relative to the vehicle's centre of mass, body frame, m.
+        Position of the ball joint relative to the vehicle's centre of mass, body frame, m.
     lag : float
-        Time constant, s, with which forces follow the controls; 0 for none.
+        Time constant of the rotor forces, s; 0 for none.
     energy : bool
         Whether MuJoCo computes the energy at every step.
 
     Returns
     -------
     str
-        A model without contacts, damping or limits. Its geoms are to be looked at: no mass, no collisions.
+        A model without contacts, damping or limits. Its geoms are for display only: no mass, no collisions.
 
     Raises
     ------
     InputError
-        For a timestep that is not positive or an offset that is not three finite numbers.
+        If the timestep is not positive or the offset is not three finite numbers.
     """
     timestep = errors.number("timestep", timestep, above=0, unit="s")
     offset = errors.array("pivot_offset", pivot_offset, (3,))
@@ -120,14 +122,14 @@ def model_xml(
     places = vehicle.rotor_positions - offset
     torques = vehicle.drag_ratio * vehicle.rotor_spins
     moments, axes = np.linalg.eigh(vehicle.inertia)
-    moments[2] = min(moments[2], moments[0] + moments[1])  # roundoff of a planar body; MuJoCo allows none
+    moments[2] = min(moments[2], moments[0] + moments[1])  # planar body: MuJoCo tolerates no roundoff here
     thin = 0.02 * float(np.max(np.abs(vehicle.rotor_positions)))
     center = _numbers(0.0 - offset)
     rotors = []
     for k, place in enumerate(places):
         look = {"k": k, "pos": _numbers(place), "center": center, "thin": thin, "disc": 20 * thin}
         rotors.append(_ROTOR.format(**look))
-        if np.linalg.norm(vehicle.rotor_positions[k]) > thin:  # MuJoCo refuses a capsule without length
+        if np.linalg.norm(vehicle.rotor_positions[k]) > thin:  # MuJoCo rejects a capsule of zero length
             rotors.append(_ARM.format(**look))
     return _TEMPLATE.format(
         timestep=timestep,
@@ -151,25 +153,26 @@ def model_xml(
 
 
 class MujocoEngine:
-    """A vehicle with its pendulum, moved by MuJoCo; the frame is that with e₃ up.
+    """Vehicle and pendulum simulated by MuJoCo, in the e₃-up frame.
 
-    It starts at the origin, at rest, level and inverted. `model` and `data` are MuJoCo's own, for a viewer or renderer.
+    The initial state is at the origin, at rest, level and inverted. `model` and `data` are the MuJoCo objects, for
+    viewers and renderers.
 
     Parameters
     ----------
     vehicle : Vehicle
-        What flies.
+        Vehicle parameters.
     timestep : float
         Step of the integrator (RK4), s.
     pivot_offset : (3,)
-        Ball joint relative to the vehicle's centre of mass, body frame, m.
+        Position of the ball joint relative to the vehicle's centre of mass, body frame, m.
     lag : float
-        Time constant, s, with which the rotors follow `step`'s forces; 0 for none.
+        Time constant with which the rotor forces follow those passed to `step`, s; 0 for none.
 
     Raises
     ------
     InputError
-        If mujoco is not installed, or as `model_xml`.
+        If mujoco is not installed, or like `model_xml`.
     """
 
     def __init__(
@@ -187,7 +190,7 @@ class MujocoEngine:
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = data = mujoco.MjData(self.model)
         self._advance = partial(mujoco.mj_step, self.model, data)
-        # Views into MuJoCo's memory, bound once: an attribute of `data` costs as much as a product of matrices.
+        # Views into MuJoCo's memory, bound once: reading an attribute of `data` costs as much as a matrix product.
         self._qpos, self._qvel = data.qpos, data.qvel
         self._rotors = data.act if lag > 0 else data.ctrl
         self._forces, self._all_external = data.ctrl, data.xfrc_applied.reshape(-1)
@@ -199,19 +202,19 @@ class MujocoEngine:
         return float(self.model.opt.timestep)
 
     def reset(self, packed: Any, rotors: Any = None) -> None:
-        """Set the state, at time 0; the rod does not spin about its own axis.
+        """Set the state at time 0, with no spin of the rod about its own axis.
 
         Parameters
         ----------
         packed : (24,)
-            As `State.packed`, frame with e₃ up: x, x_dot of the pivot, R by rows, omega (body frame), y, y_dot.
+            As `State.packed`, e₃-up frame: x, x_dot of the pivot, R in row-major order, omega (body frame), y, y_dot.
         rotors : (n,), optional
-            Forces that the rotors begin with, N; default 0.
+            Initial rotor forces, N; default 0.
 
         Raises
         ------
         InputError
-            As `State.from_packed`, and for a batch.
+            Like `State.from_packed`, and for a batch.
         """
         begin = mujoco_coordinates(packed)
         self._mujoco.mj_resetData(self.model, self.data)
@@ -220,12 +223,12 @@ class MujocoEngine:
 
     @property
     def packed(self) -> Any:
-        """The state (24,) in the order of `State.packed`, frame with e₃ up; x and x_dot are those of the pivot."""
+        """The state (24,) in the order of `State.packed`, e₃-up frame; x and x_dot refer to the pivot."""
         return self._see(self._qpos, self._qvel, self._rotors)[0]
 
     @property
     def rotors(self) -> Any:
-        """The forces of the rotors (n,), N."""
+        """The rotor forces (n,), N."""
         return np.array(self._rotors)
 
     def step(
@@ -240,14 +243,14 @@ class MujocoEngine:
         Parameters
         ----------
         forces : (n,)
-            Force of each rotor along the body's third axis, N, of either sign: limits and lag are the caller's.
+            Commanded force of each rotor along the body's third axis, N, of either sign; limits are up to the caller.
         force_on_vehicle, force_on_bob : (3,)
             External forces at the vehicle's centre of mass and at the bob, world frame, N.
 
         Raises
         ------
         InputError
-            For the wrong number of rotor forces, or a force that is not finite.
+            If the number of rotor forces is wrong, or a force is not finite.
         """
         if len(forces) != len(self._forces):
             raise InputError("forces", f"numbers of shape ({len(self._forces)})", f"shape {np.shape(forces)}")
@@ -255,13 +258,13 @@ class MujocoEngine:
         self._on_vehicle[:] = force_on_vehicle
         self._on_bob[:] = force_on_bob
         size_squared = self._forces.dot(self._forces) + self._all_external.dot(self._all_external)
-        if not size_squared < MAX_FORCE**2:  # true for NaN
+        if not size_squared < MAX_FORCE**2:  # also true for NaN
             got = f"{self._forces} on the rotors, {self._on_vehicle} on the vehicle, {self._on_bob} on the bob"
             raise InputError("forces", "finite numbers", got)
         self._advance()
 
     def energy(self) -> float:
-        """Kinetic plus potential energy, J; the potential energy is zero for both masses at height 0."""
+        """Kinetic plus potential energy, J; the potential energy of each mass is zero at height 0."""
         self._mujoco.mj_forward(self.model, self.data)
         return float(self.data.energy.sum())
 
@@ -270,9 +273,9 @@ POSITIONS, VELOCITIES = 11, 9
 
 
 def mujoco_coordinates(packed: Any) -> NDArray[np.float64]:
-    """MuJoCo's qpos (11,) and qvel (9,), one after the other, of a `packed` state (24,), e₃ up.
+    """MuJoCo's qpos (11,) and qvel (9,), concatenated, for a `packed` state (24,), e₃-up frame.
 
-    The rod does not spin about its own axis. Raises InputError as `State.from_packed`, and for a batch.
+    The rod does not spin about its own axis. Raises InputError like `State.from_packed`, and for a batch.
     """
     state = State.from_packed(packed)
     if state.batch_shape:
@@ -290,19 +293,19 @@ def mujoco_coordinates(packed: Any) -> NDArray[np.float64]:
 
 
 def seen_by_mujoco(rotors: int) -> ca.Function:
-    """(qpos (11,), qvel (9,), rotor forces (n,)) → (packed state (24,), rotor forces (n,)) for n `rotors`, e₃ up."""
+    """CasADi function (qpos (11,), qvel (9,), forces (n,)) → (packed state (24,), forces (n,)), n `rotors`, e₃ up."""
     qpos, qvel = ca.SX.sym("qpos", POSITIONS), ca.SX.sym("qvel", VELOCITIES)
     forces = ca.SX.sym("r", rotors)
     R = _rotation(qpos[3:7])
     rod = R @ _rotation(qpos[7:11])
-    rates = qvel[6:9] + rod.T @ (R @ qvel[3:6])  # angular velocity of the rod, in its frame
+    rates = qvel[6:9] + rod.T @ (R @ qvel[3:6])  # angular velocity of the rod, rod frame
     y_dot = rates[1] * rod[:, 0] - rates[0] * rod[:, 1]  # rod ((a, b, c) × e₃)
     state = State(x=qpos[:3], x_dot=qvel[:3], R=R, omega=qvel[3:6], y=rod[:, 2], y_dot=y_dot)
     return ca.Function("seen", [qpos, qvel, forces], [ca.cse(ca.densify(state.packed())), forces])
 
 
 def _rotation(quat_wxyz: Any) -> Any:
-    """The rotation matrix of a quaternion, which need not have length 1."""
+    """Rotation matrix of a quaternion, which need not be normalised."""
     w, v = quat_wxyz[0], quat_wxyz[1:]
     turn = hat(v)
     return ca.SX.eye(3) + 2 / ca.sumsqr(quat_wxyz) * (w * turn + turn @ turn)
@@ -314,23 +317,23 @@ def _compiled_view(rotors: int) -> Any:
 
 
 def substeps(duration: float) -> int:
-    """Number of MuJoCo's steps in `duration` (s) of a flight, none longer than `FLIGHT_STEP`."""
+    """Number of MuJoCo steps in `duration` (s) of a flight, none longer than `FLIGHT_STEP`."""
     return max(1, int(np.ceil(duration / FLIGHT_STEP - 1e-9)))
 
 
 class MuJoCoWorld:
-    """MuJoCo's world of the flights of one loop, told to compiled code by its addresses; one thread at a time.
+    """MuJoCo models and data for flights of one loop, passed to compiled code by address; for one thread at a time.
 
-    MuJoCo's step is called from machine code as a C function: `mjModel` and `mjData` are passed as they are.
+    The machine code calls MuJoCo's step as a C function on the raw `mjModel` and `mjData`.
 
     Parameters
     ----------
     vehicle : Vehicle
-        What truly flies; its `rotor_lag` is used.
+        The true vehicle, including its `rotor_lag`.
     pivot_offset : (3,)
         As in `MujocoEngine`.
     timesteps : tuple of float
-        Step of the integrator in each stretch of a control period, s.
+        Integrator step in each segment of a control period, s.
     """
 
     _idle: ClassVar[dict[Any, list[MuJoCoWorld]]] = {}
@@ -357,7 +360,7 @@ class MuJoCoWorld:
     @classmethod
     @contextmanager
     def lent(cls, loop: Loop) -> Iterator[MuJoCoWorld]:
-        """A world for the flights of `loop`: one that is idle, or a new one."""
+        """Yield a world for flights of `loop`, idle or new, and take it back afterwards."""
         plant = loop.sampled
         stretches = within_period(plant.delay, 1 / plant.rate)
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
@@ -371,14 +374,14 @@ class MuJoCoWorld:
             idle.append(world)
 
     def addresses(self, starts: Any) -> tuple[int, ...]:
-        """What compiled code is told, for packed `starts` (n, 24 or more), e₃ up, which it will fly."""
+        """Addresses for the compiled code, and the coordinates of packed `starts` (n, 24 or more), e₃-up frame."""
         self._begins = np.stack([mujoco_coordinates(start[:SIZE]) for start in starts])
         return (*self._fixed, self._begins.ctypes.data, self._models_at.ctypes.data)
 
 
 @lru_cache(maxsize=1)
 def _library() -> ctypes.CDLL:
-    """MuJoCo's C library, the one that its Python package has loaded."""
+    """The MuJoCo C library that the Python package has loaded."""
     folder = Path(_import_mujoco().__file__).parent
     found = sorted(
         path for path in folder.iterdir() if re.fullmatch(r"(lib)?mujoco.*\.(so|dylib|dll)[.\d]*", path.name)
@@ -389,11 +392,11 @@ def _library() -> ctypes.CDLL:
 
 
 def _import_mujoco() -> Any:
-    """The module mujoco. Raises InputError if it is not installed."""
+    """Import the module mujoco. Raises InputError if it is not installed."""
     errors.require("mujoco", extra="mujoco", for_="plant")
     return importlib.import_module("mujoco")
 
 
 def _numbers(values: Any) -> str:
-    """An array as MJCF writes it, every digit kept."""
+    """Format an array for MJCF with full precision."""
     return " ".join(repr(float(value)) for value in np.ravel(values))

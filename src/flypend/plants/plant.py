@@ -1,4 +1,4 @@
-"""What stands between a law and the world, as data: nothing at all, or limits, lag, sampling, delay, noise, wind."""
+"""Plants as data: the ideal plant, or a sampled plant with limits, lag, delay, noise and wind."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MISMATCHED = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_
 
 @dataclass(frozen=True, kw_only=True)
 class Noise:
-    """Standard deviations of white measurement noise, drawn anew at every control step.
+    """Standard deviations of white measurement noise, drawn independently at every control tick.
 
     Parameters
     ----------
@@ -43,20 +43,20 @@ class Noise:
             errors.number(f"noise.{entry.name}", getattr(self, entry.name), at_least=0)
 
 
-# A motion capture system and a gyroscope: 1 mm, 0.2 degrees, rates differenced and filtered.
+# Motion capture and a gyroscope: 1 mm, 0.2 degrees; rates from filtered differences.
 MOTION_CAPTURE = Noise(x=1e-3, x_dot=1e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3, y_dot=3e-2)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Wind:
-    """Forces on vehicle and bob in the world frame with e₃ up, N.
+    """Wind forces on vehicle and bob, world frame with e₃ up, N.
 
     Parameters
     ----------
     on_vehicle, on_bob : (3,)
         Constant forces.
     gust_on_vehicle, gust_on_bob : float
-        Standard deviation per axis of a gust, white noise through a first-order filter.
+        Standard deviation of a gust per axis; gusts are white noise through a first-order filter.
     gust_time : float
         Correlation time of a gust, s.
     """
@@ -85,38 +85,38 @@ _KINDS: tuple[tuple[str, Any, str], ...] = (
 
 @dataclass(frozen=True)
 class Ideal:
-    """Continuous time, and the wrench acts as commanded: what theorems speak of."""
+    """The ideal plant of the theorems: continuous time, and the wrench acts as commanded."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sampled:
-    """A sampled flight: how the world answers the law. Each departure from the ideal can be set alone.
+    """A plant under sampled control. Each departure from the ideal plant can be set on its own.
 
     `flypend.Plant` is this class.
 
     Parameters
     ----------
     engine : "equations" or "mujoco"
-        Who integrates the motion: the package's equations, or MuJoCo.
+        Integrator of the motion: the built-in equations, or MuJoCo.
     limits : bool
-        Whether rotor forces are kept within `vehicle.rotor_limits`, roll and pitch before thrust before yaw.
+        Whether rotor forces are kept within `vehicle.rotor_limits`; priority: roll and pitch, thrust, yaw.
     lag : float, optional
-        Time constant of the rotors, s; default that of the vehicle; 0 for none.
+        Time constant of the rotors, s; 0 for none. Default: that of the vehicle.
     rate : float
-        Control rate, Hz; commands are held between (zero-order hold).
+        Control rate, Hz; commands are held in between (zero-order hold).
     delay : float
-        From measurement to command, s.
+        Delay from measurement to command, s.
     noise : Noise, optional
         Measurement noise.
     pivot_offset : (3,)
-        Ball joint relative to the centre of mass, body frame, m. The law does not know of it.
+        Position of the ball joint relative to the centre of mass, body frame, m. The law does not know it.
     mismatch : dict
-        True value over the one that the law knows, for mass, bob_mass, rod_length, inertia, drag_ratio, rotor_lag.
+        Ratio of true to nominal value for mass, bob_mass, rod_length, inertia, drag_ratio, rotor_lag.
     wind : Wind, optional
         External forces.
     interface : "wrench" or "rates"
-        What the law commands: rotor forces for its wrench, or collective thrust and body rates, which an inner loop
-        on board tracks with gyroscope data.
+        What the law commands: rotor forces, or collective thrust and body rates, which an onboard inner loop tracks
+        with gyroscope data.
     rate_loop_rate, rate_loop_gain : float
         Frequency (Hz) and proportional gain (1/s) of that inner loop.
     seed : int
@@ -125,7 +125,7 @@ class Sampled:
     Raises
     ------
     InputError
-        For a field out of range.
+        If a field is out of range.
     """
 
     engine: Engine = "equations"
@@ -145,7 +145,7 @@ class Sampled:
     def __post_init__(self) -> None:
         errors.one_of("plant.engine", self.engine, ("equations", "mujoco"))
         errors.one_of("plant.interface", self.interface, ("wrench", "rates"))
-        errors.number("plant.rate", self.rate, above=0, at_most=1e4, unit="Hz")  # a prediction spans 100 ticks and more
+        errors.number("plant.rate", self.rate, above=0, at_most=1e4, unit="Hz")  # a prediction spans 100 ticks or more
         errors.number("plant.delay", self.delay, at_least=0, unit="s")
         errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, unit="Hz")
         errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
@@ -164,18 +164,18 @@ class Sampled:
         object.__setattr__(self, "mismatch", dict(self.mismatch))
 
     def __hash__(self) -> int:
-        """By content: a mismatch is a dict."""
+        """Hash by content, since `mismatch` is a dict."""
         return hash(repr(self))
 
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
-        """The vehicle that flies when the law believes in `vehicle`: `mismatch` and `lag` applied."""
+        """Return the true vehicle for the nominal `vehicle`, with `mismatch` and `lag` applied."""
         changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}
         if self.lag is not None:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
         return vehicle.replace(**changes)
 
     def replace(self, **changes: Any) -> Sampled:
-        """A copy with the given fields in `changes` replaced and everything checked again."""
+        """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
         errors.only_known("plant", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
 
@@ -189,16 +189,16 @@ PRESETS: Mapping[str, AnyPlant] = MappingProxyType(
         "ideal": Ideal(),
         "rotors": ROTORS,
         "mujoco": ROTORS.replace(engine="mujoco"),
-        # Hehn and D'Andrea (2011): commands at 50 Hz, about 30 ms of latency, body rates controlled on board.
+        # Hehn and D'Andrea (2011): commands at 50 Hz, about 30 ms latency, onboard body rate control.
         "hehn2011": ROTORS.replace(interface="rates", rate=50.0, delay=0.03),
     }
 )
 
 
 def plant(name: str | AnyPlant) -> AnyPlant:
-    """The plant called `name` ("ideal", "rotors", "mujoco", "hehn2011"), or `name` itself if it is one already.
+    """The plant called `name` ("ideal", "rotors", "mujoco", "hehn2011"), or `name` itself if it is a plant.
 
-    Raises InputError for an unknown name, and for MuJoCo where it is not installed.
+    Raises InputError for an unknown name, and for a MuJoCo plant if MuJoCo is not installed.
     """
     if not isinstance(name, str | Ideal | Sampled):
         raise InputError("plant", "a Plant, Ideal() or one of " + ", ".join(PRESETS), repr(name))
@@ -209,7 +209,7 @@ def plant(name: str | AnyPlant) -> AnyPlant:
 
 
 def sampled_plant(name: str | AnyPlant) -> Sampled:
-    """The plant of this `name`, as `plant` finds it, where the ideal one will not do. Raises InputError for it."""
+    """Like `plant`, for use where a sampled plant is required: raises InputError for the ideal plant."""
     found = plant(name)
     if isinstance(found, Ideal):
         raise InputError("plant", "a plant with numbers, such as 'rotors'", "the ideal plant")

@@ -1,4 +1,4 @@
-"""Which command acts when: the same in every control period of a flight, so it is worked out once."""
+"""Schedule of commands within a control period. All periods of a flight share it."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ import numpy as np
 
 from flypend.plants.plant import Plant
 
-# Times closer than this are one, s.
+# Times closer than this are considered equal, s.
 SAME = 1e-9
-PLANT_STEP = 1e-3  # s, of the Runge-Kutta method: a rotor lags 20 times as long
+PLANT_STEP = 1e-3  # s, for the Runge-Kutta method; about 1/20 of a rotor lag
 
 
 class Segment(NamedTuple):
-    """A while of `duration` (s) under the command computed `age` control periods ago."""
+    """An interval of `duration` (s) during which the command computed `age` control periods ago is applied."""
 
     age: int
     duration: float
 
 
 def within_period(latency: float, period: float) -> tuple[Segment, ...]:
-    """What acts during a control period (s), from its beginning, if commands act `latency` s after their measurement.
+    """Segments of one control `period` (s), in order, for commands applied `latency` (s) after their measurement.
 
-    The command computed at that beginning has age 0.
+    The command computed at the start of the period has age 0.
     """
     whole, rest = _split(latency, period)
     if rest > 0:
@@ -32,7 +32,7 @@ def within_period(latency: float, period: float) -> tuple[Segment, ...]:
 
 
 def ahead(latency: float, period: float) -> tuple[Segment, ...]:
-    """What acts from a measurement until its own command does, `latency` s later."""
+    """Segments from a measurement until its own command is applied, `latency` (s) later; `period` in s."""
     whole, rest = _split(latency, period)
     before = (Segment(whole + 1, rest),) if rest > 0 else ()
     return (*before, *(Segment(age, period) for age in range(whole, 0, -1)))
@@ -45,9 +45,9 @@ def _split(latency: float, period: float) -> tuple[int, float]:
 
 
 def steps_in(duration: float, plant: Plant, longest: float | None = None) -> int:
-    """Number of equal steps of an engine in `duration` (s), none longer than `longest` (s).
+    """Number of equal engine steps in `duration` (s), none longer than `longest` (s).
 
-    Default is the step of the rate loop, or that of the equations; MuJoCo divides a step by itself.
+    The default is the period of the rate loop, or else the step of the equations. MuJoCo substeps internally.
     """
     if longest is None:
         own = duration if plant.engine == "mujoco" else PLANT_STEP

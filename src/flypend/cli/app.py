@@ -241,10 +241,13 @@ def lab(
 ) -> None:
     """Open the laboratory in a browser: move sliders, drag the rod, poke; the flight follows. Ctrl-C ends it."""
     from flypend.lab import serve
+    from flypend.settings.laws import law_named
 
     def announce(url: str) -> None:
         console.print(f"The laboratory is at {url}", soft_wrap=True)
 
+    for name in law or ():
+        tell_how(law_named(name))
     serve(host, port, browser=browser, laws=law or (), announce=announce)
 
 

@@ -234,13 +234,21 @@ def lab(
     ),
     port: Annotated[int, typer.Option("--port", help="Port; 0 takes a free one.", min=0, max=65535)] = 0,
     browser: Annotated[bool, typer.Option(help="Open the page in a browser (--no-browser does not).")] = True,
+    law: Annotated[
+        list[str] | None,
+        typer.Option("--law", help="A law of one's own to choose, file.py:function or module:function; repeat it."),
+    ] = None,
 ) -> None:
     """Open the laboratory in a browser: move sliders, drag the rod, poke; the flight follows. Ctrl-C ends it."""
     from flypend.lab import serve
+    from flypend.settings.laws import law_named
 
-    serve(
-        host, port, browser=browser, announce=lambda url: console.print(f"The laboratory is at {url}", soft_wrap=True)
-    )
+    def announce(url: str) -> None:
+        console.print(f"The laboratory is at {url}", soft_wrap=True)
+
+    for name in law or ():
+        tell_how(law_named(name))
+    serve(host, port, browser=browser, laws=law or (), announce=announce)
 
 
 @app.command("export-c")

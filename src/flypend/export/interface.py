@@ -16,7 +16,6 @@ from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.records import Record
 from flypend.laws import BoundLaw, Law
-from flypend.laws.closed_loop import upright_wrench
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
@@ -183,7 +182,7 @@ def streamed_wrench(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gai
     """
     t = ca.SX.sym("t")
     flown = law.along(_streamed(reference)) if law.along is not None else law
-    wrench = upright_wrench(flown, t, state[:SIZE], vehicle, state[SIZE:], gains)
+    wrench = flown.upright(t, state[:SIZE], state[SIZE:], gains, vehicle)
     if law.along is None and ca.depends_on(wrench, t):
         raise InputError("law", "one that does not depend on time, or a Law with a `path`", law.name)
     return ca.densify(ca.substitute(wrench, t, 0))

@@ -8,6 +8,7 @@ import inspect
 import re
 import shutil
 import subprocess
+import sys
 import unicodedata
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -52,6 +53,7 @@ DATA = {"examples", "vehicles"}
 
 # Who imports modules by names that no reader of the source can know, and which.
 COMPUTED = {
+    "": "public names, when they are first used",
     "settings.laws": "the law of a user",
 }
 
@@ -245,6 +247,24 @@ def test_a_wrong_import_is_found(sources, complaint):
     messages = _wrong_imports(sources)
     assert len(messages) == 1
     assert complaint in messages[0]
+
+
+# Public names ---------------------------------------------------------------------------------------------------
+
+
+def test_every_public_name_is_found_where_it_is_said_to_be():
+    assert sorted(flypend.__all__) == flypend.__all__
+    assert set(flypend.__all__) == set(flypend._MODULES) | {"laws"}
+    for name in flypend.__all__:
+        assert getattr(flypend, name) is not None
+        assert name in dir(flypend)
+    with pytest.raises(AttributeError, match="module 'flypend' has no attribute 'simulat'"):
+        flypend.simulat  # noqa: B018
+
+
+def test_nothing_heavy_is_imported_before_it_is_used():
+    program = "import sys, flypend; sys.exit(bool({'casadi', 'llvmlite', 'numpy', 'scipy'} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
 
 
 # Every public argument is documented ----------------------------------------------------------------------------

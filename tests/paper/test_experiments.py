@@ -413,7 +413,7 @@ def test_the_terms_that_the_proof_leaves_out_are_those_of_the_definitions(close,
 
 def test_the_gain_is_not_shown_if_the_law_to_the_letter_starts(runs, close, monkeypatch):
     monkeypatch.setattr(defects, "finely", close.__getitem__)
-    monkeypatch.setattr(defects, "simulate", lambda *args: runs.corrected["4"])
+    monkeypatch.setattr(defects, "simulate", lambda *args, **options: runs.corrected["4"])
     assert not defects.gain_depends_on_speed(runs).shown
 
 
@@ -550,8 +550,9 @@ def test_the_conclusions_are_not_shown_if_the_heading_comes_back(runs, monkeypat
 def test_flying_tells_each_run_before_it(monkeypatch):
     told, flown = [], []
 
-    def fly(vehicle, law, start, duration, rtol):
-        flown.append((law.name, law.gains["beta"], duration))
+    def fly(vehicle, law, start, duration, plant, rtol):
+        assert plant == "ideal"
+        flown.append((law.name, law.bind(vehicle).gains["beta"], duration))
         assert len(told) == len(flown)
         return len(flown)
 

@@ -269,7 +269,17 @@ def test_the_python_of_the_page_runs(tmp_path, monkeypatch, capsys):
 def test_the_table_of_the_page_has_the_defaults():
     study = fp.study(standard("lqr", None, "rotors", 1, 1, None) | {"judge_period": 0.01})
     rows = dict(re.findall(r"^\| `(\w+)` \| ([^|]*) \|", PAGE, flags=re.MULTILINE))
-    assert set(rows) == {"rtol", "judge_period", "precision", "max_steps", "sampling", "seed", "chunk", "final"}
+    assert set(rows) == {
+        "rtol",
+        "judge_period",
+        "precision",
+        "max_steps",
+        "engine",
+        "sampling",
+        "seed",
+        "chunk",
+        "final",
+    }
     for key, told in rows.items():
         given = re.sub(r"(?<=\d) (?=\d)", "", told).replace('"', "").replace(" s", " ")
         assert str(fp.study(STUDY).settings[key] if key == "judge_period" else study.settings[key]).lower() in (

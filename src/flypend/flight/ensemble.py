@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from flypend import errors, plants
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import Flown, fly_all, has_kernel
+from flypend.flight.kernels.gpu import fly_on_jax
 from flypend.flight.labelled import dataset, described, state_variables, variable
 from flypend.flight.metrics import Metrics, judged, metrics, wilson
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, some_times
@@ -28,7 +29,7 @@ from flypend.plants import AnyPlant, Sampled
 if TYPE_CHECKING:
     import xarray
 
-ENGINES = ("kernel", "scipy")
+ENGINES = ("kernel", "scipy", "jax")
 Progress = Callable[[int, int], Any]
 
 # Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
@@ -158,8 +159,8 @@ def simulate_ensemble(
         Runge-Kutta method of the ideal plant; default by the tolerance.
     precision : "double" or "float"
         Of the ideal plant; "float" is for tolerances of 1e-4 and looser.
-    engine : "kernel" or "scipy"
-        As in `simulate`.
+    engine : "kernel", "scipy" or "jax"
+        As in `simulate`; "jax" (extra gpu) flies the ideal plant on JAX's default device, in doubles, without `times`.
     workers : int, optional
         Threads, or processes for the engine "scipy"; default one per core. A law that cannot be sent to another process
         is flown in this one.
@@ -191,13 +192,17 @@ def fly_many(
     Raises InputError for an engine that lacks what the flight asks for.
     """
     errors.one_of("engine", engine, ENGINES)
-    if engine == "scipy" or not has_kernel(flight):
+    if engine == "scipy" or (engine == "kernel" and not has_kernel(flight)):
         steered = isinstance(flight.law, Controller)
         for name, value in (("gains", flight.gains and not steered), ("method", flight.tolerances.method)):
             if value:
                 raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
         return _one_by_one(flight, engine, workers, progress)
-    return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
+    if engine == "kernel":
+        return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
+    flown = fly_on_jax(flight)
+    progress(flight.runs, flight.runs)
+    return _gathered(flight, flown)
 
 
 def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:

@@ -19,7 +19,7 @@ GAINS = table(
             POSITIVE,
         ),
         Gain(
-            "beta", "off", doc="Off leaves a cascade; regularized divides by |v_e|² + beta_floor² and loses more starts",
+            "beta", "off", doc="Off leaves a cascade; regularized divides by |v_e|² + beta_floor², and is worse",
             choices=("off", "regularized"),
         ),
         Gain("beta_floor", 0.1, "1/s", "Floor of |v_e| in beta; at 0 beta is minimum-norm, and singular", NOT_NEGATIVE),

@@ -123,7 +123,7 @@ def finely(name: str) -> Trajectory:
     """The corrected run of the experiment called `name`, every 0.1 ms: k_p has a kink of 0.5 ms where ẏ passes 0."""
     row = experiment(name)
     times = np.linspace(0, row.duration, round(row.duration / FINE) + 1)
-    return simulate(row.vehicle, row.law(), row.start, row.duration, rtol=1e-10, times=times)
+    return simulate(row.vehicle, row.law(), row.start, row.duration, plant=row.plant, rtol=1e-10, times=times)
 
 
 def terms_left_out(run: Trajectory) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

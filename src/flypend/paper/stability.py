@@ -38,9 +38,8 @@ def cascade_runs_away(_: Runs) -> Finding:
     shown = True
     starts, last = runaway_starts(), 12.0
     for member in RUNAWAYS:
-        run = simulate(
-            vehicle("nayak2018"), corrected(), starts[member], last, rtol=1e-10, times=np.linspace(0, last, 121)
-        )
+        times = np.linspace(0, last, 121)
+        run = simulate(vehicle("nayak2018"), corrected(), starts[member], last, plant="ideal", rtol=1e-10, times=times)
         c, speed = direction_cosine(run), norm(run.y_dot)
         growth, predicted = np.log(speed[-1] / speed[-11]), -run.gains["k_d"] * np.mean(c[-11:])
         product = speed * run.signals["velocity_error"]
@@ -116,7 +115,7 @@ def _target(full: float, speed: float) -> NDArray[np.float64]:
 def _begun(speed: float) -> Trajectory:
     """The corrected law at y = e₁, ẏ = `speed` e₃, begun; the speed floor is small beside the distance to f_p = 0."""
     law, tilted = corrected(speed_floor=1e-6), np.array([[0, 0, 1], [0, 1, 0], [-1, 0, 0]])
-    return simulate(vehicle("nayak2018"), law, State(y=E1, y_dot=speed * E3, R=tilted), 1e-6)
+    return simulate(vehicle("nayak2018"), law, State(y=E1, y_dot=speed * E3, R=tilted), 1e-6, plant="ideal")
 
 
 def proof_stops(_: Runs) -> Finding:
@@ -131,7 +130,9 @@ def proof_stops(_: Runs) -> Finding:
             modes = linearise(corrected(), vehicle("nayak2018"), at).eigenvalues  # refuses what is no equilibrium
             growing.append(int(np.sum(modes.real > 1e-6)))
             evidence[f"growing modes at {name}"] = growing[-1]
-    level = simulate(vehicle("nayak2018"), corrected(), State(y=E1), 1e-6)  # ẏ = 0, z = z_d = e₃, v_e = 0
+    level = simulate(
+        vehicle("nayak2018"), corrected(), State(y=E1), 1e-6, plant="ideal"
+    )  # ẏ = 0, z = z_d = e₃, v_e = 0
     moving = equations_of_motion(level.states[0], Wrench(level.thrust[0], level.moment[0]), level.vehicle, "down")
     evidence["V̇ claimed at y = e₁, ẏ = 0, z = z_d, v_e = 0, 1/s³"] = float(level.signals["V_rate_claimed"][0])
     evidence["|ÿ| there, 1/s²"] = float(norm(moving.y_ddot))

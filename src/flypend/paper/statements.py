@@ -115,7 +115,7 @@ def conclusions(runs: Runs) -> Finding:
         x=start.x, x_dot=start.x_dot, R=start.R @ turned, omega=turned.T @ start.omega, y=start.y, y_dot=start.y_dot
     )
     run = runs.corrected["1"]
-    twin = simulate(row.vehicle, row.law(), other, row.duration, rtol=1e-10)
+    twin = simulate(row.vehicle, row.law(), other, row.duration, plant=row.plant, rtol=1e-10)
     apart = max(float(np.max(np.abs(run.y - twin.y))), float(np.max(np.abs(run.z - twin.z))))
     relative = run.R[-1].T @ twin.R[-1]
     heading = float(np.abs(np.arctan2(relative[1, 0], relative[0, 0])))

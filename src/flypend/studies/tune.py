@@ -203,7 +203,7 @@ class _Task:
         flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
         if stream == cube.TUNED:  # noise of its own, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
-        return fly_many(flight, workers=workers).columns
+        return fly_many(flight, study.engine, workers=workers).columns
 
 
 def _task(made: Study) -> _Task:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flypend.compile.jax.arrays import Function, as_jax
+from flypend.compile.jax.judging import Judge, Judged, Taken
 from flypend.compile.llvm.runge_kutta import (
     COMPLETED,
     DIVERGED,
@@ -32,7 +33,10 @@ FLYING, IDLE = -1, -2
 
 
 class Lanes(NamedTuple):
-    """L runs in progress: run index, time, next step (L,), state and rate (24, L), code, steps tried, last rejected."""
+    """L runs in progress: run index, time, next step (L,), state and rate (24, L), code, steps tried, last rejected.
+
+    `judged` holds the state of the reductions; see `judging`.
+    """
 
     run: Any
 
@@ -43,19 +47,21 @@ class Lanes(NamedTuple):
     code: Any
     steps: Any
     rejected: Any
+    judged: Judged
 
 
 class Results(NamedTuple):
-    """Final states (24, n+1), end times, codes and steps (n+1,) of all runs; entry n is scratch for idle lanes."""
+    """Final states (24, n+1), end times, codes, steps (n+1,), reductions (k, n+1); entry n is scratch for idle lanes."""
 
     s: Any
     t: Any
     code: Any
     steps: Any
+    reductions: Any
 
 
 class Setting(NamedTuple):
-    """Number of runs, duration, tolerances and maximum number of steps."""
+    """Number of runs, duration, tolerances, maximum number of steps, and the sample times, ending with infinity."""
 
     count: Any
 
@@ -63,6 +69,7 @@ class Setting(NamedTuple):
     rtol: Any
     atol: Any
     max_steps: Any
+    times: Any
 
 
 def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[..., Results]:
@@ -96,13 +103,17 @@ def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[.
             results = Results(
                 results.s.at[:, place].set(now.s), results.t.at[place].set(now.t),
                 results.code.at[place].set(now.code), results.steps.at[place].set(now.steps),
+                results.reductions.at[:, place].set(step.judge.reductions(now.judged)),
             )  # fmt: skip
             fresh = begin(jnp.where(ended, following + jnp.cumsum(ended) - 1, now.run))
-            merged = Lanes(*(jnp.where(ended, new, old) for new, old in zip(fresh, now, strict=True)))
+            merged: Lanes = jax.tree.map(lambda new, old: jnp.where(ended, new, old), fresh, now)
             return merged, following + jnp.sum(ended), results
 
         first = begin(jnp.arange(width))
-        none = Results(jnp.zeros((len(starts), n + 1)), jnp.zeros(n + 1), jnp.zeros(n + 1, int), jnp.zeros(n + 1, int))
+        numbers, codes = jnp.zeros(n + 1), jnp.zeros(n + 1, int)
+        none = Results(
+            jnp.zeros((len(starts), n + 1)), numbers, codes, codes, jnp.zeros((len(problem.reductions), n + 1))
+        )
         carry = (first, jnp.asarray(width), none)
         return jax.lax.while_loop(lambda carry: (carry[0].code != IDLE).any(), body, carry)[2]
 
@@ -117,6 +128,7 @@ class _Step:
         self._rates = as_jax(problem.rates)
         self._project = as_jax(problem.project)
         self._margin: Function | None = as_jax(problem.margin) if problem.margin is not None else None
+        self.judge = Judge(problem, method, self._rate)
         s = method.stages
         # Row i holds the weights of the state at which stage i is evaluated; stage s is the end of the step.
         self._A: Any = np.zeros((s + 1, s + 1))
@@ -137,7 +149,8 @@ class _Step:
         code = jnp.where(self._allowed(t, starts, parameters), FLYING, SINGULAR)
         code = jnp.where(defined, code, UNDEFINED)
         none = jnp.zeros(n, dtype=bool)
-        return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, code, jnp.zeros(n, dtype=int), none)
+        steps, judged = jnp.zeros(n, dtype=int), self.judge.begin(n)
+        return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, code, steps, none, judged)
 
     def __call__(self, runs: Lanes, parameters: Any, setting: Setting) -> Lanes:
         import jax.numpy as jnp
@@ -146,7 +159,8 @@ class _Step:
         last = runs.t + 1.0001 * runs.h >= setting.duration
         h = jnp.where(last, setting.duration - runs.t, runs.h)
         t_new = jnp.where(last, setting.duration, runs.t + h)
-        raw, after, error = self._attempt(runs, h, parameters, setting)
+        raw, K, error = self._attempt(runs, h, parameters, setting)
+        after = K[self.method.stages]
         new = self._project(raw)[0]
         good = flying & (error <= 1)
         allowed = self._allowed(t_new, new, parameters)
@@ -154,6 +168,8 @@ class _Step:
         accepted, lost = good & allowed & inside, good & allowed & ~inside
         if self.method.errors[0][-1] == 0:  # otherwise f at the end is known, up to projection
             after = self._rate(t_new, new, parameters)
+        taken = Taken(runs.t, t_new, h, runs.s, new, K.at[self.method.stages].set(after))
+        judged = self.judge(runs.judged, taken, accepted, parameters, setting.times)
 
         factor = self._factor(error, runs.rejected, accepted, good & ~allowed)
         h_next, steps = jnp.where(flying, h * factor, runs.h), runs.steps + flying
@@ -171,10 +187,14 @@ class _Step:
             code=code,
             steps=steps,
             rejected=flying & ~accepted,
+            judged=judged,
         )
 
     def _attempt(self, runs: Lanes, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any]:
-        """The new state before projection, f there (if the error estimate uses it), and the error; accept if <= 1."""
+        """The new state before projection, all stages, and the error (accept if <= 1).
+
+        The last stage, f at the new state, is computed only if the error estimate uses it.
+        """
         import jax
         import jax.numpy as jnp
 
@@ -194,7 +214,7 @@ class _Step:
         sums = [
             jnp.sum((jnp.tensordot(jnp.asarray(weights), K, axes=1) / scale) ** 2, axis=0) for weights in method.errors
         ]
-        return new, K[method.stages], self._norm(sums, h, len(new))
+        return new, K, self._norm(sums, h, len(new))
 
     def _norm(self, sums: list[Any], h: Any, n: int) -> Any:
         import jax.numpy as jnp

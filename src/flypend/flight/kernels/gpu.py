@@ -9,14 +9,14 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
 from flypend.compile.methods import method as method_named
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import Flown
-from flypend.flight.kernels.ideal import MAX_STEPS, ideal_problem
-from flypend.laws import BoundLaw
-from flypend.model import Vehicle
+from flypend.flight.kernels.flown import Flown, inputs_of
+from flypend.flight.kernels.ideal import ideal_problem, setting_of
+from flypend.flight.request import Flight
 from flypend.plants import Ideal
 from flypend.plants.loop import Loop
 
@@ -31,67 +31,78 @@ class ArrayKernel:
 
     Parameters
     ----------
-    vehicle, law
-        What flies, what steers it.
-    parameters : tuple of str
-        Gains that may differ from run to run.
+    loop : Loop
+        What flies, what steers it, and which gains may differ from run to run.
     function : callable
         The integrator of `flypend.compile.jax.array_steps`.
     """
 
-    vehicle: Vehicle
-    law: BoundLaw
-    parameters: tuple[str, ...]
+    loop: Loop
     function: Any
 
     def fly(
         self,
-        starts: Any,
-        duration: float,
+        starts: ArrayLike,
+        setting: tuple[float, float, float, int],
         *,
-        rtol: float,
-        atol: float | None = None,
-        parameters: Any = None,
-        max_steps: int = MAX_STEPS,
+        parameters: NDArray[np.float64] | None = None,
+        judge_at: ArrayLike = (),
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds, on JAX's default device.
+        """Fly all `starts` (n, 24), in the frame of the law, on JAX's default device.
 
         Parameters
         ----------
-        starts, duration, rtol, atol, parameters
+        starts
+            Packed states.
+        setting : tuple
+            Duration (s), rtol, atol, and the most steps: a run with more ends as diverged.
+        parameters, judge_at
             As in `IdealKernel.fly`.
-        max_steps : int
-            A run with more steps ends as diverged.
 
         Returns
         -------
         Flown
-            Without reductions and samples.
+            Without samples.
         """
         from flypend.compile.jax.array_steps import Setting
 
         given = np.asarray(starts, dtype=float)
-        own = [self.law.numbers[name] for name in self.parameters]
         n = len(given)
-        values = np.broadcast_to(own, (n, len(own))) if parameters is None else np.asarray(parameters, float)
-        if values.shape != (n, len(own)):
-            raise errors.InputError("parameters", f"shape {(n, len(own))}", f"shape {values.shape}")
-        setting = Setting(n, float(duration), float(rtol), float(rtol if atol is None else atol), max_steps)
+        values = inputs_of(self.loop, parameters, n)
+        duration, rtol, atol, most = setting
+        asked = Setting(n, float(duration), float(rtol), float(atol), most, np.append(judge_at, np.inf))
         with _doubles():
-            results = self.function(_rows(given), _rows(values), setting)
-            final, end, code, steps = (np.asarray(x)[..., :n] for x in results)
-        return Flown(final=np.ascontiguousarray(final.T), end=end, code=code, reductions=None, steps=steps)
+            results = self.function(_rows(given), _rows(values), asked)
+            final, end, code, steps, reductions = (np.asarray(x)[..., :n] for x in results)
+        return Flown(
+            final=np.ascontiguousarray(final.T), end=end, code=code, reductions=np.ascontiguousarray(reductions.T),
+            steps=steps,
+        )  # fmt: skip
+
+
+def fly_on_jax(flight: Flight) -> Flown:
+    """Fly every start of `flight` by JAX, judged on its grid.
+
+    Raises InputError for what it lacks: sampled plants, floats, states kept on the way; and without JAX.
+    """
+    law = flight.loop.symbolic
+    if not isinstance(flight.plant, Ideal):
+        raise errors.InputError("plant", "'ideal', with the engine jax", "a sampled plant")
+    if flight.times is not None:
+        raise errors.InputError("times", "nothing, with the engine jax", f"{len(flight.times)} of them")
+    if flight.tolerances.precision != "double":
+        raise errors.InputError("precision", "'double', with the engine jax", flight.tolerances.precision)
+    kernel = array_kernel(flight.loop, flight.criterion, method=flight.tolerances.method_for(law))
+    return kernel.fly(flight.packed, setting_of(flight), parameters=flight.values, judge_at=flight.grid)
 
 
 @lru_cache(maxsize=16)
-def array_kernel(
-    vehicle: Vehicle, law: BoundLaw, parameters: tuple[str, ...] = (), *, method: str = "dp5"
-) -> ArrayKernel:
-    """The closed loop of `vehicle` under a bound `law` in JAX (extra "gpu"), compiled when it first flies.
+def array_kernel(loop: Loop, criterion: Criterion | None = None, *, method: str = "dp5") -> ArrayKernel:
+    """The closed `loop` in JAX (extra "gpu"), compiled when it first flies.
 
     Parameters
     ----------
-    vehicle, law, parameters, method
+    loop, criterion, method
         As in `ideal_kernel`.
 
     Raises
@@ -104,12 +115,12 @@ def array_kernel(
 
     from flypend.compile.jax.array_steps import write_integrator
 
-    problem = ideal_problem(Loop(vehicle, law, Ideal(), parameters), Criterion())
+    problem = ideal_problem(loop, criterion or Criterion())
     integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
-    return ArrayKernel(vehicle, law, parameters, integrator)
+    return ArrayKernel(loop, integrator)
 
 
-def _rows(values: Any) -> Any:
+def _rows(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """`values` (n, k) as rows (k, m), n filled up to a power of two: JAX compiles for every m."""
     n = len(values)
     return np.pad(values, ((0, (1 << (n - 1).bit_length()) - n), (0, 0)), mode="edge").T.copy()

@@ -25,8 +25,8 @@ from flypend.studies.sweep.axes import Axis, axes, integer
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
 KEYS = (
-    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs", "sampling", "seed",
-    "chunk", "final", "criterion", "start", "vary", "tune",
+    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "engine", "runs",
+    "sampling", "seed", "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
 # Runs per chunk, in the ideal plant, in a sampled flight, in MuJoCo, and step by step: some seconds of one core.
 CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
@@ -35,6 +35,7 @@ STEPS = 20_000
 MOST_CHUNK = 1_000_000
 MOST_RUNS = 10**9
 MOST_PLANTS = 32
+ENGINES = ("kernel", "jax")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,6 +46,8 @@ class Study:
     ----------
     flight : Flight
         A run of it, but for what varies.
+    engine : "kernel" or "jax"
+        What flies it: machine code, or JAX in the ideal plant.
     axes : tuple of Axis
         What varies.
     samples : int
@@ -64,6 +67,7 @@ class Study:
     """
 
     flight: Flight
+    engine: str
     axes: tuple[Axis, ...]
     samples: int
     sampling: str
@@ -163,6 +167,7 @@ def _build(given: dict[str, Any]) -> Study:
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
     made = Study(
         flight=flight,
+        engine=errors.one_of("engine", given.get("engine", "kernel"), ENGINES),
         axes=found,
         samples=integer("runs", given.get("runs", 1), 1),
         sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
@@ -176,7 +181,7 @@ def _build(given: dict[str, Any]) -> Study:
     exact = flight.tolerances
     settings = {
         "duration": flight.duration, "rtol": exact.rtol, "judge_period": flight.judge_period,
-        "precision": exact.precision, "max_steps": exact.max_steps,
+        "precision": exact.precision, "max_steps": exact.max_steps, "engine": made.engine,
         "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
         "vehicle": flight.vehicle.to_dict(), "law": absolute(law_table(given["law"]), Path.cwd()),
         "plant": _plant_table(given.get("plant", "rotors")),
@@ -257,6 +262,8 @@ def _check(made: Study) -> None:
         raise InputError("chunk", f"at most {MOST_CHUNK}", made.chunk)
     if made.samples > 1 and made.dimensions == 0 and not _random(made.flight.plant):
         raise InputError("runs", "1, since nothing is drawn", made.samples)
+    if made.engine == "jax" and not isinstance(made.flight.plant, Ideal):
+        raise InputError("engine", "'kernel' in a sampled flight", "'jax'")
     check_size(made.sampling, made.samples, made.dimensions)
 
 

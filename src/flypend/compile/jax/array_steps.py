@@ -35,7 +35,7 @@ FLYING, IDLE = -1, -2
 class Lanes(NamedTuple):
     """L runs in progress: run index, time, next step (L,), state and rate (24, L), code, steps tried, last rejected.
 
-    `judged` holds the state of the reductions; see `judging`.
+    `judged` holds the state of the reductions; see `flypend.compile.jax.judging`.
     """
 
     run: Any

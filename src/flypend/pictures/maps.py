@@ -188,7 +188,7 @@ def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -
     bar.set_ticks(range(len(CAUSES)), labels=["none", *shares])
     bar.ax.tick_params(labelsize=SMALL, length=0)
     bar.set_label("most frequent cause of failure", fontsize=LABEL)
-    handles = [Patch(facecolor=EMPTY, label="no runs, or none that settles")]
+    handles = [Patch(facecolor=EMPTY, label="no runs, or none settled")]
     if any(np.any(_unsure(panel)) for panel in panels):
         words = f"interval of the success rate wider than {100 * WIDE:.0f} %"
         handles.append(Patch(facecolor="white", edgecolor=INK, hatch=HATCH, label=words))

@@ -51,7 +51,7 @@ class Lanes(NamedTuple):
 
 
 class Results(NamedTuple):
-    """Final states (24, n+1), end times, codes, steps (n+1,), reductions (k, n+1); entry n is scratch for idle lanes."""
+    """Final states (24, n+1), end times, codes, steps (n+1,), reductions (k, n+1); entry n is for idle lanes."""
 
     s: Any
     t: Any

@@ -66,8 +66,8 @@ def full_figure(run: Trajectory, *, style: str = "paper") -> Figure:
         _lyapunov(panels[5], run)
     else:
         _components(panels[5], run.t, r"\dot{y}", run.y_dot, "1/s")
-    _mind_spikes(panels[3], run.thrust, "N")
-    _mind_spikes(panels[4], run.moment, "N m")
+    _clip_spikes(panels[3], run.thrust, "N")
+    _clip_spikes(panels[4], run.moment, "N m")
     for ax in panels:  # above the axes, clear of the curves
         at = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "borderpad": 0.1}
         ax.legend(fontsize=SMALL, ncols=3, frameon=False, columnspacing=1.2, **at)
@@ -126,7 +126,7 @@ def _lyapunov(ax: Any, run: Trajectory) -> None:
     ax.set_ylabel("Lyapunov function (1/s²)", fontsize=LABEL)
 
 
-def _mind_spikes(ax: Any, values: Any, unit: str) -> None:
+def _clip_spikes(ax: Any, values: Any, unit: str) -> None:
     """Clip `ax` if `values` have a spike (as a singular law does at its end), and state the height of the spike."""
     size = np.abs(values)
     usual, peak = np.percentile(size, 95), size.max()

@@ -22,7 +22,7 @@ def define_turn(lanes: Lanes, length: int) -> ir.Function:
     for lane in range(0, lanes.width, BLOCK):
         for first in range(0, length - length % BLOCK, BLOCK):
             block = [_eight_lanes(code, source, first + i, lane) for i in range(BLOCK)]
-            for i, row in enumerate(_turned(code.builder, block)):
+            for i, row in enumerate(_transposed(code.builder, block)):
                 place = ir.Constant(I64, (lane + i) * length + first)
                 code.builder.store(row, code.scalar_at(rows, place, ir.DoubleType())).align = 8
     for i in range(length - length % BLOCK, length):
@@ -42,7 +42,7 @@ def _eight_lanes(code: Code, memory: ir.Value, index: int, lane: int) -> ir.Valu
     return vector if code.lanes.precision == "double" else code.builder.fpext(vector, DOUBLES)
 
 
-def _turned(builder: ir.IRBuilder, block: list[ir.Value]) -> list[ir.Value]:
+def _transposed(builder: ir.IRBuilder, block: list[ir.Value]) -> list[ir.Value]:
     """Transpose eight vectors of eight by swapping off-diagonal blocks of size one, two and four."""
     for size in (1, 2, 4):
         low = _mask(k if not k & size else BLOCK + k - size for k in range(BLOCK))

@@ -71,7 +71,7 @@ class _Kernel:
     def write(self) -> None:
         code, builder, width = self.code, self.code.builder, self.lanes.width
         groups = builder.sdiv(builder.add(self.at["runs"], ir.Constant(I64, width - 1)), ir.Constant(I64, width))
-        self._take_inputs()
+        self._load_inputs()
         with code.count(PER_TICK) as i:  # without random numbers, all draws are 0
             code.store(0.0, self.draws, i)
         with code.count(groups) as group:
@@ -84,7 +84,7 @@ class _Kernel:
             self._store_results()
         builder.ret_void()
 
-    def _take_inputs(self) -> None:
+    def _load_inputs(self) -> None:
         """Broadcast the plant parameters to all lanes."""
         code, place = self.code, 0
         for memory, length in zip((self.timings, self.noise, self.blowing), self.problem.inputs, strict=True):

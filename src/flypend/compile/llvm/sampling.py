@@ -61,7 +61,7 @@ class Sampler:
         code.put(from_double(code, code.scalar(self.at["times"], first, ir.DoubleType())), self.wanted, lane)
         self.reductions.reset(lane)
 
-    def _aim(self, due: Value) -> None:
+    def _advance(self, due: Value) -> None:
         """Advance the lanes `due` to their next sample times."""
         code, builder = self.code, self.code.builder
         now = builder.load(self.cursor, typ=self.places)
@@ -156,7 +156,7 @@ class Sampler:
                 before, after = self._kept(place), self._kept(code.builder.add(place, ir.Constant(I64, 1)))
                 with code.when(code.builder.icmp_signed(">", after, before)):
                     copy_row(code, self.rows, lane, self.at["samples"], self._row(lane, before), self.size)
-        self._aim(due)
+        self._advance(due)
 
     def _if_kept(self) -> AbstractContextManager[None]:
         return self.code.when(self._given("samples"))

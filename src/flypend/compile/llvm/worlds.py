@@ -112,7 +112,7 @@ class Mujoco:
                 code.call(self._loop, command, omega, self._none, at["ctrl"])
             else:
                 self._copy(command, at["ctrl"], self._problem.rotors)
-            self._look_at_forces()
+            self._check_forces()
             with code.count(inner), code.when(code.any(code.load(self._lost) < 1.0)):
                 builder.call(self._function("mj_step"), [self._model(place), at["data"]])
 
@@ -124,7 +124,7 @@ class Mujoco:
         with code.when(code.any(code.load(self._lost) > 0.0)):
             code.store(float("nan"), self._state)
 
-    def _look_at_forces(self) -> None:
+    def _check_forces(self) -> None:
         """Mark the run as lost if a force is NaN or too large; MuJoCo itself would replace the force by zero."""
         code = self._code
         size = code.value(0.0)

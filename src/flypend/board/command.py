@@ -44,6 +44,8 @@ def command_width(loop: Loop) -> int:
 def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int = 0) -> ca.Function:
     """The law of `loop` as (t, state, rotors, forces, reference, gains, params) → command.
 
+    It is evaluated for the time at which the command will act, the latency after t.
+
     Parameters
     ----------
     loop : Loop
@@ -58,15 +60,17 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     Returns
     -------
     Function
-        Of time (s), state (24,) with e₃ up, modelled rotor forces (n,), external forces (6,), reference, gains and
-        params. For the interface "wrench" a command is the rotor forces (n,), N, led; for "rates" the thrust and the
-        body rates (4,) whose proportional tracking on board gives the law's moment at this instant.
+        Of the time of the measurement (s), state (24,) at actuation with e₃ up, modelled rotor forces (n,), external
+        forces (6,), reference, gains and params. For the interface "wrench" a command is the rotor forces (n,), N, led;
+        for "rates" the thrust and the body rates (4,) whose proportional tracking on board gives the law's moment at
+        this instant.
     """
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
     rotors, forces = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", 6)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
     wrench = steer(t, packed, forces, path, gains, believed.vehicle)
+    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)
     command = finished(loop, believed, wrench, packed, rotors)
     inputs = [t, packed, rotors, forces, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])

@@ -36,7 +36,6 @@ class SteppedBoard:
 
     def __init__(self, loop: Loop, rotors: Any) -> None:
         self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.plant)))
-        self._latency = loop.law.computer.latency
         self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
         self.predicted: tuple[Any, Any, Any] | None = None
 
@@ -45,7 +44,7 @@ class SteppedBoard:
         measurement = np.append(t, measured)
         kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
         self.predicted = (state, rotors, forces)
-        command = self._steer(t + self._latency, state, rotors, forces)
+        command = self._steer(t, state, rotors, forces)
         self._memory = self._remember(self._memory, kept, measurement, forces, command, NONE)
         return command
 
@@ -66,9 +65,10 @@ def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
     """The same for a `law` that is a Python callable."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
     sign = 1.0 if law.e3 == "up" else FLIP_PACKED
+    latency = law.computer.latency
 
     def call(t: float, state: Any, rotors: Any, _: Any) -> Any:
-        wrench = law.function(t, State.from_packed(state * sign))
+        wrench = law.function(t + latency, State.from_packed(state * sign))
         wrench = wrench if law.e3 == "up" else wrench.flipped()
         return end(np.append(wrench.thrust, wrench.moment), state, rotors, NONE)
 

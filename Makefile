@@ -3,9 +3,11 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+OLDEST := .venv-lowest
+FRESH := .venv-size
 OUT ?= paper-out
 
-.PHONY: setup paper lab test bench test-tools fuzz web lint lock clean
+.PHONY: setup paper lab test lowest size bench test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -29,7 +31,7 @@ lint: setup
 	$(BIN)/mypy
 
 test: lint test-tools
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --durations=20
 
 # The kernels and their peers side by side; the peers are locked by themselves, so that the tests need none of them.
 bench: setup
@@ -56,12 +58,36 @@ fuzz: test-tools setup
 	$(BIN)/pytest -m slow tests/test_c_tools.py
 
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
+COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
+    --custom-compile-command "make lock" --upgrade pyproject.toml
+OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies
+
 lock:
-	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
-	    --custom-compile-command "make lock" --group dev pyproject.toml --upgrade --output-file requirements.lock
-	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
-	    --custom-compile-command "make lock" --group bench --constraint requirements.lock pyproject.toml \
-	    --upgrade --output-file requirements-bench.lock
+	$(COMPILE) --all-extras --group dev --output-file requirements.lock
+	$(COMPILE) --all-extras --group bench --constraint requirements.lock --output-file requirements-bench.lock
+	$(COMPILE) $(OLDEST_EXTRAS) --resolution lowest-direct --output-file requirements-lowest.lock
+
+# The lower bounds of pyproject.toml, installed as a wheel and flown, with every extra but JAX: a minute and a half.
+# `make lock` resolves them.
+lowest: setup $(OLDEST)/.ready
+	rm -rf $(OLDEST)/wheel
+	$(BIN)/python -m hatchling build --target wheel --directory $(OLDEST)/wheel
+	$(OLDEST)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
+	    $(OLDEST)/wheel/*.whl
+	$(OLDEST)/bin/python tests/smoke.py
+
+$(OLDEST)/.ready: requirements-lowest.lock
+	$(PYTHON) -m venv --clear $(OLDEST)
+	$(OLDEST)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	    -r requirements-lowest.lock
+	touch $@
+
+# Megabytes of a fresh installation without extras; more than 700 is an error.
+size:
+	$(PYTHON) -m venv --clear $(FRESH)
+	$(FRESH)/bin/python -m pip install --quiet --disable-pip-version-check .
+	du -sm $(FRESH)/lib/python3*/site-packages | tee $(FRESH)/size
+	test $$(cut -f1 $(FRESH)/size) -le 700
 
 clean:
-	rm -rf $(VENV) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache

@@ -72,7 +72,7 @@ def main() -> None:
     print(f"{'law':10} {'reals':7}", *(f"{name:>7}" for name in names))
     for name in given.law or LAWS:
         for precision in given.precision or ("double", "float"):
-            print(row(name, LAWS[name]().bound(vehicle), vehicle, precision), flush=True)
+            print(row(name, LAWS[name]().bind(vehicle), vehicle, precision), flush=True)
 
 
 def row(name, law, vehicle, precision):

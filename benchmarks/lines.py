@@ -13,9 +13,11 @@ import numpy as np
 import flypend as fp
 from benchmarks import clock
 from benchmarks.problem import Problem
+from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
-from flypend.flight.kernels.ideal import MAX_STEPS, call, closed
-from flypend.plants import plant
+from flypend.flight.kernels.ideal import MAX_STEPS, Moments, call
+from flypend.plants import Ideal, plant
+from flypend.plants.loop import Loop
 
 DECADES = range(3, 8)
 
@@ -40,7 +42,7 @@ class Line(NamedTuple):
 def lines() -> Iterator[Line]:
     """All of them, one after the other."""
     problem = Problem()
-    kernel = partial(ideal_kernel, problem.vehicle, problem.law)
+    kernel = partial(ideal_kernel, problem.loop)
     yield from threads(problem, kernel(method="dp5"))
     yield from sampling(problem, kernel(method="dp5"))
     yield from floats(problem, kernel)
@@ -65,13 +67,13 @@ def sampling(problem: Problem, kernel: Any) -> Iterator[Line]:
     starts, times = problem.starts(4096), np.linspace(0, problem.duration, 100)
     fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=1)
     # The memory of the states comes from the operating system, which fills it with zeros first: that is told apart.
-    there = fly(times=times, keep=True, judge=False)
+    there = fly(keep_at=times, judge=False)
     setting, nothing = (problem.duration, 1e-6, 1e-6, MAX_STEPS), np.zeros((len(starts), 0))
     tasks = [
         partial(fly, judge=False),
-        partial(call, kernel.function, starts, nothing, setting, closed(times), there),
-        partial(fly, times=times, keep=True, judge=False),
-        partial(fly, times=times),
+        partial(call, kernel.function, starts, nothing, setting, Moments.of(keep_at=times), there),
+        partial(fly, keep_at=times, judge=False),
+        partial(fly, judge_at=times),
     ]
     none, kept, new, judged = clock.processor(*tasks, repeats=8)
     yield Line("keeping 100 states, above none", 100 * (kept / none - 1), "%", "≤ 25")
@@ -95,8 +97,8 @@ def floats(problem: Problem, kernel: Any) -> Iterator[Line]:
 def inverted() -> Iterator[Line]:
     """Ten seconds of the inverted law on the ideal plant."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
-    kernel = ideal_kernel(vehicle, law, method="dp5")
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
+    kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method="dp5")
     for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
         (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
         yield Line(f"inverted law, 10 s, ideal plant, rtol {rtol:.0e}", len(starts) / seconds, "runs/s", goal)
@@ -105,10 +107,10 @@ def inverted() -> Iterator[Line]:
 def rotors() -> Iterator[Line]:
     """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bound(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
-    kernel = sampled_kernel(vehicle, law, plant("rotors"))
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
+    kernel = sampled_kernel(Loop(vehicle, law, plant("rotors")), Criterion())
     ticks = np.arange(0, 5001, 5)
-    (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, ticks=ticks, workers=1), repeats=2)
+    (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, judge_at=ticks, workers=1), repeats=2)
     yield Line("inverted law, 10 s, rotors at 500 Hz", len(starts) / seconds, "flights/s")
 
 
@@ -118,7 +120,7 @@ def sizes(problem: Problem, kernel: Any) -> Iterator[Line]:
     costs = {}
     for decade in DECADES:
         starts = problem.starts(10**decade)
-        fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, times=times)
+        fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, judge_at=times)
         begin = time.perf_counter()
         (seconds,) = clock.processor(fly, repeats=1 if decade >= 6 else 3)
         costs[decade] = 1e6 * seconds / len(starts)

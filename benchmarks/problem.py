@@ -14,6 +14,8 @@ import flypend as fp
 from flypend.compile.program import Program, interpret
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
+from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 TARGET = 1e-6
 # Tolerances that are tried, loose to tight, until the median error meets the target.
@@ -34,12 +36,17 @@ class Problem:
     @cached_property
     def law(self) -> Any:
         """The corrected law with the paper's gains."""
-        return fp.laws.corrected(k_d=1, k_1=9, k_2=4).bound(self.vehicle)
+        return fp.laws.corrected(k_d=1, k_1=9, k_2=4).bind(self.vehicle)
+
+    @cached_property
+    def loop(self) -> Loop:
+        """The closed loop."""
+        return Loop(self.vehicle, self.law, Ideal())
 
     @cached_property
     def programs(self) -> Any:
         """The closed loop as scalar programs."""
-        return ideal_problem(self.vehicle, self.law, Criterion())
+        return ideal_problem(self.loop, Criterion())
 
     def starts(self, runs: int, seed: int = 0) -> Any:
         """Random packed states (runs, 24): y on S², R on SO(3), |omega|, |ẏ| ≤ 3 rad/s, |ẋ| ≤ 2 m/s, x = 0."""

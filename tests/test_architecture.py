@@ -19,10 +19,10 @@ import flypend
 ROOT = Path(__file__).parents[1]
 SOURCE = Path(flypend.__file__).parent
 
-# Imports point one way ------------------------------------------------------------------------------------------
+# Rooms and their direction --------------------------------------------------------------------------------------
 
-# A module (or package) may import those that stand before it. `flypend` itself, the namespace of public names, stands
-# after everything that it imports.
+# A room (a package) or single module may import those that stand before it. `flypend` itself, the namespace of public
+# names, stands after everything that it imports.
 ORDER = [
     "errors",
     "geometry",
@@ -45,6 +45,15 @@ ORDER = [
     "cli",
     "__main__",
 ]
+MOST_SINGLE = 8  # modules directly under src/flypend; the next one belongs in a room
+
+# Folders of data, which nothing imports.
+DATA = {"examples", "vehicles"}
+
+# Who imports modules by names that no reader of the source can know, and which.
+COMPUTED = {
+    "settings.laws": "the law of a user",
+}
 
 
 def _sources():
@@ -52,82 +61,190 @@ def _sources():
     sources = {}
     for path in sorted(SOURCE.rglob("*.py")):
         parts = path.relative_to(SOURCE).with_suffix("").parts
-        sources[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(encoding="utf-8")
+        if parts[0] not in DATA:
+            sources[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(encoding="utf-8")
     return sources
 
 
-def _imports(text, modules):
-    """Dotted names below flypend that a source imports, also inside functions; "" is flypend itself."""
-    found = set()
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom):
-            assert node.level == 0, "relative imports hide the direction; write the full name"
-            if node.module and node.module.split(".")[0] == "flypend":
-                base = node.module.partition(".")[2]
-                for alias in node.names:
-                    name = f"{base}.{alias.name}".lstrip(".")
-                    found.add(name if name in modules else base)
-        elif isinstance(node, ast.Import):
-            found |= {a.name.partition(".")[2] for a in node.names if a.name.split(".")[0] == "flypend"}
-    return found
+def _below_flypend(name):
+    """The dotted name below flypend of a full one: "" for flypend itself, None for what belongs to others."""
+    top, _, rest = name.partition(".")
+    return rest if top == "flypend" else None
+
+
+def _named(node):
+    """What an argument of `import_module` says: (name, whether all of it is known); None for one that says nothing."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value, True
+    if isinstance(node, ast.JoinedStr) and isinstance(node.values[0], ast.Constant):
+        fixed = node.values[0].value.rpartition(".")[0]
+        return None if fixed == "flypend" else (fixed, False)
+    return None
+
+
+def _importers(tree):
+    """Names by which a source calls `importlib.import_module` and `__import__`."""
+    renamed = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "importlib"]
+    aliases = {a.asname or a.name for node in renamed for a in node.names if a.name in ("import_module", "__import__")}
+    return aliases | {"import_module", "__import__"}
+
+
+class _Imports:
+    """What a source imports below flypend, also inside functions and through importlib.
+
+    `modules` are whole names, `rooms` the rooms of names that are computed in part ("" is flypend itself), `relative`
+    and `computed` the lines of relative imports and of names that cannot be read.
+    """
+
+    def __init__(self, text, known):
+        self.modules, self.rooms, self.relative, self.computed = set(), set(), [], []
+        tree = ast.parse(text)
+        importers = _importers(tree)
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ImportFrom):
+                self._from(node, known)
+            elif isinstance(node, ast.Import):
+                self._add(alias.name for alias in node.names)
+            elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in importers:
+                self._call(node)
+
+    def _add(self, names):
+        self.modules |= {below for name in names if (below := _below_flypend(name)) is not None}
+
+    def _from(self, node, known):
+        if node.level:
+            self.relative.append(node.lineno)
+        elif (base := _below_flypend(node.module)) is not None:
+            names = [f"{base}.{alias.name}".lstrip(".") for alias in node.names]
+            self.modules |= {name if name in known or name.split(".")[0] in DATA else base for name in names}
+
+    def _call(self, node):
+        keywords = [keyword.value for keyword in node.keywords if keyword.arg == "name"]
+        named = _named([*node.args, *keywords][0])
+        if named is None:
+            self.computed.append(node.lineno)
+        elif named[0].startswith("."):
+            self.relative.append(node.lineno)
+        elif named[1]:
+            self._add([named[0]])
+        elif (below := _below_flypend(named[0])) is not None:
+            self.rooms.add(below.split(".")[0])
 
 
 def _wrong_imports(sources):
-    """One message per import against the order, per unknown module, and per cycle."""
+    """One message per import against the order, relative or unreadable, per unknown module, and per cycle."""
+    rank = {name: place for place, name in enumerate(ORDER)}
     top = {name.split(".")[0] for name in sources} - {""}
     messages = [f"{name} is new: put it into ORDER of tests/test_architecture.py" for name in sorted(top - set(ORDER))]
-    rank = {name: place for place, name in enumerate(ORDER)}
-    graph = {name: _imports(text, sources) for name, text in sources.items()}
-    rank[""] = max((rank.get(target.split(".")[0], 0) for target in graph.get("", ())), default=-1) + 0.5
-    for name, targets in graph.items():
+    found = {name: _Imports(text, sources) for name, text in sources.items()}
+    if "" in found:
+        rank[""] = max((rank.get(target.split(".")[0], 0) for target in found[""].modules), default=-1) + 0.5
+    for name, imports in found.items():
+        messages += [f"flypend.{name}, line {line}: a relative import hides the direction" for line in imports.relative]
+        if name not in COMPUTED:
+            messages += [f"flypend.{name}, line {line}: imports a name that is computed" for line in imports.computed]
         here = name.split(".")[0]
-        for target in sorted(targets):
+        for target in sorted(imports.modules | imports.rooms):
             there = target.split(".")[0]
-            if name and here != there and here in rank and there in rank and rank[there] > rank[here]:
+            if there in DATA:
+                messages.append(f"flypend.{name} imports flypend.{target}, which is data")
+            elif name and here != there and here in rank and rank.get(there, -1) > rank[here]:
                 messages.append(f"flypend.{name} imports flypend.{target or '(the namespace)'}, which stands after it")
     try:
-        TopologicalSorter(graph).prepare()
+        TopologicalSorter({name: imports.modules for name, imports in found.items()}).prepare()
     except CycleError as error:
         messages.append("cycle: " + " -> ".join(error.args[1]))
     return messages
+
+
+def _single(sources):
+    """Modules directly under flypend that are no rooms."""
+    rooms = {name.split(".")[0] for name in sources if "." in name}
+    return sorted({name or "__init__" for name in sources if "." not in name} - rooms)
+
+
+def _crowd(sources):
+    """A complaint about more single modules than there may be; a room of one file counts as what it is, a room."""
+    single = [name for name in _single(sources) if not (SOURCE / name).is_dir()]
+    return [f"{', '.join(single)}: more than {MOST_SINGLE}, make a room"] if len(single) > MOST_SINGLE else []
+
+
+def _strangers(folders, known):
+    """Complaints about folders of tests or docs that are called as no room."""
+    return [f"{name} is no room of src/flypend" for name in sorted(set(folders) - set(known))]
+
+
+def _folders(where):
+    """Names of the folders in `where` that hold a tracked kind of file, caches left out."""
+    return {path.name for path in where.iterdir() if path.is_dir() and not path.name.startswith((".", "__"))}
 
 
 def test_imports_point_one_way():
     assert not _wrong_imports(_sources())
 
 
-def test_the_order_names_nothing_twice_and_the_foundation_exists():
+def test_the_order_names_nothing_twice_and_nothing_that_is_gone():
     assert len(set(ORDER)) == len(ORDER)
-    present = {name.split(".")[0] for name in _sources()}
-    assert {"errors", "geometry", "model", "laws", "compile", "flight"} <= present
+    assert {name.split(".")[0] for name in _sources()} - {""} == set(ORDER)
+    assert set(COMPUTED) <= set(_sources())
+    assert {name for name in DATA if (SOURCE / name).is_dir()} == DATA
+
+
+def test_there_are_few_single_modules():
+    assert not _crowd(_sources())
+    assert {"__init__", "__main__", "errors", "geometry"} <= set(_single(_sources()))
+
+
+def test_a_ninth_single_module_is_found():
+    eight = dict.fromkeys(["", "__main__", *"abcdef"], "") | {"model": "", "model.state": ""}
+    assert not _crowd(eight)
+    assert _crowd(eight | {"ninth": ""}) == ["__init__, __main__, a, b, c, d, e, f, ninth: more than 8, make a room"]
+
+
+@pytest.mark.parametrize(("place", "more"), [("tests", set()), ("docs", {"img"})])
+def test_the_folders_are_called_as_the_rooms(place, more):
+    rooms = _folders(SOURCE) - DATA
+    assert not _strangers(_folders(ROOT / place), rooms | more)
+    assert _strangers({"model", "cupboard"}, rooms | more) == ["cupboard is no room of src/flypend"]
 
 
 @pytest.mark.parametrize(
     ("sources", "complaint"),
     [
         ({"geometry": "from flypend.model import State", "model": ""}, "flypend.geometry imports flypend.model"),
-        (
-            {"model": "def f():\n    import flypend.studies", "studies": ""},
-            "flypend.model imports flypend.studies",
-        ),
+        ({"model": "def f():\n    import flypend.studies", "studies": ""}, "flypend.model imports flypend.studies"),
         (
             {"model.state": "from flypend import laws", "laws": "", "model": ""},
             "flypend.model.state imports flypend.laws",
         ),
+        (
+            {"model": "import importlib\nimportlib.import_module('flypend.lab')", "lab": ""},
+            "flypend.model imports flypend.lab",
+        ),
+        (
+            {"model": "from importlib import import_module as f\ndef g():\n    f(name='flypend.lab.page')", "lab": ""},
+            "flypend.model imports flypend.lab",
+        ),
+        ({"model": "__import__('flypend.lab')", "lab": ""}, "flypend.model imports flypend.lab"),
+        ({"model": "import importlib as i\ni.import_module(f'flypend.lab.{x}')"}, "flypend.model imports flypend.lab"),
+        ({"model": "import_module(f'flypend.{x}')"}, "imports a name that is computed"),
+        ({"model": "import_module(name)"}, "imports a name that is computed"),
+        ({"model": "import_module(f'{x}.lab')"}, "imports a name that is computed"),
+        ({"model": "import_module('.state', 'flypend.model')"}, "a relative import"),
+        ({"model": "from . import state"}, "a relative import"),
+        ({"model": "def f():\n    from ..errors import InputError"}, "a relative import"),
+        ({"model": "from flypend.examples.my_law import balance"}, "which is data"),
         ({"model": "from flypend import State", "": "from flypend.flight import simulate"}, "(the namespace)"),
         ({"brand_new": ""}, "brand_new is new"),
         ({"laws": "from flypend.laws.a import A", "laws.a": "from flypend.laws import B"}, "cycle: "),
+        ({"laws.b": "def f():\n    import flypend.laws.a", "laws.a": "from flypend.laws import b"}, "cycle: "),
+        ({"laws.b": "import_module('flypend.laws.a')", "laws.a": "from flypend.laws.b import x"}, "cycle: "),
     ],
 )
 def test_a_wrong_import_is_found(sources, complaint):
     messages = _wrong_imports(sources)
     assert len(messages) == 1
     assert complaint in messages[0]
-
-
-def test_relative_imports_are_refused():
-    with pytest.raises(AssertionError, match="relative"):
-        _imports("from . import errors", {})
 
 
 # Every public argument is documented ----------------------------------------------------------------------------
@@ -157,7 +274,9 @@ PUBLIC = (
 )
 
 # Records of the package: a parameter called as its class in small letters and annotated with it is documented there.
-RECORDS = ("State", "Vehicle", "Wrench", "Rates", "Law", "Trajectory", "Experiment", "Outcome", "Control", "Guard")
+RECORDS = (
+    "State", "Vehicle", "Wrench", "Rates", "Law", "Flight", "Trajectory", "Experiment", "Outcome", "Control", "Guard",
+)  # fmt: skip
 
 # What a vector (v) and a matrix (m) are stands once, at the head of geometry.py.
 ALWAYS_CLEAR = {"flypend.geometry": {"v", "m"}}
@@ -327,9 +446,14 @@ def test_no_tracked_file_names_a_folder_of_a_machine():
     assert not found
 
 
+INSTALLERS = ("pyproject.toml", "Makefile", "run")
+
+
 def test_what_installs_names_no_registry():
-    files = [path for path in _tracked() if path.name in ("pyproject.toml", "requirements.lock", "Makefile", "run")]
-    assert {"pyproject.toml", "requirements.lock", "Makefile"} <= {path.name for path in files}
+    files = [path for path in _tracked() if path.suffix == ".lock" or path.name in INSTALLERS]
+    assert {*INSTALLERS, "requirements.lock", "requirements-lowest.lock", "requirements-bench.lock"} <= {
+        path.name for path in files
+    }
     for path in files:
         # A homepage is no registry.
         text = re.sub(r"(?ms)^\[project\.urls\].*?(?=^\[|\Z)", "", _text(path))

@@ -233,6 +233,21 @@ def test_rotation_from_quaternion_agrees_with_scipy(q):
     close(geo.rotation_from_quat_xyzw(-q), geo.rotation_from_quat_xyzw(q))
 
 
+@property_test
+@given(arrays(float, (5, 4), elements=st.floats(-2, 2, allow_subnormal=False)))
+def test_quaternion_of_a_rotation_gives_the_rotation_back(q):
+    assume(np.all(np.linalg.norm(q, axis=-1) > 0.1))
+    given_back = geo.quat_xyzw_from_rotation(Rotation.from_quat(q).as_matrix())
+    close(np.abs(np.sum(given_back * q, axis=-1)), np.linalg.norm(q, axis=-1))
+    assert np.all(np.max(given_back, axis=-1) >= 0.5 - 1e-12)  # the largest of four entries of a unit quaternion
+    close(given_back[0], geo.quat_xyzw_from_rotation(Rotation.from_quat(q[0]).as_matrix()))
+
+
+@pytest.mark.parametrize("turn", [(0, 0, 0), (1e-9, 0, 2e-9), (0.1, 0.2, -3), (0, np.pi, 0), (4, -5, 6)])
+def test_rotation_from_a_vector_agrees_with_scipy(turn):
+    close(geo.rotation_from_vector(turn), Rotation.from_rotvec(turn).as_matrix())
+
+
 # Random points ---------------------------------------------------------------------------------------------------
 
 COUNT = 20_000

@@ -7,7 +7,7 @@ def make(problem, threads: int, method: str = "dp5") -> Fly:
     """The compiled kernel, nothing judged and nothing kept but the final state."""
     from flypend.flight.kernels import ideal_kernel
 
-    kernel = ideal_kernel(problem.vehicle, problem.law, method=method)
+    kernel = ideal_kernel(problem.loop, method=method)
     return lambda starts, rtol: kernel.fly(starts, problem.duration, rtol=rtol, workers=threads, judge=False).final
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import importlib.util
 from collections.abc import Iterable
 from typing import Any
 
@@ -81,3 +82,13 @@ def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
     for name in given:
         if name not in names:
             one_of(f"{field}.{name}" if field else name, name, names)
+
+
+def require(module: str, *, extra: str, for_: str) -> None:
+    """Raise InputError unless `module` is installed, which the `extra` of this package brings and `for_` needs.
+
+    The module is looked up, not imported. Call it before any work is done.
+    """
+    if importlib.util.find_spec(module) is None:
+        wanted = f"the extra flypend[{extra}] (pip install 'flypend[{extra}]')"
+        raise InputError(for_, wanted, f"no module {module}")

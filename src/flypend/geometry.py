@@ -183,6 +183,28 @@ def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
     return np.eye(3) + 2 * w * skew + 2 * skew @ skew
 
 
+def rotation_from_vector(vector: Any) -> Any:
+    """Rotation matrix (3, 3) by the angle |`vector`| in rad about the direction of `vector` (3,): exp of its hat."""
+    v = np.asarray(vector, dtype=float)
+    half = np.linalg.norm(v) / 2
+    return rotation_from_quat_xyzw(np.append(np.sinc(half / np.pi) / 2 * v, np.cos(half)))
+
+
+def quat_xyzw_from_rotation(m: Any) -> Any:
+    """Unit quaternions (..., 4), order x, y, z, w, of rotation matrices `m` (..., 3, 3); their largest entry is > 0."""
+    m = np.asarray(m, dtype=float)
+    i = range(3)
+    four_q_q = np.empty((*m.shape[:-2], 4, 4))  # 4 q qᵀ, of which every column is along q and the largest is used
+    four_q_q[..., :3, :3] = m + np.swapaxes(m, -1, -2)
+    trace = np.trace(m, axis1=-2, axis2=-1)
+    four_q_q[..., i, i] += (1 - trace)[..., None]
+    four_q_q[..., 3, :3] = four_q_q[..., :3, 3] = vee(m - np.swapaxes(m, -1, -2))
+    four_q_q[..., 3, 3] = 1 + trace
+    largest = np.argmax(np.diagonal(four_q_q, axis1=-2, axis2=-1), axis=-1)
+    column = np.take_along_axis(four_q_q, largest[..., None, None], axis=-1)[..., 0]
+    return column / np.linalg.norm(column, axis=-1, keepdims=True)
+
+
 def random_sphere(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
     """Unit vectors uniform on S², shape (*size, 3), drawn from the generator `rng`."""
     return unit(rng.standard_normal((*size, 3)))

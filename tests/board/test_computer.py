@@ -6,10 +6,12 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.board.computer import usable_lead
-from flypend.board.observer import ForceObserver
-from flypend.laws import Computer
+from flypend.board.believed import Believed
+from flypend.board.command import usable_lead
+from flypend.board.observer import MEMORY, observer
+from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
+from flypend.laws import Computer
 from flypend.plants import MOTION_CAPTURE, Plant, Wind
 from flypend.plants.equations import EquationsEngine
 
@@ -44,20 +46,15 @@ class Log:
 def log(monkeypatch):
     seen = Log()
 
-    class Spy(flight.FlightComputer):
-        def _predict(self, packed):
-            state, rotors = super()._predict(packed)
-            seen.predicted.append(state)
-            seen.rotors.append(rotors)
-            return state, rotors
-
+    class Spy(sampled.SteppedBoard):
         def command(self, t, packed):
             command = super().command(t, packed)
-            seen.forces.append(self._forces)
+            for column, value in zip((seen.predicted, seen.rotors, seen.forces), self.predicted, strict=True):
+                column.append(value)
             seen.commands.append(command)
             return command
 
-    monkeypatch.setattr(flight, "FlightComputer", Spy)
+    monkeypatch.setattr(sampled, "SteppedBoard", Spy)
     return seen
 
 
@@ -182,16 +179,30 @@ BANDWIDTH = 1.5
 def _observed(force, start, rotors, duration=5.0, period=2e-3, vehicle=VEHICLE):
     """Times (n,), estimates (n, 6) and rods (n, 3) under constant `force` (6,) and rotor forces; no flight computer."""
     engine = EquationsEngine(vehicle.replace(rotor_lag=0))
-    observer = ForceObserver(VEHICLE, Computer(observer=BANDWIDTH))
+    observe = _observer(period)
     engine.reset(start.packed(), rotors(0.0))
     estimates, rods = [], []
     times = np.arange(round(duration / period) + 1) * period
     for t in times:
-        estimates.append(observer.update(engine.packed, rotors(t), period))
+        estimates.append(observe(engine.packed, rotors(t)))
         rods.append(engine.packed[18:21])
         for part in range(4):
             engine.step(rotors(t + (part + 0.5) * period / 4), period / 4, force)  # held at the middle
     return times, np.array(estimates), np.array(rods)
+
+
+def _observer(period):
+    """What an observer estimates, measurement after measurement."""
+    update, memory = (
+        as_numpy(observer(Believed.numbers(VEHICLE), Computer(observer=BANDWIDTH), period)),
+        np.zeros(MEMORY),
+    )
+
+    def observe(measured, rotors):
+        memory[:], forces = update(measured, rotors, memory, np.zeros(0))
+        return forces
+
+    return observe
 
 
 def hovering(t):
@@ -257,13 +268,11 @@ def test_an_estimate_is_limited_in_length():
     assert last @ force[:3] / geo.norm(force[:3]) > 0.9  # shortened, not turned
 
 
-def test_the_observer_is_off_with_bandwidth_zero_and_starts_at_zero():
-    off = ForceObserver(VEHICLE, Computer())
-    on = ForceObserver(VEHICLE, Computer(observer=BANDWIDTH))
-    for _ in range(3):
-        np.testing.assert_array_equal(off.update(TUMBLING.packed(), hovering(0), 0.1), np.zeros(6))
+def test_the_observer_is_off_with_bandwidth_zero_and_starts_at_zero(log):
+    fly(law(), TUMBLING, 0.1, Plant(wind=WIND))
+    np.testing.assert_array_equal(np.array(log.forces), 0)
     # One measurement tells no force, however far from equilibrium.
-    np.testing.assert_array_equal(on.update(TUMBLING.packed(), np.full(4, LOW), 0.02), np.zeros(6))
+    np.testing.assert_array_equal(_observer(0.02)(TUMBLING.packed(), np.full(4, LOW)), np.zeros(6))
 
 
 # The inverted law in the wind ------------------------------------------------------------------------------------
@@ -298,7 +307,7 @@ def test_without_the_observer_the_wind_does_leave_one(log):
 
 
 def test_with_the_delay_that_is_planned_for_a_throw_raises_no_false_alarm(log):
-    control = fp.laws.inverted().bound(VEHICLE)
+    control = fp.laws.inverted().bind(VEHICLE)
     start = fp.State.random(np.random.default_rng(12345))
     fly(control, start, 2.0, Plant(delay=control.computer.latency))
     quiet = np.max(np.abs(log.forces))
@@ -319,7 +328,7 @@ def test_noise_is_not_taken_for_a_force(log):
 def test_the_lead_does_not_overshoot_within_a_period():
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
     slow, fast = Plant(rate=50.0), Plant(rate=500.0)
-    bound = law.bound(vehicle)
+    bound = law.bind(vehicle)
     assert usable_lead(bound, vehicle, fast) == bound.computer.lead
     assert usable_lead(bound, vehicle, slow) * (1 - np.exp(-0.02 / 0.02)) == pytest.approx(1, abs=1e-12)
     run = fp.simulate(vehicle, law, fp.State(y=(0, np.sin(0.1), np.cos(0.1))), 6.0, plant=slow)

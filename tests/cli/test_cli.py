@@ -16,6 +16,7 @@ import pytest
 import flypend as fp
 from flypend.cli import app as cli
 from flypend.files import whole as files
+from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
 from flypend.paper import experiment
 from flypend.paper.claims import SETTLED, theorem_claims
@@ -122,20 +123,23 @@ def test_a_run_writes_the_run_and_its_reports_and_nothing_else(second):
 def test_a_run_is_that_of_the_library(second):
     folder, _ = second
     row = experiment("2")
-    written, flown = fp.load(folder / "out" / "run.nc"), fp.simulate(row.vehicle, row.law(), row.start, 6.5)
+    written, flown = (
+        fp.load(folder / "out" / "run.nc"),
+        fp.simulate(row.vehicle, row.law(), row.start, 6.5, plant="ideal"),
+    )
     np.testing.assert_array_equal(written.t, flown.t)
     for name in ("x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment"):
         # Starts equal to an eps; rtol 1e-9 and numbers up to 1e2.
         np.testing.assert_allclose(getattr(written, name), getattr(flown, name), rtol=1e-8, atol=1e-8)
     assert written.vehicle == row.vehicle
-    assert (written.law, written.e3, written.gains) == ("corrected", "down", dict(row.law().gains))
+    assert (written.law, written.e3, written.gains) == ("corrected", "down", row.law().values)
 
 
 def test_a_report_is_that_of_the_library(second):
     folder, told = second
     report = json.loads((folder / "out" / "report.json").read_text(encoding="utf-8"))
     row = experiment("2")
-    long_run = fp.simulate(row.vehicle, row.law(), row.start, SETTLED)
+    long_run = fp.simulate(row.vehicle, row.law(), row.start, SETTLED, plant="ideal")
     wanted = theorem_claims(fp.load(folder / "out" / "run.nc"), long_run)
     assert [(c["claim"], c["holds"], c["criterion"]) for c in report["claims"]] == [
         (v.claim, v.holds, v.criterion) for v in wanted
@@ -155,7 +159,7 @@ def test_a_run_with_overrides_is_that_of_the_library(call, tmp_path):
     changes = ("--set", "law.name=printed", "--set", "law.gains.k_d=2", "--set", "duration=1")
     code, told, _ = call("run", "4", "--no-figures", "-o", "out", *changes)
     row = experiment("4")
-    flown = fp.simulate(row.vehicle, fp.laws.printed(**{**row.gains, "k_d": 2}), row.start, 1.0)
+    flown = fp.simulate(row.vehicle, fp.laws.printed(**{**row.gains, "k_d": 2}), row.start, 1.0, plant="ideal")
     written = fp.load(tmp_path / "out" / "run.nc")
     assert code == 0
     assert written.outcome.status == flown.outcome.status == "singular"
@@ -168,7 +172,7 @@ def test_a_file_of_ones_own_is_flown(call, tmp_path):
     (tmp_path / "own.toml").write_text(own)
     code, told, _ = call("run", "own.toml", "--no-figures", "--out", "out")
     vehicle = fp.vehicle("hehn2011")
-    flown = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 0.2)
+    flown = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 0.2)  # in the plant rotors
     np.testing.assert_allclose(fp.load(tmp_path / "out" / "run.nc").y, flown.y, rtol=0, atol=1e-8)
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert (code, report["claims"]) == (0, [])  # it is not the theorem's law
@@ -222,19 +226,19 @@ def test_other_files_of_the_folder_stay(call, tmp_path):
 
 
 def test_only_the_law_that_settles_is_flown_for_longer(call, monkeypatch):
-    flown, fly = [], runfile.Flight.fly
+    flown, fly = [], simulate.fly
 
-    def recorded(flight, duration=None):
-        flown.append(duration)
-        return fly(flight, None)
+    def recorded(flight):
+        flown.append(flight.duration)
+        return fly(flight.replace(duration=0.1))
 
-    monkeypatch.setattr(runfile.Flight, "fly", recorded)
+    monkeypatch.setattr(simulate, "fly", recorded)
     short = ("--no-figures", "--set", "duration=0.1")
     assert call("run", "1", *short)[0] == 0
-    assert flown == [None, SETTLED]
+    assert flown == [0.1, SETTLED]
     # Without beta the printed law would spin up to 1e6 rad/s within 20 s, and take minutes for it.
     assert call("run", "1", *short, "--set", "law.name=printed", "--set", "law.gains.beta=off")[0] == 0
-    assert flown == [None, SETTLED, None]
+    assert flown == [0.1, SETTLED, 0.1]
 
 
 def test_names_that_look_like_markup_are_printed_as_they_are(call, tmp_path):
@@ -375,7 +379,7 @@ def test_a_folder_that_cannot_be_written_is_told_before_anything_is_flown(
     def fly(*_):
         pytest.fail("flown")
 
-    monkeypatch.setattr(runfile.Flight, "fly", fly)
+    monkeypatch.setattr(simulate, "fly", fly)
     monkeypatch.setattr(paper, "fly_all", fly)
     before = content(tmp_path)
     for out, line in unwritable.items():
@@ -513,7 +517,7 @@ def test_what_stands_in_the_way_is_told_and_nothing_is_moved(call, old):
 
 
 def test_an_error_of_the_code_is_no_bad_input(call, monkeypatch):
-    monkeypatch.setattr(runfile, "flight", fail)
+    monkeypatch.setattr(runfile, "run_file", fail)
     with pytest.raises(RuntimeError, match="out of ink"):
         call("run", "2")
 

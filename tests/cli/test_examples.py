@@ -14,22 +14,28 @@ from typer.exceptions import TyperException
 
 import flypend as fp
 from flypend.cli import app as cli
+from flypend.cli.examples import shipped
 from flypend.flight.metrics import metrics
-from flypend.settings.runfile import flight
+from flypend.flight.simulate import fly
+from flypend.settings.runfile import run_file
 from flypend.studies import law_named
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-TOML = sorted((ROOT / "examples").glob("*.toml"))
-OWN = sorted((ROOT / "examples").glob("*.py"))
+EXAMPLES = Path(fp.__file__).parent / "examples"
+TOML = sorted(EXAMPLES.rglob("*.toml"))
+OWN = sorted(EXAMPLES.rglob("*.py"))
+RUNS = [path for path in TOML if path.parent == EXAMPLES]
 VEHICLE = fp.vehicle("hehn2011")
 
 
 @pytest.fixture
-def at_home(monkeypatch):
-    """In the root of the repository, as a reader who types the commands; what is imported from there is forgotten."""
-    monkeypatch.chdir(ROOT)
+def at_home(tmp_path, monkeypatch):
+    """In a folder with the examples, as a reader who types the commands; what is imported from there is forgotten."""
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", list(sys.path))
+    typer_app = typer.main.get_command(cli.app)
+    typer_app(["examples"], standalone_mode=False)
     yield
     for name in [name for name in sys.modules if name.split(".")[0] == "examples"]:
         del sys.modules[name]
@@ -39,36 +45,68 @@ def at_home(monkeypatch):
 
 
 def test_there_are_examples_and_all_are_found():
-    assert {path.name for path in (ROOT / "examples").iterdir() if path.is_file()} == {p.name for p in TOML + OWN}
+    assert {str(name) for name in shipped()} == {p.relative_to(EXAMPLES).as_posix() for p in TOML + OWN}
     assert "swing-up.toml" in {path.name for path in TOML}
     assert "my_law.py" in {path.name for path in OWN}
 
 
-@pytest.mark.parametrize("path", TOML, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", RUNS, ids=lambda path: path.name)
 def test_a_file_builds_a_flight_and_flies(path):
-    run = flight(str(path), ["duration=0.3"]).fly()
+    run = fly(run_file(str(path), ["duration=0.3"]).flight)
     assert (run.outcome.status, run.t[-1]) == ("completed", pytest.approx(0.3))
-    assert flight(str(path)).duration > 1  # shortened here only
+    assert run_file(str(path)).flight.duration > 1  # shortened here only
 
 
 def test_the_swing_up_swings_up_and_has_limits():
-    chosen = flight(str(ROOT / "examples" / "swing-up.toml"))
-    np.testing.assert_array_equal(chosen.start.y, [0, 0, -1])
-    run = chosen.fly()
+    chosen = run_file(str(EXAMPLES / "swing-up.toml")).flight
+    np.testing.assert_array_equal(chosen.starts.y, [0, 0, -1])
+    run = fly(chosen)
     judged = metrics(run)
     assert judged.success
     assert judged.peak_force <= chosen.vehicle.rotor_limits[1] + 1e-9
     # Negative control: the law of the paper does not, from the same start.
     paper = ["law.name=corrected", "start.y=[0.0, 0.0, 1.0]"]  # the same pose with e₃ down
-    hanging = flight(str(ROOT / "examples" / "swing-up.toml"), paper).fly()
+    hanging = fly(run_file(str(EXAMPLES / "swing-up.toml"), paper).flight)
     assert metrics(hanging).cause == "rod"
 
 
 def test_the_other_plant_that_the_swing_up_names_flies_as_well():
     pytest.importorskip("mujoco")
-    assert '"mujoco" flies it in MuJoCo' in (ROOT / "examples" / "swing-up.toml").read_text(encoding="utf-8")
-    run = flight(str(ROOT / "examples" / "swing-up.toml"), ["plant=mujoco", "duration=0.1"]).fly()
+    assert '"mujoco" flies it in MuJoCo' in (EXAMPLES / "swing-up.toml").read_text(encoding="utf-8")
+    run = fly(run_file(str(EXAMPLES / "swing-up.toml"), ["plant=mujoco", "duration=0.1"]).flight)
     assert run.outcome.status == "completed"
+
+
+# The command that writes them -----------------------------------------------------------------------------------------
+
+
+def write(*arguments):
+    typer.main.get_command(cli.app)(["examples", *arguments], standalone_mode=False)
+
+
+def test_the_examples_are_written_and_nothing_else_is_touched(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "examples").mkdir()
+    (tmp_path / "examples" / "mine.toml").write_text("mine", encoding="utf-8")
+    write()
+    write()  # what is there already is left as it is
+    found = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
+    assert found == {f"examples/{name}" for name in shipped()} | {"examples/mine.toml"}
+    for name, source in shipped().items():
+        assert (tmp_path / "examples" / name).read_bytes() == source.read_bytes()
+
+
+def test_a_file_that_differs_is_replaced_only_if_asked(tmp_path):
+    changed = tmp_path / "out" / "my_law.py"
+    write("--out", str(tmp_path / "out"))
+    changed.write_text("# mine now", encoding="utf-8")
+    (tmp_path / "out" / "swing-up.toml").unlink()
+    with pytest.raises(fp.InputError, match=rf"^{re.escape(str(changed))}: expected .*--force"):
+        write("--out", str(tmp_path / "out"))
+    assert changed.read_text(encoding="utf-8") == "# mine now"
+    assert not (tmp_path / "out" / "swing-up.toml").exists()  # nothing is written if not all is
+    write("--out", str(tmp_path / "out"), "--force")
+    assert changed.read_bytes() == (EXAMPLES / "my_law.py").read_bytes()
 
 
 # A law of one's own ---------------------------------------------------------------------------------------------------
@@ -76,7 +114,7 @@ def test_the_other_plant_that_the_swing_up_names_flies_as_well():
 
 @pytest.mark.parametrize("direction", [0.0, 2.0, 4.0])
 def test_the_law_of_ones_own_balances_a_tilt(at_home, direction):
-    law = law_named("examples.my_law:balance")
+    law = law_named("examples/my_law.py:balance")
     tilt = np.array([np.sin(0.2) * np.cos(direction), np.sin(0.2) * np.sin(direction), np.cos(0.2)])
     run = fp.simulate(VEHICLE, law, fp.State(y=tilt), 12.0, plant="rotors")
     assert metrics(run).success
@@ -84,15 +122,15 @@ def test_the_law_of_ones_own_balances_a_tilt(at_home, direction):
 
 
 def test_the_law_of_ones_own_does_not_swing_up_as_it_says(at_home):
-    law = law_named("examples.my_law:balance")
-    assert "does not swing up" in inspect.getdoc(law.control)
+    law = law_named("examples/my_law.py:balance")
+    assert "does not swing up" in inspect.getdoc(law.control.function.function)
     for y in ((0, 0, -1), (np.sin(0.1), 0, -np.cos(0.1))):
         judged = metrics(fp.simulate(VEHICLE, law, fp.State(y=y), 6.0, plant="rotors"))
         assert judged.cause in ("rod", "diverged")
 
 
 def test_the_law_of_ones_own_is_as_short_as_it_is_said_to_be():
-    function = ast.parse((ROOT / "examples" / "my_law.py").read_text(encoding="utf-8")).body[-1]
+    function = ast.parse((EXAMPLES / "my_law.py").read_text(encoding="utf-8")).body[-1]
     assert isinstance(function, ast.FunctionDef)
     assert function.end_lineno - function.lineno < 10  # the README says ten lines
 
@@ -145,7 +183,7 @@ def test_commands_are_found():
     assert {"run", "compare", "ladder"} <= found
     assert len(commands()) >= 8
     assert any(line.startswith("flypend run examples/swing-up.toml --out") for line in commands())
-    assert any("examples.my_law:balance --law inverted --runs 20" in line for line in commands())
+    assert any("examples/my_law.py:balance --law inverted --runs 20" in line for line in commands())
 
 
 @pytest.mark.parametrize("line", commands())
@@ -153,11 +191,11 @@ def test_a_command_that_is_named_can_be_typed(at_home, line):
     """Its options exist and take such values, its files and laws are there."""
     name, options = parsed(line)
     if name == "run":
-        chosen = flight(options["what"], options["override"] or ())
+        chosen = run_file(options["what"], options["override"] or ()).flight
         assert chosen.duration > 0
     laws = options.get("law") or ()
     for law in [laws] if isinstance(laws, str) else laws:
-        assert law_named(law).bound(VEHICLE)
+        assert law_named(law).bind(VEHICLE)
 
 
 @pytest.mark.parametrize("line", ["flypend ladder --step 1", "flypend fly", "flypend compare --runs many"])
@@ -192,4 +230,5 @@ def test_what_a_document_links_to_exists(path):
 def test_files_that_the_readme_names_exist():
     named = set(re.findall(r"\b((?:docs|examples|src|tests|shared)/[\w./-]*\w)", README))
     assert {"examples/swing-up.toml", "docs/paper/errata.md"} <= named
-    assert not [name for name in named if not (ROOT / name).exists()]
+    places = [EXAMPLES.parent / name if name.startswith("examples/") else ROOT / name for name in named]
+    assert not [place for place in places if not place.exists()]

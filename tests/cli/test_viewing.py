@@ -23,7 +23,7 @@ def runs(tmp_path_factory):
     folder = tmp_path_factory.mktemp("runs")
     for name in ("4", "5"):
         case = experiment(name)
-        fp.simulate(case.vehicle, case.law(), case.start, 0.1).save(folder / f"{name}.nc")
+        fp.simulate(case.vehicle, case.law(), case.start, 0.1, plant="ideal").save(folder / f"{name}.nc")
     return folder
 
 

@@ -11,6 +11,8 @@ import flypend as fp
 from flypend.compile.program import Program, lower
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
+from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 UNARY = [
     ca.sqrt, ca.fabs, ca.sign, ca.sin, ca.cos, ca.tan, ca.asin, ca.acos, ca.atan, ca.sinh, ca.cosh, ca.tanh, ca.asinh,
@@ -129,7 +131,7 @@ def test_a_sparse_output_is_a_mistake():
 
 def test_arguments_stand_before_what_takes_them():
     vehicle = fp.vehicle("hehn2011")
-    program = ideal_problem(vehicle, fp.laws.inverted().bound(vehicle), Criterion()).rates
+    program = ideal_problem(Loop(vehicle, fp.laws.inverted().bind(vehicle), Ideal()), Criterion()).rates
     assert isinstance(program, Program)
     for place, operation in enumerate(program.operations):
         assert operation.name == "input" or all(number < place for number in operation.arguments)

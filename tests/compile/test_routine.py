@@ -1,7 +1,5 @@
 """Routines: calls of programs give what CasADi gives, wherever their memory lies."""
 
-import ctypes
-
 import casadi as ca
 import numpy as np
 import pytest
@@ -36,4 +34,68 @@ def agrees(function, width=2, seed=1):
 @pytest.mark.parametrize("name", ["rotors", "hehn2011"])
 def test_a_board_as_calls_is_what_casadi_says(name):
     vehicle = fp.vehicle("hehn2011")
-    agrees(board(Loop(vehicle, fp.laws.inverted().bound(vehicle), PRESETS[name])).step)
+    agrees(board(Loop(vehicle, fp.laws.inverted().bind(vehicle), PRESETS[name])).step)
+
+
+def double(n, name="double"):
+    x = ca.SX.sym("x", n)
+    return ca.Function(name, [x], [2 * x])
+
+
+def test_vectors_are_cut_and_put_together_without_operations():
+    x, y = ca.MX.sym("x", 5), ca.MX.sym("y", 3)
+    twice = double(3)
+    joined = ca.vertcat(y[::-1], twice(x[1:4]), 7.5, x[0])
+    function = ca.Function("parts", [x, y], [joined, ca.vertcat(*ca.vertsplit(x, [0, 2, 5])[::-1])])
+    agrees(function)
+    routine = lower_calls(function)
+    assert (len(routine.calls), routine.operations()) == (1, 3)
+    assert routine.outputs[0][6] == Cell("constant", value=7.5)
+
+
+def test_what_is_called_twice_stands_once_and_memory_is_used_again():
+    x = ca.MX.sym("x", 4)
+    step, inner = double(4), ca.MX.sym("z", 4)
+    twice = ca.Function("twice", [inner], [step(step(inner))])  # a function of calls inside another
+    value = x
+    for _ in range(5):
+        value = twice(value)
+    routine = lower_calls(ca.Function("ten", [x], [value]))
+    assert (len(routine.programs), len(routine.calls), routine.memories) == (1, 10, (4,))
+    agrees(ca.Function("ten", [x], [value]))
+
+
+def test_a_value_that_is_needed_later_keeps_its_memory():
+    x = ca.MX.sym("x", 2)
+    step = double(2)
+    first = step(x)
+    function = ca.Function("kept", [x], [step(step(first)), first])
+    assert len(lower_calls(function).memories) == 2
+    agrees(function)
+
+
+def test_an_argument_that_is_zero_or_not_read_needs_no_memory():
+    a, b = ca.SX.sym("a", 2), ca.SX.sym("b", 2)
+    both = ca.Function("both", [a, b], [a + b, a - b])
+    x = ca.MX.sym("x", 2)
+    agrees(ca.Function("zero", [x], [both(x, ca.MX(2, 1))[0]]))
+
+
+def test_arithmetic_outside_the_functions_is_refused():
+    x = ca.MX.sym("x", 2)
+    with pytest.raises(ValueError, match="computes"):
+        lower_calls(ca.Function("sum", [x], [x + 1]))
+
+
+def test_two_functions_of_one_name_are_refused():
+    x, y = ca.MX.sym("x", 2), ca.SX.sym("y", 2)
+    other = ca.Function("double", [y], [3 * y])
+    with pytest.raises(ValueError, match="one name"):
+        lower_calls(ca.Function("f", [x], [other(double(2)(x))]))
+
+
+def test_stretches_are_the_longest_runs_of_neighbours():
+    cells = [Cell("input", 0, 1), Cell("input", 0, 2), Cell("input", 1, 3), Cell("constant", value=1.0)]
+    cells += [Cell("constant", value=1.0), Cell("call", 0, 0), Cell("call", 0, 1)]
+    assert [length for _, length in stretches(cells)] == [2, 1, 1, 1, 2]
+    assert stretches([]) == []

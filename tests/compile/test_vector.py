@@ -16,6 +16,9 @@ from flypend.compile.llvm.rows import BLOCK, define_turn
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
+from flypend.laws.closed_loop import close_loop
+from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 
 def compiled(lanes, function, pointers):
@@ -89,11 +92,11 @@ def test_comparisons_and_extremes_of_nan():
 @pytest.mark.parametrize(("width", "precision", "tolerance"), [(8, "double", 1e-11), (16, "float", 2e-2)])
 def test_a_closed_loop_is_what_casadi_says(name, width, precision, tolerance):
     vehicle = fp.vehicle("hehn2011")
-    law = getattr(fp.laws, name)().bound(vehicle)
-    program = ideal_problem(vehicle, law, Criterion()).rates
+    law = getattr(fp.laws, name)().bind(vehicle)
+    program = ideal_problem(Loop(vehicle, law, Ideal()), Criterion()).rates
     states = fp.State.random(np.random.default_rng(2), width).packed().T
     got = run(program, [np.zeros((1, width)), states, np.zeros((0, width))], width, precision)[0]
-    rates = fp.compile.close_loop(vehicle, law).rates
+    rates = close_loop(vehicle, law).rates
     expected = np.array([np.array(rates(0.0, state)).ravel() for state in states.T]).T
     # Accelerations are up to some hundred rad/s², and a float has seven digits.
     np.testing.assert_allclose(got, expected, rtol=tolerance, atol=tolerance * 100)

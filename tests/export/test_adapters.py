@@ -12,7 +12,7 @@ from flypend import geometry as geo
 from flypend.export import records, vectors
 
 VEHICLE = fp.vehicle("hehn2011")
-LAW = fp.laws.inverted().bound(VEHICLE)
+LAW = fp.laws.inverted().bind(VEHICLE)
 
 
 @pytest.fixture(scope="module")

@@ -20,13 +20,13 @@ from flypend.model import Wrench
 from flypend.model.allocation import allocate
 
 VEHICLE = fp.vehicle("hehn2011")
-INVERTED = fp.laws.inverted().bound(VEHICLE)
+INVERTED = fp.laws.inverted().bind(VEHICLE)
 LAWS = {
     "inverted": INVERTED,
-    "light": fp.laws.inverted(form="light").bound(VEHICLE),
-    "corrected": fp.laws.corrected(),
-    "printed": fp.laws.printed(),
-    "lqr": fp.laws.lqr().bound(VEHICLE),
+    "light": fp.laws.inverted(form="light").bind(VEHICLE),
+    "corrected": fp.laws.corrected().bind(VEHICLE),
+    "printed": fp.laws.printed().bind(VEHICLE),
+    "lqr": fp.laws.lqr().bind(VEHICLE),
 }
 OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR = range(7)
 
@@ -68,9 +68,9 @@ def test_the_vectors_are_the_law_of_python_along_a_reference():
         (fp.laws.inverted(reference), fp.laws.inverted()),
         (fp.laws.lqr(reference=reference), fp.laws.lqr()),
     ):
-        control = law.bound(VEHICLE).evaluate(t, fp.State.symbolic(packed), VEHICLE, (F[:3], F[3:])).wrench
+        control = law.bind(VEHICLE).evaluate(t, fp.State.symbolic(packed), VEHICLE, (F[:3], F[3:])).wrench
         python = ca.Function("law", [t, packed, F], [ca.vertcat(control.thrust, control.moment)])
-        code = library(make.bound(VEHICLE), VEHICLE, "double")
+        code = library(make.bind(VEHICLE), VEHICLE, "double")
         for time, state in zip(np.linspace(0, 5, 20), states, strict=True):
             state = state if law.name == "inverted" else np.concatenate([state[:24], np.zeros(6)])
             wrench, _, status = code.step(state, code.follow(np.array(orders(time)).ravel(), state))
@@ -83,7 +83,7 @@ def test_vehicle_and_gains_are_inputs_at_run_time(monkeypatch):
     other = VEHICLE.replace(
         mass=0.7, bob_mass=0.08, rod_length=0.4, inertia=(4e-3, 3e-3, 6e-3), rotor_limits=(0.1, 5.0)
     )
-    law = fp.laws.inverted(rod_damping=0.5, coast_time=0.04).bound(other)
+    law = fp.laws.inverted(rod_damping=0.5, coast_time=0.04).bind(other)
     wanted = vectors.vectors(law, other, 200, 2, "double")
     code = library(INVERTED, VEHICLE, "double")  # compiled for another vehicle and other gains
     assert np.max(np.abs(code.step(wanted.state, wanted.reference)[0] - wanted.wrench)) > 0.1
@@ -102,7 +102,7 @@ def test_six_rotors_and_a_full_inertia_matrix():
         rotor_positions=np.stack([0.2 * np.cos(angles), 0.2 * np.sin(angles), 0 * angles], axis=1),
         rotor_spins=(1, -1, 1, -1, 1, -1),
     )
-    for law in (fp.laws.inverted().bound(vehicle), fp.laws.corrected(yaw_damping=2.0)):
+    for law in (fp.laws.inverted().bind(vehicle), fp.laws.corrected(yaw_damping=2.0).bind(vehicle)):
         wanted = vectors.vectors(law, vehicle, 200, 2, "double")
         wrench, rotors, status = library(law, vehicle, "double").step(wanted.state, wanted.reference)
         assert not np.any(status)

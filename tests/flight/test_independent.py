@@ -174,14 +174,14 @@ def test_final_state_agrees_with_taylor_series_of_machine_precision(taylor, name
     reference = taylor(case, case.duration)
     # Some 300 steps of rtol each; the law attracts except in x, which is up to 130 m. Measured 1e-8 and 1e-10.
     for rtol, allowed in ((1e-10, 1e-6), (1e-12, 1e-8)):
-        run = fp.simulate(case.vehicle, case.law(), case.start, case.duration, rtol=rtol)
+        run = fp.simulate(case.vehicle, case.law(), case.start, case.duration, rtol=rtol, plant="ideal")
         assert largest_difference(run, reference) < allowed
 
 
 @every_experiment
 def test_final_state_agrees_with_a_multistep_method(name):
     case = experiment(name)
-    run = fp.simulate(case.vehicle, case.law(), case.start, case.duration, rtol=1e-12)
+    run = fp.simulate(case.vehicle, case.law(), case.start, case.duration, rtol=1e-12, plant="ideal")
     # LSODA at 1e-11 over some 5000 steps: 5e-8 at worst. Measured 3e-9.
     assert largest_difference(run, by_lsoda(case, case.duration)) < 5e-8
 
@@ -194,7 +194,7 @@ def test_the_two_references_agree_with_each_other(taylor):
 @pytest.mark.parametrize("wrong", [{"sign": 1.0}, {"floor": 2e-2}])
 def test_another_law_does_not_agree(taylor, wrong):
     case = experiment("1")
-    run = fp.simulate(case.vehicle, case.law(), case.start, 1.0)
+    run = fp.simulate(case.vehicle, case.law(), case.start, 1.0, plant="ideal")
     assert largest_difference(run, taylor(case, 1.0)) < 1e-7
     assert largest_difference(run, taylor(case, 1.0, **wrong)) > 1e-4
 
@@ -202,7 +202,7 @@ def test_another_law_does_not_agree(taylor, wrong):
 @every_experiment
 def test_the_printed_law_up_to_its_singularity_agrees_with_taylor_series(taylor, name):
     case = experiment(name)
-    run = fp.simulate(case.vehicle, case.law("printed"), case.start, case.duration, rtol=1e-12)
+    run = fp.simulate(case.vehicle, case.law("printed"), case.start, case.duration, rtol=1e-12, plant="ideal")
     before = 0.9 * run.outcome.time
     reference = taylor(case, before, sign=1.0, beta=1.0, floor=1e-6)
     # rtol 1e-12, amplified on the way to the singularity, where |β| ~ 1/|v_e| is up to 100 times larger than the rest.
@@ -212,7 +212,7 @@ def test_the_printed_law_up_to_its_singularity_agrees_with_taylor_series(taylor,
 @every_experiment
 def test_the_corrected_law_reaches_the_pose_claimed(name):
     case = experiment(name)
-    run = fp.simulate(case.vehicle, case.law(), case.start, case.duration, rtol=1e-10)
+    run = fp.simulate(case.vehicle, case.law(), case.start, case.duration, rtol=1e-10, plant="ideal")
     assert run.outcome.status == "completed"
     assert run.t[-1] == 6.5
     assert run.y[-1, 2] >= 0.998
@@ -222,7 +222,7 @@ def test_the_corrected_law_reaches_the_pose_claimed(name):
 @every_experiment
 def test_the_printed_law_is_singular_in_every_experiment(name):
     case = experiment(name)
-    run = fp.simulate(case.vehicle, case.law("printed"), case.start, case.duration)
+    run = fp.simulate(case.vehicle, case.law("printed"), case.start, case.duration, plant="ideal")
     assert run.outcome.status == "singular"
     assert 0.01 < run.outcome.time < 1.4
     assert "|v_e|" in run.outcome.reason
@@ -233,7 +233,9 @@ def test_the_printed_law_is_singular_in_every_experiment(name):
 @every_experiment
 def test_without_beta_the_printed_law_spins_the_rod_up(name):
     case = experiment(name)
-    run = fp.simulate(case.vehicle, case.law("printed", beta="off"), case.start, case.duration, rtol=1e-7)
+    run = fp.simulate(
+        case.vehicle, case.law("printed", beta="off"), case.start, case.duration, rtol=1e-7, plant="ideal"
+    )
     speed = np.linalg.norm(run.y_dot[-1])
     # The page says 260 to 2000 rad/s; 2 % of slack, for the numbers are rounded (262 and 1993).
     assert 0.98 * 260 < speed < 1.02 * 2000

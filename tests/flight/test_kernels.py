@@ -19,11 +19,11 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.flight.sampled import fly
-from flypend.plants import Noise, Plant, Wind
+from flypend.plants import Ideal, Noise, Plant, Wind
 from flypend.plants.loop import Loop
 
 NAYAK, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
-CORRECTED, INVERTED = fp.laws.corrected().bound(NAYAK), fp.laws.inverted().bound(HEHN)
+CORRECTED, INVERTED = fp.laws.corrected().bind(NAYAK), fp.laws.inverted().bind(HEHN)
 DURATION = 6.5
 
 
@@ -43,7 +43,7 @@ def off(states, reference):
 def arbiter():
     """`arbiter(starts, times)`: states (times, n, 24) of the corrected law, four runs at a time."""
     hy = pytest.importorskip("heyoka", reason="heyoka has wheels for x86_64 only")
-    program = ideal_problem(NAYAK, CORRECTED, Criterion()).rates
+    program = ideal_problem(Loop(NAYAK, CORRECTED, Ideal()), Criterion()).rates
     names = hy.make_vars(*(f"s{i}" for i in range(24)))
     operations = {"add": operator.add, "sub": operator.sub, "mul": operator.mul, "div": operator.truediv,
                   "neg": operator.neg, "sqrt": hy.sqrt}  # fmt: skip
@@ -83,7 +83,7 @@ def errors_are_inside_the_tolerance(arbiter, runs):
     starts = random_starts(runs)
     reference = arbiter(starts, [DURATION])[0]
     for method in ("dop853", "dp5"):
-        kernel = ideal_kernel(NAYAK, CORRECTED, method=method)
+        kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
         for rtol in (1e-9, 1e-12):
             errors = off(kernel.fly(starts, DURATION, rtol=rtol).final, reference)
             # Some hundred steps, each allowed `rtol`, and a loop that forgets: the median run is off by 1 to 4 rtol.
@@ -111,7 +111,7 @@ def test_errors_are_inside_the_tolerance_in_ten_thousand_runs(arbiter):
 def test_samples_between_steps_are_as_good_as_the_steps(arbiter, method, rtol):
     starts, times = random_starts(8, seed=3), np.linspace(0.05, 2.0, 37)
     reference = arbiter(starts, times).transpose(1, 0, 2)
-    flown = ideal_kernel(NAYAK, CORRECTED, method=method).fly(starts, 2.0, rtol=rtol, times=times, keep=True)
+    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method).fly(starts, 2.0, rtol=rtol, keep_at=times)
     assert flown.samples.shape == (8, 37, 24)
     # The polynomials are of order 7 and 4; that of order 4 loses a factor of ten or two in the middle of a step.
     assert np.max(off(flown.samples, reference)) < (300 if method == "dp5" else 100) * rtol
@@ -119,7 +119,7 @@ def test_samples_between_steps_are_as_good_as_the_steps(arbiter, method, rtol):
 
 def test_a_sample_at_the_end_is_the_end():
     starts = random_starts(3)
-    flown = ideal_kernel(NAYAK, CORRECTED).fly(starts, 1.0, rtol=1e-9, times=[0.0, 0.5, 1.0], keep=True)
+    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(starts, 1.0, rtol=1e-9, keep_at=[0.0, 0.5, 1.0])
     np.testing.assert_allclose(flown.samples[:, 0], starts, atol=1e-12)
     np.testing.assert_allclose(flown.samples[:, 2], flown.final, atol=1e-10)
 
@@ -127,7 +127,7 @@ def test_a_sample_at_the_end_is_the_end():
 @pytest.mark.parametrize(("method", "order"), [("dop853", 8), ("dp5", 5)])
 def test_the_error_falls_with_the_order_of_the_method(arbiter, method, order):
     """error ~ steps^(−p): the steps grow by a factor of 1.3 (order 8) or 1.6 (order 5) for a decade of error."""
-    starts, kernel = random_starts(64, seed=5), ideal_kernel(NAYAK, CORRECTED, method=method)
+    starts, kernel = random_starts(64, seed=5), ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
     reference = arbiter(starts, [3.0])[0]
     flown = [kernel.fly(starts, 3.0, rtol=10.0**decade) for decade in range(-11, -6)]
     errors = [np.median(off(some.final, reference)) for some in flown]
@@ -139,8 +139,8 @@ def test_the_error_falls_with_the_order_of_the_method(arbiter, method, order):
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_a_float_is_a_coarse_double(precision):
     starts = random_starts(64, seed=6)
-    reference = ideal_kernel(NAYAK, CORRECTED).fly(starts, 2.0, rtol=1e-10).final
-    flown = ideal_kernel(NAYAK, CORRECTED, method="dp5", precision=precision).fly(starts, 2.0, rtol=1e-4)
+    reference = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(starts, 2.0, rtol=1e-10).final
+    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5", precision=precision).fly(starts, 2.0, rtol=1e-4)
     assert np.all(flown.status == "completed")
     assert np.median(off(flown.final, reference)) < 1e-2
 
@@ -154,7 +154,7 @@ def explosive(vehicle):
     def control(t, state, vehicle, gains):
         return fp.Wrench(vehicle.weight, ca.mtimes(ca.DM(vehicle.I), state.omega[0] * state.omega))
 
-    return fp.Law(name="explosive", e3="up", control=control, gains={"k": 1.0}).bound(vehicle)
+    return fp.Law(name="explosive", e3="up", control=control, gains={"k": 1.0}).bind(vehicle)
 
 
 def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
@@ -167,7 +167,7 @@ def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
     bad[10, 15] = 40.0
     bad[17, 0] = np.inf
     for method in ("dop853", "dp5"):
-        kernel = ideal_kernel(HEHN, law, method=method)
+        kernel = ideal_kernel(Loop(HEHN, law, Ideal()), method=method)
         good, mixed = (kernel.fly(some, 1.0, rtol=1e-8, workers=1) for some in (starts, bad))
         assert np.all(good.status == "completed")
         assert mixed.status[[3, 10, 17]].tolist() == ["singular", "diverged", "diverged"]
@@ -180,8 +180,8 @@ def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
 
 def test_a_singular_lane_ends_as_singular_and_its_neighbours_go_on():
     """The printed law meets |v_e| = 0 in all starts but those where the guard was never near."""
-    law = fp.laws.printed().bound(NAYAK)
-    kernel = ideal_kernel(NAYAK, law)
+    law = fp.laws.printed().bind(NAYAK)
+    kernel = ideal_kernel(Loop(NAYAK, law, Ideal()))
     starts = random_starts(16, seed=9)
     flown = kernel.fly(starts, 1.0, rtol=1e-9, workers=1)
     singular = flown.status == "singular"
@@ -195,7 +195,7 @@ def test_a_singular_lane_ends_as_singular_and_its_neighbours_go_on():
 
 def test_a_run_that_needs_too_many_steps_ends(monkeypatch):
     monkeypatch.setattr("flypend.flight.kernels.ideal.MAX_STEPS", 20)
-    flown = ideal_kernel(NAYAK, CORRECTED).fly(random_starts(9), DURATION, rtol=1e-9)
+    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(random_starts(9), DURATION, rtol=1e-9)
     assert np.all(flown.code == runge_kutta.TOO_MANY)
     assert np.all(flown.steps == 20)
     assert np.all((flown.end > 0) & (flown.end < DURATION))
@@ -205,7 +205,7 @@ def test_samples_after_the_end_are_nan():
     law, starts = explosive(HEHN), random_starts(4, seed=8)
     starts[:, 15] = 20.0
     times = np.linspace(0, 1, 11)
-    flown = ideal_kernel(HEHN, law).fly(starts, 1.0, rtol=1e-8, times=times, keep=True)
+    flown = ideal_kernel(Loop(HEHN, law, Ideal())).fly(starts, 1.0, rtol=1e-8, keep_at=times)
     assert np.all(flown.status == "diverged")
     for end, samples in zip(flown.end, flown.samples, strict=True):
         np.testing.assert_array_equal(np.isnan(samples).all(axis=1), times > end)
@@ -217,30 +217,55 @@ def test_samples_after_the_end_are_nan():
 def test_a_run_is_the_same_in_any_company(method, rtol):
     """Bit by bit: alone, in a batch, in another order, on one thread or three."""
     starts = random_starts(1300, seed=4)
-    kernel = ideal_kernel(NAYAK, CORRECTED, method=method)
+    kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
     times = np.linspace(0, 2, 9)
-    together = kernel.fly(starts, 2.0, rtol=rtol, times=times, keep=True, workers=3)
-    one = kernel.fly(starts[::-1], 2.0, rtol=rtol, times=times, keep=True, workers=1)
+    together = kernel.fly(starts, 2.0, rtol=rtol, judge_at=times, keep_at=times, workers=3)
+    one = kernel.fly(starts[::-1], 2.0, rtol=rtol, judge_at=times, keep_at=times, workers=1)
     for name in ("final", "end", "code", "reductions", "samples", "steps"):
         np.testing.assert_array_equal(getattr(together, name), getattr(one, name)[::-1])
     for i in (0, 7, 523, 1299):
-        alone = kernel.fly(starts[i : i + 1], 2.0, rtol=rtol, times=times, keep=True)
+        alone = kernel.fly(starts[i : i + 1], 2.0, rtol=rtol, judge_at=times, keep_at=times)
         np.testing.assert_array_equal(alone.samples[0], together.samples[i])
         np.testing.assert_array_equal(alone.reductions[0], together.reductions[i])
 
 
 def test_states_that_are_kept_need_not_be_judged():
     starts, times = random_starts(20), np.linspace(0, 1, 7)
-    kernel = ideal_kernel(NAYAK, CORRECTED, method="dp5")
-    both = kernel.fly(starts, 1.0, rtol=1e-6, times=times, keep=True)
-    kept = kernel.fly(starts, 1.0, rtol=1e-6, times=times, keep=True, judge=False)
+    kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5")
+    both = kernel.fly(starts, 1.0, rtol=1e-6, judge_at=times, keep_at=times)
+    kept = kernel.fly(starts, 1.0, rtol=1e-6, keep_at=times, judge=False)
     assert kept.reductions is None
     np.testing.assert_array_equal(kept.samples, both.samples)
 
 
+def test_what_is_kept_changes_nothing_of_how_a_run_is_judged():
+    """Kept at moments of its own, some of them those at which it is judged: one flight, the same bits of both."""
+    starts, judged, kept = random_starts(40), np.linspace(0, 2, 21), np.array([0.0, 0.1, 0.777, 1.3, 2.0])
+    for precision, rtol in (("double", 1e-8), ("float", 1e-4)):
+        kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5", precision=precision)
+        plain = kernel.fly(starts, 2.0, rtol=rtol, judge_at=judged)
+        both = kernel.fly(starts, 2.0, rtol=rtol, judge_at=judged, keep_at=kept)
+        only = kernel.fly(starts, 2.0, rtol=rtol, keep_at=kept, judge=False)
+        np.testing.assert_array_equal(both.reductions, plain.reductions)
+        np.testing.assert_array_equal(both.samples, only.samples)
+        assert both.samples.shape == (40, 5, 24)
+    # Negative control: judged where it is kept, a run is judged otherwise.
+    assert np.any(kernel.fly(starts, 2.0, rtol=rtol, judge_at=kept).reductions != plain.reductions)
+
+
+def test_what_is_kept_of_a_sampled_flight_changes_nothing_of_how_it_is_judged():
+    starts, judged, kept = random_starts(12), np.arange(0, 201, 5), np.array([0, 5, 33, 200])
+    kernel = sampled_kernel(Loop(HEHN, INVERTED, Plant()), Criterion())
+    plain = kernel.fly(starts, 0.4, judge_at=judged)
+    both = kernel.fly(starts, 0.4, judge_at=judged, keep_at=kept)
+    every = kernel.fly(starts, 0.4, judge_at=(), keep_at=np.arange(201))
+    np.testing.assert_array_equal(both.reductions, plain.reductions)
+    np.testing.assert_array_equal(both.samples, every.samples[:, kept])
+
+
 def test_other_python_threads_run_during_a_call():
     starts, ticks = random_starts(3000), []
-    kernel = ideal_kernel(NAYAK, CORRECTED)
+    kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()))
     kernel.fly(starts[:8], DURATION, rtol=1e-9)
 
     def fly_all():
@@ -258,7 +283,7 @@ def test_other_python_threads_run_during_a_call():
 
 def test_an_interruption_leaves_the_queue_empty_and_is_raised_soon():
     starts, told = random_starts(200_000), []
-    kernel = ideal_kernel(NAYAK, CORRECTED)
+    kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()))
 
     def interrupted(taken, runs):
         told.append((taken, runs))
@@ -297,11 +322,11 @@ PLANTS = {
 @pytest.mark.parametrize("law", ["inverted", "corrected"])
 def test_the_sampled_kernel_flies_as_python_does(name, law):
     vehicle, plant = (HEHN, PLANTS[name])
-    law = getattr(fp.laws, law)().bound(vehicle)
+    law = getattr(fp.laws, law)().bind(vehicle)
     starts = fp.State.random(np.random.default_rng(2), 3)
     ticks = np.arange(0, round(0.4 * plant.rate) + 1)
     kernel = sampled_kernel(Loop(vehicle, law, plant.replace(seed=0)), Criterion())
-    flown = kernel.fly(starts.packed(), 0.4, ticks=ticks, first_seed=plant.seed, keep=True)
+    flown = kernel.fly(starts.packed(), 0.4, judge_at=ticks, keep_at=ticks, first_seed=plant.seed)
     for i in (0, 2):
         samples = fly(vehicle, law, starts[i], 0.4, plant.replace(seed=plant.seed + i))
         own = samples.packed * (1.0 if law.e3 == "up" else fp.model.state.FLIP_PACKED)
@@ -319,12 +344,12 @@ def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
         noisy.replace(wind=Wind(on_bob=(0.1, 0.0, 0.0), gust_on_bob=0.01)), noisy.replace(mismatch={"rotor_lag": 1.5}),
     ]  # fmt: skip
     starts, ticks = random_starts(2), np.arange(41)
-    seen = {one.fly(starts, 0.2, ticks=ticks).final.tobytes()}
+    seen = {one.fly(starts, 0.2, judge_at=ticks).final.tobytes()}
     for plant in others:
         other = sampled_kernel(Loop(HEHN, INVERTED, plant), Criterion())
         assert other.function is one.function
-        assert other.plant == plant
-        seen.add(other.fly(starts, 0.2, ticks=ticks).final.tobytes())
+        assert other.loop.plant == plant
+        seen.add(other.fly(starts, 0.2, judge_at=ticks).final.tobytes())
     assert len(seen) == 1 + len(others)
     for plant in (noisy.replace(noise=None), noisy.replace(wind=Wind(on_bob=(0.1, 0, 0)), noise=None), Plant()):
         assert sampled_kernel(Loop(HEHN, INVERTED, plant), Criterion()).function is not one.function
@@ -352,14 +377,15 @@ def filler_of_the_stack(vectors=5000):
 def test_what_nobody_drew_is_zero():
     """Not what memory held before."""
     starts, ticks, total = random_starts(8, seed=3), np.arange(0, 101, 10), np.zeros(16)
-    kernel = sampled_kernel(Loop(HEHN, INVERTED, Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0)), Criterion())
+    windy = Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0)
+    kernel = sampled_kernel(Loop(HEHN, INVERTED, windy), Criterion())
     fill = filler_of_the_stack()
 
     def filled(*arguments):
         fill(total.ctypes.data // 64 * 64 + 64)
         kernel.function(*arguments)
 
-    flown = dataclasses.replace(kernel, function=filled).fly(starts, 1.0, ticks=ticks, workers=1)
+    flown = dataclasses.replace(kernel, function=filled).fly(starts, 1.0, judge_at=ticks, workers=1)
     assert np.isnan(total).any()
     assert np.all(flown.status == "completed")
 
@@ -368,9 +394,9 @@ def test_a_sampled_flight_is_the_same_in_any_company():
     plant = PLANTS["noise"]
     starts, ticks = random_starts(70, seed=2), np.arange(0, 41, 4)
     kernel = sampled_kernel(Loop(HEHN, INVERTED, plant.replace(seed=0)), Criterion())
-    together = kernel.fly(starts, 0.2, ticks=ticks, first_seed=9, keep=True, workers=3)
+    together = kernel.fly(starts, 0.2, judge_at=ticks, keep_at=ticks, first_seed=9, workers=3)
     for i in (0, 33, 69):
-        alone = kernel.fly(starts[i : i + 1], 0.2, ticks=ticks, first_seed=9 + i, keep=True)
+        alone = kernel.fly(starts[i : i + 1], 0.2, judge_at=ticks, keep_at=ticks, first_seed=9 + i)
         np.testing.assert_array_equal(alone.samples[0], together.samples[i])
         np.testing.assert_array_equal(alone.reductions[0], together.reductions[i])
 
@@ -378,10 +404,10 @@ def test_a_sampled_flight_is_the_same_in_any_company():
 def test_a_lane_of_a_sampled_flight_that_is_lost_takes_no_other_along():
     starts, ticks = random_starts(8, seed=2), np.arange(0, 101, 10)
     kernel = sampled_kernel(Loop(HEHN, INVERTED, Plant()), Criterion())
-    good = kernel.fly(starts, 0.2, ticks=ticks, keep=True)
+    good = kernel.fly(starts, 0.2, judge_at=ticks, keep_at=ticks)
     bad = starts.copy()
     bad[2, 16], bad[5, 3] = np.nan, 2e6
-    mixed = kernel.fly(bad, 0.2, ticks=ticks, keep=True)
+    mixed = kernel.fly(bad, 0.2, judge_at=ticks, keep_at=ticks)
     assert mixed.status[[2, 5]].tolist() == ["singular", "diverged"]
     rest = [0, 1, 3, 4, 6, 7]
     np.testing.assert_array_equal(mixed.samples[rest], good.samples[rest])

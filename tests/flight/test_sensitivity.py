@@ -23,7 +23,7 @@ def moved(start, xi):
 
 
 def end(law, start, duration):
-    return fp.simulate(CASE.vehicle, law, start, duration, rtol=1e-12).packed[-1]
+    return fp.simulate(CASE.vehicle, law, start, duration, rtol=1e-12, plant="ideal").packed[-1]
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def test_the_basis_stays_on_the_manifold_to_first_order():
 
 
 def test_it_ends_where_the_run_ends(found):
-    assert found.status == "completed"
+    assert found.outcome.status == "completed"
     np.testing.assert_allclose(found.final.packed(), end(CASE.law(), CASE.start, 2.0), atol=1e-9)
 
 
@@ -71,7 +71,7 @@ def test_derivatives_by_gains_are_the_finite_differences(found):
 
 def test_derivatives_are_those_of_an_independent_integration(found):
     """Ṡ = F_s S with the full Jacobian, 24 columns at once, by SciPy at 1e-11, without any projection."""
-    law = CASE.law().bound(CASE.vehicle)
+    law = CASE.law().bind(CASE.vehicle)
     loop = symbolic_loop(CASE.vehicle, law)
     rates = ca.Function("rates", [loop.t, loop.s, loop.p], [loop.rates, ca.jacobian(loop.rates, loop.s)])
 
@@ -114,11 +114,11 @@ def test_the_inverted_law_has_derivatives_by_its_gains():
     vehicle = fp.vehicle("hehn2011")
     start = fp.State(y=(0.6, 0, 0.8))
     found = fp.sensitivity(vehicle, fp.laws.inverted(), start, 0.5, gains=("rod_bandwidth",), rtol=1e-10)
-    value = fp.laws.inverted().bound(vehicle).numbers["rod_bandwidth"]
+    value = fp.laws.inverted().bind(vehicle).numbers["rod_bandwidth"]
     h, ends = 1e-4, []
     for sign in (1, -1):
         law = fp.laws.inverted(rod_bandwidth=value + sign * h)
-        ends.append(fp.simulate(vehicle, law, start, 0.5, rtol=1e-12).packed[-1])
+        ends.append(fp.simulate(vehicle, law, start, 0.5, rtol=1e-12, plant="ideal").packed[-1])
     assert np.max(np.abs(found.by_gains)) > 1e-3
     np.testing.assert_allclose(found.by_gains[:, 0], (ends[0] - ends[1]) / (2 * h), atol=1e-5)
 
@@ -126,7 +126,7 @@ def test_the_inverted_law_has_derivatives_by_its_gains():
 def test_a_run_that_does_not_complete_has_no_derivatives():
     case = experiment("4")
     found = fp.sensitivity(case.vehicle, case.law("printed"), case.start, 2.0)
-    assert found.status in ("singular", "diverged")
+    assert found.outcome.status in ("singular", "diverged")
     assert np.all(np.isnan(found.by_start))
 
 

@@ -35,7 +35,10 @@ def rest(t, state):
 
 
 def test_the_error_falls_with_the_tolerance_and_steps_grow_as_for_order_eight():
-    runs = {rtol: fp.simulate(VEHICLE, law(push), TUMBLING, 4.0, rtol=rtol) for rtol in (1e-5, 1e-7, 1e-9, 1e-13)}
+    runs = {
+        rtol: fp.simulate(VEHICLE, law(push), TUMBLING, 4.0, rtol=rtol, plant="ideal")
+        for rtol in (1e-5, 1e-7, 1e-9, 1e-13)
+    }
     final = {rtol: run.states.packed()[-1] for rtol, run in runs.items()}
     error = {rtol: np.max(np.abs(final[rtol] - final[1e-13])) for rtol in (1e-5, 1e-7, 1e-9)}
     for rtol, size in error.items():
@@ -48,7 +51,9 @@ def test_the_error_falls_with_the_tolerance_and_steps_grow_as_for_order_eight():
 
 
 def test_atol_alone_can_loosen_the_run():
-    tight, loose = (fp.simulate(VEHICLE, law(push), TUMBLING, 2.0, rtol=1e-10, atol=atol) for atol in (None, 1e-4))
+    tight, loose = (
+        fp.simulate(VEHICLE, law(push), TUMBLING, 2.0, rtol=1e-10, atol=atol, plant="ideal") for atol in (None, 1e-4)
+    )
     assert len(loose.drift) < len(tight.drift) / 2
     assert 1e-9 < np.max(np.abs(loose.states.packed()[-1] - tight.states.packed()[-1])) < 1e-2
 
@@ -57,14 +62,14 @@ def test_a_law_may_depend_on_time():
     # τ = I (sin t, 0, 0) from rest: ω₁ = 1 − cos t, exactly, and thrust is what was asked for.
     inertia = ca.DM(VEHICLE.I)
     timed = law(lambda t, state: fp.Wrench(t**2, ca.mtimes(inertia, ca.vertcat(ca.sin(t), 0, 0))))
-    run = fp.simulate(VEHICLE, timed, fp.State(y=(0, 0, 1)), 3.0)
+    run = fp.simulate(VEHICLE, timed, fp.State(y=(0, 0, 1)), 3.0, plant="ideal")
     np.testing.assert_allclose(run.omega[:, 0], 1 - np.cos(run.t), rtol=0, atol=1e-8)  # rtol 1e-9, some ten steps
     np.testing.assert_allclose(run.thrust, run.t**2, rtol=1e-14)
 
 
 def test_a_run_repeats_bit_by_bit_and_leaves_its_start_alone():
     before = TUMBLING.packed()
-    first, second = (fp.simulate(VEHICLE, law(push), TUMBLING, 1.0) for _ in range(2))
+    first, second = (fp.simulate(VEHICLE, law(push), TUMBLING, 1.0, plant="ideal") for _ in range(2))
     np.testing.assert_array_equal(first.states.packed(), second.states.packed())
     np.testing.assert_array_equal(TUMBLING.packed(), before)
 
@@ -75,7 +80,7 @@ def test_a_run_repeats_bit_by_bit_and_leaves_its_start_alone():
 def test_drift_is_recorded_per_step_and_of_the_order_of_the_tolerance():
     worst = []
     for rtol in (1e-6, 1e-9):
-        run = fp.simulate(VEHICLE, law(push), TUMBLING, 3.0, rtol=rtol)
+        run = fp.simulate(VEHICLE, law(push), TUMBLING, 3.0, rtol=rtol, plant="ideal")
         assert run.drift.shape[1] == 3
         assert np.all(run.drift >= 0)
         # The norm of a step's error is a mean over 24 entries: one entry may err by √24 rtol (1 + |ẏ|), |ẏ| up to 3.
@@ -93,26 +98,26 @@ def test_drift_is_recorded_per_step_and_of_the_order_of_the_tolerance():
 
 
 def test_samples_come_every_hundredth_second_with_both_ends():
-    run = fp.simulate(VEHICLE, law(rest), TUMBLING, 0.5)
+    run = fp.simulate(VEHICLE, law(rest), TUMBLING, 0.5, plant="ideal")
     np.testing.assert_allclose(run.t, np.arange(51) / 100, rtol=0, atol=1e-15)
     assert run.t[-1] == 0.5
     for name, shape in (("x", (3,)), ("R", (3, 3)), ("thrust", ()), ("moment", (3,))):
         assert getattr(run, name).shape == (51, *shape)
-    short = fp.simulate(VEHICLE, law(rest), TUMBLING, 1e-3)
+    short = fp.simulate(VEHICLE, law(rest), TUMBLING, 1e-3, plant="ideal")
     np.testing.assert_array_equal(short.t, [0, 1e-3])
 
 
 def test_times_are_sampled_where_asked():
     times = [0.0, 0.1234, 0.5, 0.987]
-    run = fp.simulate(VEHICLE, law(push), TUMBLING, 1.0, times=times)
+    run = fp.simulate(VEHICLE, law(push), TUMBLING, 1.0, times=times, plant="ideal")
     np.testing.assert_array_equal(run.t, times)
-    whole = fp.simulate(VEHICLE, law(push), TUMBLING, 1.0)
+    whole = fp.simulate(VEHICLE, law(push), TUMBLING, 1.0, plant="ideal")
     np.testing.assert_array_equal(run.states.packed(), whole.at(times).packed())  # the same steps: the same numbers
-    assert len(fp.simulate(VEHICLE, law(push), TUMBLING, 1.0, times=[0.3]).t) == 1
+    assert len(fp.simulate(VEHICLE, law(push), TUMBLING, 1.0, times=[0.3], plant="ideal").t) == 1
 
 
 def test_the_first_sample_is_the_start():
-    run = fp.simulate(VEHICLE, law(push), TUMBLING, 0.1)
+    run = fp.simulate(VEHICLE, law(push), TUMBLING, 0.1, plant="ideal")
     np.testing.assert_allclose(run.states.packed()[0], TUMBLING.packed(), rtol=0, atol=1e-15)
 
 
@@ -124,7 +129,7 @@ def test_a_law_that_destabilises_ends_as_diverged():
     a, g = 50 / (VEHICLE.M + VEHICLE.m), VEHICLE.g
     start = fp.State(x_dot=(0, 0, 1), y=(0, 0, -1))
     runaway = law(lambda t, state: fp.Wrench(50 * state.x_dot[2], ca.SX.zeros(3)))
-    run = fp.simulate(VEHICLE, runaway, start, 5.0, rtol=1e-6)
+    run = fp.simulate(VEHICLE, runaway, start, 5.0, rtol=1e-6, plant="ideal")
     assert run.outcome.status == "diverged"
     assert "left" in run.outcome.reason
     # It ends with the last step before MAX_STATE; a step lets v grow by at most some powers of e.
@@ -145,7 +150,7 @@ def test_a_law_that_destabilises_ends_as_diverged():
     ],
 )
 def test_a_law_that_breaks_down_midway_ends_as_diverged_and_not_never(broken):
-    run = fp.simulate(VEHICLE, law(lambda t, state: fp.Wrench(broken(t), ca.SX.zeros(3))), TUMBLING, 2.0)
+    run = fp.simulate(VEHICLE, law(lambda t, state: fp.Wrench(broken(t), ca.SX.zeros(3))), TUMBLING, 2.0, plant="ideal")
     assert run.outcome.status == "diverged"
     assert run.outcome.time == pytest.approx(0.5, abs=1e-3)
     assert "step" in run.outcome.reason
@@ -156,12 +161,12 @@ def test_a_law_that_breaks_down_midway_ends_as_diverged_and_not_never(broken):
 
 def test_a_law_undefined_at_the_start_is_singular_at_once():
     undefined = law(lambda t, state: fp.Wrench(ca.SX(1), 1e-3 * state.omega / ca.norm_2(state.omega)))
-    run = fp.simulate(VEHICLE, undefined, fp.State(y=(0, 0, 1)), 1.0)
+    run = fp.simulate(VEHICLE, undefined, fp.State(y=(0, 0, 1)), 1.0, plant="ideal")
     assert (run.outcome.status, run.outcome.time) == ("singular", 0.0)
     assert "not defined at the start" in run.outcome.reason
     np.testing.assert_array_equal(run.t, [0.0])
     assert run.drift.shape == (0, 3)
-    assert fp.simulate(VEHICLE, undefined, TUMBLING, 1.0).outcome.status == "completed"
+    assert fp.simulate(VEHICLE, undefined, TUMBLING, 1.0, plant="ideal").outcome.status == "completed"
 
 
 def guarded(signal, threshold):
@@ -172,14 +177,14 @@ def guarded(signal, threshold):
 def test_a_guard_ends_the_run_where_its_signal_crosses():
     # x₁ = 1 − t in free flight (the rod at rest): below 0.3 from 0.7 s on.
     start = fp.State(x=(1, 0, 0), x_dot=(-1, 0, 0), y=(0, 0, 1))
-    run = fp.simulate(VEHICLE, guarded(lambda t, state: state.x[0], 0.3), start, 2.0)
+    run = fp.simulate(VEHICLE, guarded(lambda t, state: state.x[0], 0.3), start, 2.0, plant="ideal")
     assert run.outcome.status == "singular"
     assert run.outcome.reason == "the level is low"
     assert run.outcome.time == pytest.approx(0.7, abs=1e-11)  # the root is sought to 1e-12
     assert run.t[-1] == run.outcome.time
     assert run.signals["level"][-1] == pytest.approx(0.3, abs=1e-11)
     np.testing.assert_allclose(run.t[:-1], np.arange(70) / 100, rtol=0, atol=1e-15)
-    never = fp.simulate(VEHICLE, guarded(lambda t, state: state.x[0], -1.5), start, 2.0)
+    never = fp.simulate(VEHICLE, guarded(lambda t, state: state.x[0], -1.5), start, 2.0, plant="ideal")
     assert never.outcome == fp.Outcome("completed", 2.0)
 
 
@@ -187,7 +192,7 @@ def test_the_time_of_the_singularity_converges_with_the_tolerance():
     case = experiment("2")
     ends = {}
     for rtol in (1e-5, 1e-7, 1e-9, 1e-12):
-        run = fp.simulate(case.vehicle, case.law("printed"), case.start, 1.0, rtol=rtol)
+        run = fp.simulate(case.vehicle, case.law("printed"), case.start, 1.0, rtol=rtol, plant="ideal")
         assert run.outcome.status == "singular"
         ends[rtol] = run.outcome.time
     error = {rtol: abs(ends[rtol] - ends[1e-12]) for rtol in (1e-5, 1e-7, 1e-9)}
@@ -198,7 +203,7 @@ def test_the_time_of_the_singularity_converges_with_the_tolerance():
 
 def test_a_guard_that_is_low_at_the_start_ends_the_run_there():
     start = fp.State(x=(0.2, 0, 0), x_dot=(1, 0, 0), y=(0, 0, 1))  # low at first, not any more after the first step
-    run = fp.simulate(VEHICLE, guarded(lambda t, state: state.x[0], 0.2001), start, 2.0)
+    run = fp.simulate(VEHICLE, guarded(lambda t, state: state.x[0], 0.2001), start, 2.0, plant="ideal")
     assert (run.outcome.status, run.outcome.time) == ("singular", 0.0)
 
 
@@ -207,7 +212,7 @@ def test_a_guard_of_an_unknown_signal_is_refused():
     with pytest.raises(
         fp.InputError, match=r"^law\.guard.*: expected one of level, got 'levle' \(did you mean 'level'"
     ):
-        fp.simulate(VEHICLE, wrong, TUMBLING, 1.0)
+        fp.simulate(VEHICLE, wrong, TUMBLING, 1.0, plant="ideal")
 
 
 def test_outcomes_print_in_a_line():
@@ -219,7 +224,7 @@ def test_the_integrator_stops_at_its_step_limit(monkeypatch):
     monkeypatch.setattr("flypend.flight.integrate.MAX_STEPS", 5)
     monkeypatch.setattr("flypend.flight.kernels.ideal.MAX_STEPS", 5)
     for engine in ("kernel", "scipy"):
-        run = fp.simulate(VEHICLE, law(push), TUMBLING, 4.0, engine=engine)
+        run = fp.simulate(VEHICLE, law(push), TUMBLING, 4.0, engine=engine, plant="ideal")
         assert run.outcome.status == "diverged"
         assert "steps were not enough" in run.outcome.reason
         assert len(run.drift) == 5
@@ -253,26 +258,26 @@ def test_integrate_by_itself_keeps_the_start_and_counts_evaluations():
 @pytest.mark.parametrize("duration", [0, -1.0, np.nan, np.inf, "5", None])
 def test_a_duration_that_is_not_positive_is_refused(duration):
     with pytest.raises(fp.InputError, match=r"^duration: expected a finite number > 0 s, got .*$"):
-        fp.simulate(VEHICLE, law(rest), TUMBLING, duration)
+        fp.simulate(VEHICLE, law(rest), TUMBLING, duration, plant="ideal")
 
 
 @pytest.mark.parametrize("name", ["rtol", "atol"])
 @pytest.mark.parametrize("value", [0, -1e-9, np.nan, "tight"])
 def test_a_tolerance_that_is_not_positive_is_refused(name, value):
     with pytest.raises(fp.InputError, match=rf"^{name}: expected a finite number > 0, got .*$"):
-        fp.simulate(VEHICLE, law(rest), TUMBLING, 1.0, **{name: value})
+        fp.simulate(VEHICLE, law(rest), TUMBLING, 1.0, **{name: value}, plant="ideal")
 
 
 def test_a_tolerance_below_roundoff_is_refused():
     with pytest.raises(fp.InputError, match=r"^rtol: expected at least 2\.2.*e-14.*, got 1e-16$"):
-        fp.simulate(VEHICLE, law(rest), TUMBLING, 0.1, rtol=1e-16)
+        fp.simulate(VEHICLE, law(rest), TUMBLING, 0.1, rtol=1e-16, plant="ideal")
 
 
 def test_a_batch_of_starts_is_refused():
     batch = fp.State.random(np.random.default_rng(0), (3,))
     with pytest.raises(fp.InputError, match=r"^start: expected a single state, got a batch of shape \(3,\)$"):
-        fp.simulate(VEHICLE, law(rest), batch, 1.0)
-    assert fp.simulate(VEHICLE, law(rest), batch[0], 0.1).outcome.status == "completed"
+        fp.simulate(VEHICLE, law(rest), batch, 1.0, plant="ideal")
+    assert fp.simulate(VEHICLE, law(rest), batch[0], 0.1, plant="ideal").outcome.status == "completed"
 
 
 @pytest.mark.parametrize(
@@ -291,7 +296,7 @@ def test_a_batch_of_starts_is_refused():
 )
 def test_times_that_make_no_sense_are_refused(times, line):
     with pytest.raises(fp.InputError, match=rf"^times: expected .*{line}.*, got .*$"):
-        fp.simulate(VEHICLE, law(rest), TUMBLING, 1.0, times=times)
+        fp.simulate(VEHICLE, law(rest), TUMBLING, 1.0, times=times, plant="ideal")
 
 
 def test_the_wrong_kind_of_thing_is_refused():
@@ -301,5 +306,5 @@ def test_the_wrong_kind_of_thing_is_refused():
         ((VEHICLE, law(rest), TUMBLING.packed()), r"^start: expected a State, got array"),
     ):
         with pytest.raises(fp.InputError, match=line) as caught:
-            fp.simulate(*arguments, 1.0)
+            fp.simulate(*arguments, 1.0, plant="ideal")
         assert "\n" not in str(caught.value)

@@ -20,8 +20,10 @@ from tornado.websocket import websocket_connect
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.flight.metrics import metrics
+from flypend.flight.simulate import fly as fly_request
 from flypend.geometry import cross, dot
-from flypend.lab.controls import GAINS, offer, sliders
+from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked, verdict
 from flypend.lab.map import directions, region
@@ -29,7 +31,9 @@ from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Slot, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
-from flypend.settings.runfile import flight
+from flypend.laws import law_names
+from flypend.paper import experiment
+from flypend.settings.runfile import run_file
 
 OFFER = offer()
 START = {"x": [0.2, -0.1, 0.3], "y": [0.6, 0.0, 0.8], "y_dot": [0.4, 0.2, -0.3], "omega": [0.3, -0.2, 0.1]}
@@ -65,7 +69,7 @@ def test_the_flight_is_the_one_that_simulate_and_both_exports_make(case, tmp_pat
     run = fly(setting)
     path = tmp_path / "flight.toml"
     path.write_text(toml(setting), encoding="utf-8")
-    by_file, names = flight(str(path)).fly(), {}
+    by_file, names = fly_request(run_file(str(path)).flight), {}
     exec(python(setting), names)
     assert run.gains == dict(names["run"].gains) == dict(by_file.gains)
     for other in (by_file, names["run"]):
@@ -101,7 +105,7 @@ def test_lag_noise_and_wind_change_the_flight_and_compile_nothing(change):
     assert np.abs(first.x - second.x).max() > 1e-3
 
 
-@pytest.mark.parametrize("law", GAINS)
+@pytest.mark.parametrize("law", law_names())
 def test_a_start_is_the_same_pose_for_every_law(law):
     run = fly(setting_of(asked(law, duration=0.05)))
     up = run if run.e3 == "up" else run.flipped()
@@ -112,10 +116,12 @@ def test_a_start_is_the_same_pose_for_every_law(law):
 
 def test_presets_are_the_experiments_of_the_paper():
     for name, preset in OFFER["experiments"].items():
-        mine, papers = setting_of(preset).flight, fp.experiments.experiment(name)
-        np.testing.assert_allclose(mine.start.packed(), papers.start.packed(), atol=1e-12)
-        assert {key: mine.law.gains[key] for key in papers.gains} == papers.gains
-        assert (mine.vehicle, mine.duration, mine.law.name) == (papers.vehicle, papers.duration, "corrected")
+        mine, papers = setting_of(preset), experiment(name)
+        flight = mine.flight
+        np.testing.assert_allclose(flight.starts.packed(), papers.start.packed(), atol=1e-12)
+        assert {key: mine.law.values[key] for key in papers.gains} == papers.gains
+        assert (flight.vehicle, flight.duration, flight.law.name) == (papers.vehicle, papers.duration, "corrected")
+        assert flight.plant == fp.Ideal()
 
 
 def test_a_random_start_is_its_seed():
@@ -126,16 +132,16 @@ def test_a_random_start_is_its_seed():
 
 def test_the_verdict_names_what_the_law_is_to_do():
     setting = setting_of(asked(duration=6.0))
-    told = verdict(fly(setting), tuned(setting.flight))
-    judged = fp.metrics.metrics(fly(setting))
+    told = verdict(fly(setting), tuned(setting))
+    judged = metrics(fly(setting))
     assert told["good"] is judged.success is True
     assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])
-    told = verdict(fly(preset), tuned(preset.flight))
+    told = verdict(fly(preset), tuned(preset))
     assert "which hangs" in told["words"]
     assert "upright" not in told["words"]
     singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
-    assert verdict(fly(singular), tuned(singular.flight))["words"].startswith("singular after ")
+    assert verdict(fly(singular), tuned(singular))["words"].startswith("singular after ")
 
 
 # Pokes --------------------------------------------------------------------------------------------------------------
@@ -242,9 +248,9 @@ def test_a_wrong_setting_is_refused_in_one_line(wrong, field):
 
 
 def test_every_slider_can_be_put_where_it_says():
-    for law in GAINS:
+    for law in law_names():
         setting = asked(law, plant="rotors")
-        shown = sliders(setting_of(setting).flight)
+        shown = sliders(setting_of(setting))
         assert len({slider["path"] for slider in shown}) == len(shown) >= 9 - 5 * (law in ("printed", "corrected"))
         for slider in shown:
             assert slider["low"] <= slider["value"] <= slider["high"]
@@ -254,7 +260,7 @@ def test_every_slider_can_be_put_where_it_says():
             for key in keys[:-1]:
                 table = table.setdefault(key, {})
             table[keys[-1]] = _filled(slider["put"], wanted) if slider["put"] is not None else wanted
-            [again] = [s for s in sliders(setting_of(changed).flight) if s["path"] == slider["path"]]
+            [again] = [s for s in sliders(setting_of(changed)) if s["path"] == slider["path"]]
             assert again["value"] == pytest.approx(wanted), slider["path"]
 
 
@@ -292,7 +298,7 @@ def test_a_map_is_made_of_the_flights():
     assert all(bool(cause) != one for cause, one in zip(chunk["cause"], good, strict=True))
     for i in (good.index(True), good.index(False)):
         setting = setting_of(wrong | {"start": START | {"y": chunk["y"][i], "y_dot": [0, 0, 0]}})
-        told = verdict(fly(setting), tuned(setting.flight))
+        told = verdict(fly(setting), tuned(setting))
         assert told["good"] == good[i]
         if good[i]:
             assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)

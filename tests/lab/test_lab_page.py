@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from test_lab import Lab
 
+from flypend.flight.simulate import fly as fly_request
 from flypend.lab.flying import fly
 from flypend.lab.setting import setting_of
-from flypend.settings.runfile import flight
+from flypend.settings.runfile import run_file
 
 WIDE, NARROW = {"width": 1000, "height": 620}, {"width": 390, "height": 844}
 
@@ -261,7 +262,7 @@ def test_the_export_is_the_flight(visit, tmp_path):
     page.get_by_role("button", name="TOML").click()
     path = tmp_path / "flight.toml"
     path.write_text(page.locator(".export textarea").input_value(), encoding="utf-8")
-    run = flight(str(path)).fly()
+    run = fly_request(run_file(str(path)).flight)
     assert run.gains["rod_bandwidth"] == setting(page)["law"]["gains"]["rod_bandwidth"]
     for i in (100, 300, 600):
         page.evaluate("t => flypend.seek(t)", float(run.t[i]))

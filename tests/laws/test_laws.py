@@ -245,11 +245,11 @@ def _fields(state):
 
 
 def test_the_guard_is_there_where_the_law_is_singular_and_only_there():
-    assert isinstance(fp.laws.printed().guard, Guard)
-    assert fp.laws.printed(beta="off").guard is None
-    assert fp.laws.corrected().guard is None
-    assert fp.laws.corrected(beta="regularized").guard is None
-    assert isinstance(fp.laws.corrected(beta="regularized", beta_floor=0).guard, Guard)
+    assert isinstance(fp.laws.printed().bind(VEHICLE).guard, Guard)
+    assert fp.laws.printed(beta="off").bind(VEHICLE).guard is None
+    assert fp.laws.corrected().bind(VEHICLE).guard is None
+    assert fp.laws.corrected(beta="regularized").bind(VEHICLE).guard is None
+    assert isinstance(fp.laws.corrected(beta="regularized", beta_floor=0).bind(VEHICLE).guard, Guard)
 
 
 # The Lyapunov function -------------------------------------------------------------------------------------------
@@ -264,7 +264,9 @@ def test_rates_of_the_lyapunov_functions_are_their_finite_differences_along_the_
     case = experiment("3")  # |ẏ| stays above 0.3 for 1.5 s, so V is smooth on the scale of h
     h = 1e-3
     times = np.linspace(0.1, 1.4, 14)[:, None] + h * np.arange(-2, 3)
-    run = fp.simulate(case.vehicle, case.law(name, **options), case.start, 1.5, rtol=1e-12, times=times.ravel())
+    run = fp.simulate(
+        case.vehicle, case.law(name, **options), case.start, 1.5, rtol=1e-12, times=times.ravel(), plant="ideal"
+    )
     for signal in ("V_1", "V_2", "V"):
         v = run.signals[signal].reshape(times.shape)
         slope = (8 * (v[:, 3] - v[:, 1]) - (v[:, 4] - v[:, 0])) / (12 * h)
@@ -311,7 +313,9 @@ def test_the_rate_claimed_by_the_proof_lacks_the_change_of_k_p_and_as_printed_ha
 def test_no_result_of_the_printed_law_depends_on_its_speed_floor(name):
     case = experiment(name)
     runs = [
-        fp.simulate(case.vehicle, case.law("printed", speed_floor=floor), case.start, case.duration, rtol=1e-10)
+        fp.simulate(
+            case.vehicle, case.law("printed", speed_floor=floor), case.start, case.duration, rtol=1e-10, plant="ideal"
+        )
         for floor in (1e-6, 1e-8)
     ]
     assert [run.outcome.status for run in runs] == ["singular", "singular"]
@@ -324,7 +328,7 @@ def test_no_result_of_the_printed_law_depends_on_its_speed_floor(name):
 
 def test_to_the_letter_the_printed_law_is_undefined_where_experiment_4_starts():
     case = experiment("4")
-    run = fp.simulate(case.vehicle, case.law("printed", speed_floor=0.0), case.start, 1.0)
+    run = fp.simulate(case.vehicle, case.law("printed", speed_floor=0.0), case.start, 1.0, plant="ideal")
     assert run.outcome.status == "singular"
     assert run.outcome.time == 0.0
     assert "0/0" in run.outcome.reason
@@ -361,7 +365,7 @@ def test_a_law_from_a_table():
     assert {"printed", "corrected"} <= set(law_names())
     for name in ("printed", "corrected"):
         law = law_from_dict({"name": name, "gains": {"k_1": 3.5}})
-        assert (law.name, law.e3, law.gains["k_1"]) == (name, "down", 3.5)
+        assert (law.name, law.e3, law.values["k_1"]) == (name, "down", 3.5)
     for table, line in (
         (
             {"name": "corected"},
@@ -449,4 +453,4 @@ def test_only_its_own_gains_can_be_fixed():
 def test_mistakes_of_beginners_are_one_line(control, told):
     law = fp.Law(name="own", e3="up", control=control)
     with pytest.raises(fp.InputError, match=f"^law: expected {told}"):
-        fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), 1.0)
+        fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), 1.0, plant="ideal")

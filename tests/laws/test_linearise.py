@@ -92,7 +92,7 @@ def flow_derivative(loop, at, h, eps):
 def test_the_matrix_of_the_inverted_law_is_that_of_its_flow(name):
     vehicle, found = VEHICLES[name], inverted(name)
     h = 0.02
-    got, kink = flow_derivative(close_loop(vehicle, fp.laws.inverted().bound(vehicle)), found.at, h, 1e-4)
+    got, kink = flow_derivative(close_loop(vehicle, fp.laws.inverted().bind(vehicle)), found.at, h, 1e-4)
     expected = expm(h * found.A)
     # Rows differ in size by a thousand (a rate over an angle), so each entry is compared with the largest of its row.
     # The third derivative of the flow over the first is (1/angle)²: eps² = 1e-8 times some tens.
@@ -164,7 +164,7 @@ def test_inverted_hover_is_stable_but_for_the_heading(name):
     assert np.all(values[1:].real < -1)
     assert values[1].real == pytest.approx(found.spectral_abscissa, rel=1e-9)
     # Yaw is decoupled: its rate decays as the gain says.
-    assert np.min(np.abs(values + fp.laws.inverted.gains_for(VEHICLES[name])["yaw_damping"])) < 1e-9
+    assert np.min(np.abs(values + fp.laws.inverted().gains_for(VEHICLES[name])["yaw_damping"])) < 1e-9
     np.testing.assert_allclose(found.acceleration, 0, rtol=0, atol=1e-9)
 
 
@@ -172,7 +172,7 @@ def test_inverted_hover_is_stable_but_for_the_heading(name):
 def test_the_height_of_the_inverted_law_has_the_eigenvalues_of_its_gains(name):
     # Upright the bob's height obeys ë = −w² e − 2ζw ė. The saturation of the force, 1/(1 + r⁸)^(1/8) at r = f/limit,
     # takes its derivative down by (1 + r⁸)^(−9/8); and hover sinks until the law asks for what is cut off.
-    vehicle, found, k = VEHICLES[name], inverted(name), fp.laws.inverted.gains_for(VEHICLES[name])
+    vehicle, found, k = VEHICLES[name], inverted(name), fp.laws.inverted().gains_for(VEHICLES[name])
     w, zeta = k["height_bandwidth"], k["height_damping"]
     limit = k["thrust_share"] * vehicle.rotor_limits[1] * 4
     r = vehicle.weight / limit
@@ -228,14 +228,16 @@ def test_a_small_perturbation_decays_at_the_slowest_rate(name):
     slowest = vectors[:, np.argmax(values.real)].real
     xi = np.insert(1e-4 * slowest / np.max(np.abs(slowest)), COORDINATES.index("theta_3"), 0.0)
     duration = 2 / rate
-    run = fp.simulate(vehicle, fp.laws.inverted(), retract(found.at, xi), duration, rtol=1e-11)
+    run = fp.simulate(vehicle, fp.laws.inverted(), retract(found.at, xi), duration, rtol=1e-11, plant="ideal")
     final = coordinates_of(run.states[-1], found.at)
     assert np.linalg.norm(final) / np.linalg.norm(xi) == pytest.approx(np.exp(-2), rel=2e-3)  # 1e-4 times curvature
     # Another direction decays at that rate in the end.
     other = 1e-4 * np.random.default_rng(2).standard_normal(16)
     other[8] = 0.0
     late = np.array([6.0, 8.0]) / rate
-    run = fp.simulate(vehicle, fp.laws.inverted(), retract(found.at, other), late[1], rtol=1e-12, times=late)
+    run = fp.simulate(
+        vehicle, fp.laws.inverted(), retract(found.at, other), late[1], rtol=1e-12, times=late, plant="ideal"
+    )
     sizes = [np.linalg.norm(np.delete(coordinates_of(state, found.at), 8)) for state in run.states]
     measured = np.log(sizes[0] / sizes[1]) / (late[1] - late[0])
     assert measured == pytest.approx(rate, rel=0.1)  # what is left of faster modes after six time constants

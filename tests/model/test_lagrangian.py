@@ -154,7 +154,7 @@ def flown():
     """A run of the corrected law on Gauss nodes over 0 .. 1.2 s; |ẏ| > 0.9 1/s, so 60 nodes integrate to 1e-10."""
     case = experiment("3")
     times = 0.6 * (NODES + 1)
-    return fp.simulate(case.vehicle, case.law(), case.start, 1.2, rtol=1e-12, times=times), 0.6 * WEIGHTS
+    return fp.simulate(case.vehicle, case.law(), case.start, 1.2, rtol=1e-12, times=times, plant="ideal"), 0.6 * WEIGHTS
 
 
 def _varied_action(flown, eps, shift, turn, swing):
@@ -211,7 +211,7 @@ def constant_thrust(e3, thrust):
 def falling(request):
     vehicle = _vehicle(5, request.param).replace(gravity=9.81)
     start = fp.State.random(np.random.default_rng(5))
-    return fp.simulate(vehicle, no_wrench(request.param), start, 10.0, rtol=1e-11)
+    return fp.simulate(vehicle, no_wrench(request.param), start, 10.0, rtol=1e-11, plant="ideal")
 
 
 def test_energy_is_conserved_without_wrench(falling):
@@ -251,7 +251,7 @@ def test_under_a_steady_thrust_the_rod_is_a_spherical_pendulum_about_it():
     # With z at rest ÿ + |ẏ|²y = (f/Ml) ŷ²z conserves |ẏ|²/2 + (f/Ml) y·z and z·(y × ẏ): z repels the bob for f > 0.
     vehicle, thrust = fp.vehicle("hehn2011"), 6.0
     start = fp.State(y=(0.6, 0, 0.8), y_dot=(0, 1.5, 0))
-    run = fp.simulate(vehicle, constant_thrust("up", thrust), start, 5.0, rtol=1e-11)
+    run = fp.simulate(vehicle, constant_thrust("up", thrust), start, 5.0, rtol=1e-11, plant="ideal")
     energy = (run.y_dot**2).sum(1) / 2 + thrust / (vehicle.M * vehicle.l) * run.y[:, 2]
     spin = np.cross(run.y, run.y_dot)[:, 2]
     assert np.ptp(energy) < 1e-8  # of 20, after some 150 steps of 1e-11

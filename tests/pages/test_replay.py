@@ -24,7 +24,7 @@ SINGLE = 2 * np.finfo(np.float32).eps  # relative, of a number kept in 32 bits
 
 def fly(name="4", law="corrected", duration=1.0, **options):
     case = experiment(name)
-    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration)
+    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration, plant="ideal")
 
 
 @pytest.fixture(scope="module")
@@ -253,4 +253,6 @@ def test_the_wheel_carries_the_program(tmp_path):
 
     (wheel,) = WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"])
     names = zipfile.ZipFile(wheel).namelist()
-    assert {"flypend/web/replay.js", "flypend/web/lab.js", "flypend/web/THREE-LICENSE.txt"} <= set(names)
+    assert {"flypend/pages/web/replay.js", "flypend/pages/web/lab.js", "flypend/pages/web/THREE-LICENSE.txt"} <= set(
+        names
+    )

@@ -50,7 +50,7 @@ def visit(chromium, tmp_path):
 def down():
     """In the paper's frame, e₃ along gravity; the rod begins inverted and swings to hang."""
     case = experiment("4")
-    return fp.simulate(case.vehicle, case.law("corrected"), case.start, 2.0)
+    return fp.simulate(case.vehicle, case.law("corrected"), case.start, 2.0, plant="ideal")
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +67,7 @@ def lqr():
 @pytest.fixture(scope="module")
 def singular():
     case = experiment("2")
-    return fp.simulate(case.vehicle, case.law("printed"), case.start, 6.5)
+    return fp.simulate(case.vehicle, case.law("printed"), case.start, 6.5, plant="ideal")
 
 
 def until(page, condition):

@@ -21,19 +21,19 @@ RED, GREEN = (213, 94, 0), (0, 158, 115)  # of rod and bob, and of the thrust
 @pytest.fixture(scope="module")
 def run():
     case = experiment("4")
-    return fp.simulate(case.vehicle, case.law(), case.start, case.duration)
+    return fp.simulate(case.vehicle, case.law(), case.start, case.duration, plant="ideal")
 
 
 @pytest.fixture(scope="module")
 def short(run):
-    return fp.simulate(run.vehicle, experiment("4").law(), experiment("4").start, 0.6)
+    return fp.simulate(run.vehicle, experiment("4").law(), experiment("4").start, 0.6, plant="ideal")
 
 
 @pytest.fixture(scope="module")
 def singular():
     """The printed law in experiment 4, which ends after 0.014 s."""
     case = experiment("4")
-    return fp.simulate(case.vehicle, case.law("printed"), case.start, case.duration)
+    return fp.simulate(case.vehicle, case.law("printed"), case.start, case.duration, plant="ideal")
 
 
 def decode(path):
@@ -98,7 +98,7 @@ def test_the_grid_moves_against_the_vehicle():
     """A vehicle that rises 0.1 m between frames: lines and labels go down by as much."""
     t = np.array([0.0, 0.1])
     case = experiment("4")
-    resting = fp.simulate(case.vehicle, case.law(), case.start, 0.1, times=t)
+    resting = fp.simulate(case.vehicle, case.law(), case.start, 0.1, times=t, plant="ideal")
     still = {name: np.repeat(getattr(resting, name)[:1], 2, axis=0) for name in ARRAYS}
     still |= {"t": t, "R": np.tile(np.diag([1.0, -1, -1]) @ np.diag([1.0, -1, -1]), (2, 1, 1))}
     still["x"] = np.array([[0, 0, 0], [0, 0, -0.1]])  # e₃ down

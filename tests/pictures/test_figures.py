@@ -25,7 +25,7 @@ ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "ro
 
 def fly(name, law="corrected", duration=6.5, **options):
     case = experiment(name)
-    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration)
+    return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration, plant="ideal")
 
 
 @pytest.fixture(scope="module")

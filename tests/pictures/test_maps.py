@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.stats import binomtest
 
 import flypend as fp
 from flypend.cli import app as cli
@@ -17,7 +18,7 @@ from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.store import existing
 
 STUDY = {
-    "vehicle": "nayak2018", "law": {"name": "corrected"}, "duration": 4.0, "judge_period": 0.1,
+    "vehicle": "nayak2018", "law": {"name": "corrected"}, "plant": "ideal", "duration": 4.0, "judge_period": 0.1,
     "runs": 700, "chunk": 300,
     "criterion": {"target": "e3", "position": 100.0, "rod": 1.0, "axis": 0.3},
     "vary": {"start": {"y": "uniform", "y_dot": {"disc": 2.0}, "R": "uniform", "omega": {"ball": 1.0}},
@@ -108,7 +109,9 @@ def test_bounds_are_wilson_s():
     good = np.concatenate([[0, 0, 1, 5, 10**6], rng.integers(0, runs[5:] + 1)])
     low, high = wilson_bounds(good, runs)
     for i in range(1, len(runs)):
-        np.testing.assert_allclose((low[i], high[i]), wilson(good[i], runs[i]), atol=1e-9)
+        expected = binomtest(int(good[i]), int(runs[i])).proportion_ci(0.95, method="wilson")
+        np.testing.assert_allclose((low[i], high[i]), expected, atol=1e-9)
+        np.testing.assert_array_equal(wilson(good[i], runs[i]), (low[i], high[i]))
     assert (low[0], high[0]) == (0.0, 1.0)
 
 

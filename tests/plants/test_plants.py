@@ -9,11 +9,12 @@ from scipy.spatial.transform import Rotation
 
 import flypend as fp
 from flypend import geometry as geo
+from flypend.flight import sampled
 from flypend.flight.integrate import integrate
 from flypend.laws import Computer
 from flypend.model import disturbed_motion, linear_momentum, total_energy
 from flypend.model.state import FLIP_PACKED, MAX_STATE
-from flypend.plants import MOTION_CAPTURE, PRESETS, Noise, Plant, Wind, flight, plant
+from flypend.plants import MOTION_CAPTURE, PRESETS, Noise, Plant, Wind, plant
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.plant import MISMATCHED
 
@@ -146,11 +147,15 @@ def test_a_plant_keeps_its_own_copies():
 def test_rotor_lag_is_first_order_with_its_time_constant(engine, lag, time):
     run = fly(VEHICLE, lift(lambda t: VEHICLE.weight + 0 * t), UPRIGHT, 0.2, Plant(engine=engine, lag=lag))
     expected = HOVER + (LOW - HOVER) * np.exp(-run.t / time)  # from the least force
-    np.testing.assert_allclose(run.rotor_forces, np.repeat(expected[:, None], 4, axis=1), rtol=0, atol=1e-13)
+    # Ours is exact; MuJoCo's filter is integrated by RK4 in steps of 2 ms, which leaves (h/τ)⁴/120 of the change.
+    off = 1e-13 if engine == "equations" else (HOVER - LOW) * (2e-3 / time) ** 4 / 120
+    np.testing.assert_allclose(run.rotor_forces, np.repeat(expected[:, None], 4, axis=1), rtol=0, atol=off)
     # The motion feels the forces as they rise, not only the record: ẋ₃ is their impulse.
     impulse = 4 * (HOVER * run.t + (LOW - HOVER) * time * (1 - np.exp(-run.t / time)))
     expected = impulse / (VEHICLE.M + VEHICLE.m) - VEHICLE.g * run.t
-    np.testing.assert_allclose(run.x_dot[:, 2], expected, rtol=0, atol=1e-9)  # RK4 of steps h/τ = 1/20: (1/20)⁴/2880
+    # RK4 of steps h/τ = 1/20: (1/20)⁴/2880; in MuJoCo what its forces are off, over a time constant.
+    off = 1e-9 + 4 * off * time / (VEHICLE.M + VEHICLE.m)
+    np.testing.assert_allclose(run.x_dot[:, 2], expected, rtol=0, atol=off)
 
 
 @ENGINES
@@ -300,12 +305,12 @@ def measured(monkeypatch):
     """What the flight computer is given: a list of packed states, filled by the next flight."""
     seen = []
 
-    class Spy(flight.FlightComputer):
+    class Spy(sampled.SteppedBoard):
         def command(self, t, packed):
             seen.append(packed)
             return super().command(t, packed)
 
-    monkeypatch.setattr(flight, "FlightComputer", Spy)
+    monkeypatch.setattr(sampled, "SteppedBoard", Spy)
     return seen
 
 
@@ -456,7 +461,7 @@ DOWN = fp.State(x_dot=(1, 0.5, 0), omega=(0.8, -0.3, 0.5), y=(0.6, 0, 0.8), y_do
 @pytest.mark.parametrize(("control", "start"), [(law(push), TUMBLING), (law(calm), TUMBLING), (CORRECTED, DOWN)])
 def test_a_fast_sampled_flight_converges_to_the_ideal_one_with_order_one(control, start):
     # Also for a law with e₃ down: its thrust and moment are turned into rotor forces and back.
-    ideal = fp.simulate(VEHICLE, control, start, 1.0, rtol=1e-11)
+    ideal = fp.simulate(VEHICLE, control, start, 1.0, rtol=1e-11, plant="ideal")
     error = []
     for rate in (1000.0, 2000.0, 4000.0):
         run = fp.simulate(VEHICLE, control, start, 1.0, plant=HELD.replace(rate=rate))
@@ -476,7 +481,7 @@ def test_a_fast_sampled_flight_converges_to_the_ideal_one_with_order_one(control
 @ENGINES
 def test_a_law_with_e3_down_flies_the_same_as_its_mirror_with_e3_up(engine):
     packed = ca.SX.sym("s", 24)
-    wrench = CORRECTED.evaluate(0, fp.State.symbolic(packed), VEHICLE).wrench
+    wrench = CORRECTED.bind(VEHICLE).evaluate(0, fp.State.symbolic(packed), VEHICLE).wrench
     function = ca.Function("corrected", [packed], [ca.vertcat(-wrench.thrust, ca.diag([1, -1, -1]) @ wrench.moment)])
 
     def mirrored(t, state):

@@ -22,7 +22,8 @@ from flypend.files.staging import check_writable, staged
 from flypend.geometry import norm
 from flypend.paper import experiment, experiment_names
 from flypend.paper.claims import SETTLED, Verdict, theorem_claims
-from flypend.paper.defects import DEFECTS, Finding, Runs, findings
+from flypend.paper.defects import DEFECTS, findings
+from flypend.paper.finding import Finding, Runs
 from flypend.report import paper, text
 from flypend.report.flight import movie_tasks, write_flight
 from flypend.report.paper import Reproduction, reproduce
@@ -390,7 +391,7 @@ def test_json_is_plain_and_says_null_for_what_is_no_number(tmp_path):
 
 def test_the_judgement_tells_whether_a_run_stands_and_what_it_took():
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
-    stands = fp.simulate(vehicle, law, fp.State(y=(0, 0, 1), x=(0.3, 0, 0)), 3.0)
+    stands = fp.simulate(vehicle, law, fp.State(y=(0, 0, 1), x=(0.3, 0, 0)), 3.0, plant="ideal")
     told = re.fullmatch(
         r"stands after ([\d.]+) s, largest distance ([\d.]+) m, largest rotor force ([\d.]+) N", text.judgement(stands)
     )
@@ -398,7 +399,9 @@ def test_the_judgement_tells_whether_a_run_stands_and_what_it_took():
     assert 0 < since < 3
     assert distance == pytest.approx(np.max(norm(stands.x)), rel=5e-3)
     assert force == pytest.approx(np.max(stands.rotor_forces), rel=5e-3)
-    assert text.judgement(fp.simulate(vehicle, law, fp.State(y=(0, 0, -1)), 0.1)).startswith("does not stand (")
+    assert text.judgement(fp.simulate(vehicle, law, fp.State(y=(0, 0, -1)), 0.1, plant="ideal")).startswith(
+        "does not stand ("
+    )
 
 
 # One flight -----------------------------------------------------------------------------------------------------------
@@ -407,7 +410,7 @@ def test_the_judgement_tells_whether_a_run_stands_and_what_it_took():
 @pytest.fixture(scope="module")
 def short():
     row = experiment("5")
-    return fp.simulate(row.vehicle, row.law(), row.start, 0.2)
+    return fp.simulate(row.vehicle, row.law(), row.start, 0.2, plant="ideal")
 
 
 def test_a_flight_leaves_its_file_its_figures_and_its_reports(short, tmp_path):
@@ -429,7 +432,7 @@ def test_a_flight_leaves_its_file_its_figures_and_its_reports(short, tmp_path):
 
 def test_the_limit_is_read_on_the_longer_run(short, tmp_path):
     row = experiment("5")
-    longer = fp.simulate(row.vehicle, row.law(), row.start, 0.4)
+    longer = fp.simulate(row.vehicle, row.law(), row.start, 0.4, plant="ideal")
     verdicts = write_flight(short, {}, tmp_path, settled=longer, with_figures=False, with_movies=False)
     assert verdicts == theorem_claims(short, longer) != theorem_claims(short)
     assert "| corrected | own start |" in (tmp_path / "report.md").read_text(encoding="utf-8")
@@ -462,7 +465,7 @@ def test_movies_are_from_the_side_and_along_e3(short, tmp_path):
 
 
 def test_a_law_without_a_lyapunov_function_is_not_judged_by_the_theorem(tmp_path):
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1)
+    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1, plant="ideal")
     assert write_flight(run, {}, tmp_path / "out", with_figures=False, with_movies=False) == []
     assert "Theorem" not in (tmp_path / "out" / "report.md").read_text(encoding="utf-8")
     assert json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))["claims"] == []
@@ -470,7 +473,7 @@ def test_a_law_without_a_lyapunov_function_is_not_judged_by_the_theorem(tmp_path
 
 def test_a_run_that_ended_at_its_start_leaves_a_report_too(tmp_path):
     row = experiment("4")
-    run = fp.simulate(row.vehicle, row.law("printed", speed_floor=0.0), row.start, 1.0)
+    run = fp.simulate(row.vehicle, row.law("printed", speed_floor=0.0), row.start, 1.0, plant="ideal")
     verdicts = write_flight(run, {}, tmp_path / "out", with_figures=False, with_movies=False)
     assert not any(v.holds for v in verdicts)
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
@@ -538,10 +541,10 @@ def test_the_runs_are_those_of_the_experiments(runs):
         for name, run in getattr(runs, group).items():
             row = experiment(name)
             assert (run.law, run.e3, run.vehicle) == (law, "down", row.vehicle)
-            assert run.gains == dict(row.law(law, **chosen).gains)
+            assert run.gains == row.law(law, **chosen).values
             np.testing.assert_allclose(run.states[0].packed(), row.start.packed(), rtol=0, atol=1e-14)
     row = experiment("2")
-    flown = fp.simulate(row.vehicle, row.law(), row.start, row.duration, rtol=1e-10)
+    flown = fp.simulate(row.vehicle, row.law(), row.start, row.duration, rtol=1e-10, plant="ideal")
     np.testing.assert_array_equal(runs.corrected["2"].y, flown.y)  # the same run: the same numbers
 
 
@@ -550,7 +553,7 @@ def test_a_verdict_of_the_report_follows_from_the_run_on_disk(reproduced, runs, 
     _, result, _ = reproduced
     run = {"printed": runs.printed, "without beta": runs.without_beta, "corrected": runs.corrected}[law][name]
     row = experiment(name)
-    longer = fp.simulate(row.vehicle, row.law(), row.start, SETTLED) if law == "corrected" else run
+    longer = fp.simulate(row.vehicle, row.law(), row.start, SETTLED, plant="ideal") if law == "corrected" else run
     wanted = theorem_claims(run, longer)
     (told,) = [entry for entry in report["claims"] if (entry["law"], entry["experiment"]) == (law, name)]
     assert [(claim["claim"], claim["holds"]) for claim in told["claims"]] == [(v.claim, v.holds) for v in wanted]

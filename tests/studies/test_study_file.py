@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 
 import flypend as fp
 from flypend.cli import app as cli
+from flypend.files.toml import toml_text
 from flypend.plants import Noise, Plant
-from flypend.settings.runfile import flight, toml_text
+from flypend.settings.runfile import run_file
 from flypend.studies.sweep.design import design
 from flypend.studies.sweep.study import KEYS, standard
 
@@ -61,11 +62,12 @@ def test_a_study_is_what_its_table_says():
     study = fp.study(STUDY)
     assert (study.shape, study.samples, study.runs, study.dimensions) == ((2, 3, 2, 3), 10, 360, 5)
     assert [axis.name for axis in study.grid] == ["delay", "mismatch.mass", "k_2", "tilt"]
-    assert study.plant == Plant(noise=Noise(x=0.01))
+    assert study.flight.plant == Plant(noise=Noise(x=0.01))
     last = study.plant_at(35)
     assert (last.delay, last.mismatch["mass"]) == (0.01, pytest.approx(1.1))
     assert (study.plant_at(0).delay, study.plant_at(0).mismatch["mass"]) == (0.0, pytest.approx(0.9))
-    assert study.criterion == fp.study(STUDY | {"criterion": {"position": math.inf, "target": "e3"}}).criterion
+    other = fp.study(STUDY | {"criterion": {"position": math.inf, "target": "e3"}})
+    assert study.flight.criterion == other.flight.criterion
     assert study.law.gains["k_d"] == 1.5
 
 
@@ -156,6 +158,7 @@ def test_what_is_missing_is_told():
 
 def test_a_sample_of_nothing_and_a_hypercube_too_large_are_refused():
     fixed = {"vehicle": "nayak2018", "law": {"name": "corrected"}, "duration": 1.0, "start": {"y": [0, 0, 1]}}
+    fixed["plant"] = "ideal"
     assert refused(fixed | {"runs": 5}) == "runs: expected 1, since nothing is drawn, got 5"
     assert fp.study(fixed).runs == 1
     vary = {"vary": {"start": {"R": "uniform"}}, "runs": 10_000_000}
@@ -238,7 +241,7 @@ def test_a_run_file_may_be_written_from_settings(tmp_path):
         ),
         encoding="utf-8",
     )
-    np.testing.assert_allclose(flight(str(tmp_path / "a.toml")).start.y, [0, 0.6, 0.8])
+    np.testing.assert_allclose(run_file(str(tmp_path / "a.toml")).flight.starts.y, [0, 0.6, 0.8])
 
 
 # The page about studies -----------------------------------------------------------------------------------------------

@@ -15,19 +15,20 @@ import zarr
 from scipy.stats import kstest
 
 import flypend as fp
+from flypend.files.toml import toml_text
 from flypend.flight.metrics import metrics
 from flypend.geometry import dot, norm
 from flypend.model.state import FLIP
 from flypend.paper import experiment
-from flypend.settings.runfile import toml_text
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import CAUSES, fly_range
 from flypend.studies.sweep.design import design
-from flypend.studies.sweep.store import existing, lock_of
+from flypend.studies.sweep.store import alone, existing, lock_of
 
 SHORT = {
     "vehicle": "nayak2018",
     "law": {"name": "corrected"},
+    "plant": "ideal",
     "duration": 1.0,
     "judge_period": 0.1,
     "runs": 100,
@@ -150,13 +151,17 @@ def test_a_run_of_a_sweep_is_the_single_run(tmp_path):
     found, drawn = columns(tmp_path / "a.zarr"), design(study, 0, 5)
     for i in range(5):
         law = fp.laws.corrected(k_d=drawn.gains["k_d"][i])
-        run = fp.simulate(study.vehicle, law, fp.State.from_packed(drawn.packed[i]), 1.0, rtol=1e-10)
+        run = fp.simulate(
+            study.flight.vehicle, law, fp.State.from_packed(drawn.packed[i]), 1.0, rtol=1e-10, plant="ideal"
+        )
         np.testing.assert_allclose(found["final"][i], run.states[-1].packed(), atol=1e-5)
-        judged = metrics(run, study.criterion)
+        judged = metrics(run, study.flight.criterion)
         assert CAUSES[found["cause"][i]] == (judged.cause or "success")
         assert found["success"][i] == judged.success
         np.testing.assert_allclose(found["excursion"][i], judged.excursion, rtol=1e-3)
-    other = fp.simulate(study.vehicle, fp.laws.corrected(k_d=5.0), fp.State.from_packed(drawn.packed[0]), 1.0)
+    other = fp.simulate(
+        study.flight.vehicle, fp.laws.corrected(k_d=5.0), fp.State.from_packed(drawn.packed[0]), 1.0, plant="ideal"
+    )
     assert np.max(np.abs(found["final"][0] - other.states[-1].packed())) > 1e-2  # gains matter
 
 
@@ -350,6 +355,38 @@ def test_two_sweeps_do_not_write_one_store(tmp_path):
             fp.sweep(SHORT, path, workers=1)
 
 
+def test_a_lock_whose_name_is_gone_holds_nobody_out(tmp_path):
+    """A sweep that opened the lock just before another removed it would hold what a third one never sees."""
+    fcntl = pytest.importorskip("fcntl")
+    path = tmp_path / "a.zarr"
+    fp.sweep(SHORT, path, workers=1)
+    store = existing(path)
+    with lock_of(path).open("w") as early:
+        with alone(store):
+            assert lock_of(path).stat().st_ino == os.fstat(early.fileno()).st_ino
+            with pytest.raises(BlockingIOError):
+                fcntl.flock(early, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        assert not lock_of(path).exists()
+        fcntl.flock(early, fcntl.LOCK_EX | fcntl.LOCK_NB)  # free, and worth nothing
+        with alone(store), pytest.raises(fp.InputError, match="one in use"), alone(store):
+            pytest.fail("two hold one store")
+
+
+def test_a_lock_left_by_a_killed_sweep_is_no_lock(tmp_path):
+    path = tmp_path / "a.zarr"
+    fp.sweep(SHORT, path, workers=1)
+    code = (
+        "import os, signal, sys; from flypend.studies.sweep.store import alone, existing\n"
+        "with alone(existing(sys.argv[1])): os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, str(path)], check=False, timeout=60)
+    assert done.returncode == -signal.SIGKILL
+    assert lock_of(path).exists()
+    with alone(existing(path)):
+        pass
+    assert not lock_of(path).exists()
+
+
 def test_a_scheduler_that_does_not_answer_is_told(tmp_path, monkeypatch):
     from flypend.studies.sweep import cluster
 
@@ -362,7 +399,7 @@ def test_the_paper_s_starts_succeed_and_a_torn_gain_does_not(tmp_path):
     """A sweep of one run from experiment 1 agrees with what the paper's figure shows; k_d near 0 does not converge."""
     case = experiment("1")
     table = {
-        "vehicle": "nayak2018", "duration": 9.0, "law": {"name": "corrected"}, "runs": 1,
+        "vehicle": "nayak2018", "duration": 9.0, "law": {"name": "corrected"}, "plant": "ideal", "runs": 1,
         "start": {name: getattr(case.start, name).tolist() for name in ("x", "x_dot", "R", "omega", "y", "y_dot")},
         "criterion": {"target": "e3", "position": math.inf}, "vary": {"gains": {"k_d": {"values": [1.0, 0.01]}}},
     }  # fmt: skip

@@ -9,14 +9,16 @@ import pytest
 
 import flypend as fp
 from flypend.cli import app as cli
-from flypend.settings.runfile import flight
+from flypend.files.toml import toml_text
+from flypend.flight.simulate import fly
+from flypend.settings.runfile import run_file
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import design
 from flypend.studies.tune import Objective
 
 STUDY = {
-    "vehicle": "nayak2018", "law": {"name": "corrected", "gains": {"k_d": 0.4, "yaw_damping": 1.0}}, "duration": 5.0,
-    "judge_period": 0.1, "runs": 300, "seed": 3,
+    "vehicle": "nayak2018", "law": {"name": "corrected", "gains": {"k_d": 0.4, "yaw_damping": 1.0}}, "plant": "ideal",
+    "duration": 5.0,    "judge_period": 0.1, "runs": 300, "seed": 3,
     "criterion": {"target": "e3", "position": math.inf, "rod": 0.2, "axis": 0.2},
     "vary": {"start": {"y": "uniform", "R": "uniform", "y_dot": {"disc": 1.0}}},
     "tune": {"gains": {"k_d": [0.3, 4.0], "k_1": [4.0, 60.0]}, "runs": 60, "generations": 6, "population": 6},
@@ -97,8 +99,6 @@ def test_noise_is_tuned_on_other_seeds_than_it_is_reported_on():
 
 
 def test_the_command_leaves_a_file_that_flies(tmp_path, monkeypatch, capsys):
-    from flypend.settings.runfile import toml_text
-
     monkeypatch.chdir(tmp_path)
     small = STUDY | {"runs": 50, "tune": STUDY["tune"] | {"runs": 20, "generations": 2}}
     (tmp_path / "study.toml").write_text(toml_text(small), encoding="utf-8")
@@ -112,7 +112,7 @@ def test_the_command_leaves_a_file_that_flies(tmp_path, monkeypatch, capsys):
     history = json.loads((tmp_path / "out" / "history.json").read_text(encoding="utf-8"))
     settings = tomllib.loads((tmp_path / "out" / "tuned.toml").read_text(encoding="utf-8"))
     assert settings["law"]["gains"] == {"yaw_damping": 1.0, **history["after"]["gains"]}
-    run = flight("out/tuned.toml", ["duration=0.2"]).fly()
+    run = fly(run_file("out/tuned.toml", ["duration=0.2"]).flight)
     assert run.outcome.status == "completed"
     assert f"k_d = {history['after']['gains']['k_d']:g}" in told
     assert fp.study(tomllib.loads(history["study"])).text() == history["study"]

@@ -10,8 +10,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.geometry import apply, cross
-from flypend.laws.closed_loop import upright_wrench
-from flypend.laws.law import Controller, Law
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
@@ -22,12 +21,12 @@ from flypend.plants.plant import Plant
 Steering = Callable[[Any, Any, Any, Any, dict[str, Any], Any], Any]
 
 
-def steering(law: Law) -> Steering:
+def steering(law: BoundLaw) -> Steering:
     """The wrench of a bound `law` with the reference that it has."""
-    return lambda t, packed, forces, _, gains, vehicle: upright_wrench(law, t, packed, vehicle, forces, gains)
+    return lambda t, packed, forces, _, gains, vehicle: law.upright(t, packed, forces, gains, vehicle)
 
 
-def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
+def usable_lead(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> float:
     """The lead of `law`, at most what brings a rotor of `vehicle` to its force in one period of `plant`.
 
     More would make it overshoot between two commands: with a lag of T and a period of h, 1/(1 − e^{−h/T}).
@@ -38,13 +37,11 @@ def usable_lead(law: Law | Controller, vehicle: Vehicle, plant: Plant) -> float:
 
 def command_width(loop: Loop) -> int:
     """Numbers of a command of `loop`: a force for each rotor, or thrust and body rates."""
-    return 4 if loop.plant.interface == "rates" else len(loop.vehicle.rotor_spins)
+    return 4 if loop.sampled.interface == "rates" else len(loop.vehicle.rotor_spins)
 
 
 def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int = 0) -> ca.Function:
     """The law of `loop` as (t, state, rotors, forces, reference, gains, params) → command.
-
-    It is evaluated for the time at which the command will act, the latency after t.
 
     Parameters
     ----------
@@ -60,17 +57,17 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     Returns
     -------
     Function
-        Of the time of the measurement (s), state (24,) at actuation with e₃ up, modelled rotor forces (n,), external
-        forces (6,), reference, gains and params. For the interface "wrench" a command is the rotor forces (n,), N, led;
-        for "rates" the thrust and the body rates (4,) whose proportional tracking on board gives the law's moment at
-        this instant.
+        Of the time of the measurement (s), the state (24,) at actuation with e₃ up, modelled rotor forces (n,),
+        external forces (6,), reference, gains and params. For the interface "wrench" a command is the rotor forces
+        (n,), N, led; for "rates" the thrust and the body rates (4,) whose proportional tracking on board gives the
+        law's moment.
     """
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
     rotors, forces = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", 6)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
     wrench = steer(t, packed, forces, path, gains, believed.vehicle)
-    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)
+    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)  # when the command acts
     command = finished(loop, believed, wrench, packed, rotors)
     inputs = [t, packed, rotors, forces, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
@@ -86,7 +83,7 @@ def finish(loop: Loop, believed: Believed) -> ca.Function:
 def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: Any) -> Any:
     """The command for a wrench (4,), e₃ up, in CasADi; NaN for a wrench that is none, which limits would hide."""
     thrust, moment = wrench[0], wrench[1:]
-    vehicle, plant = believed.vehicle, loop.plant
+    vehicle, plant = believed.vehicle, loop.sampled
     if plant.interface == "rates":
         omega = State.symbolic(packed).omega
         free = moment - cross(omega, apply(vehicle.I, omega))
@@ -105,4 +102,4 @@ def led(wanted: Any, rotors: Any, lead: Any) -> Any:
 
 def idle_command(loop: Loop, rotors: Any) -> Any:
     """The command before the first one arrives: `rotors` as they are (n,), N, or no thrust and no rates."""
-    return np.zeros(4) if loop.plant.interface == "rates" else rotors
+    return np.zeros(4) if loop.sampled.interface == "rates" else rotors

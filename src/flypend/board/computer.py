@@ -13,9 +13,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
 from flypend.board.program import initial_memory, known, predicting, remembering
 from flypend.compile.numeric import as_numpy
-from flypend.laws.law import Controller
-from flypend.model import State
-from flypend.model.state import FLIP_PACKED
+from flypend.laws import Controller
 from flypend.plants.loop import Loop
 
 NONE = np.zeros(0)
@@ -35,7 +33,7 @@ class SteppedBoard:
     """
 
     def __init__(self, loop: Loop, rotors: Any) -> None:
-        self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.plant)))
+        self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.sampled)))
         self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
         self.predicted: tuple[Any, Any, Any] | None = None
 
@@ -57,19 +55,12 @@ def _stages(loop: Loop) -> tuple[Callable[..., Any], Callable[..., Any], Callabl
 
 
 def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:
-    law = as_numpy(law_command(loop, believed, steering(loop.law)))
+    law = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
     return lambda t, state, rotors, forces: law(t, state, rotors, forces, NONE, NONE, NONE)
 
 
 def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
     """The same for a `law` that is a Python callable."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
-    sign = 1.0 if law.e3 == "up" else FLIP_PACKED
     latency = law.computer.latency
-
-    def call(t: float, state: Any, rotors: Any, _: Any) -> Any:
-        wrench = law.function(t + latency, State.from_packed(state * sign))
-        wrench = wrench if law.e3 == "up" else wrench.flipped()
-        return end(np.append(wrench.thrust, wrench.moment), state, rotors, NONE)
-
-    return call
+    return lambda t, state, rotors, _: end(law.upright(t + latency, state), state, rotors, NONE)

@@ -6,7 +6,7 @@ import casadi as ca
 
 from flypend.board.believed import Believed
 from flypend.geometry import E3, cross
-from flypend.laws.law import Computer
+from flypend.laws import Computer
 from flypend.model import State, linear_momentum
 from flypend.model.state import SIZE
 

@@ -102,7 +102,7 @@ def board(
     """
     believed = believed or Believed.numbers(loop.vehicle)
     predict, remember = predicting(loop, believed), remembering(loop, believed)
-    command = command or law_command(loop, believed, steering(loop.law))
+    command = command or law_command(loop, believed, steering(loop.symbolic))
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
     params = ca.MX.sym("params", believed.symbols.numel())
@@ -118,11 +118,11 @@ class _Twin:
     """The board's model of vehicle and rotors, as calls of functions on MX symbols."""
 
     def __init__(self, loop: Loop, believed: Believed, params: Any) -> None:
-        self._plant, self._believed, self._params = loop.plant, believed, params
+        self._plant, self._believed, self._params = loop.sampled, believed, params
         self._steps: dict[float, ca.Function] = {}
         self._loop = None
-        if loop.plant.interface == "rates":
-            plant = loop.plant
+        if loop.sampled.interface == "rates":
+            plant = loop.sampled
             self._loop = rate_loop(believed.vehicle, plant.limits, plant.rate_loop_gain, believed.symbols)
 
     def advance(self, state: Any, rotors: Any, command: Any, duration: float, forces: Any) -> tuple[Any, Any]:
@@ -147,11 +147,11 @@ class _Twin:
 
 
 def _ahead(loop: Loop) -> tuple[Segment, ...]:
-    return ahead(loop.law.computer.latency, 1 / loop.plant.rate)
+    return ahead(loop.law.computer.latency, 1 / loop.sampled.rate)
 
 
 def _within(loop: Loop) -> tuple[Segment, ...]:
-    return within_period(loop.law.computer.latency, 1 / loop.plant.rate)
+    return within_period(loop.law.computer.latency, 1 / loop.sampled.rate)
 
 
 def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
@@ -169,7 +169,7 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
     rotors, kept, commands = _parts(loop, memory)
     state, forces = measurement[1:], ca.MX(ca.DM.zeros(6))
     if observer_memory(loop):
-        observe = observing.observer(believed, loop.law.computer, 1 / loop.plant.rate)
+        observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
         kept, forces = observe(state, rotors, kept, params)
     twin = _Twin(loop, believed, params)
     for age, duration in _ahead(loop):  # the command of this step is not there yet: the youngest has age 1
@@ -192,7 +192,7 @@ def remembering(loop: Loop, believed: Believed) -> ca.Function:
     command, params = ca.MX.sym("command", command_width(loop)), ca.MX.sym("params", believed.symbols.numel())
     rotors, _, commands = _parts(loop, memory)
     under_way = [command, *commands]
-    if loop.plant.interface == "rates":  # the rotors depend on how the body turns
+    if loop.sampled.interface == "rates":  # the rotors depend on how the body turns
         state, twin = measurement[1:], _Twin(loop, believed, params)
         for age, duration in _within(loop):
             state, rotors = twin.advance(state, rotors, under_way[age], duration, forces)

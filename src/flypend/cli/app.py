@@ -14,7 +14,7 @@ from rich.console import Console
 from typer.exceptions import TyperException
 
 from flypend import __version__
-from flypend.cli import studies, viewing
+from flypend.cli import examples, studies, viewing
 from flypend.cli.terminal import bold, console, counter, progress
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
@@ -28,6 +28,7 @@ app = typer.Typer(
 )
 app.add_typer(viewing.app)
 app.add_typer(studies.app)
+app.add_typer(examples.app)
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
 
@@ -100,18 +101,24 @@ def run(
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
+    from flypend.flight.simulate import fly
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
-    from flypend.settings.runfile import flight
+    from flypend.report.flight import check_movies
+    from flypend.settings.runfile import run_file
 
-    chosen = flight(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    if figures and not quick:
+        check_movies()
+    chosen = run_file(what, [*(override or ()), *([f"controller={controller}"] if controller is not None else [])])
+    flight = chosen.flight
     style_named(style)
     check_writable(out)
     if html is not None:
         check_file(html, (".html",))
-    trajectory = chosen.fly()
+    trajectory = fly(flight)
     # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
-    settled = chosen.fly(max(SETTLED, chosen.duration)) if trajectory.law == "corrected" else None
+    longer = flight.replace(duration=max(SETTLED, flight.duration))
+    settled = fly(longer) if trajectory.law == "corrected" else None
     from flypend.report.flight import write_flight
     from flypend.report.text import judgement, summary_table
 
@@ -164,12 +171,13 @@ def compare(
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.studies import compare as fly
 
+    chosen = _plant(plant)
     names = law or ["inverted", "lqr", "corrected", "detuned"]
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
     settings = {**settings, "plant": plant}
     check_writable(out)
     with counter() as tell:
-        result = fly(machine, laws, batch, duration, plant=_plant(plant), progress=tell)
+        result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
     write_comparison(result, settings, out)
     console.print(comparison_table(result))
     console.print(f"Report and figure are in {bold(out)}.")
@@ -273,9 +281,9 @@ def _study(
 
 def _plant(name: str) -> Any:
     from flypend import errors
-    from flypend.plants import PRESETS
+    from flypend.plants import PRESETS, plant
 
-    return errors.one_of("--plant", name, ("ideal", *PRESETS))
+    return plant(errors.one_of("--plant", name, PRESETS))  # says so if it is not installed
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:

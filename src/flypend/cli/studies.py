@@ -72,7 +72,7 @@ def draw_map(
         str | None, typer.Option("--law", help="In place of a store: fly this law from random starts.")
     ] = None,
     vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: name of a vehicle.")] = None,
-    plant: Annotated[str, typer.Option("--plant", help="With --law: ideal, rotors or hehn2011.")] = "ideal",
+    plant: Annotated[str, typer.Option("--plant", help="With --law: rotors, ideal or hehn2011.")] = "rotors",
     runs: Annotated[int, typer.Option("--runs", min=1, help="With --law: number of runs.")] = 100_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="With --law: seed of the starts.")] = 1,
     duration: Annotated[float | None, typer.Option("--duration", help="With --law: seconds per run.")] = None,
@@ -83,12 +83,14 @@ def draw_map(
 
     With a study or --law the runs are kept in a store beside the picture, so that a run that is stopped goes on.
     """
-    from flypend.errors import InputError
+    from flypend.errors import InputError, require
     from flypend.files.whole import FIGURES, save_figure
     from flypend.pictures.maps import map_figure
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
 
+    for module in ("zarr", "xarray", "distributed", "scipy"):
+        require(module, extra="studies", for_="map")
     if (what is None) == (law is None):
         raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
     if out.suffix.lower() not in FIGURES:

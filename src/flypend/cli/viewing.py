@@ -47,10 +47,12 @@ def movie(
     """Write a slow-motion movie of a saved run."""
     from flypend import errors
     from flypend.flight.trajectory import load
+    from flypend.pictures.animate import check_encoder
     from flypend.pictures.animate import movie as film
     from flypend.pictures.drawing import VIEWS
 
     view = errors.one_of("--camera", camera, VIEWS)
+    check_encoder(out)
     flight = load(run)
     with counter() as tell:
         film(flight, out, view=view, speed=speed, fps=fps, size=size, progress=lambda *n: tell("filming", *n))

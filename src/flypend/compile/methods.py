@@ -1,9 +1,11 @@
-"""Embedded Runge-Kutta methods as tables, from SciPy, with what a step controller must know of each."""
+"""Embedded Runge-Kutta methods as tables, with what a step controller must know of each."""
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
 from functools import cache
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -53,10 +55,10 @@ def method(name: str) -> Method:
 
     Raises InputError for another name.
     """
-    from scipy.integrate import DOP853, RK45
-
-    if one_of("method", name, NAMES) == "dp5":
-        none = np.zeros((0, RK45.n_stages + 1))
-        return Method("dp5", RK45.A, RK45.B, RK45.C, (RK45.E,), none, np.zeros(0), RK45.P)
-    errors = (DOP853.E5, DOP853.E3)
-    return Method("dop853", DOP853.A, DOP853.B, DOP853.C, errors, DOP853.A_EXTRA, DOP853.C_EXTRA, DOP853.D)
+    one_of("method", name, NAMES)
+    text = resources.files("flypend.compile").joinpath("tableaus.toml").read_text(encoding="utf-8")
+    t = {key: np.array(value, dtype=float) for key, value in tomllib.loads(text)[name].items()}
+    if name == "dp5":
+        none = np.zeros((0, len(t["E"])))
+        return Method("dp5", t["A"], t["B"], t["C"], (t["E"],), none, np.zeros(0), t["P"])
+    return Method("dop853", t["A"], t["B"], t["C"], (t["E5"], t["E3"]), t["A_extra"], t["C_extra"], t["D"])

@@ -20,14 +20,14 @@ from flypend.export import records
 from flypend.export.records import Record
 from flypend.export.safe import holding
 from flypend.export.symbolic import SymbolicVehicle
+from flypend.laws import BoundLaw, Law
 from flypend.laws.closed_loop import upright_wrench
-from flypend.laws.law import Law
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
-from flypend.plants.plant import Plant
+from flypend.plants.plant import Sampled
 
 FORCES = 6  # external forces on vehicle and bob
 GAINS = 3  # place of the gains among the inputs of the law
@@ -62,10 +62,9 @@ class Interface:
     unmeasured: Routine
 
     @property
-    def law(self) -> Law:
+    def law(self) -> BoundLaw:
         """The bound law."""
-        assert isinstance(self.loop.law, Law)
-        return self.loop.law
+        return self.loop.symbolic
 
     @property
     def vehicle(self) -> Vehicle:
@@ -96,19 +95,19 @@ class Interface:
         return found
 
 
-def interface(law: Law, vehicle: Vehicle, rate: float = 500.0) -> Interface:
+def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0) -> Interface:
     """The C interface of `law` on `vehicle`, called `rate` times a second.
 
     Raises InputError for a law that cannot be written for a vehicle of symbols, for a vehicle whose rotors do not
     share thrust and yaw equally, and for a rate out of range.
     """
     vehicle.sharing()  # refuses rotors that `allocate` cannot share out
-    loop = Loop(vehicle, law.bound(vehicle), Plant(rate=rate))
+    loop = Loop(vehicle, law.bind(vehicle), Sampled(rate=rate))
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
     params = ca.SX.sym("params", record.length)
     stand_in = SymbolicVehicle(params, record, vehicle)
     believed = Believed(stand_in, rotors.length, vehicle.rotor_lag, params)
-    names, constant, steering = _law(loop.law, params, stand_in)
+    names, constant, steering = _law(loop.symbolic, params, stand_in)
     loop = replace(loop, parameters=tuple(names))
     functions = [
         steering,
@@ -125,7 +124,7 @@ def interface(law: Law, vehicle: Vehicle, rate: float = 500.0) -> Interface:
     command = _command(loop, believed, steering, functions[1], follows=bool(reads(programs["law"], 2)))
     return Interface(
         loop=loop,
-        gains=records.gains_record(loop.law, names),
+        gains=records.gains_record(loop.symbolic, names),
         params=record,
         rotors=rotors,
         constant=constant,
@@ -138,7 +137,7 @@ def interface(law: Law, vehicle: Vehicle, rate: float = 500.0) -> Interface:
 # The law ----------------------------------------------------------------------------------------------------------
 
 
-def _law(law: Law, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], ca.Function]:
+def _law(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], ca.Function]:
     """Gains at run time, gains that are constants, and the law.
 
     The law is (state (24,), forces (6,), reference, gains, params) → wrench (4,), e₃ up.
@@ -182,7 +181,7 @@ def _in_functions(program: Program, names: list[str]) -> tuple[str, ...]:
     return tuple(names[entry] for entry in sorted(found))
 
 
-def streamed_wrench(law: Law, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
+def streamed_wrench(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
     """The wrench (4, 1), e₃ up, of a bound `law` for the numbers of `records.STATE` and `records.REFERENCE`.
 
     `vehicle` has numbers or symbols, as have the `gains`. Raises InputError for a law that needs the time itself.
@@ -191,7 +190,7 @@ def streamed_wrench(law: Law, vehicle: Any, state: Any, reference: Any, gains: A
     flown = law.along(_streamed(reference)) if law.along is not None else law
     wrench = upright_wrench(flown, t, state[:SIZE], vehicle, state[SIZE:], gains)
     if law.along is None and ca.depends_on(wrench, t):
-        raise InputError("law", "one that does not depend on time, or a Law with `along`", law.name)
+        raise InputError("law", "one that does not depend on time, or a Law with a `path`", law.name)
     return ca.densify(ca.substitute(wrench, t, 0))
 
 

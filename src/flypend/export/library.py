@@ -23,13 +23,13 @@ from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.interface import interface
 from flypend.export.write import core, filled
-from flypend.laws.law import Controller, Law
+from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED
 from flypend.plants.loop import Loop
-from flypend.plants.plant import Plant
+from flypend.plants.plant import Sampled
 
 FLAGS = ("-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror")
 
@@ -40,7 +40,7 @@ class Library:
     Arrays are the records of `flypend.export.records`, one after the other. Raises InputError without a compiler.
     """
 
-    def __init__(self, law: Law, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> None:
+    def __init__(self, law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> None:
         self._of = (law, vehicle, precision, rate)
         self.made = interface(law, vehicle, rate)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
@@ -160,19 +160,19 @@ def _compile(folder: Path) -> Path:
     target = folder / "law.so"
     sources = [str(folder / name) for name in ("flypend_law.c", "many.c")]
     command = [compiler, *FLAGS, "-shared", "-fPIC", *sources, "-lm", "-o", str(target)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True)  # noqa: S603 (on files that were written above)
     if done.returncode:
         raise InputError("controller", f"C code that {compiler} compiles", done.stderr.strip()[:500])
     return target
 
 
 @lru_cache(maxsize=16)
-def library(law: Law, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> Library:
+def library(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
     return Library(law, vehicle, precision, rate)
 
 
-def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Controller:
+def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
     """The exported flight computer of `law` on `vehicle`, compiled here, as a controller.
 
     It flies in sampled plants with limits that take rotor forces ("rotors", "mujoco"), and stands for the whole flight
@@ -190,10 +190,10 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
     InputError
         As `export_c`, and without a C compiler.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", getattr(law, "name", repr(law)))
     errors.one_of("precision", precision, PRECISIONS)
-    bound = law.bound(vehicle)
+    bound = law.bind(vehicle)
     code = library(bound, vehicle, precision)
     path = _path(bound.reference)
 
@@ -208,8 +208,8 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
     def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard:
         if loop.vehicle != vehicle:
             raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
-        _check_plant(loop.plant)
-        return CompiledBoard(library(bound, vehicle, precision, loop.plant.rate), path, rotors)
+        _check_plant(loop.sampled)
+        return CompiledBoard(library(bound, vehicle, precision, loop.sampled.rate), path, rotors)
 
     return Controller(
         name=f"{bound.name}-c" + ("" if precision == "double" else "-float"),
@@ -217,12 +217,13 @@ def compiled(law: Law, vehicle: Vehicle, precision: Precision = "double") -> Con
         e3=bound.e3,
         reference=bound.reference,
         gains=bound.gains,
+        table=bound.table,
         computer=bound.computer,
         flight_computer=flight_computer,
     )
 
 
-def _check_plant(plant: Plant) -> None:
+def _check_plant(plant: Sampled) -> None:
     if plant.interface != "wrench" or not plant.limits:
         raise InputError("plant", "rotor forces within limits, which exported code commands", "another interface")
 

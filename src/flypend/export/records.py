@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 
 # A law follows pivot and bob up to their snap; the bob's snap takes eight derivatives of the pivot's path.
@@ -135,40 +134,10 @@ def params_record(vehicle: Vehicle) -> Record:
     )
 
 
-def gains_record(law: Law, names: Sequence[str]) -> Record:
+def gains_record(law: BoundLaw, names: Sequence[str]) -> Record:
     """The gains `names` of `law` that its equations contain."""
-    comments = gain_comments(law)
-    fields = tuple(Field(name, 0, comments.get(name, "see the law")) for name in names)
+    fields = tuple(Field(name, 0, law.table[name].told() or "see the law") for name in names)
     return Record("gains", f"Gains of the {law.name} law.", fields or (Field("none", 0, "no gain is left; keep 0"),))
-
-
-def gain_comments(law: Law) -> dict[str, str]:
-    """What the docstrings say of each gain of `law`, in one line."""
-    texts = []
-    for module, name in ((f"flypend.laws.{law.name}", law.name), ("flypend.laws.inverted_gains", "Gains")):
-        try:
-            texts.append(getattr(importlib.import_module(module), name).__doc__ or "")
-        except ImportError:  # a law of one's own
-            continue
-    found: dict[str, str] = {}
-    for text in texts:
-        lines = [line.strip() for line in text.splitlines()]
-        for i, line in enumerate(lines):
-            names, colon, kind = line.partition(" : ")
-            if colon and kind.startswith("float"):
-                for gain in names.split(", "):
-                    found.setdefault(gain, _sentence(lines[i + 1 :]))
-    return found
-
-
-def _sentence(following: Sequence[str]) -> str:
-    """The description that begins with the first of the `following` lines, up to the next entry."""
-    words = []
-    for line in following:
-        if not line or " : " in line:
-            break
-        words.append(line)
-    return " ".join(words).rstrip(".")
 
 
 def params_of(vehicle: Vehicle) -> Any:

@@ -1,4 +1,4 @@
-"""What exported code does where it cannot fly the law: it levels out and hovers as long as the attitude can be trusted."""
+"""What exported code does where it cannot fly the law: it levels out as long as the attitude can be trusted."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ SHARE = 1 / 3
 
 
 def levelling(loop: Loop) -> tuple[float, float]:
-    """Stiffness (1/s²) and damping (1/s), critical, that the rotors of `loop` can follow without lead and prediction."""
-    slowness = loop.vehicle.rotor_lag + loop.law.computer.latency + 1 / loop.plant.rate
+    """Stiffness (1/s²) and critical damping (1/s) that the rotors of `loop` can follow without lead and prediction."""
+    slowness = loop.vehicle.rotor_lag + loop.law.computer.latency + 1 / loop.sampled.rate
     damping = SHARE / slowness
     return (damping / 2) ** 2, damping
 

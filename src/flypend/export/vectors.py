@@ -15,7 +15,7 @@ from flypend.board.program import board, initial_memory
 from flypend.compile.c99 import Precision
 from flypend.export import records
 from flypend.export.interface import followed, shifted, streamed_wrench
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
 from flypend.plants.equations import EquationsEngine
@@ -37,7 +37,7 @@ class Vectors:
     rotors: Any
 
 
-def vectors(law: Law, vehicle: Vehicle, count: int, seed: int, precision: Precision) -> Vectors:
+def vectors(law: BoundLaw, vehicle: Vehicle, count: int, seed: int, precision: Precision) -> Vectors:
     """`count` random states and references for the bound `law` of `vehicle`, and what Python answers.
 
     Inputs are rounded to `precision` first; the answers are computed in double precision.
@@ -67,7 +67,7 @@ def rounded(values: Any, precision: Precision) -> Any:
 
 
 @lru_cache(maxsize=16)
-def answers(law: Law, vehicle: Vehicle) -> Any:
+def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
     """The CasADi function (state (30), reference (30)) → wrench (4), rotor forces (n) of the bound `law`."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
     wrench = streamed_wrench(law, vehicle, state, reference)
@@ -97,7 +97,7 @@ def flights(loop: Loop, count: int, steps: int, seed: int, precision: Precision)
     The board of Python flies the vehicle under random constant forces; its inputs are rounded to `precision`.
     """
     rng, step, rotors = np.random.default_rng(seed), board_step(loop), loop.vehicle.rotor_limits[0]
-    period, weight, n = 1 / loop.plant.rate, loop.vehicle.weight, len(loop.vehicle.rotor_spins)
+    period, weight, n = 1 / loop.sampled.rate, loop.vehicle.weight, len(loop.vehicle.rotor_spins)
     columns: tuple[list[Any], list[Any], list[Any]] = ([], [], [])
     for _ in range(count):
         least = np.full(n, rotors)
@@ -122,7 +122,7 @@ def board_step(loop: Loop) -> ca.Function:
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
         reference = followed(vehicle, shifted(path, loop.law.computer.latency), forces[3:])
-        return streamed_wrench(loop.law, vehicle, ca.vertcat(packed, forces), reference)
+        return streamed_wrench(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 
     length = records.PATH.length
     return board(loop, believed, law_command(loop, believed, steer, length), length).step

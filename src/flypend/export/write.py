@@ -19,7 +19,7 @@ from flypend.export.interface import Interface, interface
 from flypend.export.records import Record
 from flypend.export.source import ascii_of, functions, initializer, struct, unread
 from flypend.files.staging import staged
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
 
@@ -36,7 +36,7 @@ TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 
 def export_c(
-    law: Law, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double", rate: float = 500.0
+    law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double", rate: float = 500.0
 ) -> Path:
     """Write the flight computer of `law` on `vehicle` as C99 into the folder `out`.
 
@@ -67,10 +67,10 @@ def export_c(
     ------
     InputError
         For a law that is no `Law`, that uses other functions than the square root or the time itself, a vehicle whose
-        rotors do not share thrust and yaw equally, an unknown precision, a rate out of range, or a folder that cannot be
-        written.
+        rotors do not share thrust and yaw equally, an unknown precision, a rate out of range, or a folder that cannot
+        be written.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", repr(law))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
@@ -122,8 +122,8 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "precision": precision,
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),
-        "rate": f"{made.loop.plant.rate:g}",
-        "period": literal(1 / made.loop.plant.rate, precision),
+        "rate": f"{made.loop.sampled.rate:g}",
+        "period": literal(1 / made.loop.sampled.rate, precision),
         "lag": f"{vehicle.rotor_lag:.3g}",
         "observer": f"{computer.observer:.3g}",
         "tolerance": literal(MANIFOLD_TOLERANCE, precision),
@@ -133,7 +133,7 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "params": initializer(made.params, records.params_of(vehicle), precision),
         "spins": ", ".join(literal(float(spin), precision) for spin in vehicle.sharing()[2]),
         "place_p": str(next(place.start for field, place in records.REFERENCE.places() if field.name == "p")),
-        "lead": f"{usable_lead(law, vehicle, made.loop.plant):.3g}",
+        "lead": f"{usable_lead(law, vehicle, made.loop.sampled):.3g}",
         "zero_path": initializer(records.PATH, [0.0] * records.PATH.length, precision),
         "zero_measurement": initializer(records.MEASUREMENT, [0.0] * records.MEASUREMENT.length, precision),
         "radians": literal(math.pi / 180, precision),
@@ -143,7 +143,7 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "latency": f"{computer.latency:.3g}",
         "rotor_table": _rotor_table(vehicle),
         "bare_table": BARE,
-        "period_us": str(round(1e6 / made.loop.plant.rate)),
+        "period_us": str(round(1e6 / made.loop.sampled.rate)),
         "thrust_scale": repr(thrust_scale),
         "moment_scale": repr(moment_scale),
     }
@@ -176,7 +176,7 @@ def _baked(made: Interface) -> str:
     inertia = next(field for field in made.params.fields if field.name == "inertia")
     diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"
     text = f"the number of rotors ({made.rotors.length}), their spins, {diagonal}."
-    options = {name: value for name, value in made.law.gains.items() if isinstance(value, str)}
+    options = made.law.options
     if made.constant:
         text += " Gains: " + ", ".join(f"{name} = {made.law.numbers[name]:.6g}" for name in made.constant) + "."
     if options:

@@ -1,12 +1,23 @@
-"""Named arrays as a NetCDF file, by SciPy: xarray writes the same file, but takes half a second to be imported."""
+"""Named arrays as a NetCDF file (classic format, 64-bit offsets), written and read with NumPy alone.
+
+Written out here because SciPy, which does the same, would be a fifth of an installation. The format is that of the
+NetCDF User's Guide, appendix B: a header of dimensions, attributes and variables, then the numbers, all big-endian and
+padded to four bytes. Of its record dimension only what a run needs is known: no record, for an array that is empty.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+
+DIMENSIONS, VARIABLES, ATTRIBUTES = 10, 11, 12
+CHARACTERS, DOUBLES = 2, 6
+KINDS = {1: ">i1", CHARACTERS: "S1", 3: ">i2", 4: ">i4", 5: ">f4", DOUBLES: ">f8"}
+MAGIC = b"CDF\x02"
 
 
 class Variable(NamedTuple):
@@ -19,26 +30,144 @@ class Variable(NamedTuple):
 
 def write_netcdf(path: Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
     """Write `variables` and the `attributes` of the whole, texts and numbers, to `path`. Raises OSError."""
-    from scipy.io import netcdf_file
-
-    with netcdf_file(path, "w", version=2) as file:
-        _describe(file, attributes)
-        for name, (dims, values, about) in variables.items():
-            values = np.asarray(values)
-            if values.dtype.kind in "iub":  # NetCDF 3 has no integers of 64 bits
-                values = values.astype(float)
-            if values.dtype.kind == "U":  # NetCDF 3 has characters only
-                encoded = np.char.encode(values, "utf-8")
-                values = encoded.view("S1").reshape(*values.shape, -1)
-                dims, about = (*dims, f"{name}_length"), {**about, "_Encoding": "utf-8"}
-            for dim, size in zip(dims, values.shape, strict=True):
-                if dim not in file.dimensions:
-                    file.createDimension(dim, size)
-            written = file.createVariable(name, values.dtype, dims)
-            written[:] = values
-            _describe(written, about)
+    stored = {name: _stored(name, variable) for name, variable in variables.items()}
+    sizes = {dim: size for v in stored.values() for dim, size in zip(v.dims, v.values.shape, strict=True)}
+    blocks = [_padded(variable.values.tobytes()) for variable in stored.values()]
+    begin = len(_header(stored, sizes, attributes, [0] * len(blocks)))
+    begins = [begin + sum(map(len, blocks[:place])) for place in range(len(blocks))]
+    path.write_bytes(_header(stored, sizes, attributes, begins) + b"".join(blocks))
 
 
-def _describe(target: Any, attributes: Mapping[str, Any]) -> None:
+def _stored(name: str, variable: Variable) -> Variable:
+    """`variable` in a type that the format has: floats big-endian, texts as characters along one more dimension."""
+    dims, values, about = variable.dims, np.asarray(variable.values), variable.attributes
+    if values.dtype.kind == "U":
+        encoded = np.char.encode(values, "utf-8")
+        characters = encoded.view("S1").reshape(*values.shape, -1)
+        return Variable((*dims, f"{name}_length"), characters, {**about, "_Encoding": "utf-8"})
+    return Variable(dims, values.astype(">f4" if values.dtype == np.float32 else ">f8"), about)
+
+
+def _header(
+    stored: Mapping[str, Variable], sizes: Mapping[str, int], attributes: Mapping[str, Any], begins: list[int]
+) -> bytes:
+    places = {dim: place for place, dim in enumerate(sizes)}
+    out = [MAGIC, _int(0), _list_of(DIMENSIONS, [_text(dim) + _int(size) for dim, size in sizes.items()])]
+    out += [_attributes(attributes)]
+    entries = []
+    for (name, (dims, values, about)), begin in zip(stored.items(), begins, strict=True):
+        kind = next(kind for kind, dtype in KINDS.items() if np.dtype(dtype) == values.dtype)
+        record = math.prod(values.shape[1:]) if 0 in values.shape[:1] else values.size
+        size = -(-record * values.itemsize // 4) * 4
+        ids = b"".join(_int(places[dim]) for dim in dims)
+        entry = [_text(name), _int(len(dims)), ids, _attributes(about), _int(kind), _int(size), begin.to_bytes(8)]
+        entries.append(b"".join(entry))
+    return b"".join([*out, _list_of(VARIABLES, entries)])
+
+
+def _attributes(attributes: Mapping[str, Any]) -> bytes:
+    entries = []
     for name, value in attributes.items():
-        setattr(target, name, value.encode() if isinstance(value, str) else np.float64(value))
+        content = value.encode() if isinstance(value, str) else np.array(value, ">f8").tobytes()
+        kind, count = (CHARACTERS, len(content)) if isinstance(value, str) else (DOUBLES, len(content) // 8)
+        entries.append(_text(name) + _int(kind) + _int(count) + _padded(content))
+    return _list_of(ATTRIBUTES, entries)
+
+
+def _list_of(tag: int, entries: list[bytes]) -> bytes:
+    return _int(tag) + _int(len(entries)) + b"".join(entries) if entries else _int(0) + _int(0)
+
+
+def _text(text: str) -> bytes:
+    return _int(len(text.encode())) + _padded(text.encode())
+
+
+def _int(value: int) -> bytes:
+    return value.to_bytes(4)
+
+
+def _padded(content: bytes) -> bytes:
+    return content + bytes(-len(content) % 4)
+
+
+def read_netcdf(path: Path) -> tuple[dict[str, Variable], dict[str, Any]]:
+    """The variables of the file at `path`, texts as bytes of one character, and the attributes of the whole.
+
+    Raises
+    ------
+    OSError
+        For a file that cannot be read.
+    ValueError
+        For one that is no NetCDF of the classic format, is cut short, or has records.
+    """
+    return _Reader(path.read_bytes()).file()
+
+
+class _Reader:
+    """The content of a file, and how far it has been read."""
+
+    def __init__(self, content: bytes) -> None:
+        self._content, self._at = content, 4
+        if content[:4] not in (b"CDF\x01", MAGIC):
+            raise ValueError("not a NetCDF file of the classic format")
+        self._offset = 4 if content[3] == 1 else 8
+
+    def file(self) -> tuple[dict[str, Variable], dict[str, Any]]:
+        if self._int():
+            raise ValueError("a file with records")
+        dimensions = [(self._text(), self._int()) for _ in self._entries(DIMENSIONS)]
+        attributes = self._attributes()
+        return dict(self._variable(dimensions) for _ in self._entries(VARIABLES)), attributes
+
+    def _variable(self, dimensions: list[tuple[str, int]]) -> tuple[str, Variable]:
+        name = self._text()
+        own = [dimensions[self._int()] for _ in range(self._int())]
+        about, dtype = self._attributes(), self._dtype()
+        self._int()  # the size, which follows from the shape
+        begin = int.from_bytes(self._take(self._offset))
+        shape = tuple(size for _, size in own)
+        data = self._content[begin : begin + math.prod(shape) * dtype.itemsize]
+        if len(data) != math.prod(shape) * dtype.itemsize:
+            raise ValueError(f"a file that ends inside {name}")
+        values = np.frombuffer(data, dtype).reshape(shape).astype(dtype.newbyteorder("="))
+        return name, Variable(tuple(dim for dim, _ in own), values, about)
+
+    def _attributes(self) -> dict[str, Any]:
+        return dict(self._attribute() for _ in self._entries(ATTRIBUTES))
+
+    def _attribute(self) -> tuple[str, Any]:
+        name, dtype, count = self._text(), self._dtype(), self._int()
+        content = self._take(count * dtype.itemsize)
+        self._take(-len(content) % 4)
+        if dtype.kind == "S":
+            return name, content.decode()
+        values = np.frombuffer(content, dtype)
+        return name, values[0] if count == 1 else values
+
+    def _dtype(self) -> np.dtype[Any]:
+        kind = self._int()
+        if kind not in KINDS:
+            raise ValueError(f"numbers of an unknown type ({kind})")
+        return np.dtype(KINDS[kind])
+
+    def _entries(self, tag: int) -> range:
+        found, count = self._int(), self._int()
+        if found != tag and (found or count):
+            raise ValueError("a header that is damaged")
+        return range(count)
+
+    def _text(self) -> str:
+        length = self._int()
+        text = self._take(length).decode()
+        self._take(-length % 4)
+        return text
+
+    def _int(self) -> int:
+        return int.from_bytes(self._take(4))
+
+    def _take(self, count: int) -> bytes:
+        content = self._content[self._at : self._at + count]
+        if len(content) != count:
+            raise ValueError("a file that ends inside its header")
+        self._at += count
+        return content

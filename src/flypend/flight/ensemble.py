@@ -4,24 +4,32 @@ from __future__ import annotations
 
 import copyreg
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
-from functools import partial
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from flypend import errors
+from flypend import errors, plants
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels import Flown, ideal_kernel, method_for, sampled_kernel
+from flypend.flight.kernels import Flown, fly_all, has_kernel
+from flypend.flight.labelled import dataset, described, state_variables, variable
 from flypend.flight.metrics import Metrics, judged, metrics, wilson
+from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import nearest_ticks
-from flypend.flight.simulate import LEAST_RTOL, SAMPLE_PERIOD, simulate
-from flypend.laws import Controller, Law
+from flypend.flight.simulate import fly
+from flypend.flight.trajectory import Trajectory
+from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
-from flypend.plants import Plant
-from flypend.plants import plant as plant_named
-from flypend.plants.loop import Loop
+from flypend.model.state import SIZE, E3Direction
+from flypend.plants import AnyPlant, Sampled
+
+if TYPE_CHECKING:
+    import xarray
+
+ENGINES = ("kernel", "scipy")
+Progress = Callable[[int, int], Any]
 
 # Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
 CHUNK = 8
@@ -37,36 +45,47 @@ class Ensemble:
     Parameters
     ----------
     starts : State
-        Initial states, in the frame of the law.
-    final : (n, 24)
-        Packed final states, in the frame of the law.
+        Initial states (n,), in the frame of the law.
+    final : State
+        Final states (n,), in the frame of the law.
     success, settling, excursion, effort, peak_force, end, cause : (n,)
         The fields of `Metrics`, run by run.
-    law, vehicle : str
-        Names of what flew.
-    times : (t,), optional
+    e3 : "up" or "down"
+        Where the third axis of the frame points.
+    vehicle : Vehicle
+        What was flown.
+    law, gains : str, dict
+        Name and gains of the law that flew it; a gain that differs from run to run is an array (n,).
+    t : (k,), optional
         Sample times, s, if any were asked for.
-    samples : (n, t, 24), optional
-        Packed states at these times, in the frame of the law; NaN after the end of a run.
+    samples : State, optional
+        States (n, k) at these times, in the frame of the law; NaN after the end of a run.
     """
 
     starts: State
-    final: Any
-    success: Any
-    settling: Any
-    excursion: Any
-    effort: Any
-    peak_force: Any
-    end: Any
-    cause: Any
+    final: State
+    success: NDArray[np.bool_]
+    settling: NDArray[np.float64]
+    excursion: NDArray[np.float64]
+    effort: NDArray[np.float64]
+    peak_force: NDArray[np.float64]
+    end: NDArray[np.float64]
+    cause: NDArray[np.str_]
+    e3: E3Direction
+    vehicle: Vehicle
     law: str
-    vehicle: str
-    times: Any = None
-    samples: Any = None
+    gains: Mapping[str, Any] = field(default_factory=dict)
+    t: NDArray[np.float64] | None = None
+    samples: State | None = None
 
     def __len__(self) -> int:
         """Number of runs."""
         return len(self.success)
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The fields of `Metrics` as arrays (n,), by name."""
+        return {entry.name: getattr(self, entry.name) for entry in fields(Metrics)}
 
     @property
     def rate(self) -> float:
@@ -84,30 +103,46 @@ class Ensemble:
         values = values[np.isfinite(values)]
         return float(np.percentile(values, q)) if len(values) else float("nan")
 
+    def to_xarray(self) -> xarray.Dataset:
+        """The runs as an `xarray.Dataset` on the dimension `run`, with units and, as attributes, what was flown.
+
+        Starts and final states are called start_x, final_x and so on; samples, on `run` and `t`, as in a trajectory.
+        """
+        runs = ("run",)
+        variables = {entry.name: variable(entry.name, runs, getattr(self, entry.name)) for entry in fields(Metrics)}
+        variables |= state_variables(self.starts, runs, "start_") | state_variables(self.final, runs, "final_")
+        if self.t is not None and self.samples is not None:
+            variables |= {"t": variable("t", ("t",), self.t), **state_variables(self.samples, ("run", "t"))}
+        differing = {name: value for name, value in self.gains.items() if isinstance(value, np.ndarray)}
+        variables |= {f"gains.{name}": variable(name, runs, value) for name, value in differing.items()}
+        own = {name: value for name, value in self.gains.items() if name not in differing}
+        return dataset(variables, described(self.vehicle, self.law, own, self.e3))
+
 
 def simulate_ensemble(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     starts: State,
     duration: float,
     *,
-    plant: str | Plant = "ideal",
+    plant: str | AnyPlant = "rotors",
     rtol: float = 1e-9,
-    gains: Mapping[str, Any] | None = None,
+    atol: float | None = None,
+    gains: Mapping[str, ArrayLike] | None = None,
     criterion: Criterion | None = None,
-    times: Any = None,
+    times: ArrayLike | None = None,
     judge_period: float = SAMPLE_PERIOD,
-    method: str | None = None,
-    precision: str = "double",
+    method: Any = None,
+    precision: Any = "double",
     engine: str = "kernel",
     workers: int | None = None,
-    progress: Callable[[int, int], Any] = lambda *_: None,
+    progress: Progress = lambda *_: None,
 ) -> Ensemble:
     """Fly `vehicle` under `law` from every one of `starts`.
 
     Parameters
     ----------
-    vehicle, law, duration, plant, rtol
+    vehicle, law, duration, plant, rtol, atol
         As in `simulate`. A plant with noise or gusts gives run i the seed `plant.seed + i`.
     starts : State
         A batch of states with one leading axis, in the frame of the law.
@@ -116,7 +151,7 @@ def simulate_ensemble(
     criterion : Criterion, optional
         What counts as a success; default to stand inverted at the reference.
     times : (t,) increasing, optional
-        Times, s, at which states are kept, in the ideal plant under a Law.
+        Times, s, at which states are kept; a sampled flight gives the nearest control ticks. They change no verdict.
     judge_period : float
         Every so often a run is judged, s. The default is that of `metrics`; a longer one makes short runs cheaper.
     method : "dop853" or "dp5", optional
@@ -139,86 +174,55 @@ def simulate_ensemble(
     """
     if not isinstance(starts, State) or len(starts.batch_shape) != 1:
         raise errors.InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
-    criterion = criterion or Criterion()
-    errors.one_of("engine", engine, ("kernel", "scipy"))
-    if not isinstance(plant, Plant) and plant != "ideal":
-        plant = plant_named(plant)
-    if engine == "scipy" or isinstance(law, Controller) or (isinstance(plant, Plant) and plant.engine == "mujoco"):
-        for name, value in (("gains", gains), ("times", times), ("method", method)):
-            if value is not None:
-                raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
-        return _one_by_one(vehicle, law, starts, duration, plant, rtol, criterion, engine, workers, progress)
-
-    bound = law.bound(vehicle)
-    kept = None if times is None else errors.array("times", times, (None,))
-    if kept is not None and not (len(kept) and kept[0] >= 0 and kept[-1] <= duration and np.all(np.diff(kept) > 0)):
-        raise errors.InputError("times", "increasing times from 0 to the duration", "others")
-    flown = fly_packed(
-        vehicle, bound, starts.packed(), duration, plant=plant, rtol=rtol, gains=gains, criterion=criterion,
-        times=kept, judge_period=judge_period, method=method, precision=precision, workers=workers, progress=progress,
+    exact = Tolerances(rtol=rtol, atol=atol, method=method, precision=precision)
+    flight = Flight(
+        vehicle=vehicle, law=bound_to(vehicle, law), starts=starts, duration=duration, plant=plants.plant(plant),
+        tolerances=exact, criterion=criterion or Criterion(), gains=gains or {}, times=some_times(times),
+        judge_period=judge_period,
     )  # fmt: skip
-    columns = judged(flown.reductions, flown.status, flown.end, vehicle, criterion)
-    return Ensemble(
-        starts=starts, final=flown.final, law=bound.name, vehicle=vehicle.name, times=kept, samples=flown.samples,
-        **columns,
-    )  # fmt: skip
+    return fly_many(flight, engine, workers=workers, progress=progress)
 
 
-def fly_packed(
-    vehicle: Vehicle,
-    law: Law,
-    packed: Any,
-    duration: float,
-    *,
-    plant: str | Plant,
-    rtol: float,
-    criterion: Criterion,
-    gains: Mapping[str, Any] | None = None,
-    times: Any = None,
-    judge_period: float = SAMPLE_PERIOD,
-    method: str | None = None,
-    precision: str = "double",
-    max_steps: int | None = None,
-    workers: int | None = None,
-    progress: Callable[[int, int], Any] = lambda *_: None,
-) -> Flown:
-    """What `simulate_ensemble` flies with a kernel, from `packed` states (n, 24) that are trusted, a `law` being bound.
+def fly_many(
+    flight: Flight, engine: str = "kernel", *, workers: int | None = None, progress: Progress = lambda *_: None
+) -> Ensemble:
+    """Fly every start of `flight`; `engine`, `workers` and `progress` are those of `simulate_ensemble`.
 
-    A run that needs more than `max_steps` steps is given up as diverged. The others of
-    duration, plant, rtol, criterion, gains, times, judge_period, method, precision, workers, progress are those of
-    `simulate_ensemble`, and so is what raises InputError.
+    Raises InputError for an engine that lacks what the flight asks for.
     """
-    names = tuple(gains or ())
-    columns = [_column(name, value, len(packed)) for name, value in (gains or {}).items()]
-    values = np.stack(columns, axis=1) if columns else None
-    duration = errors.number("duration", duration, above=0, unit="s")
-    period = errors.number("judge_period", judge_period, above=0, unit="s")
-    grid = np.linspace(0.0, duration, max(2, round(duration / period) + 1))
-    if isinstance(plant, Plant):
-        if times is not None or method is not None or precision != "double":
-            raise errors.InputError("times, method, precision", "nothing, in a sampled flight", "a value")
-        return sampled_kernel(Loop(vehicle, law, plant.replace(seed=0), names), criterion).fly(
-            packed, duration, ticks=nearest_ticks(grid, plant, duration), first_seed=plant.seed, parameters=values,
-            workers=workers, progress=progress,
-        )  # fmt: skip
-    rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
-    chosen = method or method_for(rtol, law)
-    kernel = ideal_kernel(vehicle, law, criterion, names, method=chosen, precision=precision)
-    fly = partial(kernel.fly, packed, duration, rtol=rtol, parameters=values, max_steps=max_steps, workers=workers)
-    flown = fly(times=grid, progress=progress)
-    # Flown again for the states that are kept: a run is judged in the same way whether or not any are.
-    return flown if times is None else replace(flown, samples=fly(times=times, keep=True, judge=False).samples)
+    errors.one_of("engine", engine, ENGINES)
+    if engine == "scipy" or not has_kernel(flight):
+        steered = isinstance(flight.law, Controller)
+        for name, value in (("gains", flight.gains and not steered), ("method", flight.tolerances.method)):
+            if value:
+                raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
+        return _one_by_one(flight, engine, workers, progress)
+    return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
 
 
-def _column(name: str, value: Any, runs: int) -> Any:
-    """The values (n,) of one gain, from (n,) or one number for all."""
-    given = errors.array(f"gains.{name}", value, (), batch=True)
-    if given.shape not in ((), (runs,)):
-        raise errors.InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")
-    return np.broadcast_to(given, (runs,))
+def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
+    """The fields of `Metrics` as arrays (n,), of a `flight` that a kernel has `flown`."""
+    return judged(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion)
 
 
-def _can_be_sent(law: Law | Controller) -> bool:
+def _gathered(flight: Flight, flown: Flown) -> Ensemble:
+    samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
+    return Ensemble(
+        starts=flight.starts, final=State.trusted(flown.final), **_columns_of(flight, flown), **_about(flight),
+        samples=samples,
+    )  # fmt: skip
+
+
+def _about(flight: Flight) -> dict[str, Any]:
+    """The fields of an ensemble that say what was flown, and when it was sampled."""
+    law, plant, t = flight.law, flight.plant, flight.times
+    if t is not None and isinstance(plant, Sampled):
+        t = nearest_ticks(t, plant, flight.duration) / plant.rate
+    gains = {**law.gains, **flight.gains}
+    return {"e3": law.e3, "vehicle": flight.vehicle, "law": law.name, "gains": gains, "t": t}
+
+
+def _can_be_sent(law: AnyLaw) -> bool:
     """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
     import cloudpickle
 
@@ -229,43 +233,68 @@ def _can_be_sent(law: Law | Controller) -> bool:
     return True
 
 
-def _one_by_one(
-    vehicle: Vehicle,
-    law: Law | Controller,
-    starts: State,
-    duration: float,
-    plant: str | Plant,
-    rtol: float,
-    criterion: Criterion,
-    engine: str,
-    workers: int | None,
-    progress: Callable[[int, int], Any],
-) -> Ensemble:
-    """As `simulate_ensemble`, by single runs in one process per core."""
+@dataclass(frozen=True, eq=False)
+class _Member:
+    """One run of an ensemble: how it is judged, how it ends, and its samples (k, 24) if any are kept."""
+
+    metrics: Metrics
+    final: NDArray[np.float64]
+    samples: NDArray[np.float64] | None
+
+
+def _one_by_one(flight: Flight, engine: str, workers: int | None, progress: Progress) -> Ensemble:
+    """As `fly_many`, by single runs in one process per core."""
+    members: list[_Member] = []
+    for part in _chunks(flight, engine, workers or os.cpu_count() or 1):
+        members += part
+        progress(len(members), flight.runs)
+    columns: dict[str, Any] = {
+        entry.name: np.array([getattr(member.metrics, entry.name) for member in members]) for entry in fields(Metrics)
+    }
+    kept = flight.times is not None
+    return Ensemble(
+        starts=flight.starts, final=State.trusted(np.array([member.final for member in members])), **columns,
+        **_about(flight), samples=State.trusted(np.array([member.samples for member in members])) if kept else None,
+    )  # fmt: skip
+
+
+def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[_Member]]:
+    """The members, some at a time, in the order of the starts."""
     from joblib import Parallel, delayed  # processes, which a kernel does not wait for
 
-    count = workers or os.cpu_count() or 1
-    bound = law.bound(vehicle)
+    def chunk(indices: range) -> list[_Member]:
+        return [_member(flight.member(i), engine) for i in indices]
 
-    def chunk(indices: range) -> list[tuple[Metrics, Any]]:
-        return [one(index) for index in indices]
-
-    def one(index: int) -> tuple[Metrics, Any]:
-        seeded = plant.replace(seed=plant.seed + index) if isinstance(plant, Plant) else plant
-        run = simulate(vehicle, bound, starts[index], duration, plant=seeded, rtol=rtol, engine=engine)
-        return metrics(run, criterion), run.packed[-1]
-
-    chunks = [range(i, min(i + CHUNK, len(starts))) for i in range(0, len(starts), CHUNK)]
-    if count == 1 or len(chunks) == 1 or not _can_be_sent(bound):
-        parts: Any = (chunk(indices) for indices in chunks)
+    chunks = [range(i, min(i + CHUNK, flight.runs)) for i in range(0, flight.runs, CHUNK)]
+    if processes == 1 or len(chunks) == 1 or not _can_be_sent(flight.law):
+        yield from (chunk(indices) for indices in chunks)
     else:
-        parts = Parallel(n_jobs=count, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
-    results: list[tuple[Metrics, Any]] = []
-    for part in parts:
-        results += part
-        progress(len(results), len(starts))
-    columns = {
-        entry.name: np.array([getattr(result[0], entry.name) for result in results]) for entry in fields(Metrics)
-    }
-    final = np.array([result[1] for result in results])
-    return Ensemble(starts=starts, final=final, law=law.name, vehicle=vehicle.name, **columns)
+        yield from Parallel(n_jobs=processes, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
+
+
+def _member(flight: Flight, engine: str) -> _Member:
+    """One run: sampled where it is judged and where it is kept, and each read for itself."""
+    if flight.times is None:
+        run = fly(flight, engine)
+        return _Member(metrics(run, flight.criterion), run.packed[-1], None)
+    run = fly(flight.replace(times=np.union1d(flight.grid, flight.times)), engine)
+    judge, keep = (_rows(flight, run, wanted) for wanted in (flight.grid, flight.times))
+    ends = judge[judge >= 0] if run.outcome.status == "completed" else np.append(judge[judge >= 0], len(run.t) - 1)
+    samples = np.where(keep[:, None] >= 0, run.packed[keep], np.nan)
+    return _Member(metrics(_taken(run, np.unique(ends)), flight.criterion), run.packed[-1], samples)
+
+
+def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Where `run` has its samples at the times `wanted`; -1 for those after its end."""
+    t = run.t
+    if isinstance(flight.plant, Sampled):
+        wanted, t = nearest_ticks(wanted, flight.plant, flight.duration), np.rint(t * flight.plant.rate)
+    place = np.minimum(np.searchsorted(t, wanted), len(t) - 1)
+    return np.where(t[place] == wanted, place, -1)
+
+
+def _taken(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
+    """The samples of `run` in some of its rows."""
+    names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
+    signals = {name: value[rows] for name, value in run.signals.items()}
+    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals=signals)

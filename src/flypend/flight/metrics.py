@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -117,9 +118,9 @@ def _since(t: Any, bad: Any) -> float:
     return float(t[place]) if place < len(t) else float("inf")
 
 
-def wilson_bounds(successes: Any, runs: Any) -> tuple[Any, Any]:
-    """Wilson intervals (n,), 95 %, of many success rates: `successes` (n,) out of `runs` (n,); 0 to 1 for no runs."""
-    n, z = np.maximum(runs, 1), 1.959963984540054
+def wilson_bounds(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[Any, Any]:
+    """Wilson intervals (n,) of success rates: `successes` (n,) of `runs` (n,), at `confidence`; 0 to 1 for no runs."""
+    n, z = np.maximum(runs, 1), NormalDist().inv_cdf((1 + confidence) / 2)
     share = np.asarray(successes) / n
     middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
@@ -129,7 +130,5 @@ def wilson_bounds(successes: Any, runs: Any) -> tuple[Any, Any]:
 
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:
     """Wilson interval of a success rate: `successes` out of `runs`, at `confidence`."""
-    from scipy.stats import binomtest  # takes half a second, which a single run does not wait for
-
-    interval = binomtest(int(successes), int(runs)).proportion_ci(confidence, method="wilson")
-    return float(interval.low), float(interval.high)
+    low, high = wilson_bounds(int(successes), int(runs), confidence)
+    return float(low), float(high)

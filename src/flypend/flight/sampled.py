@@ -18,7 +18,7 @@ from flypend.board.computer import FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
-from flypend.laws.law import Controller, Law
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE
 from flypend.plants.actuation import Actuation, make_engine
@@ -46,7 +46,7 @@ class Samples:
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
-def fly(vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant) -> Samples:
+def fly(vehicle: Vehicle, law: BoundLaw | Controller, start: State, duration: float, plant: Plant) -> Samples:
     """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
 
     Rotors start at their least force. Every quantity is recorded at each control tick.

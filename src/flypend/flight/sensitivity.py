@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.errors import InputError
 from flypend.flight.kernels.tangent import fly_tangents
-from flypend.flight.simulate import LEAST_RTOL
-from flypend.laws import Law
+from flypend.flight.labelled import dataset, described, state_variables, variable
+from flypend.flight.outcome import Outcome
+from flypend.flight.request import Flight, Tolerances
+from flypend.laws import BoundLaw, Law
 from flypend.laws.linearise import COORDINATES, tangent_basis
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE, project
+from flypend.model.state import SIZE, E3Direction, project
+from flypend.plants import Ideal
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,29 +37,53 @@ class Sensitivity:
         Of the packed final state by the coordinates of the start: `laws.linearise.COORDINATES`.
     by_gains : (24, k)
         Of the packed final state by the gains.
-    gains : tuple of str
-        Which gains.
-    status : str
-        "completed", "diverged" or "singular"; unless completed, all derivatives are NaN. A derivative that grows
-        beyond a million counts as diverged.
+    outcome : Outcome
+        completed, diverged or singular, with its time; unless completed, all derivatives are NaN. A derivative that
+        grows beyond a million counts as diverged.
+    e3 : "up" or "down"
+        Where the third axis of the frame points.
+    vehicle : Vehicle
+        What was flown.
+    law : str
+        Name of the law that flew it.
+    gains : dict
+        The gains that it was differentiated by, with their values, in the order of `by_gains`.
     """
 
     final: State
-    by_start: Any
-    by_gains: Any
-    gains: tuple[str, ...]
-    status: str
+    by_start: NDArray[np.float64]
+    by_gains: NDArray[np.float64]
+    outcome: Outcome
+    e3: E3Direction
+    vehicle: Vehicle
+    law: str
+    gains: Mapping[str, float]
 
     @property
-    def on_manifold(self) -> tuple[Any, Any]:
+    def on_manifold(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Both in coordinates of the final state: (16, 16) and (16, k)."""
         coordinates = np.linalg.pinv(tangent_basis(self.final))
         return coordinates @ self.by_start, coordinates @ self.by_gains
 
+    def to_xarray(self) -> xarray.Dataset:
+        """The derivatives as an `xarray.Dataset`: by_start on final and start coordinates, by_gains on the gains."""
+        onto, by_gains = self.on_manifold
+        ends, starts, names = ("coordinate",), ("start",), ("gain",)
+        variables = {
+            "coordinate": variable("coordinate", ends, COORDINATES),
+            "start": variable("start", starts, COORDINATES),
+            "by_start": variable("by_start", ends + starts, onto),
+            **state_variables(self.final, (), "final_"),
+        }
+        if self.gains:
+            variables["gain"] = variable("gain", names, list(self.gains))
+            variables["by_gains"] = variable("by_gains", ends + names, by_gains)
+        return dataset(variables, described(self.vehicle, self.law, self.gains, self.e3) | vars(self.outcome))
+
 
 def sensitivity(
     vehicle: Vehicle,
-    law: Law,
+    law: Law | BoundLaw,
     start: State,
     duration: float,
     *,
@@ -75,27 +106,35 @@ def sensitivity(
     InputError
         For a law that is not symbolic, a start that is a batch, and gains that the law lacks.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
     if not isinstance(start, State) or start.batch_shape:
         raise InputError("start", "a single State", repr(start)[:80])
-    duration = errors.number("duration", duration, above=0, unit="s")
-    rtol = errors.number("rtol", rtol, at_least=LEAST_RTOL)
-    law, names = law.bound(vehicle), tuple(gains)
-    errors.only_known("gains", dict.fromkeys(names), law.numbers)
+    flight = Flight(
+        vehicle=vehicle,
+        law=law.bind(vehicle),
+        starts=start,
+        duration=duration,
+        plant=Ideal(),
+        tolerances=Tolerances(rtol=rtol),
+    )
+    bound, names = flight.loop.symbolic, tuple(gains)
+    errors.only_known("gains", dict.fromkeys(names), bound.numbers)
     runs, k = len(COORDINATES) + len(names), len(names)
     directions, rates = np.zeros((runs, SIZE)), np.zeros((runs, k))
     directions[: len(COORDINATES)] = tangent_basis(start).T
     rates[len(COORDINATES) :] = np.eye(k)
-    values = np.tile([law.numbers[name] for name in names], (runs, 1))
-    starts = np.tile(start.packed(), (runs, 1))
-    flown = fly_tangents(vehicle, law, names, starts, directions, values, rates, duration, rtol)
-    failed = flown.status[flown.status != "completed"]
+    flown = fly_tangents(flight, names, directions, rates)
+    failed = np.flatnonzero(flown.status != "completed")
     derivatives = flown.final[:, SIZE:].T if not len(failed) else np.full((SIZE, runs), np.nan)
+    first = int(failed[0]) if len(failed) else 0
     return Sensitivity(
         final=State.from_packed(project(flown.final[0, :SIZE])[0]),
         by_start=derivatives[:, : len(COORDINATES)],
         by_gains=derivatives[:, len(COORDINATES) :],
-        gains=names,
-        status=str(failed[0]) if len(failed) else "completed",
+        outcome=Outcome(flown.status[first].item(), float(flown.end[first])),
+        e3=bound.e3,
+        vehicle=vehicle,
+        law=bound.name,
+        gains={name: bound.numbers[name] for name in names},
     )

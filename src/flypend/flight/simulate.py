@@ -5,38 +5,39 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants
 from flypend.compile.numeric import as_numpy
-from flypend.flight.kernels import ideal_kernel, method_for
-from flypend.flight.kernels.single import Solution, flown_by_kernel
-from flypend.flight.sampled import fly, nearest_ticks
+from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
+from flypend.flight.kernels.single import Solution, sampled_samples
+from flypend.flight.request import Flight, Tolerances, bound_to, some_times
+from flypend.flight.sampled import Samples
+from flypend.flight.sampled import fly as step_by_step
 from flypend.flight.trajectory import Trajectory
-from flypend.laws import Controller, Law
+from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, split
-from flypend.plants import Plant
+from flypend.plants import AnyPlant, Ideal, Sampled
 
 if TYPE_CHECKING:
     from flypend.flight.integrate import Integration
 
-SAMPLE_PERIOD = 0.01
-LEAST_RTOL = 100 * float(np.finfo(float).eps)
-LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 Hz
+ENGINES = ("kernel", "scipy")
 
 
 def simulate(
     vehicle: Vehicle,
-    law: Law | Controller,
+    law: AnyLaw,
     start: State,
     duration: float,
     *,
-    plant: str | Plant = "ideal",
+    plant: str | AnyPlant = "rotors",
     rtol: float = 1e-9,
     atol: float | None = None,
-    times: Any = None,
+    times: ArrayLike | None = None,
     engine: str = "kernel",
 ) -> Trajectory:
     """Fly `vehicle` under `law` from `start` for `duration` seconds.
@@ -51,10 +52,10 @@ def simulate(
         A single state.
     duration : float
         Seconds, > 0.
-    plant : str or Plant
-        "ideal" (continuous time, the wrench acts as commanded; a Controller is sampled at its rate), "rotors" (limits,
-        lag and sampling, integrated by the package's equations), "mujoco" (the same, integrated by MuJoCo), "hehn2011"
-        (thrust and body rates at 50 Hz), or a `Plant`.
+    plant : str, Ideal or Plant
+        "rotors" (limits, lag and sampling, integrated by the package's equations), "ideal" (continuous time, the wrench
+        acts as commanded; a Controller is sampled at its rate), "mujoco" (as "rotors", integrated by MuJoCo),
+        "hehn2011" (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
         Tolerances of the adaptive step (DOP853; from 1e-6 on DP5, which is faster there); atol defaults to rtol, since
         state entries are of order one in SI units.
@@ -77,31 +78,28 @@ def simulate(
         For a batch of states, a duration or tolerance that is not positive, times outside the run, or an unknown
         engine.
     """
-    _check(vehicle, law, start)
-    law = law.bound(vehicle)
-    duration = errors.number("duration", duration, above=0, at_most=LONGEST, unit="s")
-    rtol = errors.number("rtol", rtol, above=0)
-    if rtol < LEAST_RTOL:
-        raise errors.InputError("rtol", f"at least {LEAST_RTOL:g}, a hundred roundoffs", f"{rtol:g}")
-    atol = None if atol is None else errors.number("atol", atol, above=0)
-    errors.one_of("engine", engine, ("kernel", "scipy"))
-    wanted = _sample_times(duration, times)
-    if plant == "ideal":
-        if isinstance(law, Law):
-            return _ideal(vehicle, law, start, duration, rtol, rtol if atol is None else atol, wanted, engine)
-        plant = Plant(limits=False, lag=0.0, rate=law.rate)
-    return _sampled(vehicle, law, start, duration, plants.plant(plant), wanted, engine)
+    if isinstance(start, State) and start.batch_shape:
+        raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
+    exact = Tolerances(rtol=rtol, atol=atol)
+    flight = Flight(
+        vehicle=vehicle, law=bound_to(vehicle, law), starts=start, duration=duration, plant=plants.plant(plant),
+        tolerances=exact, times=some_times(times),
+    )  # fmt: skip
+    return fly(flight, engine)
 
 
-def _ideal(
-    vehicle: Vehicle, law: Law, start: State, duration: float, rtol: float, atol: float, wanted: Any, engine: str
-) -> Trajectory:
+def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
+    """Fly a request with a single start by `engine`, "kernel" or "scipy" as in `simulate`; it raises nothing else."""
+    errors.one_of("engine", engine, ENGINES)
+    return _ideal(flight, engine) if isinstance(flight.plant, Ideal) else _sampled(flight, flight.plant, engine)
+
+
+def _ideal(flight: Flight, engine: str) -> Trajectory:
     """The closed loop in continuous time, the wrench acting as commanded."""
-    loop = close_loop(vehicle, law)
+    loop = close_loop(flight.vehicle, flight.loop.symbolic)
     outputs = as_numpy(loop.outputs)
-    solve = _by_kernel if engine == "kernel" else _by_scipy
-    solution, drift = solve(loop, start.packed(), duration, rtol, atol, outputs)
-    end = solution.outcome.time
+    solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop, outputs)
+    wanted, end = flight.moments, solution.outcome.time
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
     packed = solution(t)
     values = np.stack([outputs(time, s) for time, s in zip(t, packed, strict=True)])
@@ -110,29 +108,27 @@ def _ideal(
         **split(packed),
         thrust=values[:, 0],
         moment=values[:, 1:4],
-        rotor_forces=values[:, :4] @ vehicle.unmixing(law.e3).T,
+        rotor_forces=values[:, :4] @ flight.vehicle.unmixing(flight.law.e3).T,
         signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)),
-        drift=drift,
+        drift=solution.drift,
         outcome=solution.outcome,
-        e3=law.e3,
-        vehicle=vehicle,
-        law=law.name,
-        gains=dict(law.gains),
-        x_ref=_reference(law, t),
+        e3=flight.law.e3,
+        vehicle=flight.vehicle,
+        law=flight.law.name,
+        gains=dict(flight.law.gains),
+        x_ref=_reference(flight.law, t),
         interpolant=solution,
     )
 
 
-def _by_kernel(loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, _: Any) -> tuple[Solution, Any]:
-    solution = Solution(
-        ideal_kernel(loop.vehicle, loop.law, method=method_for(rtol, loop.law)), start, duration, rtol, atol
-    )
-    return solution, solution.drift
+def _by_kernel(flight: Flight) -> Solution:
+    kernel = kernel_of(flight)
+    assert isinstance(kernel, IdealKernel)
+    return Solution(kernel, flight)
 
 
-def _by_scipy(
-    loop: ClosedLoop, start: Any, duration: float, rtol: float, atol: float, outputs: Any
-) -> tuple[Integration, Any]:
+def _by_scipy(flight: Flight, loop: ClosedLoop, outputs: Any) -> Integration:
+    errors.require("scipy", extra="studies", for_="engine")
     from flypend.flight.integrate import integrate  # brings SciPy's integrators, which a kernel does not wait for
 
     guard, margin, reason = loop.law.guard, None, ""
@@ -143,19 +139,17 @@ def _by_scipy(
         def margin(t: float, s: Any) -> float:
             return float(outputs(t, s)[row]) - threshold
 
-    rates = as_numpy(loop.rates)
-    solution = integrate(rates, start, duration, rtol=rtol, atol=atol, margin=margin, margin_reason=reason)
-    return solution, solution.drift
+    exact, rates = flight.tolerances, as_numpy(loop.rates)
+    return integrate(
+        rates, flight.starts.packed(), flight.duration, rtol=exact.rtol, atol=exact.absolute, margin=margin,
+        margin_reason=reason,
+    )  # fmt: skip
 
 
-def _sampled(
-    vehicle: Vehicle, law: Law | Controller, start: State, duration: float, plant: Plant, wanted: Any, engine: str
-) -> Trajectory:
-    """A sampled flight; it is recorded at control ticks, of which those nearest to `wanted` are kept."""
-    if engine == "kernel" and isinstance(law, Law) and plant.engine == "equations":
-        samples = flown_by_kernel(vehicle, law, start, duration, plant, nearest_ticks(wanted, plant, duration))
-    else:
-        samples = fly(vehicle, law, start, duration, plant).at(wanted * plant.rate)
+def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
+    """A sampled flight; it is recorded at control ticks, of which those nearest to its times are kept."""
+    samples = _samples(flight, plant, engine)
+    law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     return Trajectory(
         t=samples.t,
@@ -173,25 +167,15 @@ def _sampled(
     )
 
 
-def _reference(law: Law | Controller, times: Any) -> Any:
+def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
+    if engine == "kernel" and has_kernel(flight):
+        kernel = kernel_of(flight)
+        assert isinstance(kernel, SampledKernel)
+        return sampled_samples(kernel, flight)
+    seeded = plant.replace(seed=flight.seed)
+    flown = step_by_step(flight.vehicle, flight.law, flight.starts, flight.duration, seeded)
+    return flown.at(flight.moments * plant.rate)
+
+
+def _reference(law: BoundLaw | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:
     return None if law.reference is None else sampled(law.reference, times)
-
-
-def _check(vehicle: Vehicle, law: Law | Controller, start: State) -> None:
-    kinds = (("vehicle", vehicle, Vehicle), ("law", law, Law | Controller), ("start", start, State))
-    for name, value, kind in kinds:
-        if not isinstance(value, kind):
-            raise errors.InputError(name, f"a {getattr(kind, '__name__', 'Law or Controller')}", repr(value))
-    if start.batch_shape:
-        raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
-
-
-def _sample_times(duration: float, times: Any) -> Any:
-    if times is None:
-        return np.linspace(0.0, duration, max(2, round(duration / SAMPLE_PERIOD) + 1))
-    wanted = errors.array("times", times, (None,))
-    if not len(wanted) or np.any(np.diff(wanted) <= 0):
-        raise errors.InputError("times", "increasing times of shape (n,)", f"shape {wanted.shape}, or not increasing")
-    if wanted[0] < 0 or wanted[-1] > duration:
-        raise errors.InputError("times", f"times inside 0 .. {duration:g} s", f"{wanted[0]:g} .. {wanted[-1]:g} s")
-    return wanted

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flypend import errors
-from flypend.files.netcdf import Variable, write_netcdf
+from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
 from flypend.files.whole import whole_file
+from flypend.flight.labelled import AXES, dataset, described, variable
 from flypend.flight.outcome import Outcome
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP, SHAPES, E3Direction
@@ -20,11 +21,7 @@ from flypend.model.state import FLIP, SHAPES, E3Direction
 if TYPE_CHECKING:
     import xarray
 
-UNITS = {
-    "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
-    "moment": "N m", "rotor_forces": "N", "x_ref": "m",
-}  # fmt: skip
-_LABELS = {"axis": ("1", "2", "3"), "drift_of": ("length of y", "tangency of y_dot", "orthogonality of R")}
+_DRIFT_OF = ("length of y", "tangency of y_dot", "orthogonality of R")
 _STATE = tuple(SHAPES)
 _ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces", "x_ref")
 
@@ -104,6 +101,11 @@ class Trajectory:
         return State(**{name: getattr(self, name) for name in _STATE})
 
     @property
+    def final(self) -> State:
+        """The last state, as the integrator left it."""
+        return State.trusted(self.packed[-1])
+
+    @property
     def wrench(self) -> Wrench:
         """The sampled wrenches as one batch."""
         return Wrench(self.thrust, self.moment)
@@ -136,11 +138,11 @@ class Trajectory:
         )
 
     def to_xarray(self) -> xarray.Dataset:
-        """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown."""
-        import xarray
+        """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown.
 
-        found = xarray.Dataset(self._variables(), attrs=self._attributes())
-        return found.set_coords(["t", *_LABELS])
+        All but the drift, which belongs to steps and not to samples.
+        """
+        return dataset(self._variables(), self._attributes())
 
     def save(self, path: str | Path) -> None:
         """Write the run to the NetCDF file `path` (.nc), which xarray, MATLAB (ncread) and pandas through xarray open.
@@ -148,40 +150,29 @@ class Trajectory:
         The file appears whole or not at all. Raises InputError if it cannot be written.
         """
         with whole_file(path, [".nc"]) as partial:
-            write_netcdf(partial, self._variables(), self._attributes())
+            labels = {name: Variable((name,), np.array(values)) for name, values in AXES.items()}
+            drift = {
+                "drift_of": Variable(("drift_of",), np.array(_DRIFT_OF)),
+                "drift": Variable(
+                    ("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"}
+                ),
+            }
+            write_netcdf(partial, {**labels, **self._variables(), **drift}, self._attributes())
 
     def _variables(self) -> dict[str, Variable]:
-        """Arrays and labels, with their dimensions and units."""
-        dims = {0: ("t",), 1: ("t", "axis"), 2: ("t", "row", "column")}
-        arrays = {name: np.array(getattr(self, name)) for name in _ARRAYS} | {
-            name: np.array(value) for name, value in self.signals.items()
-        }
-        return {
-            "t": Variable(("t",), np.array(self.t), {"units": "s"}),
-            **{name: Variable((name,), np.array(labels)) for name, labels in _LABELS.items()},
-            **{
-                name: Variable(
-                    ("t", "rotor") if name == "rotor_forces" else dims[value.ndim - 1],
-                    value,
-                    {"units": UNITS.get(name, "")},
-                )
-                for name, value in arrays.items()
-            },
-            "drift": Variable(("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"}),
-        }
+        """Arrays on the samples, with their dimensions and units."""
+        over = ("t",)
+        arrays = {name: getattr(self, name) for name in ("t", *_ARRAYS)} | dict(self.signals)
+        return {name: variable(name, over, value) for name, value in arrays.items()}
 
     def _attributes(self) -> dict[str, Any]:
         """What was flown and how it ended."""
         return {
-            "e3": self.e3,
-            "law": self.law,
-            "gains": json.dumps(dict(self.gains)),
-            "vehicle": json.dumps(self.vehicle.to_dict()),
+            **described(self.vehicle, self.law, self.gains, self.e3),
             "outcome": self.outcome.status,
             "outcome_time": self.outcome.time,
             "outcome_reason": self.outcome.reason,
             "signals": json.dumps(list(self.signals)),
-            "frame": f"world with third axis {self.e3}; omega and moment in the body frame",
         }
 
     def to_html(
@@ -238,26 +229,23 @@ class Trajectory:
 
 def load(path: str | Path) -> Trajectory:
     """Read the run that `Trajectory.save` wrote to `path`. Raises InputError if the file cannot be read as one."""
-    import xarray
-
     try:
-        with xarray.open_dataset(path, engine="scipy") as opened:
-            return _from_dataset(opened.load())
+        return _from_file(*read_netcdf(Path(path)))
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        # What xarray and SciPy raise for a file that is no NetCDF, is cut short, or lacks a part.
+        # What a file that is no NetCDF, is cut short, or lacks a part makes of itself.
         told = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
         raise errors.InputError(str(path), "a run saved by flypend", told) from None
 
 
-def _from_dataset(data: xarray.Dataset) -> Trajectory:
-    attributes = data.attrs
+def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Trajectory:
     missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
     if missing:
         raise ValueError(f"a file without the attributes {missing}")
-    arrays: dict[str, Any] = {name: data[name].values for name in ("t", *_ARRAYS, "drift")}
+    arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
+    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # what xarray wrote
     return Trajectory(
         **arrays,
-        signals={name: data[name].values for name in json.loads(attributes["signals"])},
+        signals={name: variables[name].values for name in json.loads(attributes["signals"])},
         outcome=Outcome(attributes["outcome"], float(attributes["outcome_time"]), attributes["outcome_reason"]),
         e3=attributes["e3"],
         vehicle=Vehicle.from_dict(json.loads(attributes["vehicle"])),

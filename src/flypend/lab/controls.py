@@ -5,16 +5,15 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from flypend.lab.gains import GAINS, gains_of, proposed_gains
-from flypend.lab.setting import LONGEST, law_of, plain
+from flypend.lab.gains import proposed_gains, sliders_of
+from flypend.lab.setting import LONGEST, Setting, plain
+from flypend.laws import law_names
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
-from flypend.plants import MOTION_CAPTURE, Noise, Plant, Wind
-from flypend.plants import plant as plant_named
-from flypend.settings.runfile import Flight
+from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 
-PLANTS = {"ideal": "ideal", "rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz"}
+PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 FACTOR = 4.0  # of a gain's slider, either way
 
@@ -24,14 +23,14 @@ def offer() -> dict[str, Any]:
     first = {
         "vehicle": {"base": "hehn2011"},
         "law": {"name": "inverted", "gains": {}},
-        "plant": {"base": "ideal"},
+        "plant": {"base": "rotors"},
         "start": plain(State(y=(0.0, 0.0, -1.0))),
         "duration": 6.0,
         "pokes": [],
     }
     return {
         "vehicles": vehicle_names(),
-        "laws": list(GAINS),
+        "laws": law_names(),
         "plants": PLANTS,
         "first": first,
         "starts": {name: plain(State(y=y)) for name, y in STARTS.items()},
@@ -48,27 +47,28 @@ def _preset(name: str) -> dict[str, Any]:
     return {
         "vehicle": {"base": row.vehicle.name},
         "law": {"name": "corrected", "gains": dict(row.gains)},
-        "plant": {"base": "ideal"},
+        "plant": {"base": row.plant},
         "start": plain(row.start.flipped()),
         "duration": row.duration,
         "pokes": [],
     }
 
 
-def sliders(flight: Flight) -> list[dict[str, Any]]:
-    """The sliders of `flight`: path in the setting, group, words, unit, value, range, whether logarithmic."""
-    given, proposed = gains_of(law_of(flight), flight.vehicle), proposed_gains(law_of(flight).name, flight.vehicle)
+def sliders(setting: Setting) -> list[dict[str, Any]]:
+    """The sliders of `setting`: path in it, group, words, unit, value, range, whether logarithmic."""
+    flight, law = setting.flight, setting.law
+    given, proposed = law.gains_for(flight.vehicle), proposed_gains(law.name, flight.vehicle)
     out = []
-    for gain, (words, unit) in GAINS[law_of(flight).name].items():
-        value, usual = given[gain], proposed[gain]
+    for name in sliders_of(law):
+        value, usual, gain = given[name], proposed[name], law.gains[name]
         low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
-        out.append(_slider(f"law.gains.{gain}", "gains", words, unit, value, low, high, log=True))
-    if flight.plant != "ideal":
-        out += _plant_sliders(plant_named(flight.plant), flight.vehicle)
+        out.append(_slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, low, high, log=True))
+    if isinstance(flight.plant, Sampled):
+        out += _plant_sliders(flight.plant, flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
 
 
-def _plant_sliders(plant: Plant, vehicle: Vehicle) -> list[dict[str, Any]]:
+def _plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
     least, largest = vehicle.rotor_limits
     share = vehicle.weight / len(vehicle.rotor_spins)
     lag = vehicle.rotor_lag if plant.lag is None else plant.lag

@@ -11,14 +11,13 @@ from flypend.flight.kernels import IdealKernel, SampledKernel
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
-from flypend.flight.sampled import nearest_ticks
-from flypend.flight.simulate import SAMPLE_PERIOD
+from flypend.flight.request import Flight
 from flypend.flight.trajectory import Trajectory
-from flypend.lab.gains import gains_of
-from flypend.lab.setting import Poke, Setting, in_frame, law_of
+from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Tell, Tuned, tuned, values
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import FLIP_PACKED, E3Direction, split
+from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
 
@@ -40,17 +39,17 @@ def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
     After a poke it goes on for the duration of the setting. `tell` is called before something is compiled.
     """
     flight = setting.flight
-    machine, gains = tuned(flight, tell), values(flight)
-    begin, state, rotors, number = 0.0, flight.start.packed(), None, 0
+    machine, gains = tuned(setting, tell), values(setting)
+    begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
         while_ = flight.duration if poke is None else poke.time - begin
-        part = _part(machine, gains, state, rotors, while_, _seed(setting) + number)
+        part = _after(machine, gains, flight, state, rotors, while_, number)
         parts.append(_moved(part, begin, last=poke is None))
         if poke is None or part.outcome.status != "completed":
             break
         end = State(**split(part.packed[-1]))
-        state = poked(end, flight.vehicle, machine.law.e3, poke).packed()
+        state = poked(end, flight.vehicle, machine.law.e3, poke)
         begin, rotors, number = begin + float(part.t[-1]), part.rotors[-1], number + 1
     return _trajectory(setting, machine, parts)
 
@@ -86,27 +85,25 @@ def verdict(run: Trajectory, machine: Tuned) -> dict[str, Any]:
     return {"words": words, "good": bool(judged.success), "settling": settling, "excursion": excursion}
 
 
-def _seed(setting: Setting) -> int:
-    plant = setting.flight.plant
-    return 0 if isinstance(plant, str) else int(plant.seed)
+def _after(machine: Tuned, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int) -> Part:
+    """Part `number` of a flight: from `state` and the forces of the `rotors`, for `duration` s, with its own noise."""
+    if isinstance(flight.plant, Sampled):
+        duration = max(duration, 1 / flight.plant.rate)
+    elif duration == 0:
+        return _part_of(machine, gains, np.zeros(1), state.packed()[None], Outcome("completed", 0.0))
+    part = flight.replace(starts=state, duration=duration, seed=(flight.seed or 0) + number)
+    return _part(machine, gains, part, rotors)
 
 
-def _part(machine: Tuned, gains: Any, state: Any, rotors: Any, duration: float, seed: int) -> Part:
+def _part(machine: Tuned, gains: Any, flight: Flight, rotors: Any) -> Part:
     if isinstance(machine.kernel, SampledKernel):
-        return _sampled_part(machine, machine.kernel, gains, state, rotors, duration, seed)
-    return _ideal_part(machine, machine.kernel, gains, state, duration)
+        return _sampled_part(machine.kernel, gains, flight, rotors)
+    return _ideal_part(machine, machine.kernel, gains, flight)
 
 
-def _grid(duration: float) -> Any:
-    return np.linspace(0.0, duration, max(2, round(duration / SAMPLE_PERIOD) + 1))
-
-
-def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, state: Any, duration: float) -> Part:
-    if duration == 0:
-        return _part_of(machine, gains, np.zeros(1), state[None], Outcome("completed", 0.0))
-    rtol = 1e-9
-    solution = Solution(kernel, state, duration, rtol, rtol, gains)
-    t, end = _grid(duration), solution.outcome.time
+def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight) -> Part:
+    solution = Solution(kernel, flight, gains)
+    t, end = flight.grid, solution.outcome.time
     if solution.outcome.status != "completed":
         t = np.append(t[t < end], end)
     return _part_of(machine, gains, t, solution(t), solution.outcome)
@@ -119,15 +116,9 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
     return Part(t, packed, rotors, wrench, outcome)
 
 
-def _sampled_part(
-    machine: Tuned, kernel: SampledKernel, gains: Any, state: Any, rotors: Any, duration: float, seed: int
-) -> Part:
-    plant, e3 = kernel.plant, machine.law.e3
-    true = plant.true_vehicle(machine.vehicle)
-    if duration < 1 / plant.rate:
-        duration = 1 / plant.rate
-    ticks = nearest_ticks(_grid(duration), plant, duration)
-    samples = sampled_samples(kernel, state, duration, ticks, seed, gains, rotors)
+def _sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
+    e3, true = kernel.loop.law.e3, kernel.loop.sampled.true_vehicle(flight.vehicle)
+    samples = sampled_samples(kernel, flight, gains, rotors)
     packed = samples.packed * (1.0 if e3 == "up" else FLIP_PACKED)
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
 
@@ -143,7 +134,7 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )
-    law = law_of(setting.flight)
+    law = setting.law
     return Trajectory(
         t=t,
         **split(packed),
@@ -155,5 +146,5 @@ def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajecto
         e3=law.e3,
         vehicle=machine.vehicle,
         law=law.name,
-        gains=dict(gains_of(law, machine.vehicle)),
+        gains=law.gains_for(machine.vehicle),
     )

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from flypend.flight.ensemble import simulate_ensemble
+from flypend.flight.ensemble import fly_many
 from flypend.lab.setting import Setting
 from flypend.lab.tuning import Tell, tuned, values
 from flypend.model import State
 from flypend.model.state import SHAPES
+from flypend.plants import Ideal
 
 RUNS, CHUNK = {"ideal": 3000, "sampled": 1200}, {"ideal": 200, "sampled": 24}
 # Powers of the inverse of the root of x³ = x + 1: the additive sequence that fills a square most evenly.
@@ -32,19 +33,17 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
     Each chunk has `total`, `done`, and of its flights `y` (e₃ up), `settling` (s; None for a failure) and `cause`.
     """
     flight = setting.flight
-    machine, gains = tuned(flight, tell), values(flight)
-    kind = "ideal" if machine.plant is None else "sampled"
+    machine, gains = tuned(setting, tell), values(setting)
+    kind = "ideal" if isinstance(flight.plant, Ideal) else "sampled"
     count, done = RUNS[kind], 0
     rods = directions(count)
     tuning = {name: float(value) for name, value in zip(machine.names, gains, strict=True)}
-    plant = "ideal" if machine.plant is None else flight.plant
     while done < count:
         y = rods[done : done + CHUNK[kind]]
         starts = _starts(setting.start, y)
-        result = simulate_ensemble(
-            flight.vehicle, machine.law, starts if machine.law.e3 == "up" else starts.flipped(), flight.duration,
-            plant=plant, gains=tuning, criterion=machine.criterion, workers=1,
-        )  # fmt: skip
+        own = starts if machine.law.e3 == "up" else starts.flipped()
+        request = flight.replace(law=machine.law, starts=own, gains=tuning, criterion=machine.criterion)
+        result = fly_many(request, workers=1)
         done += len(y)
         settling = [
             value if good else None for value, good in zip(result.settling.tolist(), result.success, strict=True)

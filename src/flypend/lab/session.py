@@ -89,13 +89,13 @@ def flights(message: Any, tell: Tell) -> Iterator[dict[str, Any]]:
     try:
         setting = setting_of(message.get("setting"))
         run = fly(setting, tell)
-        machine = tuned(setting.flight)
+        machine = tuned(setting)
         yield {
             "kind": "flight",
             "number": number,
             "run": replay.pack(run),
             "verdict": verdict(run, machine),
-            "sliders": sliders(setting.flight),
+            "sliders": sliders(setting),
             "start": plain(setting.start),
             "toml": toml(setting),
             "python": python(setting),

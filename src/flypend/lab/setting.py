@@ -8,18 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from threading import RLock
 from typing import Any
 
 import numpy as np
 
 from flypend import errors, geometry
 from flypend.errors import InputError
-from flypend.lab.gains import GAINS, proposed_gains
-from flypend.laws import Law
-from flypend.model import State
+from flypend.flight.request import Flight
+from flypend.lab.gains import proposed_gains, sliders_of
+from flypend.laws import Law, law_from_dict, law_names
+from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SHAPES
-from flypend.plants import Plant
-from flypend.settings.runfile import Flight, flight_of
+from flypend.plants import Ideal
+from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
@@ -35,6 +37,7 @@ FURTHEST = 100.0  # of a gain from the one proposed, as a factor
 # Largest entries of a start, SI.
 LARGEST = {"x": 1e3, "x_dot": 1e3, "omega": 100.0, "y_dot": 100.0}
 BODIES = ("bob", "vehicle")
+SYMBOLS = RLock()  # CasADi's symbols are shared by no two threads
 
 
 @dataclass(frozen=True)
@@ -48,9 +51,10 @@ class Poke:
 
 @dataclass(frozen=True)
 class Setting:
-    """A flight to make, the pokes on the way, and its start with e₃ up."""
+    """A flight to make, its law as it was asked for, the pokes on the way, and its start with e₃ up."""
 
     flight: Flight
+    law: Law
     pokes: tuple[Poke, ...]
     start: State
 
@@ -71,12 +75,23 @@ def setting_of(asked: Any) -> Setting:
     law = given.get("law")
     down = isinstance(law, dict) and law.get("name") in ("printed", "corrected")
     given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
-    if isinstance(law, dict) and law.get("name") in GAINS and isinstance(law.get("gains"), dict):
-        errors.only_known("law.gains", law["gains"], GAINS[law["name"]])
-    flight = flight_of(given)
+    if isinstance(law, dict) and law.get("name") in law_names() and isinstance(law.get("gains"), dict):
+        errors.only_known("law.gains", law["gains"], sliders_of(law_from_dict({"name": law["name"]})))
+    law_asked = _law(given)
+    flight = run_of(given).flight
     _check_size(flight)
-    _check_gains(flight)
-    return Setting(flight, pokes, start)
+    return Setting(flight, law_asked, pokes, start)
+
+
+def _law(given: dict[str, Any]) -> Law:
+    """The law that a page asks for, its gains near enough to those proposed for steps to follow its loops."""
+    for key in ("vehicle", "law"):
+        check_plain(key, given.get(key, {}))
+    with np.errstate(all="ignore"):  # as in `run_of`
+        vehicle = Vehicle.from_dict(vehicle_table(given.get("vehicle")))
+        law = law_from_dict(table_at(given, "law"))
+        _check_gains(law, vehicle)
+    return law
 
 
 def plain(state: State) -> dict[str, Any]:
@@ -132,8 +147,7 @@ def _pokes(given: Any) -> tuple[Poke, ...]:
 def _check_size(flight: Flight) -> None:
     if flight.duration > LONGEST:
         raise InputError("duration", f"at most {LONGEST:g} s", f"{flight.duration:g} s")
-    if not isinstance(flight.plant, Plant):
-        errors.one_of("plant", flight.plant, ("ideal", "rotors", "hehn2011"))
+    if isinstance(flight.plant, Ideal):
         return
     if flight.plant.engine != "equations":
         raise InputError("plant.engine", "equations, in the laboratory", flight.plant.engine)
@@ -143,25 +157,18 @@ def _check_size(flight: Flight) -> None:
             raise InputError(f"plant.{name}", f"{low:g} to {high:g}", f"{value:g}")
 
 
-def _check_gains(flight: Flight) -> None:
-    """Whether the law takes its gains for this vehicle, and its loops are no faster than steps can follow."""
-    law = law_of(flight)
-    proposed = proposed_gains(law.name, flight.vehicle)
-    for name, value in law.gains.items():
-        if name in GAINS[law.name] and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
+def _check_gains(law: Law, vehicle: Vehicle) -> None:
+    """Whether `law` takes its gains for `vehicle`, and its loops are no faster than steps can follow."""
+    proposed = proposed_gains(law.name, vehicle)
+    for name, value in law.given.items():
+        if law.gains[name].label and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
             expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
-    if law.name != "lqr":  # each of its weights is one by itself, and its equation takes a while
-        try:
-            law.bound(flight.vehicle)
-        except InputError as error:
-            raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
-
-
-def law_of(flight: Flight) -> Law:
-    """The law of `flight`; a setting has no controller that is not one."""
-    assert isinstance(flight.law, Law)
-    return flight.law
+    try:
+        with SYMBOLS:  # a law that is bound for the first time may be linearised
+            law.bind(vehicle)
+    except InputError as error:
+        raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 
 
 def in_frame(vector: Any, e3: str) -> Any:

@@ -6,25 +6,21 @@ import json
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from threading import RLock
 from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels import IdealKernel, SampledKernel, ideal_kernel, method_for, sampled_kernel, structure
-from flypend.lab.gains import GAINS, gains_of
-from flypend.lab.setting import law_of
-from flypend.laws import Law
+from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
+from flypend.lab.gains import sliders_of
+from flypend.lab.setting import SYMBOLS, Setting
+from flypend.laws import BoundLaw, Law, law_from_dict
 from flypend.laws.closed_loop import symbolic_loop
-from flypend.laws.law import law_from_dict
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
-from flypend.plants import Plant
-from flypend.plants import plant as plant_named
-from flypend.plants.loop import Loop
-from flypend.settings.runfile import Flight
+from flypend.plants import Sampled
 
 MOST = 48
 Tell = Callable[[], Any]
@@ -36,80 +32,80 @@ class Tuned:
 
     Parameters
     ----------
-    vehicle : Vehicle
-        What flies.
-    law : Law
-        The law of the machine code, whose `names` are inputs.
-    names : tuple of str
-        Gains that are inputs.
-    criterion : Criterion
-        What the flight should do.
-    plant : Plant, optional
-        None for the ideal one.
     kernel : IdealKernel or SampledKernel
-        The machine code.
+        The machine code; the parameters of its loop are inputs.
     wrench : Function
         (t, state, gains) → thrust and moment, as commanded.
     """
 
-    vehicle: Vehicle
-    law: Law
-    names: tuple[str, ...]
-    criterion: Criterion
-    plant: Plant | None
     kernel: IdealKernel | SampledKernel
     wrench: ca.Function
 
+    @property
+    def vehicle(self) -> Vehicle:
+        """What flies."""
+        return self.kernel.loop.vehicle
+
+    @property
+    def law(self) -> BoundLaw:
+        """The law of the machine code, whose `names` are inputs."""
+        return self.kernel.loop.symbolic
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Gains that are inputs."""
+        return self.kernel.loop.parameters
+
+    @property
+    def criterion(self) -> Criterion:
+        """What the flight should do."""
+        return self.kernel.criterion
+
 
 _made: OrderedDict[str, Tuned] = OrderedDict()
-_building = RLock()  # CasADi's symbols are shared by no two threads
 
 
-def tuned(flight: Flight, tell: Tell = lambda: None) -> Tuned:
-    """What flies `flight`; `tell` is called if it has to be made first, which takes a second."""
-    fixed = {name: value for name, value in law_of(flight).gains.items() if name not in GAINS[law_of(flight).name]}
-    plant = None if flight.plant == "ideal" else plant_named(flight.plant).replace(seed=0)
-    kept = None if plant is None else repr(structure(plant))
-    key = json.dumps([flight.vehicle.to_dict(), law_of(flight).name, fixed, kept, flight.rtol], sort_keys=True)
-    with _building:
+def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned:
+    """What flies `setting`; `tell` is called if it has to be made first, which takes a second."""
+    flight, law = setting.flight, setting.law
+    fixed = {name: value for name, value in law.given.items() if not law.gains[name].label}
+    kept = repr(structure(flight.plant)) if isinstance(flight.plant, Sampled) else "ideal"
+    key = json.dumps([flight.vehicle.to_dict(), law.name, fixed, kept, flight.tolerances.rtol], sort_keys=True)
+    with SYMBOLS:
         if key not in _made:
             tell()
-            _made[key] = _make(flight, fixed, plant)
+            _made[key] = _make(setting, fixed)
         _made.move_to_end(key)
         while len(_made) > MOST:
             _made.popitem(last=False)
         made = _made[key]
-    if plant is None or not isinstance(made.kernel, SampledKernel):
-        return made
-    return replace(made, plant=plant, kernel=made.kernel.through(plant))
+    if isinstance(flight.plant, Sampled) and isinstance(made.kernel, SampledKernel):
+        return replace(made, kernel=made.kernel.through(flight.plant.replace(seed=0)))
+    return made
 
 
-def _make(flight: Flight, fixed: dict[str, Any], plant: Plant | None) -> Tuned:
-    vehicle, criterion = flight.vehicle, goal(law_of(flight))
-    law = law_from_dict({"name": law_of(flight).name, "gains": fixed}).bound(vehicle)
-    names = tuple(GAINS[law.name])
-    if law.name == "lqr":
-        law = by_matrix(gain_matrix(vehicle, law_of(flight).gains))
-        names = tuple(law.gains)
-    if plant is None:
-        method = method_for(flight.rtol, law)
-        kernel: Any = ideal_kernel(vehicle, law, criterion, names, method=method)
-    else:
-        kernel = sampled_kernel(Loop(vehicle, law, plant, names), criterion)
-    loop = symbolic_loop(vehicle, law, names)
-    wrench = ca.densify(ca.vertcat(loop.wrench.thrust, loop.wrench.moment))
-    function = ca.Function("wrench", [loop.t, loop.s, loop.p], ca.cse([wrench]))
-    return Tuned(vehicle, law, names, criterion, plant, kernel, function)
+def _make(setting: Setting, fixed: dict[str, Any]) -> Tuned:
+    flight, asked = setting.flight, setting.law
+    tunable, names = law_from_dict({"name": asked.name, "gains": fixed}), sliders_of(asked)
+    if asked.name == "lqr":
+        tunable = by_matrix(gain_matrix(flight.vehicle, asked.values))
+        names = tuple(tunable.gains)
+    law = tunable.bind(flight.vehicle)
+    loop = replace(flight.replace(law=law).loop, parameters=names)
+    kernel = kernel_for(loop, goal(asked), flight.tolerances)
+    symbols = symbolic_loop(loop.vehicle, law, names)
+    wrench = ca.densify(ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment))
+    return Tuned(kernel, ca.Function("wrench", [symbols.t, symbols.s, symbols.p], ca.cse([wrench])))
 
 
-def values(flight: Flight) -> Any:
+def values(setting: Setting) -> NDArray[np.float64]:
     """The values (k,) of the gains that are inputs."""
-    law, vehicle = law_of(flight), flight.vehicle
+    law, vehicle = setting.law, setting.flight.vehicle
     if law.name == "lqr":
-        with _building:  # the linearisation is symbolic, too
-            return np.array(list(entries(gain_matrix(vehicle, law.gains)).values()))
-    gains = gains_of(law, vehicle)
-    return np.array([float(gains[name]) for name in GAINS[law.name]])
+        with SYMBOLS:  # the linearisation is symbolic, too
+            return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
+    gains = law.gains_for(vehicle)
+    return np.array([float(gains[name]) for name in sliders_of(law)])
 
 
 def goal(law: Law) -> Criterion:

@@ -1,22 +1,35 @@
 """Control laws: each a factory whose keyword arguments are its gains and whose result is a `Law`.
 
-A law of one's own is `Law(name=..., e3=..., gains={...}, control=function)` with
-`function(t, state, vehicle, gains) -> Control` written in CasADi expressions; see `flypend.laws.law`.
+A law of one's own is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wrench`: see `from_function`. One
+that knows more of itself (a Lyapunov function, a reference, a frame) is a `Law`.
 """
 
+from flypend.laws.bound import BoundLaw, Computer, Control, Guard
+from flypend.laws.controller import Controller
 from flypend.laws.corrected import corrected
+from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
-from flypend.laws.law import Computer, Control, Controller, Guard, Law, law_from_dict, law_names
+from flypend.laws.law import Law
 from flypend.laws.lqr import lqr
+from flypend.laws.named import law_from_dict, law_names
+from flypend.laws.own import LawError, from_function
 from flypend.laws.printed import printed
 
+AnyLaw = Law | BoundLaw | Controller
+
 __all__ = [
+    "AnyLaw",
+    "BoundLaw",
+    "Bounds",
     "Computer",
     "Control",
     "Controller",
+    "Gain",
     "Guard",
     "Law",
+    "LawError",
     "corrected",
+    "from_function",
     "inverted",
     "law_from_dict",
     "law_names",

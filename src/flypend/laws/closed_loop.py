@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import casadi as ca
-import numpy as np
 
 from flypend import errors
+from flypend.laws.bound import BoundLaw
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
-from flypend.model.state import FLIP_PACKED, SIZE
+from flypend.model.state import SIZE
 
 
 @dataclass(frozen=True)
@@ -51,23 +51,24 @@ class ClosedLoop:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     rates: ca.Function
     outputs: ca.Function
     signal_names: tuple[str, ...]
 
 
-def symbolic_loop(vehicle: Vehicle, law: Law, parameters: Sequence[str] = ()) -> SymbolicLoop:
+def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> SymbolicLoop:
     """Write the closed loop of `vehicle` under `law` in symbols, the gains named in `parameters` as symbols too.
 
     Raises InputError for a parameter that is not a number of the law, or that its equations do not contain (a weight
     from which a gain matrix was computed beforehand, say).
     """
-    errors.only_known("law.gains", dict.fromkeys(parameters), law.numbers)
+    bound = law.bind(vehicle)
+    errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)
     t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
     state = State.symbolic(s)
-    control = law.evaluate(t, state, vehicle, gains={name: p[i] for i, name in enumerate(parameters)})
-    rates = equations_of_motion(state, control.wrench, vehicle, law.e3)
+    control = bound.evaluate(t, state, vehicle, gains={name: p[i] for i, name in enumerate(parameters)})
+    rates = equations_of_motion(state, control.wrench, vehicle, bound.e3)
     for i, name in enumerate(parameters):
         wrench = ca.vertcat(control.wrench.thrust, control.wrench.moment)
         if not ca.depends_on(wrench, p[i]):
@@ -81,14 +82,15 @@ def symbolic_loop(vehicle: Vehicle, law: Law, parameters: Sequence[str] = ()) ->
     return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, tuple(parameters))
 
 
-def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
+def close_loop(vehicle: Vehicle, law: Law | BoundLaw) -> ClosedLoop:
     """Write the closed loop of `vehicle` under `law` in symbols and compile it to CasADi functions."""
-    loop = symbolic_loop(vehicle, law)
+    bound = law.bind(vehicle)
+    loop = symbolic_loop(vehicle, bound)
     outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())
     rates, outputs = ca.cse([loop.rates, ca.densify(outputs)])
     return ClosedLoop(
         vehicle=vehicle,
-        law=law,
+        law=bound,
         rates=ca.Function("rates", [loop.t, loop.s], [rates], ["t", "s"], ["s_dot"]),
         outputs=ca.Function("outputs", [loop.t, loop.s], [outputs], ["t", "s"], ["outputs"]),
         signal_names=tuple(loop.signals),
@@ -96,21 +98,7 @@ def close_loop(vehicle: Vehicle, law: Law) -> ClosedLoop:
 
 
 def upright_wrench(
-    law: Law, t: Any, packed: Any, vehicle: Vehicle, external: Any, gains: Mapping[str, Any] | None = None
+    law: BoundLaw, t: Any, packed: Any, vehicle: Vehicle, external: Any, gains: Mapping[str, Any] | None = None
 ) -> Any:
-    """Thrust and moment (4, 1) of `law` with e₃ up, whatever its own frame, for symbols.
-
-    Parameters
-    ----------
-    law, vehicle
-        What commands, and what it flies.
-    t, packed, external : SX
-        Time, packed state (24, 1) with e₃ up, external forces on vehicle and bob (6, 1).
-    gains : dict, optional
-        Symbols that stand for some of the law's numbers.
-    """
-    wrench = law.evaluate(t, State.symbolic(packed), vehicle, (external[:3], external[3:]), gains).wrench
-    stacked = ca.densify(ca.vertcat(wrench.thrust, wrench.moment))
-    if law.e3 == "up":
-        return stacked
-    return ca.substitute(stacked, packed, packed * FLIP_PACKED) * np.array([-1.0, 1.0, -1.0, -1.0])
+    """As `BoundLaw.upright`, arguments `law`, `t`, `packed`, `vehicle`, `external` and `gains` in another order."""
+    return law.upright(t, packed, external, gains, vehicle)

@@ -14,17 +14,17 @@ docs/laws/inverted.md derives it line by line.
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import casadi as ca
 
-from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
-from flypend.laws.inverted_gains import BOUNDS, Gains, computer_of, gains_for
-from flypend.laws.law import Control, Law
+from flypend.laws.bound import Control
+from flypend.laws.gain import documented
+from flypend.laws.inverted_gains import GAINS, computer_of, go_together
+from flypend.laws.law import Law
 from flypend.laws.references import Path, Reference, hover
-from flypend.laws.sphere import velocity_error
+from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
 from flypend.laws.throw import (
     Demand,
     carrying,
@@ -39,58 +39,43 @@ from flypend.laws.throw import (
 )
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
-FORMS = ("full", "light")
+# ε in the axis's target F + ε (M+m) g e₃: where the force asked for vanishes, in free fall, its direction is e₃'s.
+AXIS_LIFT = 0.028
+# Its length counts as √(|·|² + s²), s in weights: where even that sum vanishes, the target stays smooth. Both are
+# small beside hover, where |F| is one weight, and were found with the other numbers on hehn2011.
+AXIS_FLOOR = 0.006
 
 
-def inverted(reference: Reference | None = None, *, form: str = "full", **gains: float) -> Law:
-    """The inverted law, about a `reference` of the pivot, with the gains of `gains_for` unless given.
+@documented(GAINS)
+def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
+    """The inverted law, about a `reference` of the pivot, with the gains that the vehicle suggests unless given.
 
     Parameters
     ----------
     reference : callable, optional
         Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
-    form : "full" or "light"
-        "light" turns the target of the axis with a demand whose direction turns steadily, without the second derivative
-        of the demand: three quarters of the operations, for processors that are short of time.
-    **gains : float
-        Any field of `Gains`, in its unit; the others are proposed for the vehicle that flies.
+    **gains : float or str
+        Any of the gains below, in its unit; the law proposes the others for the vehicle that flies.
+
+    {gains}
 
     Raises
     ------
     InputError
-        For an unknown gain or form, a gain out of range, or bandwidths that are not separated.
+        For an unknown gain, or one out of its bounds; `bind` raises it for bandwidths that are not separated.
     """
-    errors.one_of("form", form, FORMS)
-    errors.only_known("", gains, BOUNDS)
-    given = {name: errors.number(name, value, at_least=BOUNDS[name]) for name, value in gains.items()}
-    options = {} if form == "full" else {"form": form}
-
-    @cache
-    def for_vehicle(vehicle: Vehicle) -> Law:
-        followed = reference or hover()
-        return _law(gains_for(vehicle, **given), options, followed, carrying(followed))
-
-    return Law(name="inverted", e3="up", gains={**given, **options}, control=_unbound, for_vehicle=for_vehicle)
-
-
-def _unbound(*_: Any) -> Control:
-    raise TypeError("the inverted law takes its gains from the vehicle: use law.bound(vehicle)")
-
-
-def _law(gains: Gains, options: dict[str, str], reference: Reference, path: Path) -> Law:
-    def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
-        return inverted_control(t, state, vehicle, k, path, forces, light="form" in options)
-
+    followed = reference or hover()
     return Law(
         name="inverted",
         e3="up",
-        gains={**vars(gains), **options},
-        control=control,
-        computer=computer_of(gains),
+        gains=GAINS,
+        given=gains,
+        control=inverted_control,
+        computer=computer_of,
         uses_forces=True,
-        reference=reference,
-        along=lambda other: _law(gains, options, reference, other),
-        fixed=("thrust_coast_share", "pump_share"),
+        reference=followed,
+        path=carrying(followed),
+        check=go_together,
     )
 
 
@@ -98,16 +83,15 @@ def inverted_control(
     t: Any,
     state: State,
     vehicle: Vehicle,
-    k: Gains,
-    path: Path,
+    k: Any,
     forces: tuple[Any, Any],
     *,
-    light: bool = False,
+    path: Path,
 ) -> Control:
     """The law for symbols of `t` (s) and `state`.
 
-    `vehicle` and gains `k` as in `inverted`; `path` is what pivot and bob follow; `forces` are the estimated external
-    forces on vehicle and bob, each (3, 1), N; `light` chooses the form.
+    `vehicle` and gains `k` as in `inverted`; `forces` are the estimated external forces on vehicle and bob, each
+    (3, 1), N; `path` is what pivot and bob follow.
     """
     z, z_dot = state.z, apply(state.R, cross(state.omega, E3))
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
@@ -129,9 +113,11 @@ def inverted_control(
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
 
     def axis(turned: Any) -> Any:
-        return lifted(turned, k.tilt_limit) + 0.028 * vehicle.weight * E3  # ε e₃: off zero
+        return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * E3
 
-    if light:  # the demand is held while the rest is differentiated, and its direction turns steadily: ω̇_d = 0
+    if (
+        k.form == "light"
+    ):  # the demand is held while the rest is differentiated, and its direction turns steadily: ω̇_d = 0
         e, v = errors_at(*ahead)
         wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
@@ -142,11 +128,13 @@ def inverted_control(
     else:
         wanted = axis(force(*ahead))
         wanted_dot = lie_derivative(wanted, state, rates, t)
-    per_length = 1 / smooth_norm(wanted, 0.006 * vehicle.weight)
+    per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
     # ż_d up to a part along z_d, which the transport of Lemma 2 does not see.
     z_d, z_d_dot = scale(per_length, wanted), scale(per_length, wanted_dot)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
-    spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + 0.014), tangent_part(z, z_d))  # 2 sin(θ/2), to 0 only at θ = π
+    spring = scale(
+        1 / ca.sqrt((1 + dot(z, z_d)) / 2 + ANTIPODE_FLOOR), tangent_part(z, z_d)
+    )  # 2 sin(θ/2), to 0 only at θ = π
     stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
     # No faster than the vehicle can stop: the spring alone would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
@@ -157,7 +145,3 @@ def inverted_control(
     moment = apply(vehicle.I, alpha) + cross(state.omega, apply(vehicle.I, state.omega))
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(z - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)
-
-
-inverted.gains_for = lambda vehicle: vars(gains_for(vehicle)).copy()  # type: ignore[attr-defined]
-inverted.known_gains = (*BOUNDS, "form")  # type: ignore[attr-defined]

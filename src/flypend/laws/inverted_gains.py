@@ -2,128 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
+import math
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.laws.law import Computer
+from flypend.laws.bound import Computer
+from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, SHARE, Bounds, Gain, table
 from flypend.model import Vehicle
 
 SEPARATION, LEAST_RATIO = 1.5, 2.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class Gains:
-    """Gains of the inverted law.
-
-    Parameters
-    ----------
-    position_bandwidth, position_damping : float
-        Horizontal loop of the bob: natural frequency (rad/s) and damping ratio.
-    height_bandwidth, height_damping : float
-        Vertical loop of the bob, likewise.
-    position_reach : float
-        Position errors are softly limited to this length, m.
-    descent_limit : float
-        Largest downward acceleration asked of the bob, m/s²; below g, so that the rod's target never turns over.
-    level_limit : float
-        Largest horizontal acceleration asked of the bob, m/s².
-    rod_bandwidth, rod_damping : float
-        Rod on S², rad/s and ratio.
-    attitude_bandwidth, attitude_damping : float
-        Thrust axis on S², rad/s and ratio.
-    turn_rate : float
-        The thrust axis is turned towards its target no faster than this, rad/s.
-    tilt_limit : float
-        The thrust axis is never asked to lean further than this from e₃, rad; near π for no limit.
-    rate_feedforward : float
-        Share of the rate of the desired thrust axis that is fed forward.
-    coast_time, thrust_coast_share : float
-        The desired thrust axis is that for the rod this much later, s; the thrust that for the rod after this share of
-        that time.
-    throw_speed : float
-        Upward speed of the bob asked for while the rod hangs, m/s.
-    flip_speed, flip_by_rod, flip_by_height, flip_width : float
-        The rod may flip once v + flip_by_height · h + flip_by_rod · y₃ passes flip_speed (m/s), with v (m/s) the
-        upward speed of the bob, h (m) the height of the pivot above its reference, in a band of flip_width (m/s).
-    hanging_share : float
-        Until then the rod is held hanging with this share of its gain.
-    pump_share, pump_rate : float
-        Share of a swing-up by the energy of the rod while it is low, for a vehicle too slow to throw and flip, and how
-        fast that energy is brought to its value upright, 1/s.
-    low_below, high_above : float
-        y₃ below which a rod is low and above which it is not at all.
-    yaw_damping : float
-        Decay of the yaw rate, 1/s.
-    thrust_share : float
-        Share of the largest thrust that is used.
-    lead, latency, observer : float
-        Of the flight computer: see `laws.Computer`.
-    """
-
-    position_bandwidth: float
-    position_damping: float
-    height_bandwidth: float
-    height_damping: float
-    position_reach: float
-    descent_limit: float
-    level_limit: float
-    rod_bandwidth: float
-    rod_damping: float
-    attitude_bandwidth: float
-    attitude_damping: float
-    turn_rate: float
-    tilt_limit: float
-    rate_feedforward: float
-    coast_time: float
-    thrust_coast_share: float
-    throw_speed: float
-    flip_speed: float
-    flip_by_rod: float
-    flip_by_height: float
-    flip_width: float
-    hanging_share: float
-    pump_share: float
-    pump_rate: float
-    low_below: float
-    high_above: float
-    yaw_damping: float
-    thrust_share: float
-    lead: float
-    latency: float
-    observer: float
-
-    def __post_init__(self) -> None:
-        slow, middle, fast = self.position_bandwidth, self.rod_bandwidth, self.attitude_bandwidth
-        if not (SEPARATION * slow <= middle and SEPARATION * middle <= fast):
-            raise InputError(
-                "bandwidths",
-                f"position, rod and attitude each {SEPARATION:g} times the one before",
-                f"{slow:.3g}, {middle:.3g}, {fast:.3g} rad/s",
-            )
-        if not self.low_below < self.high_above < 1:
-            raise InputError("high_above", "low_below < high_above < 1", f"{self.low_below:g}, {self.high_above:g}")
-
-
-# Least value of each gain; those of the flip may have either sign.
-_SIGNED = {"flip_speed", "flip_by_rod", "flip_by_height", "low_below", "high_above"}
-_POSITIVE = {
-    "level_limit",
-    "turn_rate",
-    "tilt_limit",
-    "flip_width",
-    "coast_time",
-    "position_reach",
-    "descent_limit",
-    "thrust_share",
-} | {entry.name for entry in fields(Gains) if entry.name.endswith(("_bandwidth", "_damping"))}
-BOUNDS: Mapping[str, float | None] = MappingProxyType(
-    {entry.name: None if entry.name in _SIGNED else 1e-9 if entry.name in _POSITIVE else 0.0 for entry in fields(Gains)}
-)
+# The attitude loop stays this share below the cut-off of the rotors, 1/lag; a lag below the second counts as none, s.
+LAG_SHARE, LEAST_LAG = 0.9, 1e-3
+# The law plans for no more delay than sensors, computer and rotors of the vehicles here have, s.
+LONGEST_LATENCY = 0.024
 
 # Pure numbers, found by CMA-ES on success and excursion of random starts of hehn2011 (see docs/laws/inverted.md).
 # Times are in √(l/g), speeds in √(g l), lengths in l, the attitude bandwidth in the root of the angular acceleration
@@ -153,52 +49,33 @@ SLOW: Mapping[str, float] = MappingProxyType(
 LEAST_AGILITY = 3.0
 
 
-def gains_for(vehicle: Vehicle, **given: float) -> Gains:
-    """The gains that the law proposes for `vehicle`, from its rod, its inertia, its rotor limits and their lag.
+class Scales(NamedTuple):
+    """What the gains of a vehicle are measured in.
 
-    Fields `given` replace proposals. Raises InputError for bandwidths that are not separated.
+    √(l/g) in s, √(g l) in m/s, root of its angular authority in rad/s, and whether it is agile.
     """
-    n = AGILE if angular_authority(vehicle) * vehicle.l >= LEAST_AGILITY * vehicle.g else SLOW
-    time, speed = np.sqrt(vehicle.l / vehicle.g), np.sqrt(vehicle.g * vehicle.l)
-    # A vehicle too slow to turn for its rod is given the bandwidth that balancing takes: near upright small moments do.
-    attitude = max(
-        n["attitude_bandwidth"] * np.sqrt(angular_authority(vehicle)), LEAST_RATIO * n["rod_bandwidth"] / time
+
+    time: float
+    speed: float
+    turn: float
+    agile: bool
+
+    @property
+    def numbers(self) -> Mapping[str, float]:
+        """The pure numbers for a vehicle of this kind."""
+        return AGILE if self.agile else SLOW
+
+
+@lru_cache(maxsize=256)
+def scales(vehicle: Vehicle) -> Scales:
+    """The scales of `vehicle`, from its rod, its inertia and its rotor limits."""
+    authority = angular_authority(vehicle)
+    return Scales(
+        time=np.sqrt(vehicle.l / vehicle.g),
+        speed=np.sqrt(vehicle.g * vehicle.l),
+        turn=np.sqrt(authority),
+        agile=authority * vehicle.l >= LEAST_AGILITY * vehicle.g,
     )
-    attitude = min(attitude, 0.9 / max(vehicle.rotor_lag, 1e-3))
-    values: dict[str, Any] = {
-        "position_bandwidth": n["position_bandwidth"] / time,
-        "position_damping": n["position_damping"],
-        "height_bandwidth": n["height_bandwidth"] / time,
-        "height_damping": n["height_damping"],
-        "position_reach": n["position_reach"] * vehicle.l,
-        "descent_limit": n["descent"] * vehicle.g,
-        "level_limit": n["level"] * vehicle.g,
-        "rod_bandwidth": n["rod_bandwidth"] / time,
-        "rod_damping": n["rod_damping"],
-        "attitude_bandwidth": attitude,
-        "attitude_damping": n["attitude_damping"],
-        "turn_rate": n["turn_rate"] * np.sqrt(angular_authority(vehicle)),
-        "tilt_limit": n["tilt_limit"],
-        "rate_feedforward": n["rate_feedforward"],
-        "coast_time": n["coast"] / attitude,
-        "thrust_coast_share": n["thrust_coast"],
-        "throw_speed": n["throw_speed"] * speed,
-        "flip_speed": n["flip_speed"] * speed,
-        "flip_by_rod": n["flip_by_rod"] * speed,
-        "flip_by_height": n["flip_by_height"] / time,
-        "flip_width": n["flip_width"] * speed,
-        "hanging_share": n["hanging_share"],
-        "pump_share": n["pump_share"],
-        "pump_rate": n["pump_rate"] / time,
-        "low_below": n["low_below"],
-        "high_above": n["high_above"],
-        "yaw_damping": 5.0,
-        "thrust_share": 0.993,
-        "lead": n["lead"] if vehicle.rotor_lag > 0 else 1.0,
-        "latency": min(0.024, n["latency"] / attitude),
-        "observer": 1.5,
-    }
-    return Gains(**({name: float(value) for name, value in values.items()} | given))
 
 
 def angular_authority(vehicle: Vehicle) -> float:
@@ -208,6 +85,152 @@ def angular_authority(vehicle: Vehicle) -> float:
     return float(np.min(lever * (high - low) / np.diag(vehicle.inertia)[:2]))
 
 
-def computer_of(gains: Gains) -> Computer:
+def _attitude_bandwidth(vehicle: Vehicle) -> float:
+    """What the rotors can give; at least what balancing takes, where small moments do; at most what they can follow."""
+    s = scales(vehicle)
+    wanted = max(s.numbers["attitude_bandwidth"] * s.turn, LEAST_RATIO * s.numbers["rod_bandwidth"] / s.time)
+    return float(min(wanted, LAG_SHARE / max(vehicle.rotor_lag, LEAST_LAG)))
+
+
+def _number(name: str) -> Callable[[Vehicle], float]:
+    return lambda vehicle: scales(vehicle).numbers[name]
+
+
+def _per_time(name: str) -> Callable[[Vehicle], float]:
+    return lambda vehicle: scales(vehicle).numbers[name] / scales(vehicle).time
+
+
+def _speed(name: str) -> Callable[[Vehicle], float]:
+    return lambda vehicle: scales(vehicle).numbers[name] * scales(vehicle).speed
+
+
+ANGLE = Bounds(0.0, math.pi, open_low=True)
+HEIGHT = Bounds(-1.0, 1.0)
+
+GAINS = table(
+    (
+        Gain(
+            "position_bandwidth", _per_time("position_bandwidth"), "rad/s",
+            "Natural frequency of the horizontal loop of the bob", POSITIVE, label="position",
+        ),
+        Gain(
+            "position_damping", _number("position_damping"), "", "Damping ratio of the horizontal loop of the bob",
+            POSITIVE,
+        ),
+        Gain(
+            "height_bandwidth", _per_time("height_bandwidth"), "rad/s",
+            "Natural frequency of the vertical loop of the bob", POSITIVE, label="height",
+        ),
+        Gain(
+            "height_damping", _number("height_damping"), "", "Damping ratio of the vertical loop of the bob", POSITIVE,
+        ),
+        Gain(
+            "position_reach", lambda v: scales(v).numbers["position_reach"] * v.l, "m",
+            "Position errors are softly limited to this length", POSITIVE,
+        ),
+        Gain(
+            "descent_limit", lambda v: scales(v).numbers["descent"] * v.g, "m/s²",
+            "Largest downward acceleration asked of the bob; below g, so that the rod's target never turns over",
+            POSITIVE,
+        ),
+        Gain(
+            "level_limit", lambda v: scales(v).numbers["level"] * v.g, "m/s²",
+            "Largest horizontal acceleration asked of the bob", POSITIVE,
+        ),
+        Gain(
+            "rod_bandwidth", _per_time("rod_bandwidth"), "rad/s", "Natural frequency of the rod on S²", POSITIVE,
+            label="rod",
+        ),
+        Gain("rod_damping", _number("rod_damping"), "", "Damping ratio of the rod", POSITIVE, label="rod damping"),
+        Gain(
+            "attitude_bandwidth", _attitude_bandwidth, "rad/s", "Natural frequency of the thrust axis on S²", POSITIVE,
+            label="attitude",
+        ),
+        Gain(
+            "attitude_damping", _number("attitude_damping"), "", "Damping ratio of the thrust axis on S²", POSITIVE,
+            label="attitude damping",
+        ),
+        Gain(
+            "turn_rate", lambda v: scales(v).numbers["turn_rate"] * scales(v).turn, "rad/s",
+            "The thrust axis is turned towards its target no faster than this", POSITIVE,
+        ),
+        Gain(
+            "tilt_limit", _number("tilt_limit"), "rad",
+            "The thrust axis is never asked to lean further than this from e₃; near π for no limit", ANGLE,
+        ),
+        Gain(
+            "rate_feedforward", _number("rate_feedforward"), "",
+            "Share of the rate of the desired thrust axis that is fed forward", SHARE,
+        ),
+        Gain(
+            "coast_time", lambda v: scales(v).numbers["coast"] / _attitude_bandwidth(v), "s",
+            "The desired thrust axis is that for the rod this much later", POSITIVE, label="look ahead",
+        ),
+        Gain(
+            "thrust_coast_share", _number("thrust_coast"), "",
+            "The thrust is that for the rod after this share of coast_time", SHARE, fixed=True,
+        ),
+        Gain(
+            "throw_speed", _speed("throw_speed"), "m/s", "Upward speed of the bob asked for while the rod hangs",
+            NOT_NEGATIVE, label="throw speed",
+        ),
+        Gain(
+            "flip_speed", _speed("flip_speed"), "m/s",
+            "The rod may flip once v + flip_by_height · h + flip_by_rod · y₃ passes this, with v (m/s) the upward "
+            "speed of the bob and h (m) the height of the pivot above its reference",
+        ),
+        Gain("flip_by_rod", _speed("flip_by_rod"), "m/s", "What the rod's height y₃ counts towards flip_speed"),
+        Gain("flip_by_height", _per_time("flip_by_height"), "1/s", "What the pivot's height counts towards flip_speed"),
+        Gain("flip_width", _speed("flip_width"), "m/s", "Band of speed over which the permission comes", POSITIVE),
+        Gain(
+            "hanging_share", _number("hanging_share"), "",
+            "Until it may flip, the rod is held hanging with this share of its stiffness", SHARE,
+        ),
+        Gain(
+            "pump_share", _number("pump_share"), "",
+            "Share of a swing-up by the energy of the rod while it is low, for a vehicle too slow to throw and flip",
+            SHARE, fixed=True,
+        ),
+        Gain(
+            "pump_rate", _per_time("pump_rate"), "1/s", "How fast that energy is brought to its value upright",
+            NOT_NEGATIVE,
+        ),
+        Gain("low_below", _number("low_below"), "", "y₃ below which a rod is low", HEIGHT),
+        Gain("high_above", _number("high_above"), "", "y₃ above which it is not low at all", HEIGHT),
+        Gain("yaw_damping", 5.0, "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
+        # Below 1, so that a rotor at its limit still has something left to steer with.
+        Gain("thrust_share", 0.993, "", "Share of the largest thrust that is used", POSITIVE_SHARE),
+        Gain(
+            "lead", lambda v: scales(v).numbers["lead"] if v.rotor_lag > 0 else 1.0, "",
+            "Rotors are commanded f̂ + lead (f − f̂), f̂ being their modelled force", Bounds(low=1.0),
+        ),
+        Gain(
+            "latency", lambda v: min(LONGEST_LATENCY, scales(v).numbers["latency"] / _attitude_bandwidth(v)), "s",
+            "Delay that the flight computer plans for", NOT_NEGATIVE,
+        ),
+        Gain("observer", 1.5, "1/s", "Bandwidth of the observer of external forces; 0 for none", NOT_NEGATIVE),
+        Gain(
+            "form", "full", doc="light does three quarters of the work, for processors that are short of time: the "
+            "direction of the demand turns steadily, without the demand's second derivative", choices=("full", "light"),
+        ),
+    )
+)  # fmt: skip
+
+
+def go_together(gains: Mapping[str, Any]) -> None:
+    """Raise InputError unless the bandwidths of `gains` are separated and its heights in order."""
+    slow, middle, fast = (gains[f"{loop}_bandwidth"] for loop in ("position", "rod", "attitude"))
+    if not (SEPARATION * slow <= middle and SEPARATION * middle <= fast):
+        raise InputError(
+            "bandwidths",
+            f"position, rod and attitude each {SEPARATION:g} times the one before",
+            f"{slow:.3g}, {middle:.3g}, {fast:.3g} rad/s",
+        )
+    low, high = gains["low_below"], gains["high_above"]
+    if not low < high < 1:
+        raise InputError("high_above", "low_below < high_above < 1", f"{low:g}, {high:g}")
+
+
+def computer_of(gains: Mapping[str, Any]) -> Computer:
     """The flight computer around the law with these `gains`."""
-    return Computer(lead=gains.lead, latency=gains.latency, observer=gains.observer)
+    return Computer(lead=gains["lead"], latency=gains["latency"], observer=gains["observer"])

@@ -18,7 +18,8 @@ import casadi as ca
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.geometry import E3, cross, hat, project_tangent, unit
+from flypend.geometry import E3, cross, hat, project_tangent, rotation_from_vector, unit
+from flypend.laws.bound import BoundLaw
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion
 from flypend.model.state import SIZE, E3Direction
@@ -111,7 +112,7 @@ class Linearisation:
         return bool(largest <= _ROUNDOFF * np.max(np.abs(self.A)))
 
 
-def linearise(law: Law, vehicle: Vehicle, at: State | None = None) -> Linearisation:
+def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) -> Linearisation:
     """Linearise the closed loop of `vehicle` under `law` about the equilibrium next to `at`, at time 0.
 
     Parameters
@@ -128,11 +129,11 @@ def linearise(law: Law, vehicle: Vehicle, at: State | None = None) -> Linearisat
     InputError
         If there is no equilibrium near `at`, the law is not defined there, or its reference moves.
     """
-    if not isinstance(law, Law):
+    if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
-    law = law.bound(vehicle)
-    rates = _closed_loop(law, vehicle)
-    state = _upright(law) if at is None else _single(at)
+    bound = law.bind(vehicle)
+    rates = _closed_loop(bound, vehicle)
+    state = _upright(bound) if at is None else _single(at)
     for _ in range(_NEWTON_STEPS):
         velocity, A = _on_tangent_space(rates, state)
         step = np.linalg.lstsq(A, -velocity, rcond=1e-10)[0]
@@ -191,14 +192,12 @@ def tangent_basis(at: State) -> Any:
 
 def retract(at: State, xi: Any) -> State:
     """The state with coordinates `xi` (16,) about `at`, a single state with ω = 0 and ẏ = 0; |ξ_y| < 1."""
-    from scipy.spatial.transform import Rotation  # for those who linearise
-
     b, xi = _plane(at.y), np.asarray(xi, dtype=float)
     height = np.sqrt(1 - xi[12:14] @ xi[12:14])
     return State(
         x=at.x + xi[0:3],
         x_dot=at.x_dot + xi[3:6],
-        R=at.R @ Rotation.from_rotvec(xi[6:9]).as_matrix(),
+        R=at.R @ rotation_from_vector(xi[6:9]),
         omega=xi[9:12],
         y=xi[12:14] @ b + height * at.y,
         y_dot=xi[14:16] @ b - xi[12:14] @ xi[14:16] / height * at.y,
@@ -211,7 +210,7 @@ def _plane(y: Any) -> Any:
     return np.stack([b_1, cross(y, b_1)])
 
 
-def _closed_loop(law: Law, vehicle: Vehicle) -> ca.Function:
+def _closed_loop(law: BoundLaw, vehicle: Vehicle) -> ca.Function:
     """Packed state (24,) → rates, their derivatives by the state and by time, at time 0."""
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     state = State.symbolic(packed)
@@ -240,7 +239,7 @@ def _check_rest(velocity: Any, A: Any) -> None:
         raise InputError("at", "a state next to an equilibrium", f"rates of attitude or rod of {moving:.3g} rad/s, /s²")
 
 
-def _upright(law: Law) -> State:
+def _upright(law: BoundLaw) -> State:
     x = np.zeros(3) if law.reference is None else np.array(ca.DM(ca.evalf(law.reference(ca.SX(0))))).ravel()
     return State(x=x, y=E3)
 

@@ -11,96 +11,87 @@ hover: that is what it is here to show.
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
-from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, is_symbolic, norm, scale
-from flypend.laws.law import Control, Law
+from flypend.laws.bound import Control
+from flypend.laws.gain import POSITIVE, Gain, documented, table
+from flypend.laws.law import Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
 from flypend.laws.references import Path, Reference, hover
+from flypend.laws.sphere import ANTIPODE_FLOOR
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle, Wrench
 
-# (1 + cos θ)/2 in the size of an error never counts as less than this: it has a direction up to the antipode only.
-ANTIPODE_FLOOR = 0.014
+Matrix = NDArray[np.float64]
 
 ENTRIES = [
     (f"K_{i}_{j}", i, j) for i in range(4) for j, coordinate in enumerate(COORDINATES) if coordinate not in SYMMETRIES
 ]
 
 
-def lqr(
-    *,
-    position_error: float = 0.8,
-    velocity_error: float = 5.0,
-    attitude_error: float = 0.8,
-    rate_error: float = 0.6,
-    rod_error: float = 0.06,
-    rod_rate_error: float = 0.5,
-    thrust_deviation: float = 0.15,
-    moment_deviation: float = 0.15,
-    reference: Reference | None = None,
-) -> Law:
+def _deviation(name: str, default: float, unit: str, doc: str, label: str) -> Gain:
+    return Gain(name, default, unit, f"Largest acceptable {doc}", POSITIVE, label=label)
+
+
+GAINS = table(
+    (
+        _deviation("position_error", 0.8, "m", "error of the pivot along each axis", "position error"),
+        _deviation("velocity_error", 5.0, "m/s", "velocity of the pivot along each axis", "velocity error"),
+        _deviation("attitude_error", 0.8, "rad", "angle of the thrust axis; the heading is free", "attitude error"),
+        _deviation("rate_error", 0.6, "rad/s", "angular velocity", "rate error"),
+        _deviation("rod_error", 0.06, "rad", "angle of the rod", "rod error"),
+        _deviation("rod_rate_error", 0.5, "rad/s", "rate of the rod", "rod rate error"),
+        _deviation("thrust_deviation", 0.15, "weights", "deviation of the thrust from the weight", "thrust"),
+        _deviation(
+            "moment_deviation", 0.15, "weights × arm",
+            "moment: of roll and pitch in weights times the distance of the rotors, of yaw times the drag ratio",
+            "moment",
+        ),
+    )
+)  # fmt: skip
+
+
+@documented(GAINS)
+def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """The linear-quadratic regulator whose weights are the inverse squares of these largest acceptable deviations.
 
     Only their ratios matter. The errors ξ of a state far from hover are those of `errors_of`.
 
     Parameters
     ----------
-    position_error, velocity_error : float
-        Of the pivot along each axis, m and m/s.
-    attitude_error, rate_error : float
-        Of the thrust axis, rad, and of the angular velocity, rad/s. The heading is not regulated, only its rate.
-    rod_error, rod_rate_error : float
-        Of the rod, rad and rad/s.
-    thrust_deviation : float
-        From the weight, in weights.
-    moment_deviation : float
-        Of roll and pitch, in weights times the distance of the rotors; of yaw, in weights times the drag ratio.
     reference : callable, optional
         Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
+    **gains : float
+        Any of the gains below, in its unit.
+
+    {gains}
 
     Raises
     ------
     InputError
-        For a deviation that is not positive.
+        For an unknown gain, or a deviation that is not positive.
     """
-    given = {
-        "position_error": errors.number("position_error", position_error, above=0, unit="m"),
-        "velocity_error": errors.number("velocity_error", velocity_error, above=0, unit="m/s"),
-        "attitude_error": errors.number("attitude_error", attitude_error, above=0, unit="rad"),
-        "rate_error": errors.number("rate_error", rate_error, above=0, unit="rad/s"),
-        "rod_error": errors.number("rod_error", rod_error, above=0, unit="rad"),
-        "rod_rate_error": errors.number("rod_rate_error", rod_rate_error, above=0, unit="rad/s"),
-        "thrust_deviation": errors.number("thrust_deviation", thrust_deviation, above=0, unit="weights"),
-        "moment_deviation": errors.number("moment_deviation", moment_deviation, above=0, unit="weights × arm"),
-    }
     followed = reference or hover()
-
-    @cache
-    def for_vehicle(vehicle: Vehicle) -> Law:
-        return _law(given, gain_matrix(vehicle, given), followed, carrying(followed))
-
-    return Law(name="lqr", e3="up", gains=given, control=_unbound, reference=followed, for_vehicle=for_vehicle)
-
-
-def _law(gains: Any, K: Any, reference: Reference, path: Path) -> Law:
     return Law(
         name="lqr",
         e3="up",
-        gains=gains,
-        control=lambda t, state, vehicle, _: lqr_control(t, state, vehicle, K, path),
-        reference=reference,
-        along=lambda other: _law(gains, K, reference, other),
+        gains=GAINS,
+        given=gains,
+        control=_control,
+        prepare=lambda vehicle, given: {"K": gain_matrix(vehicle, given)},
+        reference=followed,
+        path=carrying(followed),
     )
 
 
-def _unbound(*_: Any) -> Control:
-    raise TypeError("the regulator solves its Riccati equation for a vehicle: use law.bound(vehicle)")
+def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> Control:
+    return lqr_control(t, state, vehicle, k.K, path)
 
 
 def by_matrix(K: Any) -> Law:
@@ -110,13 +101,14 @@ def by_matrix(K: Any) -> Law:
     """
     followed = hover()
 
-    def control(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
+    def control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> Control:
         matrix = ca.SX.zeros(4, len(COORDINATES))
         for name, i, j in ENTRIES:
             matrix[i, j] = getattr(k, name)
-        return lqr_control(t, state, vehicle, matrix, carrying(followed))
+        return lqr_control(t, state, vehicle, matrix, path)
 
-    return Law(name="lqr", e3="up", gains=entries(K), control=control, reference=followed)
+    gains = [Gain(name, value, doc="Entry of the gain matrix, SI units") for name, value in entries(K).items()]
+    return Law(name="lqr", e3="up", gains=gains, control=control, reference=followed, path=carrying(followed))
 
 
 def entries(K: Any) -> dict[str, float]:
@@ -127,15 +119,30 @@ def entries(K: Any) -> dict[str, float]:
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     """K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its column of the heading is zero."""
     A, B = _about_hover(vehicle)
-    from scipy.linalg import solve_continuous_are  # for those who fly this law
-
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
     A, B = A[np.ix_(keep, keep)], B[keep]
-    P = solve_continuous_are(A, B, Q[np.ix_(keep, keep)], R)
+    P = solve_riccati(A, B, Q[np.ix_(keep, keep)], R)
     K = np.zeros((4, len(COORDINATES)))
     K[:, keep] = np.linalg.solve(R, B.T @ P)
     return K
+
+
+def solve_riccati(A: Matrix, B: Matrix, Q: Matrix, R: Matrix) -> Matrix:
+    """The stabilising solution P (n, n) of AᵀP + P A − P B R⁻¹Bᵀ P + Q = 0, for A (n, n), B (n, k), Q (n, n), R (k, k).
+
+    From the stable invariant subspace of the Hamiltonian matrix; two of Kleinman's steps, each a Lyapunov equation,
+    bring it from the accuracy of eigenvectors to that of the numbers.
+    """
+    n, G = len(A), B @ np.linalg.solve(R, B.T)
+    values, vectors = np.linalg.eig(np.block([[A, -G], [-Q, -A.T]]))
+    stable = vectors[:, np.argsort(values.real)[:n]]
+    P = np.linalg.solve(stable[:n].T, stable[n:].T).T.real
+    for _ in range(2):
+        closed, one = A - G @ P, np.eye(n)  # closedᵀ P + P closed = −(Q + P G P)
+        P = np.linalg.solve(np.kron(one, closed.T) + np.kron(closed.T, one), -(Q + P @ G @ P).ravel()).reshape(n, n)
+        P = (P + P.T) / 2
+    return P
 
 
 @lru_cache(maxsize=16)

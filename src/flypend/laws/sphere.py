@@ -10,6 +10,10 @@ from typing import Any
 
 from flypend.geometry import dot, hat_squared, scale, transport, transport_derivative
 
+# (1 + cos θ)/2 in the size of an error between two directions never counts as less: 2 sin(θ/2) is kept up to 14° from
+# the antipode, where an error has no direction, and goes to zero there.
+ANTIPODE_FLOOR = 0.014
+
 
 def acceleration(phi: Any, phi_dot: Any, u: Any) -> Any:
     """φ̈ of the system (SMSS2) at `phi` (..., 3), `phi_dot` under the tangent force `u`: φ̈ = u − |φ̇|² φ."""

@@ -11,7 +11,8 @@ from typing import Any
 import casadi as ca
 
 from flypend.geometry import E3, apply, cross, dot, hat_squared, norm, scale, smooth_norm, transport_derivative
-from flypend.laws.law import Control, Guard
+from flypend.laws.bound import Control, Guard
+from flypend.laws.gain import POSITIVE, Gain
 from flypend.laws.sphere import velocity_error
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
 
@@ -19,6 +20,13 @@ BETA_GUARD = Guard(
     signal="velocity_error",
     threshold=1e-5,
     reason="|v_e| reaches zero, where beta (weqn) = -|f_p| Aᵀ(z - z_d), A = ẏ v_eᵀ/|v_e|², is not defined",
+)
+
+# The paper's K, with the values of its fifth experiment.
+PAPER_GAINS = (
+    Gain("k_d", 1.0, "1/s", "Damping of the rod", POSITIVE, label="k_d"),
+    Gain("k_1", 9.0, "1/s²", "Stiffness of the thrust axis", POSITIVE, label="k_1"),
+    Gain("k_2", 4.0, "1/s", "Damping of the thrust axis", POSITIVE, label="k_2"),
 )
 
 

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import casadi as ca
 
 from flypend.geometry import E1, E3, cross, dot, norm, scale, tangent_part, unit
-from flypend.laws.inverted_gains import Gains
 from flypend.laws.references import Path, Reference
 from flypend.model import Vehicle
 
@@ -53,7 +52,7 @@ def derivatives(value: Any, t: Any, count: int) -> list[Any]:
     return out
 
 
-def bob_acceleration(e: Any, v: Any, y: Any, k: Gains) -> Any:
+def bob_acceleration(e: Any, v: Any, y: Any, k: Any) -> Any:
     """Acceleration asked of the bob at position error `e` (m), velocity error `v` (m/s) and rod `y`, less gravity.
 
     A position loop with softly limited error, and a throw: an upward speed asked for while the rod is low.
@@ -66,7 +65,7 @@ def bob_acceleration(e: Any, v: Any, y: Any, k: Gains) -> Any:
     return ca.vertcat(soft(horizontal, k.level_limit), vertical)
 
 
-def flip_permission(y: Any, height: Any, climb: Any, k: Gains) -> Any:
+def flip_permission(y: Any, height: Any, climb: Any, k: Any) -> Any:
     """1 where the bob climbs fast enough (`climb`, m/s), is high enough (`height` of the pivot, m) to flip, else 0.
 
     Flipping takes thrust away from the bob for a while; the permission comes when it can afford that.
@@ -74,7 +73,7 @@ def flip_permission(y: Any, height: Any, climb: Any, k: Gains) -> Any:
     return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / k.flip_width)
 
 
-def low_rod(y: Any, k: Gains) -> Any:
+def low_rod(y: Any, k: Any) -> Any:
     """1 while the rod `y` is low, exactly 0 near upright, so that the throw leaves the equilibrium alone."""
     return smooth_step((k.high_above - y[2]) / (k.high_above - k.low_below))
 
@@ -89,7 +88,7 @@ def rod_force(
     height: Any,
     on: tuple[Any, Any],
     vehicle: Vehicle,
-    k: Gains,
+    k: Any,
 ) -> Any:
     """Force on the quadrotor (3, 1), N, that steers rod and bob.
 
@@ -121,7 +120,7 @@ class Demand(NamedTuple):
     omega_d: Any
 
 
-def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Gains) -> Demand:
+def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Any) -> Demand:
     """A, d = A/|A|, Ȧ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ω_d = d × Ȧ/|A|.
 
     The law is a function of errors that are expressions themselves, so the derivative is taken on symbols of its own.
@@ -138,7 +137,7 @@ def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight
 
 
 def steering_force(
-    wish: Demand, climb: Any, y: Any, y_dot: Any, height: Any, on: tuple[Any, Any], vehicle: Vehicle, k: Gains
+    wish: Demand, climb: Any, y: Any, y_dot: Any, height: Any, on: tuple[Any, Any], vehicle: Vehicle, k: Any
 ) -> Any:
     """Force on the quadrotor (3, 1), N, that turns the rod to the demand `wish` of a bob rising at `climb` m/s.
 
@@ -163,7 +162,7 @@ def steering_force(
     return limited_force(F, k.thrust_share * largest_thrust(vehicle))
 
 
-def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Gains) -> Any:
+def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Any) -> Any:
     """Force on the quadrotor (3, 1), N, that carries everything as `A` asks and swings the rod up by its energy.
 
     Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy

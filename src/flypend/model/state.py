@@ -105,6 +105,20 @@ class State:
         """The state(s) of vectors (..., 24) in the order of `packed`. Raises InputError like the constructor."""
         return cls(**split(errors.array("packed state", packed, (SIZE,), batch=True)))
 
+    @classmethod
+    def trusted(cls, packed: Any) -> Self:
+        """The state(s) of `packed` vectors (..., 24) as they are: what an integrator left, and NaN after its end."""
+        return cls._unchecked(split(packed))
+
+    @classmethod
+    def _unchecked(cls, values: dict[str, Any]) -> Self:
+        made = object.__new__(cls)
+        for name in SHAPES:
+            part = np.array(values[name])
+            part.setflags(write=False)
+            object.__setattr__(made, name, part)
+        return made
+
     def flipped(self) -> State:
         """The same physical state in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""
         vectors = {name: geometry.apply(FLIP, getattr(self, name)) for name in SHAPES if name != "R"}
@@ -114,12 +128,8 @@ class State:
         """Members of a batch: `index` applies to the batch axes."""
         if not self.batch_shape:
             raise IndexError("a single state has no members; only a batch of states can be indexed")
-        member = object.__new__(type(self))  # what is on the manifold stays as it is, to the last bit
-        for name in SHAPES:
-            part = np.array(getattr(self, name)[index])
-            part.setflags(write=False)
-            object.__setattr__(member, name, part)
-        return member
+        # What is on the manifold stays as it is, to the last bit.
+        return type(self)._unchecked({name: getattr(self, name)[index] for name in SHAPES})
 
     def __len__(self) -> int:
         """Length of the first batch axis."""

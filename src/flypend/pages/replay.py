@@ -15,9 +15,9 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from flypend import errors, palette
+from flypend.geometry import quat_xyzw_from_rotation
 from flypend.model import State
 from flypend.model.state import E3Direction
 from flypend.pages import sketch
@@ -105,7 +105,7 @@ def pack(run: Run, most: int = MOST) -> dict[str, Any]:
         "t": t,
         "x": states.x,
         "x_dot": states.x_dot,
-        "quat_xyzw": Rotation.from_matrix(states.R).as_quat(),
+        "quat_xyzw": quat_xyzw_from_rotation(states.R),
         "y": states.y,
         "y_dot": states.y_dot,
         "thrust": np.interp(t, run.t, run.thrust),

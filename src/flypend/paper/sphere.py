@@ -7,10 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from flypend.compile.methods import method
 from flypend.geometry import cross, dot, hat_squared, scale, unit
 from flypend.laws.sphere import acceleration, regulation, tracking, velocity_error
 
 K_P, K_D = 9.0, 4.2  # 1/s², 1/s: natural frequency 3 rad/s, damping ratio 0.7
+# s. Of order 8, a step of this length errs by less than 1e-11, at rates of a few rad/s.
+STEP = 0.025
 Reference = tuple[Any, Any, Any]
 
 
@@ -29,11 +32,23 @@ def fly(force: Callable[[float, Any, Any], Any], start: Any, start_rate: Any, ti
     def rates(t: float, s: Any) -> Any:
         return np.concatenate([s[3:], acceleration(s[:3], s[3:], force(t, s[:3], s[3:]))])
 
-    from scipy.integrate import solve_ivp  # for those who ask for the defects
+    now, states = 0.0, [np.concatenate([start, start_rate])]
+    for time in times:
+        steps = max(1, int(np.ceil((time - now) / STEP)))
+        states.append(_stepped(rates, now, states[-1], (time - now) / steps, steps))
+        now = time
+    return np.array(states[1:])[:, :3]
 
-    start = np.concatenate([start, start_rate])
-    solution = solve_ivp(rates, (0, times[-1]), start, "DOP853", times, rtol=1e-10, atol=1e-12)
-    return solution.y[:3].T
+
+def _stepped(rates: Callable[[float, Any], Any], t: float, s: Any, h: float, steps: int) -> Any:
+    """The state after some `steps` of length `h` (s) from `s` at `t`, by the stages of DOP853."""
+    scheme = method("dop853")
+    for number in range(steps):
+        slopes = np.zeros((scheme.stages, len(s)))
+        for i in range(scheme.stages):
+            slopes[i] = rates(t + (number + scheme.C[i]) * h, s + h * scheme.A[i] @ slopes)
+        s = s + h * scheme.B @ slopes
+    return s
 
 
 def regulate(start: Any, start_rate: Any, target: Any, times: Any) -> Any:

@@ -32,6 +32,8 @@ class Experiment:
         k_d, k_1, k_2.
     duration : float
         Seconds.
+    plant : str
+        Name of the plant: the paper speaks of the ideal one.
     reading : str
         How a row that cannot be taken as printed was read; empty otherwise.
     """
@@ -41,6 +43,7 @@ class Experiment:
     start: State
     gains: Mapping[str, float]
     duration: float
+    plant: str
     reading: str = ""
 
     def law(self, name: str = "corrected", **options: Any) -> Law:
@@ -65,4 +68,7 @@ def experiment(name: str) -> Experiment:
     data = table()
     row = data["experiments"][errors.one_of("experiment", name, experiment_names())]
     start = State(**data["start"], y=row["y"], y_dot=row["y_dot"])
-    return Experiment(name, vehicle(data["vehicle"]), start, row["gains"], data["duration"], row.get("reading", ""))
+    return Experiment(
+        name=name, vehicle=vehicle(data["vehicle"]), start=start, gains=row["gains"], duration=data["duration"],
+        plant=data["plant"], reading=row.get("reading", ""),
+    )  # fmt: skip

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import imageio_ffmpeg
 import numpy as np
 from PIL import Image
 
@@ -58,6 +57,7 @@ def movie(
         For an unknown view or suffix, numbers out of range, and a file that cannot be written.
     """
     path, gif = Path(path), Path(path).suffix.lower() == ".gif"
+    check_encoder(path)
     times = frame_times(run, speed=speed, fps=fps)
     if gif and fps > 50:
         raise errors.InputError("fps", "at most 50 for a .gif", f"{fps:g}")
@@ -72,6 +72,12 @@ def movie(
             _write_gif(partial, frames, (width, height), fps, len(times) + hold)
         else:
             _write_mp4(partial, frames, (width, height), fps, len(times) + hold)
+
+
+def check_encoder(path: str | Path = "movie.mp4") -> None:
+    """Raise InputError where the encoder of a movie at `path` is not installed; a .gif needs none."""
+    if Path(path).suffix.lower() != ".gif":
+        errors.require("imageio_ffmpeg", extra="movies", for_="movie")
 
 
 def frame_times(run: Trajectory, *, speed: float, fps: float) -> Any:
@@ -99,6 +105,8 @@ def _frames(render: Callable[[int, bool], Frame], count: int, hold: int, progres
 
 
 def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: float, count: int) -> None:
+    import imageio_ffmpeg
+
     options = ["-preset", "veryfast", "-crf", "20", "-movflags", "+faststart"]
     encoder = imageio_ffmpeg.write_frames(
         path, size, pix_fmt_in="rgba", fps=fps, quality=None, codec="libx264", macro_block_size=2,
@@ -117,6 +125,8 @@ def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: 
 
 def _frames_in(path: Path) -> int:
     """Number of frames in the movie at `path`, read but not decoded; 0 for a file that is none."""
+    import imageio_ffmpeg
+
     command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "quiet", "-i", str(path), "-c", "copy"]
     command += ["-progress", "-", "-f", "null", "-"]
     report = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=False)  # noqa: S603

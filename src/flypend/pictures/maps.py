@@ -121,7 +121,7 @@ def _headline(runs: Runs, cells: Cells) -> str:
     plant = plant if isinstance(plant, str) else plant.get("base", "sampled plant")
     size = f"{number:,}".replace(",", "\u202f")
     return (
-        f"{study.law.name} law on {study.vehicle.name}, plant {plant}, {study.duration:g} s\n"
+        f"{study.law.name} law on {study.flight.vehicle.name}, plant {plant}, {study.flight.duration:g} s\n"
         f"{100 * good / number:.4g} % of {size} runs succeed (95 % interval {100 * low:.4g} to {100 * high:.4g} %)"
     )
 

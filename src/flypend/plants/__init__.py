@@ -1,5 +1,29 @@
 """From the ideal closed loop towards the machine: limits, lag, sampling, delay, noise, wind, and a second engine."""
 
-from flypend.plants.plant import MOTION_CAPTURE, PRESETS, Noise, Plant, Wind, plant
+from flypend.plants.plant import (
+    MOTION_CAPTURE,
+    PRESETS,
+    ROTORS,
+    AnyPlant,
+    Ideal,
+    Noise,
+    Plant,
+    Sampled,
+    Wind,
+    plant,
+    sampled_plant,
+)
 
-__all__ = ["MOTION_CAPTURE", "PRESETS", "Noise", "Plant", "Wind", "plant"]
+__all__ = [
+    "MOTION_CAPTURE",
+    "PRESETS",
+    "ROTORS",
+    "AnyPlant",
+    "Ideal",
+    "Noise",
+    "Plant",
+    "Sampled",
+    "Wind",
+    "plant",
+    "sampled_plant",
+]

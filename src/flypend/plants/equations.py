@@ -70,10 +70,24 @@ def rotor_step(
     """One step (state, rotors, command, wind, timing, symbols) → (state, rotors) of `vehicle` as a CasADi function.
 
     Rotor forces follow the command with the time constant of the vehicle, exactly; the motion is integrated by the
-    Runge-Kutta method of order 4 and projected back onto the manifold. `pivot_offset` as in `EquationsEngine`,
-    timing (4,) as `step_timing` gives it: the lag is no constant of the function, unless `timing` is given, which makes it one
-    and leaves that input empty. A `vehicle` of `symbols` with `rotors` rotors stands for one whose numbers code takes at
-    run time. Without `project` the state is left as the method leaves it: a prediction of some steps projects its end.
+    Runge-Kutta method of order 4 and projected back onto the manifold.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What flies; its numbers may be symbols, for code that takes them at run time.
+    pivot_offset : (3,)
+        As in `EquationsEngine`.
+    symbols : SX (k, 1), optional
+        The symbols of such a vehicle.
+    rotors : int, optional
+        Its number of rotors.
+    timing : (4,), optional
+        What `step_timing` gives. It becomes a constant of the function, whose input `timing` is then empty.
+    project : bool
+        Whether the state is projected; a prediction of some steps projects its end only.
+    name : str
+        Name of the function.
     """
     n = rotors or len(vehicle.rotor_spins)
     packed, forces_before, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)

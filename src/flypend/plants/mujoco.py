@@ -358,7 +358,7 @@ class MuJoCoWorld:
     @contextmanager
     def lent(cls, loop: Loop) -> Iterator[MuJoCoWorld]:
         """A world for the flights of `loop`: one that is idle, or a new one."""
-        plant = loop.plant
+        plant = loop.sampled
         stretches = within_period(plant.delay, 1 / plant.rate)
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
         timesteps = tuple(length / substeps(length) for length in lengths)
@@ -390,10 +390,8 @@ def _library() -> ctypes.CDLL:
 
 def _import_mujoco() -> Any:
     """The module mujoco. Raises InputError if it is not installed."""
-    try:
-        return importlib.import_module("mujoco")
-    except ModuleNotFoundError:
-        raise InputError("plant", "the extra flypend[mujoco] to be installed", "no module mujoco") from None
+    errors.require("mujoco", extra="mujoco", for_="plant")
+    return importlib.import_module("mujoco")
 
 
 def _numbers(values: Any) -> str:

@@ -1,4 +1,4 @@
-"""What stands between a law and the world, as data: limits, lag, sampling, delay, noise, mismatch, wind, interface."""
+"""What stands between a law and the world, as data: nothing at all, or limits, lag, sampling, delay, noise, wind."""
 
 from __future__ import annotations
 
@@ -83,9 +83,16 @@ _KINDS: tuple[tuple[str, Any, str], ...] = (
 )
 
 
+@dataclass(frozen=True)
+class Ideal:
+    """Continuous time, and the wrench acts as commanded: what theorems speak of."""
+
+
 @dataclass(frozen=True, kw_only=True)
-class Plant:
+class Sampled:
     """A sampled flight: how the world answers the law. Each departure from the ideal can be set alone.
+
+    `flypend.Plant` is this class.
 
     Parameters
     ----------
@@ -167,15 +174,19 @@ class Plant:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
         return vehicle.replace(**changes)
 
-    def replace(self, **changes: Any) -> Plant:
+    def replace(self, **changes: Any) -> Sampled:
         """A copy with the given fields in `changes` replaced and everything checked again."""
         errors.only_known("plant", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
 
 
-ROTORS = Plant()
-PRESETS: Mapping[str, Plant] = MappingProxyType(
+Plant = Sampled
+AnyPlant = Ideal | Sampled
+
+ROTORS = Sampled()
+PRESETS: Mapping[str, AnyPlant] = MappingProxyType(
     {
+        "ideal": Ideal(),
         "rotors": ROTORS,
         "mujoco": ROTORS.replace(engine="mujoco"),
         # Hehn and D'Andrea (2011): commands at 50 Hz, about 30 ms of latency, body rates controlled on board.
@@ -184,13 +195,22 @@ PRESETS: Mapping[str, Plant] = MappingProxyType(
 )
 
 
-def plant(name: str | Plant) -> Plant:
-    """The plant called `name` ("rotors", "mujoco", "hehn2011"), or `name` itself if it is one already.
+def plant(name: str | AnyPlant) -> AnyPlant:
+    """The plant called `name` ("ideal", "rotors", "mujoco", "hehn2011"), or `name` itself if it is one already.
 
-    Raises InputError for an unknown name.
+    Raises InputError for an unknown name, and for MuJoCo where it is not installed.
     """
-    if isinstance(name, Plant):
-        return name
-    if not isinstance(name, str):
-        raise InputError("plant", "a Plant or one of " + ", ".join(PRESETS), repr(name))
-    return PRESETS[errors.one_of("plant", name, PRESETS)]
+    if not isinstance(name, str | Ideal | Sampled):
+        raise InputError("plant", "a Plant, Ideal() or one of " + ", ".join(PRESETS), repr(name))
+    found = PRESETS[errors.one_of("plant", name, PRESETS)] if isinstance(name, str) else name
+    if isinstance(found, Sampled) and found.engine == "mujoco":
+        errors.require("mujoco", extra="mujoco", for_="plant")
+    return found
+
+
+def sampled_plant(name: str | AnyPlant) -> Sampled:
+    """The plant of this `name`, as `plant` finds it, where the ideal one will not do. Raises InputError for it."""
+    found = plant(name)
+    if isinstance(found, Ideal):
+        raise InputError("plant", "a plant with numbers, such as 'rotors'", "the ideal plant")
+    return found

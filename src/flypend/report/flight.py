@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from flypend import __version__
+from flypend import __version__, errors
 from flypend.files import whole
 from flypend.files.staging import staged
 from flypend.flight.metrics import metrics
@@ -35,6 +35,11 @@ def figure_tasks(
     return [
         (f"{prefix}{kind}", partial(draw, figure, run, folder / f"{prefix}{kind}", style)) for kind, figure in kinds
     ]
+
+
+def check_movies() -> None:
+    """Raise InputError where movies cannot be made. Call it before anything is flown."""
+    errors.require("imageio_ffmpeg", extra="movies", for_="movies (--quick leaves them out)")
 
 
 def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
@@ -95,6 +100,8 @@ def write_flight(
     InputError
         If `out` cannot be written.
     """
+    if with_movies:
+        check_movies()
     verdicts = theorem_claims(run, settled) if "V" in run.signals else []
     with staged(out) as folder:
         run.save(folder / "run.nc")

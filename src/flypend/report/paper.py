@@ -18,10 +18,11 @@ from flypend.laws import inverted
 from flypend.model import State, vehicle
 from flypend.paper import experiment, experiment_names
 from flypend.paper.claims import SETTLED, Verdict, theorem_claims
-from flypend.paper.defects import Finding, Runs, findings, fly_all
+from flypend.paper.defects import findings, fly_all
+from flypend.paper.finding import Finding, Runs
 from flypend.pictures.style import style_named
 from flypend.report import text
-from flypend.report.flight import Task, figure_tasks, movie_tasks
+from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")
@@ -71,6 +72,8 @@ def reproduce(
         If `out` cannot be written, or for an unknown style.
     """
     style_named(style)
+    if not quick:
+        check_movies()
     with staged(out) as folder:
         for name in ("runs", "figures", "movies"):
             if not (quick and name == "movies"):
@@ -119,7 +122,7 @@ def _judge(runs: Runs, swing_up: Trajectory) -> Reproduction:
     ends: dict[Column, str] = {}
     for name in experiment_names():
         row = experiment(name)
-        settled = simulate(row.vehicle, row.law("corrected"), row.start, SETTLED)
+        settled = simulate(row.vehicle, row.law("corrected"), row.start, SETTLED, plant=row.plant)
         groups: list[tuple[str, Trajectory, Trajectory]] = [
             ("printed", runs.printed[name], runs.printed[name]),
             ("without beta", runs.without_beta[name], runs.without_beta[name]),

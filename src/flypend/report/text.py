@@ -16,7 +16,7 @@ from rich.table import Table
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
 from flypend.paper.claims import Verdict
-from flypend.paper.defects import Finding
+from flypend.paper.finding import Finding
 
 Column = tuple[str, str]
 

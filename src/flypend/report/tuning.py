@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 
 from flypend import __version__
 from flypend.files.staging import staged
+from flypend.files.toml import toml_text
 from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.report.text import write_json
-from flypend.settings.runfile import toml_text
 from flypend.studies.tune import Tuned
 
 WIDTH = 7.16  # of two columns of a paper, in

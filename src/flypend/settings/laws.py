@@ -1,71 +1,185 @@
-"""Laws by name: those of the package, and one's own as `module:name`."""
+"""Laws from what people write: a name, `module:function`, `file.py:function`, or the table of a TOML file."""
 
 from __future__ import annotations
 
 import importlib
-import inspect
 import sys
-from collections.abc import Callable
+import traceback
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-from flypend.errors import InputError, one_of
-from flypend.laws import Controller, Law
-from flypend.laws.law import law_from_dict, law_names
+from flypend.errors import InputError, one_of, only_known
+from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_dict, law_names
+from flypend.laws.own import EXPECTED as FUNCTION
+from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 
 # Gains of the inverted law with a slow attitude and no rate of its target: in the table to be seen failing.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
+EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
 
-def law_named(name: str) -> Law | Controller:
-    """The law called `name`: one of the package, "detuned" (a negative control), or `module:name` of one's own.
+def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | Controller:
+    """The law that `value` says.
 
-    What `module:name` finds may be a Law, a Controller, a function of no arguments that gives one, a symbolic law
-    `f(t, state, vehicle, gains)` (e₃ up, without gains) or a plain controller `f(t, state) -> Wrench` (500 Hz, e₃ up).
-    The current folder is searched as well.
+    Parameters
+    ----------
+    value : str, dict or a law
+        A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}.
+    folder : Path, optional
+        Folder from which the path of a file is taken; default the current one.
+    key : str
+        What messages begin with.
 
-    Raises InputError if there is no such law.
+    Raises
+    ------
+    InputError
+        For what is unknown, out of range, or fails while it is loaded.
     """
-    if ":" not in name:
-        if one_of("--law", name, (*law_names(), "detuned")) == "detuned":
-            detuned = law_from_dict({"name": "inverted", "gains": DETUNED})
-            return Law(name="detuned", e3="up", control=detuned.control, for_vehicle=detuned.for_vehicle)
-        return law_from_dict({"name": name})
-    module_name, _, attribute = name.partition(":")
-    if not all(part.isidentifier() for part in (*module_name.split("."), attribute)):
-        raise InputError("--law", "module:name that can be imported", repr(name))
+    if isinstance(value, Law | Controller):
+        return value
+    if isinstance(value, str):
+        return law_named(value, folder, key)
+    if not isinstance(value, Mapping):
+        raise InputError(key, "the name of a law, or a table", repr(value))
+    if "function" not in value:
+        return law_from_dict(value, key)
+    only_known(key, value, ("function", "gains", "e3"))
+    where, gains = value["function"], value.get("gains", {})
+    if not isinstance(where, str) or ":" not in where:
+        raise InputError(f"{key}.function", "file.py:function or module:function", repr(where))
+    if not isinstance(gains, Mapping):
+        raise InputError(f"{key}.gains", "a table of gains", repr(gains))
+    e3 = one_of(f"{key}.e3", value["e3"], ("up", "down")) if "e3" in value else None
+    return _own(where, folder, f"{key}.function", e3).with_gains(gains, f"{key}.gains")
+
+
+def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law | Controller:
+    """The law called `name`: one of the package, "detuned" (a negative control), or one's own.
+
+    One's own is `file.py:function`, the path taken from `folder` (default the current one), or `module:function`, for
+    which the current folder is searched as well. What is found may be a Law, a Controller, a function of no arguments
+    that gives one, or a function as `laws.from_function` takes it; messages begin with `key`.
+
+    Raises InputError if there is no such law, or it fails while it is loaded.
+    """
+    if ":" in name:
+        return _own(name, folder, key, None)
+    if one_of(key, name, (*law_names(), "detuned")) == "detuned":
+        return replace(inverted().with_gains(DETUNED), name="detuned")
+    return law_from_dict({"name": name})
+
+
+def absolute(value: Any, folder: Path) -> Any:
+    """A law as in `law_from`, the path of its file made absolute from `folder`, so that it can be kept with results."""
+    if isinstance(value, Mapping):
+        return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
+    file, colon, attribute = value.rpartition(":") if isinstance(value, str) else ("", "", "")
+    return f"{(folder / file).resolve()}:{attribute}" if colon and file.endswith(".py") else value
+
+
+def note(law: AnyLaw) -> str:
+    """One line for a `law` that no compiled code flies, "" for others."""
+    if not isinstance(law, Controller):
+        return ""
+    why = f": {law.because}" if law.because else ""
+    return f"{law.name} is not written in symbols{why}. It flies step by step in Python, about a thousand times slower."
+
+
+def law_table(value: Any, key: str = "law") -> dict[str, Any]:
+    """The table of a TOML file for a law, which may be a name; messages begin with `key`. Raises InputError."""
+    if isinstance(value, str):
+        return table_of(value)
+    if not isinstance(value, dict):
+        raise InputError(key, "a table", repr(value))
+    return dict(value)
+
+
+def table_of(name: str) -> dict[str, Any]:
+    """The table of a TOML file that says the law called `name`, as `law_named` takes it."""
+    return {"function": name} if ":" in name else {"name": name}
+
+
+def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:
+    source, _, attribute = name.rpartition(":")
+    if not attribute.isidentifier():
+        raise InputError(key, "file.py:function or module:function", repr(name))
+    module = _file(source, folder or Path.cwd(), key) if source.endswith(".py") else _module(source, key)
+    if not hasattr(module, attribute):
+        known = [word for word, value in vars(module).items() if not word.startswith("_") and _is_own(value, module)]
+        if not known:
+            raise InputError(key, f"a law in {source}", f"{attribute!r}, and nothing there is one")
+        one_of(key, attribute, known)
+    return _as_law(getattr(module, attribute), name, key, e3)
+
+
+def _is_own(value: Any, module: ModuleType) -> bool:
+    return isinstance(value, Law | Controller) or getattr(value, "__module__", "") == module.__name__
+
+
+def _as_law(found: Any, name: str, key: str, e3: Any) -> Law | Controller:
+    if callable(found) and not isinstance(found, Law | Controller | BoundLaw) and not isinstance(found, type):
+        try:
+            if not is_factory(found):
+                return from_function(found, e3=e3 or "up")
+        except LawError:
+            raise
+        except InputError as error:
+            raise InputError(key if error.field == "law" else error.field, error.expected, error.got) from None
+        found = Located(found, name.rpartition(":")[2])()
+    if e3 is not None:
+        raise InputError("law.e3", f"nothing: {name} states its own", e3)
+    if isinstance(found, Law):
+        return replace(found, control=Located(found.control, found.name))
+    if isinstance(found, Controller):
+        return replace(found, function=Located(found.function, found.name))
+    raise InputError(key, EXPECTED, f"{name!r}, which is none")
+
+
+def _module(name: str, key: str) -> ModuleType:
+    expected = "a module that can be imported"
+    if not all(part.isidentifier() for part in name.split(".")):
+        raise InputError(key, f"{expected}, or a file that ends in .py", repr(name))
     if str(Path.cwd()) not in sys.path:
         sys.path.insert(0, str(Path.cwd()))
     try:
-        found = getattr(importlib.import_module(module_name), attribute)
-    except (ImportError, AttributeError) as error:
-        raise InputError("--law", "module:name that can be imported", f"{name!r} ({error})") from None
-    return _as_law(name, attribute, found)
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name and (name == error.name or name.startswith(f"{error.name}.")):
+            raise InputError(key, expected, repr(name)) from None
+        raise _load_error(error, name) from error
+    except Exception as error:
+        raise _load_error(error, name) from error
 
 
-def _as_law(name: str, attribute: str, found: Any) -> Law | Controller:
-    if isinstance(found, Law | Controller):
-        return found
-    expected = "a Law, a Controller, or a function of (), (t, state) or (t, state, vehicle, gains)"
-    if not callable(found):
-        raise InputError("--law", expected, f"{name!r}, {type(found).__name__}")
-    makers: dict[int, Callable[[], Any]] = {
-        0: found,
-        2: lambda: Controller(name=attribute, function=found),
-        4: lambda: Law(name=attribute, e3="up", control=found),
-    }
-    required = _required(found)
-    law = makers.get(required, lambda: None)()
-    if not isinstance(law, Law | Controller):
-        raise InputError("--law", expected, f"{name!r}, which is none")
-    return law
+def _file(name: str, folder: Path, key: str) -> ModuleType:
+    """The module in a file; it is not among `sys.modules`, so that other processes are sent what it defines."""
+    path = (folder / name).resolve()
+    if not path.is_file():
+        raise InputError(key, "a file that is there", f"{name!r} in {folder}")
+    if str(path.parent) not in sys.path:
+        sys.path.append(str(path.parent))  # for what it imports beside it
+    title = f"flypend_law_{path.stem}"
+    module = ModuleType(title)
+    module.__file__ = str(path)
+    sys.modules[title] = module  # dataclasses look for their module while they are made
+    try:  # read anew every time: an edit within a second of the last one would be missed by Python's cache
+        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # noqa: S102 (a law of the user's own)
+    except Exception as error:
+        raise _load_error(error, str(path)) from error
+    finally:
+        del sys.modules[title]
+    return module
 
 
-def _required(function: Any) -> int:
-    """Number of arguments that `function` cannot be called without; -1 if it does not say."""
-    try:
-        parameters = inspect.signature(function).parameters.values()
-    except (TypeError, ValueError):  # some that are written in C
-        return -1
-    several = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
-    return sum(p.default is inspect.Parameter.empty and p.kind not in several for p in parameters)
+def _load_error(error: Exception, name: str) -> LawError:
+    """The one line for a file or module `name` that cannot be loaded."""
+    if isinstance(error, SyntaxError):
+        line = f":{error.lineno}" if error.lineno else ""
+        return LawError(f"{shown(error.filename or name)}{line}", "", f"{type(error).__name__}: {error.msg}")
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if "importlib" not in f.filename]
+    own = [f for f in frames if f.filename != __file__]
+    where = f"{shown(own[-1].filename)}:{own[-1].lineno}" if own else name
+    return LawError(where, "", f"{type(error).__name__}: {error}")

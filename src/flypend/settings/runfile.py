@@ -1,70 +1,61 @@
-"""What to fly, as data: an experiment of the paper or a TOML file, with overrides, into vehicle, law and start."""
+"""What to fly, as data: an experiment of the paper or a TOML file, with overrides, into a `Flight`."""
 
 from __future__ import annotations
 
-import json
 import os
-import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from copy import deepcopy
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import fields
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
 from flypend.export import compiled
-from flypend.flight.simulate import simulate
-from flypend.flight.trajectory import Trajectory
+from flypend.flight.request import Flight, Tolerances
 from flypend.laws import Controller, Law
-from flypend.laws.law import law_from_dict
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import read_toml
 from flypend.paper import experiment, experiment_names
-from flypend.plants import PRESETS, Noise, Plant, Wind, plant
+from flypend.plants import AnyPlant, Ideal, Noise, Wind, plant
+from flypend.settings.laws import absolute, law_from, law_table, table_of
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
 
 
-@dataclass(frozen=True)
-class Flight:
-    """One run to make: what flies, under which law, from where, how long, on which plant; and what said so."""
+class RunFile(NamedTuple):
+    """One run to make, and the content of a TOML file that says so."""
 
-    vehicle: Vehicle
-    law: Law | Controller
-    start: State
-    duration: float
-    plant: str | Plant
-    rtol: float
+    flight: Flight
     settings: dict[str, Any]
 
-    def fly(self, duration: float | None = None) -> Trajectory:
-        """Make the run, over another `duration` (s) if one is given."""
-        return simulate(self.vehicle, self.law, self.start, duration or self.duration, plant=self.plant, rtol=self.rtol)
 
+def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -> RunFile:
+    """The run called `what`: an experiment of the paper by name, or the path of a TOML file.
 
-def flight(what: str, overrides: Iterable[str] = ()) -> Flight:
-    """The flight called `what`: an experiment of the paper by name, or the path of a TOML file.
-
-    `overrides` are texts such as `law.gains.k_d=2`, applied in order; the value is TOML, or else a plain word.
+    `law`, as on the command line, takes the place of the law there. `overrides` are texts such as `law.gains.k_d=2`,
+    applied in order; the value is TOML, or else a plain word.
 
     Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
     """
     try:
         settings = _read(what)
+        if law is not None:
+            settings["law"] = table_of(law)
         for override in overrides:
             _override(settings, override)
-        return flight_of(settings)
+        return run_of(settings)
     except RecursionError:
         raise _TOO_DEEP from None
 
 
-def flight_of(settings: dict[str, Any]) -> Flight:
-    """The flight that `settings`, the content of a TOML file, describe. Raises InputError as `flight`."""
+def run_of(settings: dict[str, Any]) -> RunFile:
+    """The run that `settings`, the content of a TOML file, describe. Raises InputError as `run_file`."""
     try:
         for key, value in settings.items():
             check_plain(key, value)
@@ -78,7 +69,10 @@ def _read(what: str) -> dict[str, Any]:
     if what in experiment_names():
         return {"experiment": what}
     if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any name at all)
-        return read_toml(what)
+        settings = read_toml(what)
+        if "law" in settings:
+            settings["law"] = absolute(settings["law"], Path(what).parent)
+        return settings
     raise InputError("run", f"an experiment ({', '.join(experiment_names())}) or a TOML file", repr(what))
 
 
@@ -111,15 +105,20 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     out = deepcopy(settings)
     if isinstance(out.get("vehicle"), str):
         out["vehicle"] = {"base": out["vehicle"]}
+    if "law" in out:
+        out["law"] = absolute(law_table(out["law"]), Path.cwd())
     if "experiment" in out:
         row = experiment(str(out["experiment"]))
         start = {name: getattr(row.start, name).tolist() for name in SHAPES}
         out["start"] = start | table_at(out, "start")
-        law = {"name": "corrected"} | table_at(out, "law")
-        gains = dict(row.gains) if law["name"] in ("printed", "corrected") else {}
-        out["law"] = law | {"gains": gains | table_at(law, "gains", "law.gains")}
+        law = table_at(out, "law")
+        law = law if "function" in law else {"name": "corrected"} | law
+        if law.get("name") in ("printed", "corrected"):
+            law["gains"] = dict(row.gains) | table_at(law, "gains", "law.gains")
+        out["law"] = law
         out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")
         out["duration"] = out.get("duration", row.duration)
+        out["plant"] = out.get("plant", row.plant)
     for key in ("vehicle", "law", "start", "duration"):
         if key not in out:
             raise InputError(key, "a value (or `experiment`, which brings one)", "nothing")
@@ -149,37 +148,18 @@ def start_of(table: dict[str, Any]) -> State:
     return state
 
 
-def toml_text(settings: Mapping[str, Any], name: str = "") -> str:
-    """`settings` (numbers, words, lists of them, tables) as TOML that reads back as the same."""
-    plain = [f"{_toml_key(key)} = {_toml_value(v)}\n" for key, v in settings.items() if not isinstance(v, Mapping)]
-    tables = [(f"{name}.{_toml_key(key)}".lstrip("."), v) for key, v in settings.items() if isinstance(v, Mapping)]
-    return "".join([*plain, *(f"\n[{path}]\n{toml_text(v, path)}" for path, v in tables)])
-
-
-def _toml_key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _toml_word(key)
-
-
-def _toml_value(value: Any) -> str:
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_toml_value, value))}]"
-    if isinstance(value, str):
-        return _toml_word(value)
-    return str(value).lower() if isinstance(value, bool) else repr(value)
-
-
-def _toml_word(word: str) -> str:
-    return json.dumps(word, ensure_ascii=False).replace("\x7f", "\\u007f")
-
-
-def plant_of(value: Any) -> str | Plant:
+def plant_of(value: Any) -> AnyPlant:
     """A plant by name, or as a table of its fields on top of `base` (default "rotors"), noise and wind as tables."""
     if isinstance(value, str):
-        return errors.one_of("plant", value, ("ideal", *PRESETS))
+        return plant(value)
     if not isinstance(value, dict):
         raise InputError("plant", "a name or a table", repr(value))
     given = dict(value)
     base = plant(given.pop("base", "rotors"))
+    if isinstance(base, Ideal):
+        if given:
+            raise InputError("plant", "a base with numbers, such as 'rotors'", "the ideal plant")
+        return base
     for key, kind in (("noise", Noise), ("wind", Wind)):
         if key in given:
             table = table_at(given, key)
@@ -188,10 +168,12 @@ def plant_of(value: Any) -> str | Plant:
     return base.replace(**given)
 
 
-def _controller(law: Law, vehicle: Vehicle, kind: Any) -> Law | Controller:
+def _controller(law: Law | Controller, vehicle: Vehicle, kind: Any) -> Law | Controller:
     """The law itself, or its exported C, compiled: `kind` is "python", "c" (double precision) or "c-float"."""
     if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
         return law
+    if isinstance(law, Controller):
+        raise InputError("controller", "python, for a law that is not written in symbols", repr(kind))
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 
@@ -215,6 +197,8 @@ def _override(settings: dict[str, Any], text: str) -> None:
             errors.only_known("", [key], KEYS)
         if key in ("vehicle", "plant") and depth == 0 and isinstance(table.get(key), str):
             table[key] = {"base": table[key]}
+        if key == "law" and depth == 0 and isinstance(table.get(key), str):
+            table[key] = table_of(table[key])
         table = table.setdefault(key, {})
         if not isinstance(table, dict):
             raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
@@ -225,15 +209,15 @@ def _override(settings: dict[str, Any], text: str) -> None:
     table[keys[-1]] = parsed["value"] if parsed.keys() == {"value"} else value.strip()
 
 
-def _build(settings: dict[str, Any]) -> Flight:
+def _build(settings: dict[str, Any]) -> RunFile:
     errors.only_known("", settings, KEYS)
     vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
-    return Flight(
+    flight = Flight(
         vehicle=vehicle,
-        law=_controller(law_from_dict(table_at(settings, "law")), vehicle, settings.get("controller", "python")),
-        start=start_of(table_at(settings, "start")),
-        duration=errors.number("duration", settings["duration"], above=0, unit="s"),
-        plant=plant_of(settings.get("plant", "ideal")),
-        rtol=errors.number("rtol", settings.get("rtol", 1e-9), above=0),
-        settings=settings,
+        law=_controller(law_from(settings["law"]), vehicle, settings.get("controller", "python")).bind(vehicle),
+        starts=start_of(table_at(settings, "start")),
+        duration=settings["duration"],
+        plant=plant_of(settings.get("plant", "rotors")),
+        tolerances=Tolerances(rtol=settings.get("rtol", 1e-9)),
     )
+    return RunFile(flight, settings)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from flypend.flight.ensemble import Ensemble, simulate_ensemble
+from flypend import plants
+from flypend.errors import InputError
+from flypend.flight.ensemble import Ensemble, fly_many
+from flypend.flight.request import Flight, bound_to
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
-from flypend.plants import Plant
+from flypend.plants import AnyPlant
 
 Progress = Callable[[str, int, int], Any]
 
@@ -38,7 +41,7 @@ def compare(
     starts: State,
     duration: float = 10.0,
     *,
-    plant: str | Plant = "rotors",
+    plant: str | AnyPlant = "rotors",
     workers: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> Comparison:
@@ -55,21 +58,34 @@ def compare(
     duration, plant, workers
         As in `simulate_ensemble`.
     progress : callable
-        Told `(law, done, total)`.
+        Told `(name of the law, done, total)`.
     """
-    ensembles: dict[str, Ensemble] = {}
+    flights = flights_of(vehicle, laws, starts, duration)
+    return compared(flights, plants.plant(plant), workers=workers, progress=progress)
+
+
+def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State, duration: float) -> dict[str, Flight]:
+    """A request for each of `laws`, by a name of its own; `starts`, with e₃ up, are turned into the frame of each."""
+    if not isinstance(starts, State) or len(starts.batch_shape) != 1:
+        raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
+    flights: dict[str, Flight] = {}
     for law in laws:
         own = starts if law.e3 == "up" else starts.flipped()
-        ensembles[_free_name(law.name, ensembles)] = simulate_ensemble(
-            vehicle,
-            law,
-            own,
-            duration,
-            plant=plant,
-            workers=workers,
-            progress=partial(progress, law.name),
-        )
-    return Comparison(ensembles)
+        name = _free_name(law.name, flights)
+        flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
+    return flights
+
+
+def compared(
+    flights: Mapping[str, Flight], plant: AnyPlant, *, workers: int | None = None, progress: Progress = lambda *_: None
+) -> Comparison:
+    """The `flights` of `flights_of`, each through `plant`; `workers` and `progress` as in `compare`."""
+    return Comparison(
+        {
+            name: fly_many(flight.through(plant), workers=workers, progress=partial(progress, name))
+            for name, flight in flights.items()
+        }
+    )
 
 
 def summary(ensemble: Ensemble) -> dict[str, Any]:
@@ -93,7 +109,7 @@ def summary(ensemble: Ensemble) -> dict[str, Any]:
     }
 
 
-def _free_name(name: str, taken: dict[str, Ensemble]) -> str:
+def _free_name(name: str, taken: Mapping[str, Flight]) -> str:
     out, count = name, 2
     while out in taken:
         out, count = f"{name} ({count})", count + 1

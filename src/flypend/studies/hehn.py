@@ -11,10 +11,10 @@ import numpy as np
 from flypend.errors import InputError, one_of
 from flypend.flight.simulate import simulate
 from flypend.geometry import norm
-from flypend.laws import Law, references
-from flypend.laws.law import law_from_dict, law_names
+from flypend.laws import Law, law_names, references
+from flypend.laws.named import FACTORIES, follows
 from flypend.model import State, vehicle
-from flypend.plants import MOTION_CAPTURE, PRESETS, Plant
+from flypend.plants import MOTION_CAPTURE, sampled_plant
 
 # The rates of their circles are not known here; a period of four seconds is chosen.
 RATE = 2 * np.pi / 4
@@ -27,7 +27,7 @@ CASES: Mapping[str, Callable[[Any], Any]] = {
 PUBLISHED: Mapping[str, str] = {"hover": "offset about 0.05", "circle R = 0.1 m": "error about 0.1"}
 # The latency that every law plans for here, s: theirs, as identified; their controller knew it too.
 LATENCY = 0.03
-PLANT: Plant = PRESETS["hehn2011"].replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
+PLANT = sampled_plant("hehn2011").replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
 DURATION, JUDGED = 20.0, 10.0
 
 
@@ -66,7 +66,7 @@ def hehn2011(laws: tuple[str, ...] = ("inverted", "lqr"), seed: int = 1) -> list
 
 def _fly(name: str, case: str, reference: Callable[[Any], Any], seed: int) -> Tracking:
     machine = vehicle("hehn2011")
-    law = _law(name, reference).bound(machine)
+    law = _law(name, reference).bind(machine)
     law = replace(law, computer=replace(law.computer, latency=LATENCY))
     start = references.sampled(reference, np.array([0.0, 1e-3]))
     state = State(x=start[0], x_dot=(start[1] - start[0]) / 1e-3, y=(0.0, 0.0, 1.0))
@@ -85,11 +85,6 @@ def _fly(name: str, case: str, reference: Callable[[Any], Any], seed: int) -> Tr
 
 
 def _law(name: str, reference: Callable[[Any], Any]) -> Law:
-    from flypend import laws
-
-    law = law_from_dict({"name": one_of("--law", name, law_names())})
-    factory = getattr(laws, name)
-    if law.e3 != "up" or "reference" not in factory.__code__.co_varnames:
+    if not follows(one_of("--law", name, law_names())):
         raise InputError("--law", "a law that follows a reference", repr(name))
-    made: Law = factory(reference=reference)
-    return made
+    return FACTORIES[name](reference=reference)

@@ -7,29 +7,27 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from flypend import plants
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
-from flypend.plants import MOTION_CAPTURE, Plant
-from flypend.studies.compare import Comparison, compare
-
-_LIMITS = Plant(lag=0.0)
-_ROTORS = Plant()
+from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
+from flypend.studies.compare import Comparison, compared, flights_of
 
 # Ideal wrench; then limits alone; lag on top of limits; and every other departure on top of the plant "rotors" (limits,
 # the vehicle's lag, 500 Hz), one at a time, so that the rung that breaks a law is the departure that it names.
-RUNGS: Mapping[str, str | Plant] = {
-    "ideal wrench": "ideal",
-    "limits": _LIMITS,
-    **{f"lag {ms} ms": _ROTORS.replace(lag=ms / 1000) for ms in (10, 20, 30, 40, 50)},
-    **{f"{rate} Hz": _ROTORS.replace(rate=float(rate)) for rate in (200, 100, 50)},
-    **{f"delay {ms} ms": _ROTORS.replace(delay=ms / 1000) for ms in (5, 15, 30)},
-    "noise": _ROTORS.replace(noise=MOTION_CAPTURE),
-    "mass +10 %": _ROTORS.replace(mismatch={"mass": 1.1, "bob_mass": 1.1}),
-    "mass -10 %": _ROTORS.replace(mismatch={"mass": 0.9, "bob_mass": 0.9}),
-    "inertia +10 %": _ROTORS.replace(mismatch={"inertia": 1.1}),
-    "inertia -10 %": _ROTORS.replace(mismatch={"inertia": 0.9}),
-    "pivot offset 5 cm": _ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
-    "MuJoCo": "mujoco",
+RUNGS: Mapping[str, AnyPlant] = {
+    "ideal wrench": PRESETS["ideal"],
+    "limits": Sampled(lag=0.0),
+    **{f"lag {ms} ms": ROTORS.replace(lag=ms / 1000) for ms in (10, 20, 30, 40, 50)},
+    **{f"{rate} Hz": ROTORS.replace(rate=float(rate)) for rate in (200, 100, 50)},
+    **{f"delay {ms} ms": ROTORS.replace(delay=ms / 1000) for ms in (5, 15, 30)},
+    "noise": ROTORS.replace(noise=MOTION_CAPTURE),
+    "mass +10 %": ROTORS.replace(mismatch={"mass": 1.1, "bob_mass": 1.1}),
+    "mass -10 %": ROTORS.replace(mismatch={"mass": 0.9, "bob_mass": 0.9}),
+    "inertia +10 %": ROTORS.replace(mismatch={"inertia": 1.1}),
+    "inertia -10 %": ROTORS.replace(mismatch={"inertia": 0.9}),
+    "pivot offset 5 cm": ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
+    "MuJoCo": PRESETS["mujoco"],
 }
 
 
@@ -56,7 +54,7 @@ def ladder(
     starts: State,
     duration: float = 10.0,
     *,
-    rungs: Mapping[str, str | Plant] = RUNGS,
+    rungs: Mapping[str, str | AnyPlant] = RUNGS,
     workers: int | None = None,
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> Ladder:
@@ -71,18 +69,14 @@ def ladder(
     progress : callable
         Told `(rung and law, done, total)`.
     """
-    out = {}
-    for rung, plant in rungs.items():
-        out[rung] = compare(
-            vehicle,
-            laws,
-            starts,
-            duration,
-            plant=plant,
-            workers=workers,
-            progress=partial(_told, progress, rung),
-        )
-    return Ladder(out)
+    worlds = {rung: plants.plant(plant) for rung, plant in rungs.items()}  # says so if one is not installed
+    flights = flights_of(vehicle, laws, starts, duration)
+    return Ladder(
+        {
+            rung: compared(flights, plant, workers=workers, progress=partial(_told, progress, rung))
+            for rung, plant in worlds.items()
+        }
+    )
 
 
 def _told(progress: Callable[[str, int, int], Any], rung: str, law: str, done: int, total: int) -> None:

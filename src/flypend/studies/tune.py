@@ -12,9 +12,9 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.flight.ensemble import fly_packed
-from flypend.flight.metrics import judged, wilson
-from flypend.plants import Plant
+from flypend.flight.ensemble import fly_many
+from flypend.flight.metrics import wilson
+from flypend.model import State
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.axes import integer
 from flypend.studies.sweep.design import design
@@ -122,6 +122,7 @@ def tune(
     InputError
         For a study that makes no sense or varies what is tuned.
     """
+    errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
     task = _task(made)
     search = _search(task)
@@ -174,7 +175,7 @@ class _Task:
         """Mean cost of each of `points`, all flown by one call from the starts that are tuned on."""
         values = np.array([list(self.gains(point).values()) for point in points])
         columns = self._flown(values, self.runs, cube.TUNED, workers)
-        return self.objective.cost(columns, self.study.duration).reshape(len(points), self.runs).mean(axis=1)
+        return self.objective.cost(columns, self.study.flight.duration).reshape(len(points), self.runs).mean(axis=1)
 
     def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
         """What these gains do on the starts of the study, the first `MOST_REPORTED` of them."""
@@ -185,7 +186,7 @@ class _Task:
         settled = columns["settling"][success]
         return {
             "gains": gains,
-            "cost": float(self.objective.cost(columns, self.study.duration).mean()),
+            "cost": float(self.objective.cost(columns, self.study.flight.duration).mean()),
             "runs": runs,
             "success": float(success.mean()),
             "wilson_low": low,
@@ -199,15 +200,10 @@ class _Task:
         study = self.study
         packed = np.tile(design(study, 0, runs, stream).packed, (len(values), 1))
         columns = dict(zip(self.names, np.repeat(values, runs, axis=0).T, strict=True))
-        plant = study.plant
-        if isinstance(plant, Plant) and stream == cube.TUNED:  # noise of its own, too
-            plant = plant.replace(seed=plant.seed + 2**32)
-        flown = fly_packed(
-            study.vehicle, study.law, packed, study.duration, plant=plant, rtol=study.rtol, gains=columns,
-            criterion=study.criterion, judge_period=study.judge_period, precision=study.precision,
-            max_steps=study.max_steps, workers=workers,
-        )  # fmt: skip
-        return judged(flown.reductions, flown.status, flown.end, study.vehicle, study.criterion)
+        flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
+        if stream == cube.TUNED:  # noise of its own, too
+            flight = flight.replace(seed=(flight.seed or 0) + 2**32)
+        return fly_many(flight, workers=workers).columns
 
 
 def _task(made: Study) -> _Task:
@@ -224,6 +220,7 @@ def _task(made: Study) -> _Task:
     limits = []
     for name, value in bounds.items():
         low, high = errors.array(f"tune.gains.{name}", value, (2,)).tolist()
+        made.law.check_gain(name, (low, high), "tune.gains")
         if not 0 < low < high:
             raise InputError(f"tune.gains.{name}", "0 < least < largest", [low, high])
         if not low <= made.law.numbers[name] <= high:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -16,6 +15,7 @@ from typing import Any
 
 import llvmlite
 import llvmlite.binding as llvm
+from platformdirs import user_cache_path
 
 CACHE_VARIABLE = "FLYPEND_CACHE"
 _ENTRY = b"flypend object 1\n"
@@ -28,13 +28,7 @@ def cache_folder() -> Path:
     given = os.environ.get(CACHE_VARIABLE)
     if given:
         return Path(given)
-    if sys.platform == "win32":
-        base = os.environ.get("LOCALAPPDATA", str(Path.home()))
-    elif sys.platform == "darwin":
-        base = str(Path.home() / "Library" / "Caches")
-    else:
-        base = os.environ.get("XDG_CACHE_HOME", str(Path.home() / ".cache"))
-    return Path(base) / "flypend"
+    return user_cache_path("flypend", appauthor=False)
 
 
 @lru_cache(maxsize=1)

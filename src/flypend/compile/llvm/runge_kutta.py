@@ -27,10 +27,11 @@ SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
 SHORTEST = 1e-13
 
 ARGUMENTS = (
-    "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps", "times", "time_count",
+    "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps",
+    "times", "time_count", "judged", "rows", "row_count",
     "samples", "reductions", "final", "end", "status", "steps", "knots",
 )  # fmt: skip
-INTEGERS, REALS = ("runs", "max_steps", "time_count"), ("duration", "rtol", "atol")
+INTEGERS, REALS = ("runs", "max_steps", "time_count", "row_count"), ("duration", "rtol", "atol")
 
 
 def write_kernel(lanes: Lanes, problem: Problem, method: Method) -> None:

@@ -17,9 +17,10 @@ from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, Wor
 from flypend.compile.sampled_problem import EquationsProblem, SampledProblem
 from flypend.model.state import MAX_STATE
 
-INTEGERS = ("runs", "ticks", "sample_count")
+INTEGERS = ("runs", "ticks", "sample_count", "row_count")
 ARGUMENTS = (
-    "starts", "parameters", "plant", "seeds", "runs", "ticks", "sample_ticks", "sample_count",
+    "starts", "parameters", "plant", "seeds", "runs", "ticks",
+    "sample_ticks", "sample_count", "judged", "rows", "row_count",
     "samples", "reductions", "final", "end", "status",
 )  # fmt: skip
 GUSTS = 18  # place of the numbers that gusts draw
@@ -237,19 +238,21 @@ class _Kernel:
             time = code.value(builder.sitofp(tick, self.lanes.scalar)) * self.problem.period
             code.store(time, self.t)
             alive = code.load(self.alive) > 0.0
-            self.results.update(alive, self.t, self.state, self.P)
-            kept = builder.icmp_unsigned("!=", builder.ptrtoint(self.at["samples"], I64), ir.Constant(I64, 0))
-            with code.when(kept):
-                self._store_samples(cursor)
-            builder.store(builder.add(cursor, ir.Constant(I64, 1)), self.cursor)
+            with code.when(builder.icmp_signed("!=", code.scalar(self.at["judged"], cursor, I64), ir.Constant(I64, 0))):
+                self.results.update(alive, self.t, self.state, self.P)
+            following = builder.add(cursor, ir.Constant(I64, 1))
+            row, after = (code.scalar(self.at["rows"], place, I64) for place in (cursor, following))
+            with code.when(builder.icmp_signed(">", after, row)):  # none is, where the caller keeps none
+                self._store_samples(row)
+            builder.store(following, self.cursor)
 
-    def _store_samples(self, cursor: ir.Value) -> None:
+    def _store_samples(self, kept: ir.Value) -> None:
         code, builder = self.code, self.code.builder
         length = self.problem.size + self.problem.rotors
         with code.count(self.lanes.width) as lane:
             run = builder.add(self.first, lane)
             with code.when(builder.icmp_signed("<", run, self.at["runs"])):
-                row = builder.add(builder.mul(run, self.at["sample_count"]), cursor)
+                row = builder.add(builder.mul(run, self.at["row_count"]), kept)
                 with code.count(length) as i:
                     here = builder.add(builder.mul(i, ir.Constant(I64, self.lanes.width)), lane)
                     there = builder.add(builder.mul(row, ir.Constant(I64, length)), i)

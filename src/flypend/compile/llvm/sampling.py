@@ -28,7 +28,10 @@ class Step:
 
 
 class Sampler:
-    """Takes the samples of every lane at the times of the caller, which end with infinity."""
+    """Takes the samples of every lane at the times of the caller, which end with infinity.
+
+    A sample is reduced where `judged` is positive at its time. `rows` says how many are kept before each, and in all.
+    """
 
     def __init__(
         self,
@@ -81,7 +84,8 @@ class Sampler:
                 self._interpolate(step, (code.load(self.wanted) - step.t) / step.h)
                 code.call(self.project, self.state, self.state)
                 with self._if_reduced():
-                    self.reductions.update(due, self.wanted, self.state, step.stages.P)
+                    judged = gathered(code, self.at["judged"], code.builder.load(self.cursor, typ=self.places), due)
+                    self.reductions.update(due & (judged > 0.0), self.wanted, self.state, step.stages.P)
                 self._store(due)
 
     # The polynomial of a step is a sum of its stages, weighted by polynomials of the place in the step -----------
@@ -147,8 +151,10 @@ class Sampler:
         with self._if_kept():
             code.call(self.turn, self.state, self.rows)
             with code.each(due) as lane:
-                row = self._row(lane, code.scalar(self.cursor, lane, I64))
-                copy_row(code, self.rows, lane, self.at["samples"], row, self.size)
+                place = code.scalar(self.cursor, lane, I64)
+                before, after = self._kept(place), self._kept(code.builder.add(place, ir.Constant(I64, 1)))
+                with code.when(code.builder.icmp_signed(">", after, before)):
+                    copy_row(code, self.rows, lane, self.at["samples"], self._row(lane, before), self.size)
         self._aim(due)
 
     def _if_kept(self) -> AbstractContextManager[None]:
@@ -161,9 +167,13 @@ class Sampler:
         builder = self.code.builder
         return builder.icmp_unsigned("!=", builder.ptrtoint(self.at[name], I64), ir.Constant(I64, 0))
 
-    def _row(self, lane: ir.Value, place: ir.Value) -> ir.Value:
+    def _kept(self, place: ir.Value) -> ir.Value:
+        """How many samples are kept before the time at `place`."""
+        return self.code.scalar(self.at["rows"], place, I64)
+
+    def _row(self, lane: ir.Value, kept: ir.Value) -> ir.Value:
         run = self.code.scalar(self.run, lane, I64)
-        return self.code.builder.add(self.code.builder.mul(run, self.at["time_count"]), place)
+        return self.code.builder.add(self.code.builder.mul(run, self.at["row_count"]), kept)
 
     run: ir.Value  # which run each lane has
 
@@ -173,9 +183,9 @@ class Sampler:
         with self._if_reduced():
             self.reductions.store(lane, run, self.at["reductions"])
         with self._if_kept():
-            place = code.scalar(self.cursor, lane, I64)
-            first = builder.mul(self._row(lane, place), ir.Constant(I64, self.size))
-            left = builder.mul(builder.sub(self.at["time_count"], place), ir.Constant(I64, self.size))
+            kept = self._kept(code.scalar(self.cursor, lane, I64))
+            first = builder.mul(self._row(lane, kept), ir.Constant(I64, self.size))
+            left = builder.mul(builder.sub(self.at["row_count"], kept), ir.Constant(I64, self.size))
             with code.count(left) as i:
                 code.put(ir.Constant(ir.DoubleType(), float("nan")), self.at["samples"], builder.add(first, i))
 

@@ -1,7 +1,8 @@
 """Compiled kernels for a vehicle, a law and a plant: thousands of closed-loop runs a second on every core."""
 
 from flypend.flight.kernels.flown import STATUS, Flown
-from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel, method_for
+from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel
+from flypend.flight.kernels.launch import fly_all, has_kernel, kernel_for, kernel_of
 from flypend.flight.kernels.sampled import SampledKernel, plant_numbers, sampled_kernel, structure
 
 __all__ = [
@@ -9,8 +10,11 @@ __all__ = [
     "Flown",
     "IdealKernel",
     "SampledKernel",
+    "fly_all",
+    "has_kernel",
     "ideal_kernel",
-    "method_for",
+    "kernel_for",
+    "kernel_of",
     "plant_numbers",
     "sampled_kernel",
     "structure",

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS
-from flypend.laws.law import Law
+from flypend.plants.loop import Loop
 
 Progress = Callable[[int, int], Any]
 
@@ -139,10 +140,11 @@ def from_queue(
     progress(runs, runs)
 
 
-def inputs_of(law: Law, names: Sequence[str], given: Any, runs: int) -> Any:
-    """The inputs (runs, k) of a kernel whose gains `names` may vary: `given`, or for None those of the `law`."""
+def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:
+    """The inputs (runs, k) of a kernel of `loop`: `given`, or for None the gains of its law."""
+    names = loop.parameters
     if given is None:
-        given = np.broadcast_to([law.numbers[name] for name in names], (runs, len(names)))
+        given = np.broadcast_to([loop.symbolic.numbers[name] for name in names], (runs, len(names)))
     values = np.ascontiguousarray(given, dtype=float)
     if values.shape != (runs, len(names)):
         raise InputError("parameters", f"an array of shape {(runs, len(names))}", f"shape {values.shape}")

@@ -15,8 +15,10 @@ from flypend.compile.methods import method as method_named
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import Flown
 from flypend.flight.kernels.ideal import MAX_STEPS, ideal_problem
-from flypend.laws.law import Law
+from flypend.laws import BoundLaw
 from flypend.model import Vehicle
+from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 # Runs that are under way together: what fits a cache, or what fills a GPU.
 LANES = {"cpu": 256}
@@ -38,7 +40,7 @@ class ArrayKernel:
     """
 
     vehicle: Vehicle
-    law: Law
+    law: BoundLaw
     parameters: tuple[str, ...]
     function: Any
 
@@ -82,7 +84,9 @@ class ArrayKernel:
 
 
 @lru_cache(maxsize=16)
-def array_kernel(vehicle: Vehicle, law: Law, parameters: tuple[str, ...] = (), *, method: str = "dp5") -> ArrayKernel:
+def array_kernel(
+    vehicle: Vehicle, law: BoundLaw, parameters: tuple[str, ...] = (), *, method: str = "dp5"
+) -> ArrayKernel:
     """The closed loop of `vehicle` under a bound `law` in JAX (extra "gpu"), compiled when it first flies.
 
     Parameters
@@ -95,15 +99,13 @@ def array_kernel(vehicle: Vehicle, law: Law, parameters: tuple[str, ...] = (), *
     InputError
         Without JAX, for an unknown method or gain, and for a law with operations that cannot be compiled.
     """
-    try:
-        from jax import default_backend
+    errors.require("jax", extra="gpu", for_="engine")
+    from jax import default_backend
 
-        from flypend.compile.jax.array_steps import write_integrator
+    from flypend.compile.jax.array_steps import write_integrator
 
-        problem = ideal_problem(vehicle, law, Criterion(), parameters)
-        integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
-    except ModuleNotFoundError:
-        raise errors.InputError("engine", "JAX, the extra gpu of this package", "an installation without it") from None
+    problem = ideal_problem(Loop(vehicle, law, Ideal(), parameters), Criterion())
+    integrator = write_integrator(problem, method_named(method), LANES.get(default_backend(), LANES_OF_GPU))
     return ArrayKernel(vehicle, law, parameters, integrator)
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 from llvmlite import ir
+from numpy.typing import ArrayLike, NDArray
 
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
@@ -18,14 +18,16 @@ from flypend.compile.llvm.vector import Lanes
 from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
 from flypend.compile.problem import Problem
-from flypend.compile.program import lower
+from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
+from flypend.flight.request import Flight
+from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
-from flypend.laws.law import Law
-from flypend.model import State, Vehicle
+from flypend.model import State
 from flypend.model.state import MAX_STATE, SIZE, project_symbolic
+from flypend.plants.loop import Loop
 
 # Bytes of a vector. A long program is a long chain of dependent operations: two registers side by side keep the
 # processor busy while it waits. A short one is better off with all registers for one.
@@ -33,8 +35,30 @@ SHORT, LONG = 64, 128
 OPERATIONS_OF_LONG = 800
 BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
-# From this tolerance on the method of order 5 is the faster one.
-LOOSE = 1e-6
+
+
+class Moments(NamedTuple):
+    """Times of a run as a kernel takes them: s, increasing, infinity at the end; which are judged, and which kept.
+
+    `judged` is 1 or 0 for each. `rows` is the number of samples kept before each, and in all.
+    """
+
+    times: NDArray[np.float64]
+    judged: NDArray[np.float64]
+    rows: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, judge_at: ArrayLike = (), keep_at: ArrayLike | None = None) -> Moments:
+        """The moments of a run that is judged at some times, and whose states are kept at others."""
+        judge, keep = (np.asarray(() if some is None else some, dtype=float) for some in (judge_at, keep_at))
+        times = np.append(np.union1d(judge, keep), np.inf)
+        before = np.append(0, np.cumsum(np.isin(times[:-1], keep)))
+        return cls(times, np.isin(times, judge).astype(float), before.astype(np.int64))
+
+    @property
+    def kept(self) -> int:
+        """Number of samples that are kept."""
+        return int(self.rows[-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,21 +67,19 @@ class IdealKernel:
 
     Parameters
     ----------
-    vehicle, law, criterion
-        What flies, what steers it, and what counts as a success.
-    parameters : tuple of str
-        Gains that may differ from run to run.
+    loop : Loop
+        What flies, what steers it, and which gains may differ from run to run.
+    criterion : Criterion
+        What counts as a success.
     function : callable
         The compiled kernel.
     key : str
         What determines the kernel, processor and versions apart.
     """
 
-    vehicle: Vehicle
-    law: Law
+    loop: Loop
     criterion: Criterion
-    parameters: tuple[str, ...]
-    function: Any
+    function: jit.Native
     key: str
 
     def fly(
@@ -67,9 +89,9 @@ class IdealKernel:
         *,
         rtol: float,
         atol: float | None = None,
-        parameters: Any = None,
-        times: Any = (),
-        keep: bool = False,
+        parameters: NDArray[np.float64] | None = None,
+        judge_at: ArrayLike = (),
+        keep_at: ArrayLike | None = None,
         judge: bool = True,
         max_steps: int | None = None,
         workers: int | None = None,
@@ -85,10 +107,10 @@ class IdealKernel:
             Tolerances of a step; atol defaults to rtol.
         parameters : (n, k), optional
             Values of the gains that vary; default those of the law.
-        times : (t,)
+        judge_at : (j,)
             Increasing times, s, at which a run is judged.
-        keep : bool
-            Whether the states at these times are kept, too.
+        keep_at : (t,), optional
+            Increasing times, s, at which its state is kept. They change nothing of how it is judged.
         judge : bool
             Whether the runs are judged; without it `Flown.reductions` is None.
         max_steps : int
@@ -99,11 +121,12 @@ class IdealKernel:
             Told `(taken, runs)`.
         """
         starts = np.ascontiguousarray(starts, dtype=float)
-        values = inputs_of(self.law, self.parameters, parameters, len(starts))
-        moments = closed(times)
+        values = inputs_of(self.loop, parameters, len(starts))
+        moments = Moments.of(judge_at, keep_at)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
-        out = _memory(len(starts), moments, keep, judge)
+        samples = None if keep_at is None else (moments.kept, SIZE)
+        out = Flown.of_size(len(starts), SIZE, samples=samples, steps=True, judged=judge)
 
         def fly(queue: Any) -> None:
             call(self.function, starts, values, setting, moments, out, queue=queue)
@@ -118,55 +141,50 @@ def lane_count(problem: Problem, precision: str) -> int:
     return size // BYTES[precision]
 
 
+def setting_of(flight: Flight) -> tuple[float, float, float, int]:
+    """Duration (s), rtol, atol and the most steps of the runs of `flight`."""
+    exact = flight.tolerances
+    return flight.duration, exact.rtol, exact.absolute, exact.max_steps or MAX_STEPS
+
+
 def integrate(
     function: jit.Native,
-    start: Any,
-    values: Any,
-    duration: float,
-    rtol: float,
-    atol: float,
-    times: Any,
-    knots: Any = None,
+    start: NDArray[np.float64],
+    values: NDArray[np.float64],
+    setting: tuple[float, float, float, int],
+    times: ArrayLike,
+    knots: NDArray[np.float64] | None = None,
 ) -> Flown:
-    """One run by a compiled ideal kernel from `start` (24,), its states at `times` kept.
+    """One run by a compiled ideal kernel from `start` (24,), its states at increasing `times` kept.
 
-    `values` (1, k) are those of its parameters, `duration` (s), `rtol`, `atol` and `times` as in `IdealKernel.fly`.
-    `knots` receives the number of accepted steps and four numbers for each: its time, and the drift from the manifold.
+    `values` (1, k) are those of its parameters, `setting` as in `call`. `knots` receives the number of accepted steps
+    and four numbers for each: its time, and the drift from the manifold.
     """
-    moments = closed(times)
-    out = _memory(1, moments, True, False)
-    call(function, start[None], values, (duration, rtol, atol, MAX_STEPS), moments, out, knots)
+    moments = Moments.of(keep_at=times)
+    out = Flown.of_size(1, SIZE, samples=(moments.kept, SIZE), steps=True, judged=False)
+    call(function, start[None], values, setting, moments, out, knots)
     return out
-
-
-def closed(times: Any) -> Any:
-    """`times` with infinity at the end, where a kernel stops looking for the next."""
-    return np.append(np.asarray(times, dtype=float), np.inf)
-
-
-def _memory(runs: int, moments: Any, keep: bool, judge: bool) -> Flown:
-    return Flown.of_size(runs, SIZE, samples=(len(moments) - 1, SIZE) if keep else None, steps=True, judged=judge)
 
 
 def call(
     function: jit.Native,
-    starts: Any,
-    values: Any,
+    starts: NDArray[np.float64],
+    values: NDArray[np.float64],
     setting: tuple[float, float, float, int],
-    moments: Any,
+    moments: Moments,
     out: Flown,
-    knots: Any = None,
-    queue: Any = None,
+    knots: NDArray[np.float64] | None = None,
+    queue: NDArray[np.int64] | None = None,
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
-    `setting` is duration (s), rtol, atol and the most steps; `moments` are sample times as `closed` gives them; `out`
-    is written, and `knots` as in `integrate`. Calls in several threads share one `queue` (1,), the number of the next
-    run, and with it the runs.
+    `setting` is duration (s), rtol, atol and the most steps; `out` is written, and `knots` as in `integrate`. Calls in
+    several threads share one `queue` (1,), the number of the next run, and with it the runs.
     """
     queue = np.zeros(1, dtype=np.int64) if queue is None else queue
     function(
-        address(starts), address(values), address(queue), len(starts), *setting, address(moments), len(moments) - 1,
+        address(starts), address(values), address(queue), len(starts), *setting,
+        address(moments.times), len(moments.times) - 1, address(moments.judged), address(moments.rows), moments.kept,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         address(out.steps), address(knots),
     )  # fmt: skip
@@ -174,22 +192,16 @@ def call(
 
 @lru_cache(maxsize=64)
 def ideal_kernel(
-    vehicle: Vehicle,
-    law: Law,
-    criterion: Criterion | None = None,
-    parameters: tuple[str, ...] = (),
-    *,
-    method: str = "dop853",
-    precision: str = "double",
+    loop: Loop, criterion: Criterion | None = None, *, method: str = "dop853", precision: str = "double"
 ) -> IdealKernel:
-    """The kernel of `vehicle` under a bound `law`, compiled or from the cache.
+    """The kernel of a `loop` in continuous time, compiled or from the cache; its plant does not matter.
 
     Parameters
     ----------
-    vehicle, law, criterion
-        What flies, what steers it, and what counts as a success (default: inverted).
-    parameters : tuple of str
-        Gains that may differ from run to run; the others are constants of the machine code.
+    loop : Loop
+        What flies and what steers it. Its parameters are inputs, its other gains constants of the machine code.
+    criterion : Criterion, optional
+        What counts as a success (default: inverted).
     method : "dop853" or "dp5"
         Order 8 for tight tolerances, order 5 for 1e-6 and looser.
     precision : "double" or "float"
@@ -202,10 +214,10 @@ def ideal_kernel(
     """
     criterion = criterion or Criterion()
     one_of("precision", precision, BYTES)
-    problem = ideal_problem(vehicle, law, criterion, parameters)
+    problem = ideal_problem(loop, criterion)
     one_of("method", method, METHODS)
     key = f"ideal {method} {precision} {problem!r}"
-    return IdealKernel(vehicle, law, criterion, parameters, compiled(key, problem, method, precision), key)
+    return IdealKernel(loop, criterion, compiled(key, problem, method, precision), key)
 
 
 def compiled(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
@@ -224,35 +236,28 @@ def compiled(key: str, problem: Problem, method: str, precision: str = "double")
     return jit.build(f"{key} {width} lanes, states below {MAX_STATE}", module, "kernel", kinds)
 
 
-def method_for(rtol: float, law: Law) -> str:
-    """The Runge-Kutta method for a tolerance `rtol`: the faster one, but DOP853 where `law` can be singular.
-
-    The error estimate of order 5 steps over a narrow singularity that the other notices.
-    """
-    return "dp5" if rtol >= LOOSE and law.guard is None else "dop853"
-
-
-def ideal_problem(vehicle: Vehicle, law: Law, criterion: Criterion, parameters: Sequence[str] = ()) -> Problem:
-    """The closed loop of `vehicle` under `law` as programs, judged by `criterion`, with `parameters` as inputs."""
-    loop = symbolic_loop(vehicle, law, parameters)
-    inputs = [loop.t, loop.s, loop.p]
-    state = State.symbolic(loop.s)
-    wrench = ca.vertcat(loop.wrench.thrust, loop.wrench.moment)
+def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
+    """The closed `loop` as programs, judged by `criterion`, with its parameters as inputs."""
+    vehicle, law = loop.vehicle, loop.symbolic
+    symbols = symbolic_loop(vehicle, law, loop.parameters)
+    inputs = [symbols.t, symbols.s, symbols.p]
+    state = State.symbolic(symbols.s)
+    wrench = ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment)
     rotors = ca.mtimes(vehicle.unmixing(law.e3), wrench)
-    seen = observed(loop.t, state, rotors, vehicle, law.reference, criterion, law.e3)
+    seen = observed(symbols.t, state, rotors, vehicle, law.reference, criterion, law.e3)
     return Problem(
-        rates=lower(ca.Function("rates", inputs, [loop.rates])),
+        rates=lower(ca.Function("rates", inputs, [symbols.rates])),
         project=lower(_projection()),
-        margin=_margin(loop, law, inputs),
+        margin=_margin(symbols, law, inputs),
         observe=lower(ca.Function("observe", inputs, [ca.densify(seen)])),
         reductions=REDUCTIONS,
     )
 
 
-def _margin(loop: SymbolicLoop, law: Law, inputs: list[Any]) -> Any:
+def _margin(symbols: SymbolicLoop, law: BoundLaw, inputs: list[Any]) -> Program | None:
     if law.guard is None:
         return None
-    signal = loop.signals[one_of("law.guard", law.guard.signal, loop.signals)]
+    signal = symbols.signals[one_of("law.guard", law.guard.signal, symbols.signals)]
     return lower(ca.Function("margin", inputs, [signal - law.guard.threshold]))
 
 

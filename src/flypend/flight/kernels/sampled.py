@@ -5,11 +5,12 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 from llvmlite import ir
+from numpy.typing import ArrayLike, NDArray
 
 from flypend.board.command import idle_command
 from flypend.board.program import board, initial_memory
@@ -23,7 +24,6 @@ from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.laws.law import Law
 from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
 from flypend.plants.actuation import rate_loop
@@ -37,6 +37,22 @@ from flypend.plants.schedule import steps_in, within_period
 WIDTH = 8
 # Runs that a thread takes at a time; MuJoCo flies one after the other, each some tens of milliseconds.
 PIECE, PIECE_MUJOCO = 4 * WIDTH, 1
+
+
+class Ticks(NamedTuple):
+    """Control ticks as the kernel takes them, increasing: which are judged (1 or 0), and samples kept before each."""
+
+    ticks: NDArray[np.int64]
+    judged: NDArray[np.int64]
+    rows: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
+        """The ticks of a run that is judged at some, and whose states are kept at others; `rows` ends with all."""
+        judge, keep = (np.asarray(() if some is None else some, dtype=np.int64) for some in (judge_at, keep_at))
+        ticks = np.union1d(judge, keep)
+        rows = np.append(0, np.cumsum(np.isin(ticks, keep)))
+        return cls(ticks, np.isin(ticks, judge).astype(np.int64), rows.astype(np.int64))
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +78,7 @@ class SampledKernel:
 
     def through(self, plant: Plant) -> SampledKernel:
         """The same machine code for another `plant` of the same `structure`. Raises ValueError for one of another."""
-        if structure(plant) != structure(self.loop.plant):
+        if structure(plant) != structure(self.loop.sampled):
             raise ValueError("a plant of the same structure is needed")
         return replace(self, loop=replace(self.loop, plant=plant))
 
@@ -71,11 +87,11 @@ class SampledKernel:
         starts: Any,
         duration: float,
         *,
-        ticks: Any,
+        judge_at: ArrayLike,
+        keep_at: ArrayLike | None = None,
         first_seed: int = 0,
         parameters: Any = None,
         rotors: Any = None,
-        keep: bool = False,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -85,16 +101,17 @@ class SampledKernel:
         ----------
         starts, duration
             Packed states; how long, s.
-        ticks : (t,) of int
+        judge_at : (j,) of int
             Increasing control ticks at which a run is judged.
+        keep_at : (t,) of int, optional
+            Increasing control ticks at which state and rotor forces are kept, in the frame of the law. They change
+            nothing of how a run is judged.
         first_seed : int
             Seed of the first run; the next has the next.
         parameters : (n, k), optional
             Values of the gains that vary; default those of the law.
         rotors : (n, rotors), optional
             Forces with which the rotors begin, N; default the least.
-        keep : bool
-            Whether states and rotor forces at these ticks are kept, too, in the frame of the law.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -105,34 +122,35 @@ class SampledKernel:
         packed = np.ascontiguousarray(starts, dtype=float) * sign
         runs, n = len(packed), len(vehicle.rotor_spins)
         seeds = (first_seed + np.arange(runs)).astype(np.int64)
-        judged = np.ascontiguousarray(ticks, dtype=np.int64)
-        count = number_of_ticks(duration, loop.plant)
-        values = inputs_of(loop.law, loop.parameters, parameters, runs)
+        moments = Ticks.of(judge_at, keep_at)
+        count = number_of_ticks(duration, loop.sampled)
+        values = inputs_of(loop, parameters, runs)
         least = np.full((runs, n), vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
-        memory = Flown.of_size(runs, SIZE, samples=(len(judged), SIZE + n) if keep else None, steps=False, judged=True)
+        samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + n)
+        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=True)
         numbers = plant_numbers(loop)
-        piece = PIECE if loop.plant.engine == "equations" else PIECE_MUJOCO
+        piece = PIECE if loop.sampled.engine == "equations" else PIECE_MUJOCO
 
         def fly(part: slice, out: Flown) -> None:
-            self._call(packed[part], values[part], numbers, seeds[part], count, judged, out)
+            self._call(packed[part], values[part], numbers, seeds[part], count, moments, out)
 
         flown = in_pieces(fly, memory, piece, workers, progress)
         if loop.law.e3 == "down":
             flown.final[...] *= FLIP_PACKED
-            if keep:
+            if flown.samples is not None:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Any, out: Flown) -> None:
+    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Ticks, out: Flown) -> None:
         if out.samples is not None:
             out.samples[...] = np.nan
         given = (
             address(starts), address(values), address(numbers), address(seeds), len(starts), count,
-            address(ticks), len(ticks), address(out.samples), address(out.reductions), address(out.final),
-            address(out.end), address(out.code),
+            address(ticks.ticks), len(ticks.ticks), address(ticks.judged), address(ticks.rows), int(ticks.rows[-1]),
+            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         )  # fmt: skip
-        if self.loop.plant.engine == "equations":
+        if self.loop.sampled.engine == "equations":
             self.function(*given)
         else:
             with MuJoCoWorld.lent(self.loop) as world:
@@ -156,7 +174,7 @@ def _without_lag(plant: Plant) -> dict[str, float]:
 
 def plant_numbers(loop: Loop) -> Any:
     """The numbers of the plant of `loop` that the machine code takes, as `SampledProblem.inputs` counts them."""
-    plant = loop.plant
+    plant = loop.sampled
     period, lag = 1 / plant.rate, plant.true_vehicle(loop.vehicle).rotor_lag
     if plant.engine == "equations":
         timings = [step_timing(lag, while_ / steps) for _, while_, steps in _flown(plant)]
@@ -189,10 +207,10 @@ def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
     InputError
         For an unknown gain, and for a law with operations that cannot be compiled.
     """
-    compiled = structure(loop.plant)
-    if loop.plant.engine == "mujoco" and loop.plant.true_vehicle(loop.vehicle).rotor_lag == 0:
+    compiled = structure(loop.sampled)
+    if loop.sampled.engine == "mujoco" and loop.sampled.true_vehicle(loop.vehicle).rotor_lag == 0:
         compiled = compiled.replace(lag=0.0)  # rotors without lag are no filters
-    return _structured(replace(loop, plant=compiled), criterion).through(loop.plant)
+    return _structured(replace(loop, plant=compiled), criterion).through(loop.sampled)
 
 
 @lru_cache(maxsize=64)
@@ -212,7 +230,7 @@ def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
 
 def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
     """The flights of `loop` as programs, judged by `criterion`."""
-    vehicle, plant = loop.vehicle, loop.plant
+    vehicle, plant = loop.vehicle, loop.sampled
     true = plant.true_vehicle(vehicle)
     flight_computer = board(loop)
     rates = plant.interface == "rates"
@@ -248,7 +266,7 @@ def _begin(loop: Loop) -> Program:
 
 def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
     """(t, state and rotor forces with e₃ up, gains) → what `criterion.REDUCTIONS` reduce."""
-    law: Law = loop.law
+    law = loop.symbolic
     n = len(loop.vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))
     own = packed[:SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)

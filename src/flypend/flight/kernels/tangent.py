@@ -6,6 +6,7 @@ derivatives of the same program.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -15,55 +16,47 @@ import numpy as np
 from flypend.compile.llvm import jit
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
-from flypend.flight.kernels.flown import Flown
-from flypend.flight.kernels.ideal import MAX_STEPS, call, closed, compiled
+from flypend.flight.kernels.flown import Flown, inputs_of
+from flypend.flight.kernels.ideal import Moments, call, compiled, setting_of
+from flypend.flight.request import Flight
 from flypend.laws.closed_loop import symbolic_loop
-from flypend.laws.law import Law
-from flypend.model import Vehicle
 from flypend.model.state import SIZE, project_symbolic
+from flypend.plants.loop import Loop
 
 
-def fly_tangents(
-    vehicle: Vehicle,
-    law: Law,
-    gains: tuple[str, ...],
-    starts: Any,
-    directions: Any,
-    values: Any,
-    rates: Any,
-    duration: float,
-    rtol: float,
-) -> Flown:
-    """Fly `starts` with their `directions`; final states (n, 48) are states and their derivatives.
+def fly_tangents(flight: Flight, gains: tuple[str, ...], directions: Any, rates: Any) -> Flown:
+    """Fly the one start of `flight` in many `directions`; final states (n, 48) are states and their derivatives.
 
     Parameters
     ----------
-    vehicle, law, duration, rtol
-        As in `simulate`, the law being bound.
+    flight : Flight
+        A request with a single start, in the ideal plant.
     gains : tuple of str
         Which may change, k of them.
-    starts, directions : (n, 24)
-        Packed states and directions tangent to the manifold.
-    values, rates : (n, k)
-        Gains and directions of them.
+    directions : (n, 24)
+        Directions of the start, tangent to the manifold.
+    rates : (n, k)
+        Directions of the gains.
     """
-    joined = np.ascontiguousarray(np.concatenate([starts, directions], axis=1), dtype=float)
-    parameters = np.ascontiguousarray(np.concatenate([values, rates], axis=1), dtype=float)
+    loop = replace(flight.loop, parameters=gains)
+    starts = np.tile(flight.starts.packed(), (len(directions), 1))
+    joined = np.ascontiguousarray(np.concatenate([starts, directions], axis=1))
+    parameters = np.ascontiguousarray(np.concatenate([inputs_of(loop, None, len(directions)), rates], axis=1))
     out = Flown.of_size(len(joined), joined.shape[1], samples=None, steps=True, judged=False)
-    call(_kernel(vehicle, law, gains), joined, parameters, (duration, rtol, rtol, MAX_STEPS), closed(()), out)
+    call(_kernel(loop), joined, parameters, setting_of(flight), Moments.of(), out)
     return out
 
 
 @lru_cache(maxsize=16)
-def _kernel(vehicle: Vehicle, law: Law, gains: tuple[str, ...]) -> jit.Native:
-    problem = tangent_problem(vehicle, law, gains)
+def _kernel(loop: Loop) -> jit.Native:
+    problem = tangent_problem(loop)
     return compiled(f"tangent {problem!r}", problem, "dop853")
 
 
-def tangent_problem(vehicle: Vehicle, law: Law, gains: tuple[str, ...]) -> Problem:
-    """State and direction (48) with gains and their direction (2 k), of the closed loop of `vehicle` under `law`."""
-    loop = symbolic_loop(vehicle, law, gains)
-    k = len(gains)
+def tangent_problem(closed: Loop) -> Problem:
+    """State and direction (48) with parameters and their direction (2 k), of the `closed` loop."""
+    law, k = closed.symbolic, len(closed.parameters)
+    loop = symbolic_loop(closed.vehicle, law, closed.parameters)
     both, parameters = ca.SX.sym("sv", 2 * SIZE), ca.SX.sym("pq", 2 * k)
     along = ca.jtimes(loop.rates, loop.s, both[SIZE:])
     if k:

@@ -10,6 +10,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.laws import BoundLaw, Controller
 
 # Unit vectors and rotations are uniform; vectors uniform in a ball, rates of the rod in a disc; numbers have ranges.
 UNIFORM = {"y": 2, "R": 3}
@@ -54,8 +55,8 @@ class Axis:
         return self.low + (self.high - self.low) * u
 
 
-def axes(table: Mapping[str, Any], gains: Mapping[str, float], plant: bool) -> tuple[Axis, ...]:
-    """What the table `vary` of a study says, for a law with `gains`, under a sampled `plant` or the ideal one.
+def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> tuple[Axis, ...]:
+    """What the table `vary` of a study says, for a `law`, under a sampled `plant` or the ideal one.
 
     Raises InputError for what is unknown or out of range.
     """
@@ -64,8 +65,10 @@ def axes(table: Mapping[str, Any], gains: Mapping[str, float], plant: bool) -> t
     for name, value in _table(table, "plant").items():
         found += _plant_axes(name, value, plant)
     for name, value in _table(table, "gains").items():
-        errors.only_known("vary.gains", [name], gains)
-        found.append(_range("gains", name, value))
+        errors.only_known("vary.gains", [name], law.numbers)
+        axis = _range("gains", name, value)
+        law.check_gain(name, axis.values or (axis.low, axis.high), "vary.gains")
+        found.append(axis)
     start = _table(table, "start")
     errors.only_known("vary.start", start, (*UNIFORM, *BALLS, *ANGLES))
     for two, one in ((("tilt", "azimuth"), "y"), (("rate", "heading"), "y_dot")):

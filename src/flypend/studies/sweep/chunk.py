@@ -11,11 +11,13 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS
-from flypend.flight.ensemble import fly_packed
-from flypend.flight.kernels import Flown, ideal_kernel, method_for, plant_numbers, sampled_kernel
-from flypend.flight.metrics import judged
-from flypend.plants import Plant
-from flypend.plants.loop import Loop
+from flypend.flight.ensemble import fly_many
+from flypend.flight.kernels import kernel_of, plant_numbers
+from flypend.flight.request import Flight
+from flypend.laws import Controller
+from flypend.laws.own import fingerprint
+from flypend.model import State
+from flypend.plants import Sampled
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import Design, design
 from flypend.studies.sweep.study import Study, study
@@ -53,35 +55,39 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
     """The columns of runs `first` to `last` (not included) of `study`, of the sample `stream`, on one core."""
     drawn = design(study, first, last, stream)
-    flown = [_fly_part(study, drawn, part, first) for part in _by_plant(study, drawn)]
-    reductions, status, end, final = (
-        np.concatenate([getattr(part, name) for part in flown]) for name in ("reductions", "status", "end", "final")
-    )
-    columns = judged(reductions, status, end, study.vehicle, study.criterion)
-    cause = np.zeros(len(end), dtype=np.uint8)
+    parts = [fly_many(flight, workers=1) for flight in flights(study, drawn, first)]
+    judged = [flown.columns for flown in parts]
+    columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
+    cause = np.zeros(last - first, dtype=np.uint8)
     for code, word in enumerate(CAUSES[1:], start=1):
         cause[columns["cause"] == word] = code
     out = {name: value.astype(np.float32) for name, value in drawn.columns.items()}
     out |= {name: columns[name].astype(np.float32) for name in FLOATS}
     out |= {"success": columns["success"], "cause": cause}
-    return out | ({"final": final} if study.final else {})
+    return out | ({"final": np.concatenate([flown.final.packed() for flown in parts])} if study.final else {})
+
+
+def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:
+    """The runs `drawn` as requests, one for each stretch that shares a plant; `first` is the number of their first."""
+    return [_flight(study, drawn, part, first) for part in _by_plant(study, drawn)]
 
 
 def program_digest(study: Study) -> str:
-    """Digest of what is flown, down to the last operation: law, vehicle, plants and criterion as compiled."""
+    """Digest of what is flown, down to the last operation: law, vehicle, plants and criterion as compiled.
+
+    Of a law that is not compiled it is the text of its file.
+    """
     digest = hashlib.sha256()
     cells = int(np.prod(study.shape, dtype=object))
-    plants = {repr(plant): plant for plant in (study.plant_at(cell) for cell in _plant_cells(study, cells))}
-    for plant in plants.values():
-        if isinstance(plant, Plant):
-            loop = Loop(study.vehicle, study.law, plant.replace(seed=0), study.gains)
-            kernel: Any = sampled_kernel(loop, study.criterion)
-            digest.update(plant_numbers(loop).tobytes())
-        else:
-            method = method_for(study.rtol, study.law)
-            kernel = ideal_kernel(
-                study.vehicle, study.law, study.criterion, study.gains, method=method, precision=study.precision
-            )
+    for cell in _plant_cells(study, cells):
+        run = cell * study.samples
+        (flight,) = flights(study, design(study, run, run + 1))
+        if isinstance(flight.law, Controller):
+            digest.update(fingerprint(flight.law) + repr((flight.plant, flight.criterion)).encode())
+            continue
+        kernel = kernel_of(flight)
+        if isinstance(flight.plant, Sampled):
+            digest.update(plant_numbers(flight.loop).tobytes())
         digest.update(kernel.key.encode())
     return digest.hexdigest()
 
@@ -100,21 +106,12 @@ def _by_plant(study: Study, drawn: Design) -> list[slice]:
     return [slice(a, b) for a, b in pairwise(ends)]
 
 
-def _fly_part(study: Study, drawn: Design, part: slice, first: int) -> Flown:
+def _flight(study: Study, drawn: Design, part: slice, first: int) -> Flight:
     plant = study.plant_at(int(drawn.cells[part.start]))
-    if isinstance(plant, Plant):  # noise of a run is its own, whatever the chunk
-        plant = plant.replace(seed=plant.seed + first + part.start)
-    return fly_packed(
-        study.vehicle,
-        study.law,
-        drawn.packed[part],
-        study.duration,
-        plant=plant,
-        rtol=study.rtol,
-        criterion=study.criterion,
+    seed = plant.seed if isinstance(plant, Sampled) else 0
+    return study.flight.replace(
+        starts=State.trusted(drawn.packed[part]),
         gains={name: value[part] for name, value in drawn.gains.items()},
-        judge_period=study.judge_period,
-        precision=study.precision,
-        max_steps=study.max_steps,
-        workers=1,
+        plant=plant,
+        seed=seed + first + part.start,  # noise of a run is its own, whatever the chunk
     )

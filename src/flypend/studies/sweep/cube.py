@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from flypend.errors import InputError
+from flypend.errors import InputError, require
 from flypend.geometry import cross, rotation_from_quat_xyzw, scale, unit
 
 SAMPLINGS = ("uniform", "sobol", "latin")
@@ -57,7 +57,9 @@ def members(sampling: str, seed: int, stream: int, size: int, dimensions: int, f
 
 
 def check_size(sampling: str, size: int, dimensions: int) -> None:
-    """Raise InputError for a sample of `size` points that `sampling` cannot give."""
+    """Raise InputError for a sample of `size` points that `sampling` cannot give, or gives with an extra only."""
+    if sampling != "uniform":
+        require("scipy", extra="studies", for_="sampling")
     if sampling == "latin" and size * dimensions > MOST_LATIN:
         most = f"at most {MOST_LATIN // dimensions} in {dimensions} dimensions as a Latin hypercube (or sobol)"
         raise InputError("runs", most, size)
@@ -66,7 +68,7 @@ def check_size(sampling: str, size: int, dimensions: int) -> None:
 
 
 def _sobol(seed: int, stream: int, dimensions: int, first: int, last: int) -> Any:
-    from scipy.stats.qmc import Sobol
+    from scipy.stats.qmc import Sobol  # of an extra: `check_size` asks for it
 
     source = Sobol(dimensions, rng=np.random.default_rng([seed, stream]))
     if first:

@@ -84,7 +84,7 @@ def _starts(study: Study, numbers: dict[tuple[str, str], Any], runs: int) -> tup
     if set(ANGLES) & set(given):
         _by_angles(study, given, fields, columns, runs)
     if "y_dot" in given:
-        y = fields.get("y", np.broadcast_to(study.start.y, (runs, 3)))
+        y = fields.get("y", np.broadcast_to(study.flight.starts.y, (runs, 3)))
         axis, u = given["y_dot"]
         fields["y_dot"] = cube.in_disc(u, y, axis.high)
     columns |= {name: fields[name] for name in ("y", "y_dot") if name in fields}
@@ -95,7 +95,7 @@ def _by_angles(
     study: Study, given: dict[str, tuple[Axis, Any]], fields: dict[str, Any], columns: dict[str, Any], runs: int
 ) -> None:
     flip = FLIP if study.law.e3 == "down" else np.eye(3)
-    own = flip @ study.start.y
+    own = flip @ study.flight.starts.y
     default = {"tilt": np.arctan2(np.hypot(own[0], own[1]), own[2]), "azimuth": np.arctan2(own[1], own[0])}
     angles = []
     for name in ANGLES:
@@ -110,7 +110,7 @@ def _by_angles(
 
 def _packed(study: Study, fields: dict[str, Any], runs: int) -> Any:
     packed = np.empty((runs, SIZE))
-    packed[:] = study.start.packed()
+    packed[:] = study.flight.starts.packed()
     place = 0
     for name, shape in SHAPES.items():
         width = int(np.prod(shape))

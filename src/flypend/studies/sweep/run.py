@@ -7,6 +7,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from flypend import errors
 from flypend.studies.sweep.chunk import fly_range, program_digest
 from flypend.studies.sweep.cluster import flown_chunks
 from flypend.studies.sweep.store import alone, opened, removed
@@ -57,6 +58,8 @@ def sweep(
         For a study that makes no sense, a store of another study (with the difference), one that cannot be written or
         that another sweep is writing, and a scheduler that does not answer.
     """
+    for module in ("zarr", "xarray", "distributed", "scipy"):
+        errors.require(module, extra="studies", for_="sweep")
     made = study if isinstance(study, Study) else study_from(study)
     if force:
         removed(store)
@@ -84,6 +87,7 @@ def _length(study: Study, number: int) -> int:
 
 def dataset(path: str | Path) -> xarray.Dataset:
     """The store at `path` as an `xarray.Dataset`, its numbers read when they are asked for."""
+    errors.require("xarray", extra="studies", for_="store")
     import xarray
 
     found: xarray.Dataset = xarray.open_zarr(path, chunks=None, consolidated=False)

@@ -10,14 +10,15 @@ import hashlib
 import shutil
 import tomllib
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
 import numpy as np
+from filelock import FileLock, Timeout
 
-from flypend.errors import InputError
+from flypend.errors import InputError, require
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.study import Study
 
@@ -135,7 +136,7 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         "study": study.text(),
         "program": program,
         "versions": dict(versions),
-        "vehicle": study.vehicle.name,
+        "vehicle": study.flight.vehicle.name,
         "law": study.law.name,
         "e3": study.law.e3,
     }
@@ -157,6 +158,7 @@ def checked_path(path: str | Path) -> Path:
 def existing(path: str | Path) -> Store:
     """The store at `path`. Raises InputError if there is none that a sweep has written."""
     path = checked_path(path)
+    require("zarr", extra="studies", for_="store")
     try:
         store = Store(path) if path.is_dir() else None
     except Exception as error:  # not Zarr, or metadata that cannot be read
@@ -246,18 +248,18 @@ def lock_of(path: Path) -> Path:
 @contextmanager
 def alone(store: Store) -> Iterator[None]:
     """Hold the store against a second sweep. The system lets go of it when the process ends, in whatever way."""
-    try:
-        import fcntl
-    except ImportError:  # a system without such locks
-        yield
-        return
     place = lock_of(store.path)
-    with place.open("w") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise InputError(str(store.path), "a store that no other sweep is writing", "one in use") from None
-        try:
-            yield
-        finally:
-            place.unlink(missing_ok=True)
+    lock = FileLock(place, timeout=0)
+    try:
+        lock.acquire()
+    except Timeout:
+        raise InputError(str(store.path), "a store that no other sweep is writing", "one in use") from None
+    except OSError as error:
+        raise InputError(str(place), "a file that can be written", error.strerror or error) from None
+    try:
+        yield
+    finally:
+        # While it is held: whoever has opened the file before sees that its name is gone, and opens a new one.
+        with suppress(OSError):  # a system that does not remove what is open; releasing removes it there
+            place.unlink()
+        lock.release()

@@ -12,16 +12,15 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.files.toml import toml_text
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.ideal import BYTES as PRECISIONS
-from flypend.flight.simulate import LEAST_RTOL, SAMPLE_PERIOD
-from flypend.laws import Law
-from flypend.laws.law import law_from_dict
+from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import read_toml
-from flypend.plants import Plant
-from flypend.plants import plant as plant_named
-from flypend.settings.runfile import check_plain, plant_of, start_of, table_at, toml_text, vehicle_table
+from flypend.plants import AnyPlant, Ideal, Sampled
+from flypend.settings.laws import absolute, law_from, law_table, table_of
+from flypend.settings.runfile import check_plain, plant_of, start_of, table_at, vehicle_table
 from flypend.studies.sweep.axes import Axis, axes, integer
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
@@ -29,8 +28,8 @@ KEYS = (
     "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs", "sampling", "seed",
     "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
-# Runs per chunk, in the ideal plant and in a sampled flight: a second or so of one core.
-CHUNK, CHUNK_SAMPLED = 32_768, 2_048
+# Runs per chunk, in the ideal plant, in a sampled flight, in MuJoCo, and step by step: some seconds of one core.
+CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
 # A run takes some hundreds of steps; one that takes this many is chattering.
 STEPS = 20_000
 MOST_CHUNK = 1_000_000
@@ -44,18 +43,8 @@ class Study:
 
     Parameters
     ----------
-    vehicle, law, plant, duration, rtol
-        As in `simulate`; the law with its gains for the vehicle.
-    criterion : Criterion
-        What counts as a success.
-    judge_period : float
-        Every so often a run is judged, s.
-    precision : "double" or "float"
-        Of the ideal plant.
-    max_steps : int
-        A run in the ideal plant that needs more is given up as diverged: gains that make the motion stiff.
-    start : State
-        Where runs start, in the frame of the law, but for what varies.
+    flight : Flight
+        A run of it, but for what varies.
     axes : tuple of Axis
         What varies.
     samples : int
@@ -74,16 +63,7 @@ class Study:
         What `tune` is told: see `flypend.studies.tune`.
     """
 
-    vehicle: Vehicle
-    law: Law
-    plant: str | Plant
-    duration: float
-    rtol: float
-    criterion: Criterion
-    judge_period: float
-    precision: str
-    max_steps: int
-    start: State
+    flight: Flight
     axes: tuple[Axis, ...]
     samples: int
     sampling: str
@@ -123,15 +103,20 @@ class Study:
         """Names of the gains that vary."""
         return tuple(axis.name for axis in self.axes if axis.group == "gains")
 
+    @property
+    def law(self) -> BoundLaw | Controller:
+        """The law that flies it."""
+        return self.flight.law
+
     def text(self) -> str:
         """The study as TOML, every default spelt out; without what `tune` is told."""
         return toml_text(self.settings)
 
-    def plant_at(self, cell: int) -> str | Plant:
+    def plant_at(self, cell: int) -> AnyPlant:
         """The plant of cell `cell` of the grid."""
         axes_ = [axis for axis in self.grid if axis.group == "plant"]
         if not axes_:
-            return self.plant
+            return self.flight.plant
         place = np.unravel_index(cell, self.shape)
         table = deepcopy(self.settings["plant"])
         for axis, index in zip(axes_, place, strict=False):
@@ -143,12 +128,18 @@ class Study:
         return plant_of(table)
 
 
-def study(what: str | Path | Mapping[str, Any]) -> Study:
+def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study:
     """The study of a TOML file, or of its content as a dict `what`; docs/studies/studies.md lists the keys.
+
+    `law`, as on the command line, takes the place of the law there.
 
     Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
     """
     settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
+    if "law" in settings and not isinstance(what, Mapping):
+        settings["law"] = absolute(settings["law"], Path(what).parent)
+    if law is not None:
+        settings["law"] = table_of(law)
     try:
         for key, value in settings.items():
             check_plain(key, value)
@@ -163,49 +154,65 @@ def _build(given: dict[str, Any]) -> Study:
     for key in ("vehicle", "law", "duration"):
         if key not in given:
             raise InputError(key, "a value", "nothing")
-    vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
-    law_table = table_at(given, "law")
-    law = law_from_dict(law_table).bound(vehicle)
-    plant = plant_of(given.get("plant", "ideal"))
-    plant = plant if plant == "ideal" else plant_named(plant)
-    if isinstance(plant, Plant) and plant.engine == "mujoco":
-        raise InputError("plant", "one that is compiled (ideal, rotors, hehn2011, or a table)", "mujoco")
     start, vary = _start(given)
-    found = axes(vary, law.numbers, plant != "ideal")
+    flight = _flight(given, start, vary)
+    plant = flight.plant
+    found = axes(vary, flight.law, isinstance(plant, Sampled))
     # Not in the order of the file: what is drawn depends on what is said, not on where.
     order = {"plant": 0, "gains": 1, "start": 2}
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
     made = Study(
-        vehicle=vehicle,
-        law=law,
-        plant=plant,
-        duration=errors.number("duration", given["duration"], above=0, unit="s"),
-        rtol=errors.number("rtol", given.get("rtol", 1e-6), at_least=LEAST_RTOL),
-        criterion=_criterion(given),
-        judge_period=errors.number("judge_period", given.get("judge_period", SAMPLE_PERIOD), above=0, unit="s"),
-        precision=errors.one_of("precision", given.get("precision", "double"), PRECISIONS),
-        max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
-        start=_fixed(start, vary),
+        flight=flight,
         axes=found,
         samples=integer("runs", given.get("runs", 1), 1),
         sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
         seed=integer("seed", given.get("seed", 1), 0),
-        chunk=integer("chunk", given.get("chunk", CHUNK if plant == "ideal" else CHUNK_SAMPLED), 1),
+        chunk=integer("chunk", given.get("chunk", _chunk(flight)), 1),
         final=_flag("final", given.get("final", False)),
         settings={},
         tune=table_at(given, "tune"),
     )
     _check(made)
+    exact = flight.tolerances
     settings = {
-        "duration": made.duration, "rtol": made.rtol, "judge_period": made.judge_period, "precision": made.precision,
-        "max_steps": made.max_steps,
+        "duration": flight.duration, "rtol": exact.rtol, "judge_period": flight.judge_period,
+        "precision": exact.precision, "max_steps": exact.max_steps,
         "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
-        "vehicle": vehicle.to_dict(), "law": law_table, "plant": _plant_table(given.get("plant", "ideal")),
-        "criterion": asdict(made.criterion), "start": start, "vary": vary,
+        "vehicle": flight.vehicle.to_dict(), "law": absolute(law_table(given["law"]), Path.cwd()),
+        "plant": _plant_table(given.get("plant", "rotors")),
+        "criterion": asdict(flight.criterion), "start": start, "vary": vary,
     }  # fmt: skip
     object.__setattr__(made, "settings", settings)
     _check_plants(made)
     return made
+
+
+def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) -> Flight:
+    """A run of the study, but for what varies."""
+    exact = Tolerances(
+        rtol=errors.number("rtol", given.get("rtol", 1e-6), above=0),
+        precision=given.get("precision", "double"),
+        max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
+    )
+    vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
+    return Flight(
+        vehicle=vehicle,
+        law=law_from(law_table(given["law"])).bind(vehicle),
+        starts=_fixed(start, vary),
+        duration=given["duration"],
+        plant=plant_of(given.get("plant", "rotors")),
+        tolerances=exact,
+        criterion=_criterion(given),
+        judge_period=given.get("judge_period", SAMPLE_PERIOD),
+    )
+
+
+def _chunk(flight: Flight) -> int:
+    if isinstance(flight.law, Controller):
+        return CHUNK_STEPPED
+    if isinstance(flight.plant, Sampled) and flight.plant.engine == "mujoco":
+        return CHUNK_MUJOCO
+    return CHUNK if isinstance(flight.plant, Ideal) else CHUNK_SAMPLED
 
 
 def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -248,15 +255,14 @@ def _check(made: Study) -> None:
         raise InputError("runs", f"at most {MOST_RUNS} over all cells of the grid", made.runs)
     if made.chunk > MOST_CHUNK:
         raise InputError("chunk", f"at most {MOST_CHUNK}", made.chunk)
-    if made.samples > 1 and made.dimensions == 0 and not _random(made.plant):
+    if made.samples > 1 and made.dimensions == 0 and not _random(made.flight.plant):
         raise InputError("runs", "1, since nothing is drawn", made.samples)
-    if made.plant != "ideal" and made.precision != "double":
-        raise InputError("precision", "'double' in a sampled flight", repr(made.precision))
     check_size(made.sampling, made.samples, made.dimensions)
 
 
-def _random(plant: str | Plant) -> bool:
-    return isinstance(plant, Plant) and (plant.noise is not None or plant.wind is not None)
+def _random(plant: AnyPlant) -> bool:
+    """Whether `plant` may draw numbers."""
+    return isinstance(plant, Sampled) and (plant.noise is not None or plant.wind is not None)
 
 
 def _check_plants(made: Study) -> None:
@@ -278,7 +284,7 @@ def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, du
     papers = law in ("printed", "corrected")
     return {
         "vehicle": vehicle or ("nayak2018" if papers else "hehn2011"),
-        "law": {"name": law},
+        "law": table_of(law),
         "plant": plant,
         "duration": duration if duration is not None else 6.5 if papers else 10.0,
         "judge_period": 0.1,

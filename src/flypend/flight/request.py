@@ -1,0 +1,259 @@
+"""One request: what flies, from where, how long, through what, how exactly, and when that counts as a success."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from types import MappingProxyType
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from flypend import errors, plants
+from flypend.compile.methods import NAMES as METHODS
+from flypend.errors import InputError
+from flypend.flight.criterion import Criterion
+from flypend.laws import AnyLaw, BoundLaw, Controller
+from flypend.model import State, Vehicle
+from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
+from flypend.plants.loop import Loop
+
+SAMPLE_PERIOD = 0.01
+LEAST_RTOL = 100 * float(np.finfo(float).eps)
+LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 Hz
+# From this tolerance on the method of order 5 is the faster one.
+LOOSE = 1e-6
+PRECISIONS = ("double", "float")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tolerances:
+    """How exactly the ideal plant is integrated; a sampled flight takes steps of 1 ms or less.
+
+    Parameters
+    ----------
+    rtol, atol : float
+        Tolerances of the adaptive step; atol defaults to rtol, since state entries are of order one in SI units.
+    method : "dop853" or "dp5", optional
+        Runge-Kutta method; default by the tolerance.
+    precision : "double" or "float"
+        Of all arithmetic; "float" is for tolerances of 1e-4 and looser.
+    max_steps : int, optional
+        A run that needs more is given up as diverged; default a million.
+
+    Raises
+    ------
+    InputError
+        For a tolerance that is not positive or below a hundred roundoffs, and an unknown method or precision.
+    """
+
+    rtol: float = 1e-9
+    atol: float | None = None
+    method: Literal["dop853", "dp5"] | None = None
+    precision: Literal["double", "float"] = "double"
+    max_steps: int | None = None
+
+    def __post_init__(self) -> None:
+        rtol = errors.number("rtol", self.rtol, above=0)
+        if rtol < LEAST_RTOL:
+            raise InputError("rtol", f"at least {LEAST_RTOL:g}, a hundred roundoffs", f"{rtol:g}")
+        object.__setattr__(self, "rtol", rtol)
+        if self.atol is not None:
+            object.__setattr__(self, "atol", errors.number("atol", self.atol, above=0))
+        if self.method is not None:
+            errors.one_of("method", self.method, METHODS)
+        errors.one_of("precision", self.precision, PRECISIONS)
+
+    @property
+    def absolute(self) -> float:
+        """The absolute tolerance."""
+        return self.rtol if self.atol is None else self.atol
+
+    def method_for(self, law: BoundLaw) -> str:
+        """The Runge-Kutta method: the one asked for, or the faster one, but DOP853 where `law` can be singular.
+
+        The error estimate of order 5 steps over a narrow singularity that the other notices.
+        """
+        return self.method or ("dp5" if self.rtol >= LOOSE and law.guard is None else "dop853")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Flight:
+    """A flight, or one from each of many starts: everything that its result depends on, checked once.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What flies.
+    law : BoundLaw or Controller
+        What steers it; a Law is bound to the vehicle here.
+    starts : State
+        A single state, or a batch with one leading axis, in the frame of the law.
+    duration : float
+        Seconds, > 0.
+    plant : Ideal or Sampled
+        What stands between law and world; default limits, rotor lag and sampling at 500 Hz. A Controller is sampled at
+        its own rate where the plant is ideal.
+    tolerances : Tolerances
+        Of the ideal plant.
+    criterion : Criterion
+        What counts as a success.
+    gains : dict
+        Gains of the law that differ from run to run, name to (n,) or one number; for a batch.
+    times : (t,) increasing, optional
+        Times at which states are kept, s; a sampled flight gives the nearest control ticks.
+    judge_period : float
+        Every so often a run is judged, s.
+    seed : int, optional
+        Seed of noise and gusts in the first run, the next having the next; default that of the plant.
+
+    Raises
+    ------
+    InputError
+        For what is of another kind or out of range.
+    """
+
+    vehicle: Vehicle
+    law: BoundLaw | Controller
+    starts: State
+    duration: float
+    plant: AnyPlant = ROTORS
+    tolerances: Tolerances = field(default_factory=Tolerances)
+    criterion: Criterion = field(default_factory=Criterion)
+    gains: Mapping[str, Any] = field(default_factory=dict)
+    times: NDArray[np.float64] | None = None
+    judge_period: float = SAMPLE_PERIOD
+    seed: int | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.starts, State):
+            raise InputError("start", "a State", repr(self.starts)[:80])
+        if len(self.starts.batch_shape) > 1:
+            raise InputError("starts", "a State with one leading batch axis", f"shape {self.starts.batch_shape}")
+        put = _setter(self)
+        put("law", bound_to(self.vehicle, self.law))
+        put("duration", errors.number("duration", self.duration, above=0, at_most=LONGEST, unit="s"))
+        put("judge_period", errors.number("judge_period", self.judge_period, above=0, unit="s"))
+        put("plant", _plant_for(self.law, plants.plant(self.plant)))
+        if self.seed is None:
+            put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)
+        put("times", _increasing(self.times, self.duration))
+        put("gains", self._checked_gains())
+        self._check_together()
+
+    def _checked_gains(self) -> Mapping[str, NDArray[np.float64]]:
+        if not self.gains:
+            return MappingProxyType({})
+        if self.single:
+            raise InputError("gains", "nothing for a single start: give them to the law", sorted(self.gains))
+        return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
+
+    def _check_together(self) -> None:
+        if isinstance(self.plant, Sampled):
+            for name, usual in (("method", "nothing"), ("precision", "'double'")):
+                if getattr(self.tolerances, name) != getattr(Tolerances(), name):
+                    raise InputError(name, f"{usual} in a sampled flight", repr(getattr(self.tolerances, name)))
+
+    @property
+    def single(self) -> bool:
+        """Whether it has one start, and its result is a `Trajectory`."""
+        return not self.starts.batch_shape
+
+    @property
+    def runs(self) -> int:
+        """Number of runs."""
+        return 1 if self.single else len(self.starts)
+
+    @property
+    def loop(self) -> Loop:
+        """What compiled code depends on."""
+        plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else self.plant
+        return Loop(self.vehicle, self.law, plant, tuple(self.gains))
+
+    @property
+    def grid(self) -> NDArray[np.float64]:
+        """Times at which a run is judged, s."""
+        return np.linspace(0.0, self.duration, max(2, round(self.duration / self.judge_period) + 1))
+
+    @property
+    def moments(self) -> NDArray[np.float64]:
+        """Times at which a single run is sampled, s: its own, or those at which it is judged."""
+        return self.grid if self.times is None else self.times
+
+    @property
+    def packed(self) -> NDArray[np.float64]:
+        """The starts (n, 24), packed."""
+        found: NDArray[np.float64] = np.atleast_2d(self.starts.packed())
+        return found
+
+    @property
+    def values(self) -> NDArray[np.float64] | None:
+        """The gains (n, k) that differ from run to run; None for none."""
+        return np.stack(list(self.gains.values()), axis=1) if self.gains else None
+
+    def replace(self, **changes: Any) -> Flight:
+        """A copy with the given fields in `changes` replaced and everything checked again. Raises InputError."""
+        errors.only_known("flight", changes, [entry.name for entry in fields(self)])
+        return replace(self, **changes)
+
+    def through(self, plant: AnyPlant) -> Flight:
+        """The same flight through another `plant`, with that plant's seed."""
+        return replace(self, plant=plant, seed=None)
+
+    def member(self, i: int) -> Flight:
+        """Run `i` alone, with its own seed, and its own gains where it has a Controller.
+
+        A flight whose gains differ has no such members under a law in symbols.
+        """
+        law = self.law
+        if self.gains:
+            assert isinstance(law, Controller)
+            law = law.with_gains({name: float(value[i]) for name, value in self.gains.items()})
+        return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i)
+
+
+def _setter(record: Any) -> Any:
+    """A function (name, value) that sets a field of a frozen `record` while it is made."""
+    return lambda name, value: object.__setattr__(record, name, value)
+
+
+def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
+    """The plant that `law` flies through: a Controller is sampled, and so never in continuous time."""
+    if isinstance(plant, Ideal) and isinstance(law, Controller):
+        return Sampled(limits=False, lag=0.0, rate=law.rate)
+    return plant
+
+
+def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:
+    """`law` as it flies `vehicle`. Raises InputError for what is neither."""
+    for name, value, kind, kinds in (
+        ("vehicle", vehicle, Vehicle, "Vehicle"),
+        ("law", law, AnyLaw, "Law or Controller"),
+    ):
+        if not isinstance(value, kind):
+            raise InputError(name, f"a {kinds}", repr(value)[:80])
+    return law.bind(vehicle)
+
+
+def some_times(times: ArrayLike | None) -> NDArray[np.float64] | None:
+    """`times` (t,) as an array, if there are any. Raises InputError for anything but numbers."""
+    return None if times is None else errors.array("times", times, (None,))
+
+
+def _increasing(times: NDArray[np.float64] | None, duration: float) -> NDArray[np.float64] | None:
+    if (wanted := some_times(times)) is None:
+        return None
+    if not len(wanted) or np.any(np.diff(wanted) <= 0):
+        raise InputError("times", "increasing times of shape (n,)", f"shape {wanted.shape}, or not increasing")
+    if wanted[0] < 0 or wanted[-1] > duration:
+        raise InputError("times", f"times inside 0 .. {duration:g} s", f"{wanted[0]:g} .. {wanted[-1]:g} s")
+    return wanted
+
+
+def _column(law: BoundLaw | Controller, name: str, value: ArrayLike, runs: int) -> NDArray[np.float64]:
+    """The values (n,) of one gain of `law`, within its bounds, from (n,) or one number for all."""
+    given = law.check_gain(name, value)
+    if given.shape not in ((), (runs,)):
+        raise InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")
+    return np.broadcast_to(given, (runs,))

@@ -1,0 +1,170 @@
+"""The registry of gains: what a law may be told, once; docstrings, checks, sliders and comments in C come from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from numbers import Real
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend import errors
+from flypend.model import Vehicle
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """The interval of the values that a gain may take, [low, high]; with `open_low` low itself is not one of them."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    open_low: bool = False
+
+    def limits(self) -> dict[str, float]:
+        """The interval as arguments of `errors.number`."""
+        low = {} if math.isinf(self.low) else {"above" if self.open_low else "at_least": self.low}
+        return low if math.isinf(self.high) else low | {"at_most": self.high}
+
+    def hold(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Which of the `values` lie inside."""
+        above = values > self.low if self.open_low else values >= self.low
+        inside: NDArray[Any] = np.isfinite(values) & above & (values <= self.high)
+        return inside
+
+
+ANY = Bounds()
+POSITIVE = Bounds(low=0.0, open_low=True)
+NOT_NEGATIVE = Bounds(low=0.0)
+SHARE = Bounds(low=0.0, high=1.0)
+POSITIVE_SHARE = Bounds(low=0.0, high=1.0, open_low=True)
+
+
+@dataclass(frozen=True)
+class Gain:
+    """One gain of a law.
+
+    Parameters
+    ----------
+    name : str
+        What it is called everywhere.
+    default : float, str or callable
+        Its value where nobody says another: a number, a word, or a rule from the vehicle.
+    unit : str
+        Unit, empty for a pure number.
+    doc : str
+        One line: what it does.
+    bounds : Bounds
+        Values that a number may take.
+    choices : tuple of str
+        Words that an option may be.
+    label : str
+        Short words for a slider; a gain without them has none.
+    fixed : bool
+        Whether it decides how much there is to compute: exported code holds it as a constant.
+    """
+
+    name: str
+    default: Any
+    unit: str = ""
+    doc: str = ""
+    bounds: Bounds = ANY
+    choices: tuple[str, ...] = ()
+    label: str = ""
+    fixed: bool = field(default=False, kw_only=True)
+
+    @property
+    def numeric(self) -> bool:
+        """Whether it is a real number, which may vary from run to run."""
+        return callable(self.default) or is_number(self.default)
+
+    def value(self, vehicle: Vehicle) -> Any:
+        """Its default for `vehicle`."""
+        return float(self.default(vehicle)) if callable(self.default) else self.default
+
+    def check(self, value: Any, name: str = "") -> Any:
+        """`value` if it is one that this gain may take; messages begin with `name`. Raises InputError."""
+        name = name or self.name
+        if self.choices:
+            return errors.one_of(name, value, self.choices)
+        if self.numeric:
+            return errors.number(name, value, unit=self.unit, **self.bounds.limits())
+        if isinstance(self.default, str) and not isinstance(value, str):
+            raise errors.InputError(name, "a word", repr(value))
+        return value
+
+    def check_all(self, values: Any, name: str = "") -> NDArray[Any]:
+        """`values`, one number or an array of any shape, if this gain may take each of them.
+
+        Messages begin with `name`. Raises InputError.
+        """
+        name = name or self.name
+        if not self.numeric:
+            raise errors.InputError(name, "nothing: only numbers may vary from run to run", f"{self.name}, an option")
+        found: NDArray[Any] = errors.array(name, values, (), batch=True)
+        wrong = found[~self.bounds.hold(found)]
+        if wrong.size:
+            self.check(float(wrong.flat[0]), name)
+        return found
+
+    def told(self) -> str:
+        """What to say of it in one line: its doc and unit."""
+        return f"{self.doc}{', ' + self.unit if self.unit and self.doc else self.unit}"
+
+
+def is_number(value: object) -> bool:
+    """Whether `value` is a real number; True and False are none."""
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def table(gains: Mapping[str, Any] | Iterable[Gain]) -> Mapping[str, Gain]:
+    """A table of gains by name, from `gains`: records, or values by name, which become defaults without bounds."""
+    if isinstance(gains, Mapping):
+        gains = [value if isinstance(value, Gain) else Gain(name, value) for name, value in gains.items()]
+    return MappingProxyType({gain.name: gain for gain in gains})
+
+
+def checked(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str = "") -> dict[str, Any]:
+    """The values `given` if every one is known to the table `gains` and within its bounds.
+
+    Messages begin with `name` and a dot. Raises InputError.
+    """
+    errors.only_known(name, given, gains)
+    return {key: gains[key].check(value, f"{name}.{key}".lstrip(".")) for key, value in given.items()}
+
+
+def check_gain(gains: Mapping[str, Gain], name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
+    """`values` of the gain called `name`, one or many, for runs that differ in it; messages begin with `prefix`.
+
+    Raises InputError for a name that is not in the table `gains`, an option, and values out of bounds.
+    """
+    errors.only_known(prefix, [name], [gain.name for gain in gains.values() if gain.numeric])
+    return gains[name].check_all(values, f"{prefix}.{name}".lstrip("."))
+
+
+def documented(gains: Mapping[str, Gain]) -> Callable[[F], F]:
+    """A decorator that puts the table `gains` in place of the line {gains} of a docstring."""
+
+    def fill(function: F) -> F:
+        lines = []
+        for line in (function.__doc__ or "").split("\n"):
+            indent = line[: len(line) - len(line.lstrip())]
+            lines += [f"{indent}{entry}" for entry in _entries(gains)] if line.strip() == "{gains}" else [line]
+        function.__doc__ = "\n".join(lines)
+        return function
+
+    return fill
+
+
+def _entries(gains: Mapping[str, Gain]) -> list[str]:
+    out = ["Gains", "-----"]
+    for gain in gains.values():
+        kind = " or ".join(f'"{word}"' for word in gain.choices) or "float"
+        default = "" if callable(gain.default) else f", default {gain.default!r}"
+        out += [f"{gain.name} : {kind}{default}", f"    {gain.told()}"]
+    return out

@@ -1,0 +1,68 @@
+"""The laws of the package by name, and as tables of a TOML file."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from flypend import errors
+from flypend.laws import references
+from flypend.laws.corrected import corrected
+from flypend.laws.inverted import inverted
+from flypend.laws.law import Law
+from flypend.laws.lqr import lqr
+from flypend.laws.printed import printed
+from flypend.laws.references import Reference
+
+FACTORIES: Mapping[str, Callable[..., Law]] = {
+    "printed": printed,
+    "corrected": corrected,
+    "inverted": inverted,
+    "lqr": lqr,
+}
+SHAPES: Mapping[str, Callable[..., Reference]] = {
+    "hover": references.hover,
+    "line": references.line,
+    "circle": references.circle,
+    "lemniscate": references.lemniscate,
+}
+
+
+def law_names() -> list[str]:
+    """Names of the laws that come with the package."""
+    return list(FACTORIES)
+
+
+def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
+    """The law of a TOML table `values`, {name, gains = {...}, reference = {...}}; messages begin with `key`.
+
+    A reference has a `shape` (hover, line, circle, lemniscate) and the arguments of that function in `laws.references`.
+
+    Raises InputError for an unknown law or gain (with the nearest known name) and for gains out of range.
+    """
+    errors.only_known(key, values, ("name", "gains", "reference"))
+    name = errors.one_of(f"{key}.name", values.get("name"), FACTORIES)
+    gains = values.get("gains", {})
+    if not isinstance(gains, Mapping):
+        raise errors.InputError(f"{key}.gains", "a table of gains", repr(gains))
+    extra = {}
+    if "reference" in values:
+        if not follows(name):
+            raise errors.InputError(f"{key}.reference", "nothing: the law has none", repr(values["reference"]))
+        extra["reference"] = _reference(values["reference"], f"{key}.reference")
+    return FACTORIES[name](**extra).with_gains(gains, f"{key}.gains")
+
+
+def follows(name: str) -> bool:
+    """Whether the law of the package called `name` follows a reference."""
+    return "reference" in inspect.signature(FACTORIES[name]).parameters
+
+
+def _reference(values: Any, key: str) -> Reference:
+    if not isinstance(values, Mapping):
+        raise errors.InputError(key, "a table with a shape", repr(values))
+    arguments = dict(values)
+    shape = SHAPES[errors.one_of(f"{key}.shape", arguments.pop("shape", None), SHAPES)]
+    errors.only_known(key, arguments, inspect.signature(shape).parameters)
+    return shape(**arguments)

@@ -1,0 +1,320 @@
+"""A law of one's own: a Python function becomes a `Law` where it is written in symbols, and a `Controller` where not.
+
+    def balance(t, state, vehicle, *, k_p=4.0): ...
+
+Its arguments go by their names: `t`, `state`, `vehicle`, and gains, which have defaults.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import traceback
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.errors import InputError
+from flypend.laws.bound import Control
+from flypend.laws.controller import Controller, Steering
+from flypend.laws.gain import Gain, is_number
+from flypend.laws.law import Law
+from flypend.model import State, Vehicle, Wrench, vehicle
+from flypend.model.state import SIZE, E3Direction
+
+# What the arguments of a law of one's own may be called; 0.1 had a fourth one, gains.
+ROLES: Mapping[str, tuple[str, ...]] = {
+    "t": ("t", "time"),
+    "state": ("state", "s"),
+    "vehicle": ("vehicle", "v"),
+    "gains": ("gains", "k"),
+}
+FORMS = (("t", "state"), ("t", "state", "vehicle"), ("t", "state", "vehicle", "gains"))
+# NumPy's functions on symbols: what comes of them is compared with numbers here; CasADi need not warn of them.
+warnings.filterwarnings("ignore", message=r"\s*casadi: a numpy function", category=FutureWarning)
+EXPECTED = "a function of (t, state, vehicle, *, gain=default, ...)"
+# A function is tried on a known vehicle in two states: symbols and numbers must then answer the same.
+_TRIED, _AGREEMENT = 2, 1e-9
+_SHAPE = "its wrench is not one thrust and three moments"
+
+
+class LawError(InputError):
+    """A mistake inside a law of one's own, in one line that names its file and line.
+
+    `where` is file:line, `name` the law if there is one yet, `said` what went wrong.
+    """
+
+    def __init__(self, where: str, name: str, said: str) -> None:
+        super().__init__("law", said, name)
+        self.where, self.name, self.said = where, name, " ".join(said.split())
+        self.args = (f"{where}: {self.said}" + (f" (in the law {name})" if name else ""),)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Another process is told the same."""
+        return (LawError, (self.where, self.name, self.said))
+
+
+@dataclass(frozen=True, eq=False)
+class Located:
+    """A `function` of the law `name` whose errors name file and line in one line."""
+
+    function: Callable[..., Any]
+    name: str
+
+    def __call__(self, *arguments: Any, **gains: Any) -> Any:
+        """What the function answers. Raises LawError for whatever it raises."""
+        try:
+            return self.function(*arguments, **gains)
+        except InputError:
+            raise
+        except Exception as error:
+            raise law_error(error, self.function, self.name) from error
+
+
+def law_error(error: BaseException, function: Any, name: str) -> LawError:
+    """The `LawError` for an `error` that the `function` of the law `name` raised."""
+    file = _file(function)
+    frames = traceback.extract_tb(error.__traceback__)
+    frame = next((f for f in reversed(frames) if f.filename == file), frames[-1])
+    said = f"{type(error).__name__}: {error}"
+    if "truth value" in said:
+        said = "an if on symbols, which need casadi.if_else, or on arrays"
+    return LawError(f"{shown(frame.filename)}:{frame.lineno}", name, said)
+
+
+def shown(file: str) -> str:
+    """A `file` as people call it: from the current folder if it is below that."""
+    path = Path(file)
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
+
+
+def from_function(
+    function: Callable[..., Any],
+    *,
+    name: str | None = None,
+    e3: E3Direction = "up",
+    gains: Iterable[Gain] = (),
+    rate: float = 500.0,
+) -> Law | Controller:
+    """The law that a Python function states.
+
+    Parameters
+    ----------
+    function : callable
+        `function(t, state, vehicle, *, k_p=4.0, ...) -> Wrench` or `Control`. Its gains are its arguments with
+        defaults, numbers or words. Written in CasADi expressions it becomes a `Law`, which flies fast and can be
+        exported. One that needs numbers (NumPy, an `if` on values) becomes a `Controller`, which flies step by step.
+        `function(t, state)` is a `Controller` in any case.
+    name : str, optional
+        Name for tables and files; default that of the function.
+    e3 : "up" or "down"
+        Direction of the world's third axis in which it is written.
+    gains : list of Gain, optional
+        Records with unit, bounds and words for those gains that have them.
+    rate : float
+        Control rate of a `Controller` in the ideal plant, Hz.
+
+    Raises
+    ------
+    InputError
+        For arguments of other names, a gain without a default, and a function that fails when it is tried; the message
+        names its file and line.
+    """
+    name = name or str(getattr(function, "__name__", type(function).__name__))
+    form, table = _read(function, name, {gain.name: gain for gain in gains})
+    call = Located(function, name)
+    if form == FORMS[2]:
+        if table:
+            raise InputError("law", EXPECTED, f"{name}, which has gains and an argument for them")
+        return Law(name=name, e3=e3, control=call)
+    defaults = {gain.name: gain.default for gain in table.values()}
+    because = "a function of time and state alone"
+    if form == FORMS[1]:
+        because = _why_not_symbolic(call, defaults)
+        if not because:
+            return Law(name=name, e3=e3, control=_Control(call, tuple(table)), gains=table)
+    return Controller(
+        name=name, e3=e3, rate=rate, gains=defaults, table=table, because=because,
+        function=_Steering(call, None, defaults), steering=_Steer(call, with_vehicle=form == FORMS[1]),
+    )  # fmt: skip
+
+
+def fingerprint(controller: Controller) -> bytes:
+    """What tells a `controller` from another: its name, gains and frame, and the text of the file that it is in."""
+    function: Any = controller.steering or controller.function
+    while isinstance(function, Located | _Steer | _Steering):
+        function = function.function
+    file, code = Path(_file(function)), getattr(function, "__code__", None)
+    text = file.read_bytes() if file.is_file() else code.co_code if code else b""
+    said = repr((controller.name, dict(controller.gains), controller.e3, controller.rate, controller.computer))
+    return hashlib.sha256(said.encode() + text).digest()
+
+
+def is_factory(function: Callable[..., Any]) -> bool:
+    """Whether a `function` can be called without arguments, and so may make a law."""
+    return not _needed(function)
+
+
+@dataclass(frozen=True, eq=False)
+class _Control:
+    """`Law.control` of a function whose gains are keyword arguments."""
+
+    function: Located
+    gains: tuple[str, ...]
+
+    def __call__(self, t: Any, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Any:
+        return self.function(t, state, vehicle, **{name: getattr(k, name) for name in self.gains})
+
+
+@dataclass(frozen=True, eq=False)
+class _Steer:
+    """`Controller.steering` of a function."""
+
+    function: Located
+    with_vehicle: bool
+
+    def __call__(self, vehicle: Vehicle, gains: Mapping[str, Any]) -> Steering:
+        return _Steering(self.function, vehicle if self.with_vehicle else None, dict(gains))
+
+
+@dataclass(frozen=True, eq=False)
+class _Steering:
+    """A function of time and state with everything else in place; its answer is checked."""
+
+    function: Located
+    vehicle: Vehicle | None
+    gains: Mapping[str, Any]
+
+    def __call__(self, t: float, state: State) -> Wrench:
+        answer = self.function(t, state, *(() if self.vehicle is None else (self.vehicle,)), **self.gains)
+        values = _numbers(answer, self.function)
+        return Wrench(float(values[0]), values[1:])
+
+
+def _read(
+    function: Callable[..., Any], name: str, records: Mapping[str, Gain]
+) -> tuple[tuple[str, ...], dict[str, Gain]]:
+    """The form of a function, one of `FORMS`, and its gains."""
+    needed = _needed(function)
+    form = tuple(_role(parameter.name, place) for place, parameter in enumerate(needed))
+    bare = [p.name for p in needed if p.kind is p.KEYWORD_ONLY]
+    if bare:
+        raise InputError("law", "a default for every gain", f"{name} without one for {bare[0]}")
+    if form not in FORMS:
+        got = ", ".join(p.name for p in needed) or "nothing"
+        raise InputError("law", EXPECTED, f"{name} of ({got})")
+    table = {p.name: records.get(p.name, Gain(p.name, p.default, label=p.name)) for p in _defaulted(function)}
+    for gain in table.values():
+        if not (is_number(gain.default) or isinstance(gain.default, str)):
+            raise InputError("law", "gains that are numbers or words", f"{name} with {gain.name} = {gain.default!r}")
+        gain.check(gain.default, f"law.gains.{gain.name}")
+    for other in set(records) - set(table):
+        raise InputError("law", f"a gain among the arguments of {name}", other)
+    return form, table
+
+
+def _role(name: str, place: int) -> str:
+    """What an argument is for, by its name; one called _ is what stands at its place."""
+    bare = name.strip("_").lower()
+    if not bare:
+        return (*ROLES, *[name] * (place + 1))[place]
+    return next((role for role, names in ROLES.items() if bare in names), name)
+
+
+def _needed(function: Callable[..., Any]) -> list[inspect.Parameter]:
+    """Arguments that a function cannot be called without."""
+    return [p for p in _parameters(function) if p.default is p.empty]
+
+
+def _defaulted(function: Callable[..., Any]) -> list[inspect.Parameter]:
+    return [p for p in _parameters(function) if p.default is not p.empty]
+
+
+def _parameters(function: Callable[..., Any]) -> list[inspect.Parameter]:
+    try:
+        found = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):  # some that are written in C
+        raise InputError("law", EXPECTED, f"{function!r}, which does not name its arguments") from None
+    return [p for p in found if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
+
+
+def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
+    """Why a function cannot be written in symbols, "" if it can; found by trying it on both.
+
+    Raises LawError for one that fails on both.
+    """
+    machine, states = _example()
+    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+    answers: list[NDArray[Any]] = []
+    failure: LawError | None = None
+    try:
+        wrench = _wrench(call(t, State.symbolic(packed), machine, **gains), call)
+        stacked = _stacked(wrench, call)
+        symbolic = ca.Function("try", [t, packed], [ca.densify(stacked)])
+        answers = [np.array(symbolic(0.0, state.packed())).ravel() for state in states]
+    except LawError as error:
+        failure = error
+    except Exception as error:  # what came is no expression
+        failure = LawError(_start(call.function), call.name, f"its wrench is not made of symbols: {error}")
+    try:
+        numbers = [_numbers(call(0.0, state, machine, **gains), call) for state in states]
+    except InputError as error:
+        if failure is None:
+            return ""  # written with functions of CasADi that numbers do not go through
+        raise (error if "SX" in failure.said or "an if on" in failure.said else failure) from None
+    if failure is not None:
+        return f"{failure.said}, {failure.where}"
+    same = np.allclose(answers, numbers, rtol=_AGREEMENT, atol=_AGREEMENT)
+    return "" if same else "its symbols do not say what its numbers say"
+
+
+@lru_cache(maxsize=1)
+def _example() -> tuple[Vehicle, tuple[State, ...]]:
+    states = State.random(np.random.default_rng(0), _TRIED)
+    return vehicle("hehn2011"), tuple(states[i] for i in range(_TRIED))
+
+
+def _wrench(answer: Any, call: Located) -> Wrench:
+    wrench = answer.wrench if isinstance(answer, Control) else answer
+    if not isinstance(wrench, Wrench):
+        raise LawError(_start(call.function), call.name, f"it returns {type(answer).__name__}, not a Wrench")
+    return wrench
+
+
+def _stacked(wrench: Wrench, call: Located) -> Any:
+    """Thrust and moment (4, 1) in symbols."""
+    stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
+    if stacked.shape != (4, 1):
+        raise LawError(_start(call.function), call.name, _SHAPE)
+    return stacked
+
+
+def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:
+    """Thrust and moment (4,) of what a function answered for numbers."""
+    wrench = _wrench(answer, call)
+    try:
+        parts = [np.asarray(np.array(part), dtype=float).ravel() for part in (wrench.thrust, wrench.moment)]
+    except (TypeError, ValueError, RuntimeError):
+        raise LawError(_start(call.function), call.name, "its wrench is not made of numbers") from None
+    if [part.size for part in parts] != [1, 3]:
+        raise LawError(_start(call.function), call.name, _SHAPE)
+    return np.concatenate(parts)
+
+
+def _file(function: Any) -> str:
+    code = getattr(inspect.unwrap(function), "__code__", None) or getattr(type(function).__call__, "__code__", None)
+    return getattr(code, "co_filename", "")
+
+
+def _start(function: Any) -> str:
+    """file:line where a function begins."""
+    code = getattr(inspect.unwrap(function), "__code__", None)
+    return f"{shown(code.co_filename)}:{code.co_firstlineno}" if code else repr(function)

@@ -1,0 +1,52 @@
+"""The board as one program: the same as its stages, and the only thing that a flight computer needs to keep."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.board.computer import SteppedBoard
+from flypend.board.program import board, depth, initial_memory, memory_size
+from flypend.compile.numeric import as_numpy
+from flypend.plants import Plant
+from flypend.plants.loop import Loop
+
+VEHICLE = fp.vehicle("hehn2011")
+LAW = fp.laws.inverted().bind(VEHICLE)
+NONE = np.zeros(0)
+PLANTS = {
+    "rotors": Plant(),
+    "slow": Plant(rate=100.0),
+    "rates": Plant(interface="rates", rate=50.0, delay=0.03),
+    "without limits": Plant(limits=False),
+}
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
+    loop = Loop(VEHICLE, LAW, PLANTS[name])
+    made, rng = board(loop), np.random.default_rng(3)
+    least = np.full(4, VEHICLE.rotor_limits[0])
+    stepped, step, memory = SteppedBoard(loop, least), as_numpy(made.step), initial_memory(loop, least)
+    assert len(memory) == memory_size(loop)
+    for k, state in enumerate(fp.State.random(rng, 30)):
+        t = k / loop.plant.rate
+        command = stepped.command(t, state.packed())
+        memory, given = step(memory, np.append(t, state.packed()), NONE, NONE, NONE)
+        np.testing.assert_allclose(given, command, rtol=1e-12, atol=1e-12)
+
+
+def test_it_remembers_as_many_commands_as_can_be_under_way():
+    for latency, rate, commands in ((0.0, 500.0, 1), (0.024, 500.0, 12), (0.003, 100.0, 1), (0.03, 50.0, 2)):
+        law = fp.laws.inverted(latency=latency).bind(VEHICLE)
+        assert depth(Loop(VEHICLE, law, Plant(rate=rate))) == commands
+
+
+def test_nothing_but_its_memory_decides_what_it_answers():
+    loop = Loop(VEHICLE, LAW, Plant())
+    step, least = as_numpy(board(loop).step), np.full(4, VEHICLE.rotor_limits[0])
+    measured = np.append(0.1, fp.State(y=(0.0, 0.6, 0.8)).packed())
+    memory = initial_memory(loop, least)
+    first = step(memory, measured, NONE, NONE, NONE)
+    np.testing.assert_array_equal(first[1], step(memory, measured, NONE, NONE, NONE)[1])
+    # Negative control: with what it remembers of the first step it answers otherwise.
+    assert np.max(np.abs(first[1] - step(first[0], measured, NONE, NONE, NONE)[1])) > 1e-3

@@ -242,9 +242,10 @@ def export_c(
     vehicle: VehicleName = "hehn2011",
     out: Out = Path("c-out"),
     precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
+    rate: Annotated[float, typer.Option("--rate", help="Control rate, Hz.")] = 500.0,
     light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
 ) -> None:
-    """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export."""
+    """Write the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
@@ -258,7 +259,7 @@ def export_c(
     if not isinstance(chosen, Law):
         raise InputError("--law", "a law written in symbols", repr(law))
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    write(chosen, vehicle_named(vehicle), out, precision=kind)
+    write(chosen, vehicle_named(vehicle), out, precision=kind, rate=rate)
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
 
 

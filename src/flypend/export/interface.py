@@ -239,7 +239,9 @@ def shifted(path: Any, time: float) -> Any:
 # The board --------------------------------------------------------------------------------------------------------
 
 
-def _command(loop: Loop, believed: Believed, steering: ca.Function, carry: ca.Function, *, follows: bool) -> ca.Function:
+def _command(
+    loop: Loop, believed: Believed, steering: ca.Function, carry: ca.Function, *, follows: bool
+) -> ca.Function:
     """As `board.command.law_command`, as calls of the functions that the bare law has, along a path of the pivot."""
     t, state, rotors = ca.MX.sym("t"), ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
     forces, path = ca.MX.sym("forces", FORCES), ca.MX.sym("path", records.PATH.length)

@@ -105,20 +105,22 @@ class CompiledBoard:
         Time (s) → numbers of `records.PATH`; default hover at the origin.
     rotors : (n,), optional
         Forces that the rotors begin with, N; default the least.
+
+    `numbers` is the C struct as bytes, `status` the last answer.
     """
 
     def __init__(self, code: Library, path: Callable[[float], Any] | None = None, rotors: Any = None) -> None:
         self.code, self._path = code, path
-        self._board = np.zeros(int(code.c.flypend_board_bytes()), np.uint8)
+        self.numbers = np.zeros(int(code.c.flypend_board_bytes()), np.uint8)
         self._measurement = np.zeros(records.MEASUREMENT.length, code.real)
         self._along = np.zeros(records.PATH.length, code.real)
         self._rotors = np.zeros(code.made.rotors.length, code.real)
-        self.status = code.call("flypend_board_begin", self._board, code.gains, code.params)
+        self.status = code.call("flypend_board_begin", self.numbers, code.gains, code.params)
         if rotors is not None:
             self.memory[:] = initial_memory(code.made.loop, np.asarray(rotors, dtype=float))
         self._pointers = [
             ctypes.c_void_p(array.ctypes.data)
-            for array in (self._board, self._measurement, self._along, code.params, self._rotors)
+            for array in (self.numbers, self._measurement, self._along, code.params, self._rotors)
         ]
         self._step = code.c.flypend_board_step
 
@@ -126,7 +128,7 @@ class CompiledBoard:
     def memory(self) -> Any:
         """The numbers that the board remembers: a view of them."""
         start = int(self.code.c.flypend_board_memory())
-        return self._board[start : start + self.code.made.memory * self.code.real.itemsize].view(self.code.real)
+        return self.numbers[start : start + self.code.made.memory * self.code.real.itemsize].view(self.code.real)
 
     def step(self, measurement: Any, path: Any = None) -> Any:
         """Rotor forces (n,) for a state (24,), or None for none, and numbers of `records.PATH`; sets `status`."""
@@ -141,7 +143,7 @@ class CompiledBoard:
 
     def skip(self) -> None:
         """Let a period go by without a call: `flypend_board_pass`."""
-        self.status = self.code.call("flypend_board_pass", self._board)
+        self.status = self.code.call("flypend_board_pass", self.numbers)
 
     def command(self, t: float, measured: Any) -> Any:
         """Rotor forces (n,) for the state `measured` (24,), e₃ up, at time `t` (s); NaN where the board refuses.

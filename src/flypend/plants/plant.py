@@ -209,7 +209,7 @@ def plant(name: str | AnyPlant) -> AnyPlant:
 
 
 def sampled_plant(name: str | AnyPlant) -> Sampled:
-    """The plant called `name`, as `plant` finds it, where the ideal one will not do. Raises InputError for that one."""
+    """Like `plant`, but `name` must be a sampled plant: raises InputError for the ideal plant."""
     found = plant(name)
     if isinstance(found, Ideal):
         raise InputError("plant", "a plant with numbers, such as 'rotors'", "the ideal plant")

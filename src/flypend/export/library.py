@@ -26,7 +26,6 @@ from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import FLIP_PACKED
 
 FLAGS = ("-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror")
 
@@ -135,10 +134,10 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
     path = _path(bound.reference)
 
     def wrench(t: float, state: State) -> Wrench:
-        upright = state.packed() * (1.0 if bound.e3 == "up" else FLIP_PACKED)
+        upright = state.seen(bound.e3).packed()
         values, _ = _step(code, path, t, upright, np.zeros(6))
         found = Wrench(values[0], values[1:])
-        return found if bound.e3 == "up" else found.flipped()
+        return found.seen(bound.e3)
 
     def source(flown: Vehicle, lead: float) -> Callable[..., Any]:
         if flown != vehicle:

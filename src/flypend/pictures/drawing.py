@@ -84,7 +84,7 @@ def main_direction(run: Trajectory) -> Any:
 
 def upright(state: State, run: Trajectory) -> State:
     """`state`, which is in the frame of `run`, in the frame with e₃ up."""
-    return state if run.e3 == "up" else state.flipped()
+    return state.seen(run.e3)
 
 
 def states_at(run: Trajectory, times: Any) -> State:

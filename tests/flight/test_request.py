@@ -1,0 +1,252 @@
+"""The request: one record that is made and checked once, the same from every border."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend import plants
+from flypend.flight.ensemble import fly_many
+from flypend.flight.request import Flight, Tolerances
+from flypend.flight.simulate import fly
+from flypend.laws import BoundLaw
+from flypend.plants import ROTORS, Ideal, Sampled
+from flypend.settings.runfile import run_of
+
+VEHICLE = fp.vehicle("hehn2011")
+HANGING = fp.State(y=(0.0, 0.0, -1.0))
+
+
+def request(**changes):
+    return Flight(**{"vehicle": VEHICLE, "law": fp.laws.inverted(), "starts": HANGING, "duration": 0.5, **changes})
+
+
+def batch(runs=5):
+    return fp.random_starts(runs, 3)
+
+
+# What it holds --------------------------------------------------------------------------------------------------------
+
+
+def test_it_holds_types_and_its_defaults_are_said_once():
+    flight = request()
+    assert isinstance(flight.law, BoundLaw)
+    assert flight.law.vehicle == VEHICLE
+    assert flight.plant == ROTORS == Sampled() == fp.Plant()
+    assert flight.tolerances == Tolerances(rtol=1e-9)
+    assert (flight.single, flight.runs, flight.seed) == (True, 1, 0)
+    np.testing.assert_array_equal(flight.grid, np.linspace(0, 0.5, 51))
+
+
+@pytest.mark.parametrize("name", ["ideal", "rotors", "mujoco", "hehn2011"])
+def test_a_name_becomes_a_plant_at_the_border(name):
+    plant = plants.plant(name)
+    assert isinstance(plant, Ideal if name == "ideal" else Sampled)
+    assert plants.plant(plant) is plant
+    assert run_of(settings(plant=name)).flight.plant == plant
+
+
+def settings(**more):
+    start = {"y": [0.0, 0.0, -1.0]}
+    return {"vehicle": "hehn2011", "law": {"name": "inverted"}, "start": start, "duration": 0.5, **more}
+
+
+def test_the_rotors_turn_unless_somebody_asks_for_the_ideal_plant():
+    assert run_of(settings()).flight.plant == ROTORS
+    assert run_of({"experiment": 4}).flight.plant == Ideal()  # the paper's data say so
+    table = {key: value for key, value in settings().items() if key != "start"}
+    assert fp.study({**table, "vary": {"start": {"y": "uniform"}}}).flight.plant == ROTORS
+    run = fp.simulate(VEHICLE, fp.laws.inverted(), HANGING, 0.5)
+    np.testing.assert_array_equal(
+        run.packed, fp.simulate(VEHICLE, fp.laws.inverted(), HANGING, 0.5, plant=ROTORS).packed
+    )
+    runs = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), batch(2), 0.5)
+    rotors = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), batch(2), 0.5, plant="rotors")
+    np.testing.assert_array_equal(runs.final.packed(), rotors.final.packed())
+    ideal = fp.simulate(VEHICLE, fp.laws.inverted(), HANGING, 0.5, plant="ideal")
+    assert np.max(np.abs(ideal.y[-1] - run.y[-1])) > 1e-4  # negative control: it is another flight
+
+
+def test_every_border_makes_the_same_request():
+    ours, theirs = request(), run_of(settings()).flight
+    for entry in dataclasses.fields(Flight):
+        one, other = getattr(ours, entry.name), getattr(theirs, entry.name)
+        if entry.name == "starts":
+            one, other = one.packed().tolist(), other.packed().tolist()
+        elif entry.name == "law":
+            one, other = (one.name, one.gains), (other.name, other.gains)
+        assert one == other, entry.name
+    np.testing.assert_array_equal(fly(ours).packed, fly(theirs).packed)
+
+
+def test_a_controller_is_sampled_at_its_own_rate_where_the_plant_is_ideal():
+    controller = fp.Controller(name="plain", function=lambda t, state: fp.Wrench(5.0, np.zeros(3)), rate=50.0)
+    flight = request(law=controller, plant=Ideal())
+    assert flight.plant == Sampled(limits=False, lag=0.0, rate=50.0)
+    assert flight.through(ROTORS).plant == ROTORS
+
+
+def test_a_copy_is_checked_again_and_a_member_has_its_own_seed():
+    flight = request(starts=batch(), plant=Sampled(seed=7))
+    assert [flight.member(i).seed for i in (0, 4)] == [7, 11]
+    assert flight.through(Sampled(seed=2)).seed == 2
+    assert flight.replace(duration=1.0).duration == 1.0
+    assert flight.loop.plant.seed == 0  # machine code does not depend on it
+    for changes, field in (({"duration": -1.0}, "duration"), ({"durations": 1.0}, "flight.durations")):
+        with pytest.raises(fp.InputError) as caught:
+            flight.replace(**changes)
+        assert caught.value.field == field
+
+
+# What is refused ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "line"),
+    [
+        ({"vehicle": "hehn2011"}, "vehicle: expected a Vehicle, got 'hehn2011'"),
+        ({"law": "inverted"}, "law: expected a Law or Controller, got 'inverted'"),
+        ({"starts": np.zeros(24)}, "start: expected a State, got array"),
+        ({"plant": "rotor"}, "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean"),
+        ({"plant": 3}, "plant: expected a Plant, Ideal() or one of ideal"),
+        ({"duration": 1e7}, "duration: expected at most 20000 s"),
+        ({"judge_period": 0}, "judge_period: expected a finite number > 0 s"),
+        ({"times": [0.2, 0.1]}, "times: expected increasing times"),
+        ({"times": [0.2, 0.7]}, "times: expected times inside 0 .. 0.5 s"),
+        ({"gains": {"rod_bandwidth": [3.0]}}, "gains: expected nothing for a single start"),
+        ({"tolerances": Tolerances(method="dp5")}, "method: expected nothing in a sampled flight, got 'dp5'"),
+        ({"tolerances": Tolerances(precision="float")}, "precision: expected 'double' in a sampled flight"),
+    ],
+)
+def test_what_makes_no_sense_is_told_in_one_line(changes, line):
+    with pytest.raises(fp.InputError) as caught:
+        request(**changes)
+    assert str(caught.value).startswith(line)
+
+
+@pytest.mark.parametrize(
+    ("gains", "line"),
+    [
+        ({"rod_bandwidth": [3.0, 4.0]}, "gains.rod_bandwidth: expected a number, or 5 of them, got shape (2,)"),
+        ({"rod_bandwidth": -1.0}, "gains.rod_bandwidth: expected a finite number > 0 rad/s, got -1"),
+        (
+            {"rod_bandwidth": [3.0, 3.0, 0.0, 3.0, 3.0]},
+            "gains.rod_bandwidth: expected a finite number > 0 rad/s, got 0",
+        ),
+        ({"rod_bandwith": 3.0}, "gains.rod_bandwith: expected one of"),
+        ({"thrust_share": 1.5}, "gains.thrust_share: expected at most 1"),
+    ],
+)
+def test_gains_of_each_run_have_the_bounds_of_the_law(gains, line):
+    for asked in (
+        lambda: request(starts=batch(), gains=gains),
+        lambda: fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), batch(), 0.1, gains=gains),
+    ):
+        with pytest.raises(fp.InputError) as caught:
+            asked()
+        assert str(caught.value).startswith(line)
+
+
+# Sampled where it is asked --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("plant", ["ideal", "rotors", "callable"])
+def test_samples_of_an_ensemble_are_those_of_single_runs_and_change_no_verdict(plant):
+    """In the kernels and one by one: one flight each, judged on its grid, kept at times of its own."""
+    law = fp.laws.inverted()
+    if plant == "callable":
+        plant = "rotors"
+        law = fp.Controller(name="plain", function=lambda t, s: fp.Wrench(VEHICLE.weight, -0.01 * s.omega))
+    times, starts = [0.0, 0.1234, 0.4], batch()
+    kept = fp.simulate_ensemble(VEHICLE, law, starts, 0.5, plant=plant, times=times, workers=1)
+    plain = fp.simulate_ensemble(VEHICLE, law, starts, 0.5, plant=plant, workers=1)
+    assert kept.samples.batch_shape == (5, 3)
+    np.testing.assert_allclose(kept.t, times if plant == "ideal" else [0.0, 0.124, 0.4])
+    for name in ("success", "settling", "excursion", "effort", "peak_force", "end", "cause"):
+        np.testing.assert_array_equal(getattr(kept, name), getattr(plain, name), err_msg=name)
+    np.testing.assert_array_equal(kept.final.packed(), plain.final.packed())
+    for i in (0, 4):
+        run = fp.simulate(VEHICLE, law, starts[i], 0.5, plant=plant, times=times)
+        np.testing.assert_allclose(kept.samples[i].packed(), run.packed, rtol=0, atol=1e-12)
+
+
+def test_an_ensemble_flies_once(monkeypatch):
+    from flypend.flight.kernels.ideal import IdealKernel
+    from flypend.flight.kernels.sampled import SampledKernel
+
+    flown = []
+    for kind in (IdealKernel, SampledKernel):
+        monkeypatch.setattr(
+            kind, "fly", lambda self, *a, own=kind.fly, **k: flown.append(k["keep_at"]) or own(self, *a, **k)
+        )
+    for plant in (Ideal(), ROTORS):
+        fly_many(request(starts=batch(), plant=plant, times=np.array([0.1, 0.4])), workers=1)
+    assert len(flown) == 2
+    assert all(len(times) == 2 for times in flown)
+
+
+def test_samples_after_the_end_of_a_run_are_nan():
+    case = fp.paper.experiment("4")
+    starts = fp.State.from_packed(np.stack([case.start.packed()] * 2))
+    end = fp.simulate(case.vehicle, case.law("printed"), starts[0], 0.3, plant="ideal").outcome.time
+    assert end < 0.29
+    for engine in ("kernel", "scipy"):
+        runs = fp.simulate_ensemble(
+            case.vehicle,
+            case.law("printed"),
+            starts,
+            0.3,
+            plant="ideal",
+            times=[end / 2, 0.29],
+            engine=engine,
+            workers=1,
+        )
+        assert runs.cause.tolist() == ["singular", "singular"]
+        assert np.isfinite(runs.samples.packed()[:, 0]).all()
+        assert np.isnan(runs.samples.packed()[:, 1]).all()
+
+
+# One family of results ------------------------------------------------------------------------------------------------
+
+
+def results():
+    inverted, starts = fp.laws.inverted(), batch()
+    return {
+        "ideal": fp.simulate(VEHICLE, inverted, HANGING, 0.2, plant="ideal"),
+        "rotors": fp.simulate(VEHICLE, inverted, HANGING, 0.2),
+        "ensemble": fp.simulate_ensemble(VEHICLE, inverted, starts, 0.2),
+        "samples and gains": fp.simulate_ensemble(
+            VEHICLE, inverted, starts, 0.2, times=[0.0, 0.1], gains={"rod_bandwidth": np.linspace(5, 9, 5)}
+        ),
+        "sensitivity": fp.sensitivity(fp.vehicle("nayak2018"), fp.laws.corrected(), HANGING, 0.1, gains=("k_1",)),
+        "by the start": fp.sensitivity(fp.vehicle("nayak2018"), fp.laws.corrected(), HANGING, 0.1),
+    }
+
+
+def test_results_have_the_same_names_and_their_frames_have_rows():
+    for name, result in results().items():
+        assert isinstance(result.final, fp.State), name
+        assert isinstance(result.vehicle, fp.Vehicle), name
+        assert isinstance(result.law, str), name
+        assert result.e3 in ("up", "down"), name
+        data = result.to_xarray()
+        assert data.attrs["law"] == result.law
+        frame = data.to_dataframe()
+        assert len(frame) > 0, name
+        assert len(frame) < 1e5, name  # the mechanism is no product of what has nothing to do with each other
+    rotors = results()["rotors"].to_xarray()
+    assert rotors.sizes["t"] == 21
+    np.testing.assert_array_equal(rotors["y"].isel(t=3), results()["rotors"].y[3])
+
+
+def test_an_ensemble_as_arrays_has_every_run_with_its_gains():
+    runs = results()["samples and gains"]
+    data = runs.to_xarray()
+    np.testing.assert_array_equal(data["gains.rod_bandwidth"], np.linspace(5, 9, 5))
+    np.testing.assert_array_equal(data["final_R"], runs.final.R)
+    np.testing.assert_array_equal(data["y"].sel(t=0.1), runs.samples.y[:, 1])
+    assert data["final_R"].dims == ("run", "axis", "body_axis")
+    assert data["settling"].attrs["units"] == "s"
+    assert data["final_x"].attrs["units"] == "m"
+    assert len(data[["success", "cause", "excursion"]].to_dataframe()) == 5

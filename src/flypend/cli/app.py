@@ -257,9 +257,10 @@ def export_c(
     vehicle: VehicleName = "hehn2011",
     out: Out = Path("c-out"),
     precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
+    rate: Annotated[float, typer.Option("--rate", help="Control rate, Hz.")] = 500.0,
     light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
 ) -> None:
-    """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export."""
+    """Write the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
@@ -273,7 +274,7 @@ def export_c(
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    write(chosen, model.vehicle(vehicle), out, precision=kind)
+    write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate)
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
 
 

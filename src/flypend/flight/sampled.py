@@ -20,7 +20,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
 from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle
-from flypend.model.state import FLIP_PACKED, MAX_STATE
+from flypend.model.state import MAX_STATE, seen_packed
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
@@ -56,7 +56,7 @@ def fly(
     """
     loop = Loop(vehicle, law, plant)
     engine = make_engine(plant.true_vehicle(vehicle), plant)
-    packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    packed = seen_packed(start.packed(), law.e3)
     begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)

@@ -2,14 +2,13 @@
 
     python benchmarks/export_cost.py [--law inverted ...]
 
-For flypend_step followed by flypend_mix, checks included, which take the same path at every valid state: operations of
-the programs; x86-64 instructions per call by callgrind and microseconds on this core (gcc -O2); for a Cortex-M4F
-(arm-none-eabi-gcc -O2) .text and stack (-fstack-usage) in bytes, cycles, and the share of an STM32F405 at 168 MHz that
-500 calls a second take.
+For the whole flight computer, flypend_board_step, and for the bare law, flypend_step followed by flypend_mix; checks
+included, which take the same path at every valid state: operations of the programs; x86-64 instructions per call by
+callgrind and microseconds on this core (gcc -O2); for a Cortex-M4F (arm-none-eabi-gcc -O2) .text and stack
+(-fstack-usage) in bytes, cycles, and the share of an STM32F405 at 168 MHz that 500 calls a second take.
 
 Cycles are counted, not measured, on code compiled with -fno-inline, which is slower: every instruction of the functions
-that a call runs, in line, branches as if taken, the checking loop times its length, with the timings of the Cortex-M4
-Technical Reference Manual: 14 for VDIV and VSQRT, 2 for a load or store, 1 + n for n words, 3 for a fused product or a
+that a call runs, in line, branches as if taken, a loop times its length, with the timings of the Cortex-M4 Technical Reference Manual: 14 for VDIV and VSQRT, 2 for a load or store, 1 + n for n words, 3 for a fused product or a
 branch, 1 for the rest. Wait states of the flash, which the STM32's accelerator hides while code runs straight, and
 stalls of a cycle on a value that was just computed are not in it. Double precision has no hardware there.
 """
@@ -24,9 +23,9 @@ from pathlib import Path
 import numpy as np
 
 import flypend as fp
-from flypend.export import vectors
+from flypend.export import records, vectors
 from flypend.export.interface import interface
-from flypend.export.library import Library
+from flypend.export.library import CompiledBoard, Library
 
 LAWS = {
     "corrected": fp.laws.corrected,
@@ -48,16 +47,25 @@ __attribute__((noinline)) void once(const flypend_vector *v, flypend_rotors *r)
     (void)flypend_step(&v->state, &v->reference, &flypend_default_gains, &flypend_default_params, &w);
     (void)flypend_mix(&w, &flypend_default_params, r);
 }
+static flypend_board board;
+void period(const flypend_period *p, flypend_rotors *r);
+__attribute__((noinline)) void period(const flypend_period *p, flypend_rotors *r)
+{
+    (void)flypend_board_step(&board, &p->measurement, &p->path, &flypend_default_params, r);
+}
 int main(void)
 {
     flypend_rotors r;
+    (void)flypend_board_begin(&board, &flypend_default_gains, &flypend_default_params);
     for (int i = 0; i < CALLS; i++) {
         once(&flypend_vectors[i], &r);
+        period(&flypend_flights[i], &r);
     }
     return r.force[0] < 0;
 }
 """
-LOOPS = {"numbers": 4}  # a call of `numbers` runs its loop this often: most vectors have three entries, R has nine
+# What is measured: the functions that are called, and that of MAIN which calls them.
+PARTS = {"board": (("flypend_board_step",), "period"), "law": (("flypend_step", "flypend_mix"), "once")}
 
 
 def main() -> None:
@@ -69,26 +77,29 @@ def main() -> None:
     given = parser.parse_args()
     vehicle = fp.vehicle(given.vehicle)
     names = ("ops", "instr", "us", "text", "stack", "cycles", "kHz", "M4%")
-    print(f"{'law':10} {'reals':7}", *(f"{name:>7}" for name in names))
+    print(f"{'law':10} {'part':6} {'reals':7}", *(f"{name:>7}" for name in names))
     for name in given.law or LAWS:
         for precision in given.precision or ("double", "float"):
-            print(row(name, LAWS[name]().bind(vehicle), vehicle, precision), flush=True)
+            for line in rows(name, LAWS[name]().bind(vehicle), vehicle, precision):
+                print(line, flush=True)
 
 
-def row(name, law, vehicle, precision):
-    """The line of `law` in `precision`."""
+def rows(name, law, vehicle, precision):
+    """The lines of `law` in `precision`: the board, and the bare law."""
     made = interface(law, vehicle)
-    ops = sum(sum(program.counts().values()) for program in (made.step, made.mix, made.check))
+    own = {key: sum(program.counts().values()) for key, program in made.all_programs().items()}
+    checks = own["rod"] + own["attitude"]
+    ops = {"board": made.board.operations() + checks, "law": own["law"] + own["share"] + checks}
     with tempfile.TemporaryDirectory() as text:
         folder = fp.export_c(law, vehicle, Path(text) / "c", precision=precision)
-        instructions = callgrind(folder)
-        size, stack, cycles = cortex_m4(folder)
-    cells = [ops, instructions, f"{microseconds(law, vehicle, precision):.2f}", size, stack]
-    if precision == "double":
-        cells += ["soft", "-", "-"]
-    else:
-        cells += [cycles, f"{CLOCK / cycles / 1e3:.1f}", f"{100 * RATE * cycles / CLOCK:.2f}"]
-    return " ".join([f"{name:10} {precision:7}", *(f"{cell:>7}" for cell in cells)])
+        for part, (functions, caller) in PARTS.items():
+            instructions, (size, stack, cycles) = callgrind(folder, caller), cortex_m4(folder, functions, made)
+            cells = [ops[part], instructions, f"{microseconds(law, vehicle, precision, part):.2f}", size, stack]
+            if precision == "double":
+                cells += ["soft", "-", "-"]
+            else:
+                cells += [cycles, f"{CLOCK / cycles / 1e3:.1f}", f"{100 * RATE * cycles / CLOCK:.2f}"]
+            yield " ".join([f"{name:10} {part:6} {precision:7}", *(f"{cell:>7}" for cell in cells)])
 
 
 def run(*command, folder):
@@ -96,29 +107,47 @@ def run(*command, folder):
     return subprocess.run(list(map(str, command)), cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
-def callgrind(folder):
-    """Instructions of one call on x86-64."""
+def callgrind(folder, caller):
+    """Instructions of one call of the function `caller` on x86-64."""
     (folder / "main.c").write_text(MAIN)
     run("gcc", "-std=gnu99", "-O2", f"-DCALLS={CALLS}", "main.c", "flypend_law.c", "-lm", "-o", "main", folder=folder)
-    tool = ("valgrind", "--tool=callgrind", "--toggle-collect=once", "--callgrind-out-file=calls")
+    tool = ("valgrind", "--tool=callgrind", f"--toggle-collect={caller}", "--callgrind-out-file=calls")
     done = subprocess.run([*tool, "./main"], cwd=folder, check=True, capture_output=True, text=True)
     return int(re.search(r"Collected : (\d+)", done.stderr)[1]) // CALLS
 
 
-def microseconds(law, vehicle, precision):
+def microseconds(law, vehicle, precision, part):
     """Time of one call on this core: the best of five."""
     code = Library(law, vehicle, precision)
-    state, reference = vectors.random_inputs(vehicle, 4000, 1, precision)
+    fly = _boards(code, precision) if part == "board" else _steps(code, vehicle, precision)
     best = np.inf
     for _ in range(5):
         begin = time.perf_counter()
-        code.step(state, reference)
-        best = min(best, time.perf_counter() - begin)
-    return 1e6 * best / len(state)
+        count = fly()
+        best = min(best, (time.perf_counter() - begin) / count)
+    return 1e6 * best
 
 
-def cortex_m4(folder):
-    """Bytes of .text of what a call needs, bytes of stack, and cycles of one call."""
+def _steps(code, vehicle, precision):
+    state, reference = vectors.random_inputs(vehicle, 4000, 1, precision)
+    return lambda: len(code.step(state, reference)[0])
+
+
+def _boards(code, precision):
+    flown = vectors.flights(code.made.loop, 1, 400, 1, precision)
+    measurement, path = code.array(flown.measurement), code.array(flown.path)
+    board, count = CompiledBoard(code), len(measurement)
+    rotors, status = np.empty((count, code.made.rotors.length), code.real), np.empty(count, np.int32)
+
+    def fly():
+        code.call("flypend_fly", count, board.numbers, measurement, path, code.params, rotors, status)
+        return count
+
+    return fly
+
+
+def cortex_m4(folder, ends, made):
+    """Bytes of .text of what calls of `ends` need, bytes of stack, and cycles."""
     fast, plain = compiled_for_m4(folder, "fast"), compiled_for_m4(folder, "plain", "-fno-inline")
     stack = {}
     for line in (folder / "fast.su").read_text().splitlines():
@@ -128,10 +157,20 @@ def cortex_m4(folder):
     for line in run("arm-none-eabi-nm", "-S", "fast.o", folder=folder).splitlines():
         if len(cells := line.split()) == 4:
             sizes[cells[3]] = int(cells[1], 16)
-    ends = ("flypend_step", "flypend_mix")
     needed = set().union(*(reached(fast, name) for name in ends))
     deepest = max(depth(fast, stack, name) for name in ends)
-    return sum(sizes[name] for name in needed), deepest, sum(spent(plain, name) for name in ends)
+    loops = {"numbers": checked(made, ends), "remember": made.memory, "spins_as_written": made.rotors.length}
+    return sum(sizes[name] for name in needed), deepest, sum(spent(plain, name, loops) for name in ends)
+
+
+def checked(made, ends):
+    """How often the loop of `numbers` runs on the average of its calls on the way of a valid state."""
+    own = [made.gains.length] * made.has_gains + [made.params.length]
+    if ends == PARTS["board"][0]:
+        lengths = [*own, 24, made.rotors.length, made.memory, made.memory, *[records.PATH.length] * made.follows]
+    else:
+        lengths = [*own, 30, 4, *[records.REFERENCE.length] * made.follows, made.params.length, 4, made.rotors.length]
+    return sum(lengths) / len(lengths)
 
 
 def compiled_for_m4(folder, name, *flags):
@@ -171,10 +210,15 @@ def depth(functions, stack, name):
     )
 
 
-def spent(functions, name):
-    """Cycles of `name` and of its calls."""
+# Calls that only an invalid input leads to.
+ANSWERS = {"safe_wrench", "safe_command", "safe_rotors", "least_forces", "unmeasured", "stop"}
+
+
+def spent(functions, name, loops):
+    """Cycles of `name` and of its calls; `loops` says how often the loop runs that makes up a function."""
     own = sum(cost(*instruction) for instruction in functions[name])
-    return LOOPS.get(name, 1) * (own + sum(spent(functions, other) for other in called(functions, name)))
+    calls = (other for other in called(functions, name) if other not in ANSWERS)
+    return round(loops.get(name, 1) * (own + sum(spent(functions, other, loops) for other in calls)))
 
 
 def cost(word, operands):

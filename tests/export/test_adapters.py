@@ -1,4 +1,4 @@
-"""The adapters of the exported law, compiled against stand-in headers and flown on numbers converted in Python."""
+"""The adapters of the exported flight computer, compiled against stand-in headers and fed with converted numbers."""
 
 import ctypes
 
@@ -9,7 +9,10 @@ from scipy.spatial.transform import Rotation
 
 import flypend as fp
 from flypend import geometry as geo
+from flypend.board.program import initial_memory
 from flypend.export import records, vectors
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Sampled
 
 VEHICLE = fp.vehicle("hehn2011")
 LAW = fp.laws.inverted().bind(VEHICLE)
@@ -49,14 +52,17 @@ def _quat_xyzw(R):
     return Rotation.from_matrix(R).as_quat()
 
 
-def _hover_wrench(state, target):
-    """What Python answers at a single state that is to hover at `target`."""
+def _commands(state, target, steps):
+    """Rotor forces (steps, n) of Python's board that sees the same `state` in every period and hovers at `target`."""
+    loop = Loop(VEHICLE, LAW, Sampled())
     path = np.zeros(records.PATH.length)
     path[:3] = target
-    numbers = records.state_numbers(state.packed(), np.zeros(6))
-    reference = vectors.path_reference(VEHICLE)(path, numbers)
-    wrench, rotors = vectors.answers(LAW, VEHICLE)(numbers, reference)
-    return np.array(wrench).ravel(), np.array(rotors).ravel()
+    memory, commands = initial_memory(loop, np.full(4, VEHICLE.rotor_limits[0])), []
+    for _ in range(steps):
+        answer = vectors.board_step(loop)(memory, np.append(0.0, state.packed()), path, [], [])
+        memory, command = (np.array(value).ravel() for value in answer)
+        commands.append(command)
+    return np.array(commands)
 
 
 def _lines(text):
@@ -107,25 +113,46 @@ def test_north_east_down_is_the_flipped_state_of_python(frames):
         assert np.allclose(R.reshape(3, 3), state.R, rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("times", "periods"),
+    [
+        ((1000, 2000, 3000, 4000), (1, 0, 1, 0)),  # twice as fast as 500 Hz
+        ((1000, 2900, 5100, 7000), (1, 1, 1, 1)),  # jitter
+        ((1000, 3000, 9000, 11000), (1, 1, 3, 1)),  # two periods were missed
+        ((1000, 900000, 902000), (1, 50, 1)),  # no more than 50 are made up for
+        ((900000, 1000, 3000), (1, 50, 1)),  # a clock that was set back
+    ],
+)
+def test_time_is_kept_in_periods(frames, times, periods):
+    due = ctypes.c_uint64(0)
+    assert tuple(frames.flypend_due(ctypes.c_uint64(now), ctypes.byref(due)) for now in times) == periods
+
+
 # Adapters -------------------------------------------------------------------------------------------------------
 
+OK, NULL, NOT_FINITE, ROD = range(4)
 
-def test_the_crazyflie_controller_asks_for_the_wrench_of_the_law(single):
+
+def test_the_crazyflie_controller_asks_for_what_the_board_commands(single):
     sources = ("flypend_law.c", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c")
     flags = ("-I.", f"-I{STANDINS / 'crazyflie'}")
     program = build(single, (*sources, STANDINS / "fly_crazyflie.c"), "fly_crazyflie", flags=flags)
     state, target = _states(1)[0], np.array([0.3, -0.2, 0.4])
     bob, bob_dot = _bob(state)
     numbers = [*state.x, *state.x_dot, *_quat_xyzw(state.R), *np.degrees(state.omega), *bob, *bob_dot, *target]
-    first, skipped, still, old = _lines(
+    unseen, first, skipped, second, old = _lines(
         run([str(program)], given=" ".join(map(repr, map(float, [*numbers, *[0.0] * 6]))))
     )
-    wrench, _ = _hover_wrench(state, target)
-    assert np.allclose(first[:4], wrench, rtol=1e-4, atol=1e-5)
-    assert first[4] == 1  # controlModeForceTorque
-    assert np.array_equal(skipped, [-1, -1, -1, -1, 0])  # 500 of 1000 steps
-    assert np.array_equal(still, first)
-    assert np.array_equal(old, [0, 0, 0, 0, 1])  # nobody saw the bob for 102 ms: no thrust
+    wrenches = _commands(state, target, 2) @ VEHICLE.mixing().T
+    assert np.array_equal(unseen, [0, 0, 0, 0, 1, OK])  # nobody has seen the bob: no thrust
+    assert np.allclose(first[:4], wrenches[0], rtol=1e-4, atol=1e-5)
+    assert np.array_equal(first[4:], [1, OK])  # controlModeForceTorque
+    assert np.array_equal(skipped, [-1, -1, -1, -1, 0, OK])  # 500 of 1000 steps
+    assert np.allclose(second[:4], wrenches[1], rtol=1e-4, atol=1e-5)
+    assert not np.allclose(wrenches[0], wrenches[1], rtol=1e-3)  # it remembers
+    assert old[5] == ROD  # the bob is 102 ms old: the vehicle levels out
+    least = VEHICLE.mixing() @ np.full(4, VEHICLE.rotor_limits[0])
+    assert np.linalg.norm(old[1:3] - least[1:3]) > 1e-3
 
 
 def test_the_px4_module_sees_the_state_and_commands_the_rotors(folder):
@@ -142,13 +169,17 @@ def test_the_px4_module_sees_the_state_and_commands_the_rotors(folder):
     x, y, z, w = _quat_xyzw(ned.R)
     bob, bob_dot = _bob(ned)
     numbers = [*ned.x, *ned.x_dot, w, x, y, z, *ned.omega, *bob, *bob_dot, *(flip * target)]
-    seen, path, motors, late = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    seen, path, first, same, second, late = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
     assert np.allclose(seen, state.packed(), atol=2e-6)  # PX4 speaks single precision
     assert np.allclose(path, [*target, *[0.0] * 24], atol=1e-6)  # and open entries, NaN, count as 0
-    _, rotors = _hover_wrench(state, target)
-    assert np.allclose(motors, rotors / VEHICLE.rotor_limits[1], atol=1e-4)
     least, largest = VEHICLE.rotor_limits
-    assert np.allclose(late, least / largest, atol=1e-6)  # a bob that is 0.2 s old is no bob
+    motors = _commands(state, target, 2) / largest
+    assert np.allclose(first, [*motors[0], OK, 5], atol=1e-4)
+    assert np.array_equal(same, first)  # half a period later nothing is due
+    assert np.allclose(second, [*motors[1], OK, 2005], atol=1e-4)
+    assert late[4] == ROD  # a bob that is 0.2 s old is no bob
+    assert np.ptp(late[:4]) > 1e-2
+    assert np.all((late[:4] >= least / largest - 1e-6) & (late[:4] <= 1))
 
 
 def test_the_ros_2_function_answers_in_newtons(folder):
@@ -161,12 +192,13 @@ def test_the_ros_2_function_answers_in_newtons(folder):
     bob, bob_dot = _bob(state)
     twist = state.R.T @ state.x_dot  # of an odometry, in the body frame
     numbers = [*state.x, *_quat_xyzw(state.R), *twist, *state.omega, *bob, *bob_dot, *target]
-    seen, answer = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    seen, first, same, second = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
     assert np.allclose(seen, state.packed(), atol=1e-13)
-    wrench, _ = _hover_wrench(state, target)
-    assert np.allclose(answer[:4], wrench, rtol=1e-10)
-    assert answer[4] == 0
+    wrenches = _commands(state, target, 2) @ VEHICLE.mixing().T
+    assert np.allclose(first, [*wrenches[0], OK, 1], rtol=1e-10)
+    assert np.array_equal(same, [*first[:5], 0])
+    assert np.allclose(second, [*wrenches[1], OK, 1], rtol=1e-10)
     numbers[3:7] = [0.0] * 4  # no attitude
-    _, answer = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
-    assert answer[4] != 0
-    assert np.allclose(answer[:4], [4 * VEHICLE.rotor_limits[0], 0, 0, 0])
+    _, answer, *_ = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    assert answer[4] != OK
+    assert np.allclose(answer[:4], [4 * VEHICLE.rotor_limits[0], 0, 0, 0], atol=1e-12)

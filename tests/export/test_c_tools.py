@@ -47,7 +47,9 @@ def exports(tmp_path_factory):
 def test_it_compiles_without_a_warning_and_gives_the_numbers_of_python(exports, compiler, name, precision):
     folder = exports(name, precision)
     program = build(folder, ("flypend_law.c", "flypend_test.c"), f"test-{compiler}", compiler)
-    assert "100 vectors" in run([str(program)])
+    said = run([str(program)])
+    assert "100 vectors" in said
+    assert "100 periods" in said
 
 
 def test_a_wrong_number_in_the_vectors_is_found(exports, tmp_path):
@@ -82,7 +84,7 @@ def test_the_only_function_of_the_library_is_the_square_root(exports, precision)
     source = (folder / "flypend_law.c").read_text()
     loops = re.findall(r"\b(?:for|while|do|goto)\b[^{;]*;[^;]*;", source)
     assert loops
-    assert all(re.search(r"i < (?:count|3|FLYPEND_ROTORS);", loop) for loop in loops)
+    assert all(re.search(r"i < (?:count|4|FLYPEND_ROTORS|FLYPEND_MEMORY);", loop) for loop in loops)
 
 
 def test_cppcheck_is_quiet(exports):
@@ -105,16 +107,21 @@ def _fuzzer(folder, source="flypend_law.c"):
 @pytest.mark.parametrize("precision", ["float", "double"])
 def test_no_bits_make_an_output_that_is_not_finite(exports, precision):
     fuzzer = _fuzzer(exports("inverted", precision))
-    run([str(fuzzer), "-seed=1", "-runs=40000", "-max_len=2048"])
+    run([str(fuzzer), "-seed=1", "-runs=40000", "-max_len=4096"])
 
 
-def test_the_fuzzer_finds_a_law_without_its_last_check(exports):
+@pytest.mark.parametrize("what", ["law", "board"])
+def test_the_fuzzer_finds_code_without_its_last_check(exports, what):
     folder = exports("inverted", "float")
     source = (folder / "flypend_law.c").read_text()
-    assert "return finite_wrench(wrench) ? FLYPEND_OK : FLYPEND_SINGULAR;" in source
-    weak = source.replace("return finite_wrench(wrench) ? FLYPEND_OK : FLYPEND_SINGULAR;", "return FLYPEND_OK;")
-    (folder / "weak.c").write_text(weak)
-    done = run([str(_fuzzer(folder, "weak.c")), "-seed=1", "-runs=400000", "-max_len=2048"], folder, check=False)
+    check = {
+        "law": "return numbers(w, 4) ? FLYPEND_OK : FLYPEND_SINGULAR;",
+        "board": "return (numbers(command, FLYPEND_ROTORS) && numbers(after, FLYPEND_MEMORY)) "
+        "? FLYPEND_OK : FLYPEND_SINGULAR;",
+    }[what]
+    assert check in source
+    (folder / "weak.c").write_text(source.replace(check, "return FLYPEND_OK;"))
+    done = run([str(_fuzzer(folder, "weak.c")), "-seed=1", "-runs=400000", "-max_len=4096"], folder, check=False)
     assert done.returncode != 0
 
 
@@ -127,7 +134,7 @@ FIRST = ("inverted", "float")  # what flies; the others are slow together
 )
 def test_a_minute_of_fuzzing_and_cppcheck_for_every_law(exports, name, precision):
     folder = exports(name, precision)
-    run([str(_fuzzer(folder)), "-max_total_time=60", "-max_len=2048"])
+    run([str(_fuzzer(folder)), "-max_total_time=60", "-max_len=4096"])
     checks = ("--std=c99", "--enable=warning,style,performance,portability", "--error-exitcode=1", "--quiet")
     run(["cppcheck", *checks, "flypend_law.c"], folder)
 

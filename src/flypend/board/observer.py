@@ -25,7 +25,8 @@ def observer(believed: Believed, computer: Computer, period: float) -> ca.Functi
     Ṅ = ẏ × D/l. Its estimate lags while the rod moves, so law and observer are coupled if D ≠ 0; with the rod at rest
     the lag dies out, and a small enough D leaves hover locally stable. D along the rod does not act on the rod and is
     taken zero. Estimates are limited in length. `known` is integrated by the trapezoidal rule: with less, every change
-    of thrust would look like a force. The first measurement only sets the momenta.
+    of thrust would look like a force. The first measurement, and the first after a gap, only sets the momenta; the
+    estimates stay.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ def observer(believed: Believed, computer: Computer, period: float) -> ca.Functi
     f = ca.sum1(rotors)
     known = ca.vertcat(f * s.z - vehicle.weight * E3, -f / (M * l) * cross(s.y, s.z))
     following = momenta + period * ((before + known) / 2 + estimate)
-    following = measured + begun * (following - measured)
+    following = ca.if_else(begun, following, measured - estimate / L)  # where the estimate is what it was
     unknown = L * (measured - following)
     total, difference = unknown[:3], l * cross(unknown[3:], s.y)  # F_v + F_b, and D without its part along the rod
     on_bob = m * M / (M + m) * (difference + total / M)

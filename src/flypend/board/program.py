@@ -16,7 +16,7 @@ import numpy as np
 
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
-from flypend.board.command import Steering, command_width, idle_command, law_command, steering
+from flypend.board.command import command_width, idle_command, law_command, steering
 from flypend.model.state import SIZE, project_symbolic
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import rotor_lag, rotor_step, step_timing
@@ -83,7 +83,9 @@ def memory_size(loop: Loop) -> int:
     return len(loop.vehicle.rotor_spins) + observer_memory(loop) + depth(loop) * command_width(loop)
 
 
-def board(loop: Loop, believed: Believed | None = None, steer: Steering | None = None, reference: int = 0) -> Board:
+def board(
+    loop: Loop, believed: Believed | None = None, command: ca.Function | None = None, reference: int = 0
+) -> Board:
     """The flight computer of `loop`.
 
     Parameters
@@ -93,14 +95,14 @@ def board(loop: Loop, believed: Believed | None = None, steer: Steering | None =
         knows: rate, limits, interface and the gain of the rate loop.
     believed : Believed, optional
         The vehicle that equations are written for; default the numbers of that of `loop`.
-    steer : Steering, optional
-        The wrench of the law; default with the law's own reference.
+    command : Function, optional
+        In place of `law_command`, with the same inputs; default the law with the reference of its own.
     reference : int
-        Length of the reference that `steer` takes.
+        Length of the reference that `command` takes.
     """
     believed = believed or Believed.numbers(loop.vehicle)
     predict, remember = predicting(loop, believed), remembering(loop, believed)
-    command = law_command(loop, believed, steer or steering(loop.symbolic), reference)
+    command = command or law_command(loop, believed, steering(loop.symbolic))
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
     params = ca.MX.sym("params", believed.symbols.numel())
@@ -195,8 +197,30 @@ def remembering(loop: Loop, believed: Believed) -> ca.Function:
         for age, duration in _within(loop):
             state, rotors = twin.advance(state, rotors, under_way[age], duration, forces)
     else:
-        lag = rotor_lag(believed.rotors)
-        for age, duration in _within(loop):
-            rotors = lag(rotors, under_way[age], ca.MX(ca.DM(step_timing(believed.lag, duration))))
+        rotors = _lagged(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])
     return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])
+
+
+def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
+    """(memory, command) → memory after a period without a measurement, under a `command` from elsewhere.
+
+    The observer begins anew with the estimates that it has. Only for commands that are rotor forces: how rotors that
+    a rate loop commands have moved depends on how the body turned.
+    """
+    memory, command = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("command", command_width(loop))
+    rotors, kept, commands = _parts(loop, memory)
+    if observer_memory(loop):
+        kept = ca.vertcat(ca.MX(ca.DM.zeros(1)), kept[1:])
+    under_way = [command, *commands]
+    rotors = _lagged(loop, believed, rotors, under_way)
+    after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])
+    return ca.Function("unmeasured", [memory, command], [after])
+
+
+def _lagged(loop: Loop, believed: Believed, rotors: Any, under_way: Sequence[Any]) -> Any:
+    """The modelled `rotors` a period later under the rotor forces that are under way."""
+    lag = rotor_lag(believed.rotors)
+    for age, duration in _within(loop):
+        rotors = lag(rotors, under_way[age], ca.MX(ca.DM(step_timing(believed.lag, duration))))
+    return rotors

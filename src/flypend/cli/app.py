@@ -234,13 +234,21 @@ def lab(
     ),
     port: Annotated[int, typer.Option("--port", help="Port; 0 takes a free one.", min=0, max=65535)] = 0,
     browser: Annotated[bool, typer.Option(help="Open the page in a browser (--no-browser does not).")] = True,
+    law: Annotated[
+        list[str] | None,
+        typer.Option("--law", help="A law of one's own to choose, file.py:function or module:function; repeat it."),
+    ] = None,
 ) -> None:
     """Open the laboratory in a browser: move sliders, drag the rod, poke; the flight follows. Ctrl-C ends it."""
     from flypend.lab import serve
+    from flypend.settings.laws import law_named
 
-    serve(
-        host, port, browser=browser, announce=lambda url: console.print(f"The laboratory is at {url}", soft_wrap=True)
-    )
+    def announce(url: str) -> None:
+        console.print(f"The laboratory is at {url}", soft_wrap=True)
+
+    for name in law or ():
+        tell_how(law_named(name))
+    serve(host, port, browser=browser, laws=law or (), announce=announce)
 
 
 @app.command("export-c")
@@ -249,9 +257,10 @@ def export_c(
     vehicle: VehicleName = "hehn2011",
     out: Out = Path("c-out"),
     precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
+    rate: Annotated[float, typer.Option("--rate", help="Control rate, Hz.")] = 500.0,
     light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
 ) -> None:
-    """Write a law as C99 for a flight computer: law, mixing, checks, test vectors, adapters; see docs/export."""
+    """Write the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
@@ -265,7 +274,7 @@ def export_c(
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    write(chosen, model.vehicle(vehicle), out, precision=kind)
+    write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate)
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
 
 

@@ -1,1 +1,1 @@
-"""From programs to code: LLVM kernels, C99, and JAX."""
+"""Code generation from scalar programs: LLVM kernels, C99 and JAX."""

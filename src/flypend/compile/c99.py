@@ -1,4 +1,4 @@
-"""A scalar program as C99: one constant per value, square roots from the C library and nothing else."""
+"""Scalar programs and routines as C99: one constant per value, square roots from the C library and nothing else."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from flypend.compile.program import Operation, Program
+from flypend.compile.routine import Call, Cell, Routine, stretches
 from flypend.errors import InputError, one_of
 
 Precision = Literal["double", "float"]
@@ -55,7 +56,7 @@ def statements(
         if operation.name == "input":
             names[number] = inputs[operation.arguments[0]][operation.arguments[1]]
         elif operation.name == "constant":
-            text = literal(operation.value, precision)
+            text = _constant(operation.value, precision)
             names[number] = f"({text})" if text.startswith("-") else text
         else:
             names[number] = f"v{len(lines)}"
@@ -71,3 +72,95 @@ def _form(operation: Operation) -> str:
     if operation.name not in _FORMS:
         raise InputError("law", "no function of the C library but the square root", operation.name)
     return _FORMS[operation.name]
+
+
+def _constant(value: float, precision: Precision) -> str:
+    """The C text of a constant of a program: a literal, or the name that <math.h> has for one without."""
+    if np.isnan(value):
+        return "NAN"
+    if np.isinf(value):
+        return "INFINITY" if value > 0 else "-INFINITY"
+    return literal(value, precision)
+
+
+def reads(program: Program, vector: int) -> set[int]:
+    """The entries of input `vector` that `program` reads."""
+    return {op.arguments[1] for op in program.operations if op.name == "input" and op.arguments[0] == vector}
+
+
+def function(program: Program, precision: Precision) -> str:
+    """`program` as a static C function of pointers: first the input vectors that it reads, then its outputs.
+
+    All inputs are read before any output is written, so that an output may take the place of an input.
+    """
+    taken = [vector for vector in range(len(program.inputs)) if reads(program, vector)]
+    inputs = [[f"in{i}[{k}]" for k in range(length)] for i, length in enumerate(program.inputs)]
+    outputs = [[f"out{i}[{k}]" for k in range(len(numbers))] for i, numbers in enumerate(program.outputs)]
+    given = [f"const {REAL} *in{i}" for i in taken]
+    wanted = [f"{REAL} *out{i}" for i, numbers in enumerate(program.outputs) if numbers]
+    return _defined(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
+
+
+def call(program: Program, inputs: Sequence[str], outputs: Sequence[str]) -> str:
+    """The call of what `function` writes, with C expressions of pointers for all input and output vectors."""
+    taken = [text for vector, text in enumerate(inputs) if reads(program, vector)]
+    given = [text for text, numbers in zip(outputs, program.outputs, strict=True) if numbers]
+    return f"{program.name}({', '.join([*taken, *given])});"
+
+
+def used_inputs(routine: Routine) -> list[int]:
+    """The input vectors of `routine` that it reads."""
+    cells = [cell for vector in routine.outputs for cell in vector]
+    for step in routine.calls:
+        program = routine.programs[step.program]
+        cells += [cell for vector, taken in enumerate(step.inputs) if reads(program, vector) for cell in taken]
+    return sorted({cell.number for cell in cells if cell.memory == "input"})
+
+
+def routine_function(routine: Routine, precision: Precision) -> str:
+    """`routine` as a static C function of pointers: first the input vectors that it reads, then its outputs.
+
+    The functions of its programs must stand before it. Inputs and outputs must not overlap.
+    """
+    given = [f"const {REAL} *in{i}" for i in used_inputs(routine)]
+    wanted = [f"{REAL} *out{i}" for i, cells in enumerate(routine.outputs) if cells]
+    written = sorted({number for step in routine.calls for number in step.outputs if routine.memories[number]})
+    lines = [f"{REAL} m{number}[{routine.memories[number]}];" for number in written]
+    for step in routine.calls:
+        lines += _called(routine, step, precision)
+    for i, cells in enumerate(routine.outputs):
+        lines += [f"out{i}[{k}] = {_cell(cell, precision)};" for k, cell in enumerate(cells)]
+    return _defined(routine.name, [*given, *wanted], lines)
+
+
+def _called(routine: Routine, step: Call, precision: Precision) -> list[str]:
+    """The lines of one call. A vector that does not lie in one piece is put together in a block of its own."""
+    program = routine.programs[step.program]
+    gathered, inputs = [], []
+    for vector, cells in enumerate(step.inputs):
+        found = stretches(cells)
+        if not reads(program, vector):
+            inputs.append("")
+        elif len(found) == 1 and found[0][0].memory != "constant":
+            inputs.append(_place(found[0][0]))
+        else:
+            values = ", ".join(_cell(cell, precision) for cell in cells)
+            gathered.append(f"const {REAL} g{vector}[{len(cells)}] = {{{values}}};")
+            inputs.append(f"g{vector}")
+    line = call(program, inputs, [f"m{number}" for number in step.outputs])
+    return ["{", *(f"    {text}" for text in (*gathered, line)), "}"] if gathered else [line]
+
+
+def _place(cell: Cell) -> str:
+    base = f"{'in' if cell.memory == 'input' else 'm'}{cell.number}"
+    return f"{base} + {cell.place}" if cell.place else base
+
+
+def _cell(cell: Cell, precision: Precision) -> str:
+    if cell.memory == "constant":
+        return literal(cell.value, precision)
+    return f"{'in' if cell.memory == 'input' else 'm'}{cell.number}[{cell.place}]"
+
+
+def _defined(name: str, parameters: Sequence[str], body: Sequence[str]) -> str:
+    return "\n".join([f"static void {name}({', '.join(parameters)})", "{", *(f"    {line}" for line in body), "}"])

@@ -1,4 +1,4 @@
-"""Embedded Runge-Kutta methods as tables, with what a step controller must know of each."""
+"""Tableaus of embedded Runge-Kutta methods, with their error estimates and dense output."""
 
 from __future__ import annotations
 
@@ -26,12 +26,13 @@ class Method:
     A, B, C : (s, s), (s,), (s,)
         The Butcher tableau.
     errors : tuple of (s+1,)
-        One error estimate, or two (of orders 5 and 3) that Hairer's formula for DOP853 joins; entry s weighs f at the
-        end of the step.
+        Weights of one error estimate, or of two (orders 5 and 3) that Hairer's formula for DOP853 combines; entry s
+        is the weight of f at the end of the step.
     A_extra, C_extra : (e, s+1+e), (e,)
-        Further stages for the dense output.
+        Additional stages for the dense output.
     dense : array
-        For "dp5" the polynomial (s+1, 4) of the dense output, for "dop853" the rows (4, s+1+e) of its upper terms.
+        For "dp5", the polynomial coefficients (s+1, 4) of the dense output; for "dop853", the stage weights
+        (4, s+1+e) of its higher-order terms.
     """
 
     name: str
@@ -45,7 +46,7 @@ class Method:
 
     @property
     def stages(self) -> int:
-        """s, the number of evaluations of a step that is rejected."""
+        """Number of stages s of a step, without those of the dense output."""
         return len(self.B)
 
 
@@ -53,7 +54,7 @@ class Method:
 def method(name: str) -> Method:
     """The method called `name`: "dop853" (Prince and Dormand's 8(5,3)) or "dp5" (Dormand and Prince's 5(4)).
 
-    Raises InputError for another name.
+    Raises InputError for any other name.
     """
     one_of("method", name, NAMES)
     text = resources.files("flypend.compile").joinpath("tableaus.toml").read_text(encoding="utf-8")

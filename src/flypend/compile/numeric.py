@@ -1,4 +1,4 @@
-"""CasADi functions as NumPy callables without conversions: a microsecond of overhead instead of twenty."""
+"""CasADi functions as NumPy callables without type conversion: 1 µs of overhead instead of 20 µs."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import numpy as np
 
 
 def as_numpy(function: ca.Function) -> Callable[..., Any]:
-    """A CasADi `function` with dense scalar or vector inputs and outputs as a callable on numbers and arrays.
+    """Wrap a CasADi `function` with dense scalar or vector inputs and outputs as a callable on numbers and arrays.
 
-    One output is returned as an array (n,), several as a tuple of them. Not safe to share between threads.
+    A single output is returned as an array (n,), several as a tuple of arrays. The callable is not thread-safe.
+
+    Raises ValueError if an output is sparse.
     """
     buffer, trigger = function.buffer()
     inputs = [np.zeros(function.nnz_in(i)) for i in range(function.n_in())]
@@ -32,5 +34,5 @@ def as_numpy(function: ca.Function) -> Callable[..., Any]:
         trigger()
         return outputs[0].copy() if single else tuple(array.copy() for array in outputs)
 
-    call.keep = (function, buffer)  # type: ignore[attr-defined]  # `trigger` points into them: they must live as long
+    call.keep = (function, buffer)  # type: ignore[attr-defined]  # `trigger` holds pointers into these: keep them alive
     return call

@@ -1,4 +1,4 @@
-"""What a kernel of the ideal plant integrates, as programs."""
+"""The problem that a kernel of the ideal plant integrates, as scalar programs."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from flypend.compile.program import Program
 
 @dataclass(frozen=True)
 class Problem:
-    """What a kernel integrates, as programs of time t, state s and parameters p.
+    """An initial value problem as scalar programs of time t, state s and parameters p.
 
     Parameters
     ----------
     rates : Program
-        (t, s, p) → rates of the state.
+        (t, s, p) → state rates.
     project : Program
-        s → s drawn back onto the manifold, and the drift (3,) before.
+        s → s projected onto the manifold, and the drift (3,) before projection.
     observe : Program
-        (t, s, p) → the values that `reductions` reduce at the sample times.
+        (t, s, p) → the values to reduce over the sample times.
     reductions : tuple of str
-        One kind per value: see `Reductions`.
+        One kind of reduction per value; see `Reductions`.
     margin : Program, optional
-        (t, s, p) → a number that stays positive where the law is defined.
+        (t, s, p) → a scalar that is positive where the law is defined.
     """
 
     rates: Program

@@ -1,4 +1,4 @@
-"""A CasADi function as a scalar program: a list of operations, each value written once, from which all code is made."""
+"""CasADi functions as scalar programs in static single assignment form, the source of all generated code."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from flypend.errors import InputError
 
 
 class Operation(NamedTuple):
-    """One value: `name` of the operation, the numbers of the values it takes, and for a constant its `value`."""
+    """One operation: its `name`, the indices of its argument values and, for a constant, its `value`."""
 
     name: str
     arguments: tuple[int, ...] = ()
@@ -22,7 +22,7 @@ class Operation(NamedTuple):
 
 @dataclass(frozen=True)
 class Program:
-    """Straight-line code.
+    """Straight-line code on scalars.
 
     Parameters
     ----------
@@ -31,9 +31,9 @@ class Program:
     inputs : tuple of int
         Length of each input vector.
     operations : tuple of Operation
-        Value i is what operation i gives; arguments stand before it. An "input" takes (which vector, which entry).
+        Operation i computes value i from earlier values. The arguments of "input" are (vector, entry).
     outputs : tuple of tuple of int
-        For each output vector the numbers of its values.
+        Indices of the values of each output vector.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Program:
     outputs: tuple[tuple[int, ...], ...]
 
     def counts(self) -> dict[str, int]:
-        """Number of operations of each kind that cost time: inputs and constants are left out."""
+        """Count the operations of each kind, without inputs and constants, in descending order."""
         found: dict[str, int] = {}
         for operation in self.operations:
             if operation.name not in ("input", "constant"):
@@ -56,10 +56,10 @@ def interpret(
     operations: Mapping[str, Callable[..., Any]],
     constant: Callable[[float], Any],
 ) -> list[list[Any]]:
-    """The values of each output vector of `program`, on values of any kind.
+    """Evaluate `program` on values of any type and return the values of each output vector.
 
-    Entry i of input vector j is `inputs[j](i)`; `operations` has a function for each name, `constant` makes a number a
-    value.
+    Entry i of input vector j is `inputs[j](i)`. `operations` maps each operation name to a function; `constant`
+    converts a number to a value.
     """
     values: list[Any] = []
     for name, arguments, number in program.operations:
@@ -72,7 +72,7 @@ def interpret(
     return [[values[place] for place in vector] for vector in program.outputs]
 
 
-# Functions of one argument that code generators take from the C library.
+# Unary functions (and binary ones below) that code generators call from the C library.
 LIBRARY: dict[str, Callable[[float], float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan,
     "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh, "asinh": math.asinh, "acosh": math.acosh,
@@ -104,10 +104,10 @@ _CASADI = {
 
 
 def lower(function: ca.Function) -> Program:
-    """The scalar program of a CasADi `function` with dense vector inputs and outputs.
+    """Lower a CasADi `function` with dense vector inputs and outputs to a scalar program.
 
-    Equal values are computed once, constants are folded, divisions by one value share its reciprocal, and what no
-    output needs is left out. Raises InputError for an operation that no code generator knows.
+    Eliminates common subexpressions and dead code, folds constants, and shares reciprocals between divisions by the
+    same value. Raises InputError for an unsupported CasADi operation and ValueError for a sparse output.
     """
     expanded = function.expand() if not function.is_a("SXFunction") else function
     for i in range(expanded.n_out()):
@@ -120,7 +120,7 @@ def lower(function: ca.Function) -> Program:
 
 
 def _walk(function: ca.Function, build: _Builder) -> tuple[tuple[int, ...], ...]:
-    """Send every instruction of `function` through `build`; the numbers of the values of each output."""
+    """Pass every instruction of `function` to `build`; return the value indices of each output."""
     work: dict[int, int] = {}
     outputs = [[0] * function.nnz_out(i) for i in range(function.n_out())]
     for i in range(function.n_instructions()):
@@ -138,7 +138,7 @@ def _walk(function: ca.Function, build: _Builder) -> tuple[tuple[int, ...], ...]
 
 
 class _Builder:
-    """Collects operations; gives an equal operation the number that it has already."""
+    """Collects operations; an operation equal to an earlier one reuses its index."""
 
     def __init__(self) -> None:
         self.operations: list[Operation] = []
@@ -151,7 +151,7 @@ class _Builder:
         return self._put(Operation("constant", (), value))
 
     def casadi(self, code: int, arguments: list[int]) -> int:
-        """The value of a CasADi operation `code`, in terms of fewer kinds of operations."""
+        """Add the CasADi operation `code`, expressed in a smaller set of operations; return its index."""
         a = arguments[0]
         if code == ca.OP_ASSIGN:
             return a
@@ -179,7 +179,7 @@ class _Builder:
         return self.do("mul", squared, base) if power > 1 and power % 2 else squared
 
     def do(self, name: str, *arguments: int) -> int:
-        """The value of operation `name`, simplified."""
+        """Add the operation `name`, simplified; return its index."""
         values = [self._value(number) for number in arguments]
         if all(value is not None for value in values):
             folded = _folded(name, values)
@@ -188,12 +188,12 @@ class _Builder:
         simple = self._simplified(name, arguments, values)
         if simple is not None:
             return simple
-        if name == "div" and values[0] != 1.0:  # by a reciprocal that others may share; see `_divided`
+        if name == "div" and values[0] != 1.0:  # multiply by a reciprocal that can be shared; see `_divided`
             return self.do("mul", arguments[0], self.do("div", self.constant(1.0), arguments[1]))
         return self._put(Operation(name, tuple(sorted(arguments)) if name in _COMMUTATIVE else arguments))
 
     def _simplified(self, name: str, arguments: tuple[int, ...], values: list[float | None]) -> int | None:
-        """Neutral and absorbing elements, and signs moved into sums; None where nothing is simpler."""
+        """Apply identities (x + 0, x · 0, x + (−y) = x − y, …); None if nothing simplifies."""
         a, b = arguments[0], arguments[-1]
         first, second = values[0], values[-1]
         if name == "add":
@@ -248,7 +248,7 @@ class _Builder:
 
 
 def _folded(name: str, values: Sequence[float | None]) -> float | None:
-    """The constant that operation `name` gives for constants; None where it has none (a division by zero)."""
+    """The value of operation `name` on constants; None if undefined, such as division by zero."""
     try:
         return float(FOLD[name](*values))
     except (ArithmeticError, ValueError):
@@ -256,7 +256,7 @@ def _folded(name: str, values: Sequence[float | None]) -> float | None:
 
 
 def needed(program: Program) -> Program:
-    """`program` without the operations that no output depends on."""
+    """Remove the operations of `program` that no output depends on (dead code)."""
     used = {number for vector in program.outputs for number in vector}
     for number in range(len(program.operations) - 1, -1, -1):
         operation = program.operations[number]
@@ -275,7 +275,7 @@ def needed(program: Program) -> Program:
 
 
 def _divided(program: Program) -> Program:
-    """`program` with a product by a reciprocal that nothing else uses written as one division again."""
+    """Turn products with a reciprocal that has no other use back into divisions."""
     operations = list(program.operations)
     uses = [0] * len(operations)
     for operation in operations:

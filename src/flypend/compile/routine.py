@@ -1,7 +1,7 @@
-"""A CasADi function made of calls as a routine: scalar programs called one after the other on stretches of memory.
+"""CasADi functions made of calls as routines: a sequence of calls of scalar programs on contiguous memory.
 
-A prediction calls one step many times. Expanded, it would be one program of ten thousand operations, which neither a
-processor's cache nor a microcontroller's flash has room for; as calls, every program exists once.
+A prediction calls one step function many times. Expanded inline, it would be a program of ten thousand operations, too
+large for a processor's cache or a microcontroller's flash. With calls, each program exists once.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from flypend.compile.program import Program, lower
 
 
 class Cell(NamedTuple):
-    """One number: entry `place` of memory `memory` ("input", "call" or "constant") number `number`.
+    """One scalar: entry `place` of buffer `number` of the kind `memory` ("input", "call" or "constant").
 
-    A constant is `value`; it has no place.
+    A "constant" is `value` itself and has no buffer.
     """
 
     memory: str
@@ -29,7 +29,7 @@ class Cell(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A call of program number `program`: the cells it takes, and the memory that receives each of its outputs."""
+    """A call of the program with index `program`: its input cells, and the buffer for each of its outputs."""
 
     program: int
     inputs: tuple[tuple[Cell, ...], ...]
@@ -38,7 +38,7 @@ class Call(NamedTuple):
 
 @dataclass(frozen=True)
 class Routine:
-    """Calls of programs, in order.
+    """A sequence of calls of programs.
 
     Parameters
     ----------
@@ -47,13 +47,13 @@ class Routine:
     inputs : tuple of int
         Length of each input vector.
     programs : tuple of Program
-        What is called, each program once.
+        The distinct programs that are called.
     calls : tuple of Call
-        The calls. The outputs of several may share a memory, one after the other.
+        The calls, in order. Outputs of different calls may reuse a buffer.
     memories : tuple of int
-        Length of each memory that receives an output of a call.
+        Length of each buffer for outputs of calls.
     outputs : tuple of tuple of Cell
-        For each output vector its cells, to be read when all calls are done.
+        Cells of each output vector, read after all calls.
     """
 
     name: str
@@ -64,12 +64,12 @@ class Routine:
     outputs: tuple[tuple[Cell, ...], ...]
 
     def operations(self) -> int:
-        """Number of operations of one run through the routine."""
+        """Number of operations of one execution of the routine."""
         return sum(sum(self.programs[call.program].counts().values()) for call in self.calls)
 
 
 def stretches(cells: Sequence[Cell]) -> list[tuple[Cell, int]]:
-    """`cells` as runs of neighbours in one memory: the first cell and the number of cells of each run."""
+    """Split `cells` into contiguous runs within one buffer: the first cell and length of each run."""
     ends = [0]
     for i, (a, b) in enumerate(pairwise(cells), start=1):
         if a.memory == "constant" or (b.memory, b.number, b.place) != (a.memory, a.number, a.place + 1):
@@ -78,10 +78,10 @@ def stretches(cells: Sequence[Cell]) -> list[tuple[Cell, int]]:
 
 
 def lower_calls(function: ca.Function) -> Routine:
-    """The routine of an MX `function` with dense vector inputs and outputs.
+    """Lower an MX `function` with dense vector inputs and outputs to a routine.
 
-    It may call SX functions, which become programs, and MX functions of the same kind; beyond that it may only cut
-    vectors and put them together. Raises ValueError for arithmetic outside the functions it calls.
+    The function may call SX functions, which become programs, and other such MX functions. Otherwise it may only split
+    and concatenate vectors. Raises ValueError for arithmetic outside the called functions.
     """
     builder = _Builder()
     inputs = [[Cell("input", i, k) for k in range(function.nnz_in(i))] for i in range(function.n_in())]
@@ -93,18 +93,18 @@ class _Builder:
     def __init__(self) -> None:
         self._programs: list[Program] = []
         self._known: dict[int, int] = {}
-        self._kept: list[ca.Function] = []  # their numbers stay theirs while they live
+        self._kept: list[ca.Function] = []  # keeps their hashes unique by keeping them alive
         self._calls: list[Call] = []
         self._lengths: list[int] = []
 
     def walk(self, function: ca.Function, inputs: list[list[Cell]]) -> list[list[Cell]]:
-        """The cells of the outputs of `function` for those of its `inputs`; its calls are noted."""
+        """Return the output cells of `function` for the cells of its `inputs`, and record its calls."""
         work: dict[int, list[Cell]] = {}
         outputs: list[list[Cell]] = [[] for _ in range(function.n_out())]
         for i in range(function.n_instructions()):
             code = function.instruction_id(i)
             taken, given = function.instruction_input(i), function.instruction_output(i)
-            if code in (ca.OP_INPUT, ca.OP_OUTPUT):  # a vector that was put together comes and goes in parts
+            if code in (ca.OP_INPUT, ca.OP_OUTPUT):  # a concatenated vector is read and written in parts
                 info = function.instruction_MX(i).info()
                 if code == ca.OP_OUTPUT:
                     outputs[info["ind"]][info["offset"] :] = work[taken[0]]
@@ -121,7 +121,7 @@ class _Builder:
         return outputs
 
     def _arranged(self, function: ca.Function, i: int, taken: list[list[Cell]]) -> list[list[Cell]]:
-        """Cells of an instruction that computes nothing."""
+        """Output cells of an instruction that only rearranges its inputs."""
         code, node = function.instruction_id(i), function.instruction_MX(i)
         if code == ca.OP_CONST:
             return [[Cell("constant", value=float(v)) for v in ca.DM(node.to_DM()).full().ravel(order="F")]]
@@ -135,12 +135,12 @@ class _Builder:
             info = node.info()
             places = info["nz"] if "nz" in info else range(*(info["slice"][k] for k in ("start", "stop", "step")))
             return [[taken[0][place] for place in places]]
-        raise ValueError(f"{function.name()}: instruction {node} computes; put it into an SX function")
+        raise ValueError(f"{function.name()}: instruction {node} computes a value; move it into an SX function")
 
     def _call(self, function: ca.Function, taken: list[list[Cell]]) -> list[list[Cell]]:
         filled = [
             cells or [Cell("constant")] * function.nnz_in(j) for j, cells in enumerate(taken)
-        ]  # an argument that is all zeros has no memory
+        ]  # an all-zero argument has no buffer
         if function.is_a("MXFunction"):
             return self.walk(function, filled)
         memories = [len(self._lengths) + j for j in range(function.n_out())]
@@ -159,10 +159,10 @@ class _Builder:
         return self._known[key]
 
     def routine(self, function: ca.Function, outputs: list[list[Cell]]) -> Routine:
-        """The routine of what was noted, memory being used again once nothing reads it any more."""
+        """Build the routine from the recorded calls, reusing each buffer after its last read."""
         names = [program.name for program in self._programs]
         if len(set(names)) < len(names):
-            raise ValueError(f"{function.name()} calls different functions of one name: {sorted(names)}")
+            raise ValueError(f"{function.name()} calls different functions with one name: {sorted(names)}")
         last = self._last_reads(outputs)
         places, lengths = self._places(last)
 
@@ -177,16 +177,16 @@ class _Builder:
         return Routine(function.name(), sizes, tuple(self._programs), calls, lengths, tuple(map(moved, outputs)))
 
     def _last_reads(self, outputs: list[list[Cell]]) -> dict[int, int]:
-        """The last call that reads each memory; those that the outputs read outlast all calls."""
+        """Index of the last call that reads each buffer; buffers read by the outputs outlive all calls."""
         last: dict[int, int] = {}
         for i, call in enumerate(self._calls):
             last |= {cell.number: i for cells in call.inputs for cell in cells if cell.memory == "call"}
         return last | {cell.number: len(self._calls) for cells in outputs for cell in cells if cell.memory == "call"}
 
     def _places(self, last: dict[int, int]) -> tuple[dict[int, int], tuple[int, ...]]:
-        """Where each memory lies, and the lengths of these places.
+        """Assign each buffer a slot, and return the lengths of the slots.
 
-        A call reads all that it takes before it writes, so that an output may lie where an input of it was.
+        A call reads all inputs before it writes, so an output may reuse the slot of one of its inputs.
         """
         free: dict[int, list[int]] = {}
         places: dict[int, int] = {}
@@ -204,6 +204,6 @@ class _Builder:
                 else:
                     places[number] = len(lengths)
                     lengths.append(length)
-                if number not in last:  # nobody reads it
+                if number not in last:  # never read
                     free.setdefault(length, []).append(places[number])
         return places, tuple(lengths)

@@ -1,4 +1,4 @@
-"""What a kernel of sampled flights flies, as programs and times."""
+"""The problem that a kernel of sampled flights simulates, as programs and times."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from flypend.compile.routine import Routine
 
 @dataclass(frozen=True)
 class Stretch:
-    """A while under the command computed `age` ticks ago, in `steps` equal steps."""
+    """An interval under the command computed `age` control ticks ago, in `steps` equal steps."""
 
     age: int
     steps: int
@@ -18,7 +18,7 @@ class Stretch:
 
 @dataclass(frozen=True)
 class EquationsProblem:
-    """A world that is a program of ours.
+    """A world simulated by the built-in equations of motion.
 
     Parameters
     ----------
@@ -31,16 +31,16 @@ class EquationsProblem:
 
 @dataclass(frozen=True)
 class MujocoProblem:
-    """A world that MuJoCo moves.
+    """A world simulated by MuJoCo.
 
     Parameters
     ----------
     seen : Program
         (qpos, qvel, rotors) → (state, rotors).
     filtered : bool
-        Whether the rotors are MuJoCo's own filters, and their forces its activations.
+        Whether the rotor lag is a MuJoCo actuator filter, with the rotor forces as its activations.
     largest : float
-        Forces beyond this, N, are none.
+        Forces beyond this, N, are invalid and end the run.
     """
 
     seen: Program
@@ -50,34 +50,35 @@ class MujocoProblem:
 
 @dataclass(frozen=True)
 class SampledProblem:
-    """What a kernel flies, as programs.
+    """A sampled flight as programs.
 
     Parameters
     ----------
     board : Routine
         The flight computer: (memory, measurement, reference, gains, params) → (memory, command); see `flypend.board`.
     begin : Program
-        (rotors) → (memory of the board, command before the first).
+        (rotors) → (initial memory of the board, command in effect before the first).
     world : EquationsProblem or MujocoProblem
-        What moves.
+        Simulates vehicle and pendulum.
     loop : Program, optional
-        (command, omega, –) → rotor forces, before every step of the world; without it a command is the rotor forces.
+        Rate loop (command, omega, –) → rotor forces, run before every step of the world. Without it, a command is the
+        rotor forces.
     measure : Program, optional
-        (state, draws, noise) → state as measured.
+        (state, draws, noise parameters) → measured state.
     gusts : Program, optional
-        (gust, draws, numbers of the wind) → (gust, wind).
+        (gust, draws, wind parameters) → (gust, wind).
     judge : Program
-        (t, state with rotor forces, gains) → the values that `reductions` reduce at the sample ticks.
+        (t, state with rotor forces, gains) → the values to reduce over the sample ticks.
     reductions : tuple of str
-        One kind per value: see `Reductions`.
+        One kind of reduction per value; see `Reductions`.
     flown : tuple of Stretch
-        What the world goes through in a tick.
+        The intervals of one control tick, in order.
     timing : int
-        Numbers that a stretch takes as input. How the world steps is an input, as are the noise and the wind.
+        Number of timing inputs per stretch. Timings, noise and wind are inputs of the kernel, not compiled in.
     period : float
         Control period, s.
     random : bool
-        Whether numbers are drawn.
+        Whether random numbers are drawn.
     """
 
     board: Routine
@@ -105,7 +106,7 @@ class SampledProblem:
 
     @property
     def gains(self) -> int:
-        """Number of gains that are inputs."""
+        """Number of gains that are inputs of the kernel."""
         return self.board.inputs[3]
 
     @property
@@ -120,11 +121,11 @@ class SampledProblem:
 
     @property
     def inputs(self) -> tuple[int, int, int]:
-        """Lengths of the inputs that all flights of a call share: timings of the world, noise and wind."""
+        """Lengths of the inputs shared by all flights of a call: timings, noise parameters and wind parameters."""
         noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
         return self.timing * len(self.flown), noise, wind
 
     @property
     def depth(self) -> int:
-        """Number of commands that are on their way to the world."""
+        """Number of commands to buffer: those in transit and the current one."""
         return 1 + max(stretch.age for stretch in self.flown)

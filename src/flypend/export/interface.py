@@ -1,28 +1,35 @@
-"""What the C functions compute, as programs of the records: law, path, mixing, lead and the checks of a state."""
+"""What the C functions compute, as programs on the numbers of the records."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
-import numpy as np
 
-from flypend.board.command import led
+from flypend.board.believed import Believed
+from flypend.board.command import finish, led
+from flypend.board.program import board, initial_memory, unmeasured
+from flypend.compile.c99 import reads
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
+from flypend.compile.routine import Routine, lower_calls
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.records import Record
+from flypend.export.safe import holding
+from flypend.export.symbolic import SymbolicVehicle
 from flypend.laws import BoundLaw, Law
-from flypend.laws.closed_loop import upright_wrench
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
-from flypend.model.state import FLIP, SIZE
+from flypend.model.state import SIZE
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Sampled
 
-GAINS = 2  # place of the gains among the inputs of a step
+FORCES = 6  # external forces on vehicle and bob
+GAINS = 3  # place of the gains among the inputs of the law
 
 
 @dataclass(frozen=True)
@@ -31,137 +38,134 @@ class Interface:
 
     Parameters
     ----------
-    law, vehicle
-        The law, bound to the vehicle, and the vehicle whose numbers are proposed.
+    loop : Loop
+        The vehicle whose numbers are proposed, the law bound to it, the plant that gives the control rate, and the
+        gains that the code takes at run time.
     gains, params, rotors : Record
         The records that depend on them.
     constant : tuple of str
         Gains that the code holds as constants.
-    step : Program
-        (state, reference, gains, params) → wrench.
-    follow : Program
-        (path, state, params) → reference.
-    mix : Program
-        (wrench, params) → rotors.
-    lead : Program
-        (wanted rotors, modelled rotors, lead, params) → rotors.
-    check : Program
-        state → ||y|² − 1|, |y · ẏ|, |ẏ|, ‖RᵀR − 1‖, det R.
-    follows : bool
-        Whether the law follows a reference at all.
+    programs : dict of Program
+        What the functions of the bare law call: law, carry, share, quicken, gather, hold, rod, attitude, begin.
+    board, unmeasured : Routine
+        The flight computer, and what its memory does in a period without a measurement.
     """
 
-    law: BoundLaw
-    vehicle: Vehicle
+    loop: Loop
     gains: Record
     params: Record
     rotors: Record
     constant: tuple[str, ...]
-    step: Program
-    follow: Program
-    mix: Program
-    lead: Program
-    check: Program
-    follows: bool
-
-
-class _SymbolicVehicle:
-    """A vehicle whose constants are the symbols of `records.params_record`; it has what laws ask a `Vehicle` for."""
-
-    def __init__(self, symbols: Any, record: Record, spins: Any) -> None:
-        self.values = {field.name: symbols[place] for field, place in record.places()}
-        v = self.values
-        self.M = self.mass = v["mass"]
-        self.m = self.bob_mass = v["bob_mass"]
-        self.l = self.rod_length = v["rod_length"]
-        self.g = self.gravity = v["gravity"]
-        self.I = self.inertia = _inertia(v["inertia"])
-        self.rotor_limits = (v["rotor_least"], v["rotor_largest"])
-        self.rotor_spins = spins
-        self.weight = (self.M + self.m) * self.g
-        self.name = "symbolic"
-
-    def sharing(self) -> tuple[Any, Any, Any]:
-        """As `Vehicle.sharing`, from the symbols."""
-        return ca.horzcat(self.values["per_roll"], self.values["per_pitch"]), self.values["per_yaw"], self.rotor_spins
+    programs: Mapping[str, Program]
+    board: Routine
+    unmeasured: Routine
 
     @property
-    def I_inv(self) -> Any:
-        """Inverse of the inertia matrix."""
-        return ca.inv_minor(self.I)
+    def law(self) -> BoundLaw:
+        """The bound law."""
+        return self.loop.symbolic
 
-    def seen(self, e3: str) -> _SymbolicVehicle:
-        """The vehicle in the body frame of `e3`."""
-        if e3 == "up" or self.I.nnz() == 3:
-            return self
-        turned = object.__new__(_SymbolicVehicle)
-        turned.__dict__.update(self.__dict__, I=FLIP @ self.I @ FLIP)
-        return turned
+    @property
+    def vehicle(self) -> Vehicle:
+        """The vehicle whose numbers are proposed."""
+        return self.loop.vehicle
+
+    @property
+    def follows(self) -> bool:
+        """Whether the law follows a reference at all."""
+        return bool(reads(self.programs["law"], 2))
+
+    @property
+    def has_gains(self) -> bool:
+        """Whether the law has gains at run time."""
+        return bool(self.loop.parameters)
+
+    @property
+    def memory(self) -> int:
+        """Numbers that the board keeps."""
+        return self.board.inputs[0]
+
+    def all_programs(self) -> dict[str, Program]:
+        """All programs by name, in the order of their C functions. Raises ValueError for two of one name."""
+        found: dict[str, Program] = {}
+        for program in (*self.programs.values(), *self.board.programs, *self.unmeasured.programs):
+            if found.setdefault(program.name, program) != program:
+                raise ValueError(f"two programs are called {program.name}")
+        return found
 
 
-def _inertia(entries: Any) -> Any:
-    if entries.numel() == 3:
-        return ca.diag(entries)
-    xx, yy, zz, xy, xz, yz = ca.vertsplit(entries)
-    return ca.vertcat(ca.horzcat(xx, xy, xz), ca.horzcat(xy, yy, yz), ca.horzcat(xz, yz, zz))
+def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0) -> Interface:
+    """The C interface of `law` on `vehicle`, called `rate` times a second.
 
-
-def interface(law: Law | BoundLaw, vehicle: Vehicle) -> Interface:
-    """The C interface of `law` on `vehicle`.
-
-    Raises InputError for a law that cannot be written for a vehicle of symbols, and for a vehicle whose rotors do not
-    share thrust and yaw equally.
+    Raises InputError for a law that cannot be written for a vehicle of symbols, for a vehicle whose rotors do not
+    share thrust and yaw equally, and for a rate out of range.
     """
-    allocate(ca.SX.sym("f"), ca.SX.sym("m", 3), vehicle)  # refuses rotors that it cannot share out
-    bound = law.bind(vehicle)
-    params = records.params_record(vehicle)
-    symbols = ca.SX.sym("params", params.length)
-    spins = np.sign(vehicle.unmixing()[:, 3])
-    stand_in = _SymbolicVehicle(symbols, params, spins)
-    names, constant, step, reference = _step(bound, symbols, stand_in)
-    rotors = records.rotors_record(vehicle)
+    vehicle.sharing()  # refuses rotors that `allocate` cannot share out
+    loop = Loop(vehicle, law.bind(vehicle), Sampled(rate=rate))
+    record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
+    params = ca.SX.sym("params", record.length)
+    stand_in = SymbolicVehicle(params, record, vehicle)
+    believed = Believed(stand_in, rotors.length, vehicle.rotor_lag, params)
+    names, constant, steering = _law(loop.symbolic, params, stand_in)
+    loop = replace(loop, parameters=tuple(names))
+    functions = [
+        steering,
+        _carry(params, stand_in),
+        _share(params, stand_in),
+        _quicken(params, stand_in, rotors.length),
+        _gather(params, stand_in, rotors.length),
+        holding(loop, stand_in, params),
+        _rod(),
+        _attitude(),
+        _begin(loop, rotors.length),
+    ]
+    programs = {function.name(): lower(function) for function in functions}
+    command = _command(loop, believed, steering, functions[1], follows=bool(reads(programs["law"], 2)))
     return Interface(
-        law=bound,
-        vehicle=vehicle,
-        gains=records.gains_record(bound, names),
-        constant=constant,
-        params=params,
+        loop=loop,
+        gains=records.gains_record(loop.symbolic, names),
+        params=record,
         rotors=rotors,
-        step=step,
-        follow=_follow(symbols, stand_in),
-        mix=_mix(symbols, stand_in),
-        lead=_lead(symbols, stand_in, rotors.length),
-        check=_check(),
-        follows=reference,
+        constant=constant,
+        programs=programs,
+        board=replace(lower_calls(board(loop, believed, command, records.PATH.length).step), name="fly"),
+        unmeasured=lower_calls(unmeasured(loop, believed)),
     )
 
 
-def _step(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], Program, bool]:
-    """Gains at run time, gains that are constants, the program of the law, and whether it follows the reference."""
-    state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
+# The law ----------------------------------------------------------------------------------------------------------
+
+
+def _law(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], ca.Function]:
+    """Gains at run time, gains that are constants, and the law.
+
+    The law is (state (24,), forces (6,), reference, gains, params) → wrench (4,), e₃ up.
+    """
+    state, forces = ca.SX.sym("state", SIZE), ca.SX.sym("forces", FORCES)
+    reference = ca.SX.sym("reference", records.REFERENCE.length)
     gains = {name: ca.SX.sym(name) for name in law.numbers if name not in law.fixed}
     try:
-        wrench = streamed_wrench(law, vehicle, state, reference, gains)
+        wrench = streamed_wrench(law, vehicle, ca.vertcat(state, forces), reference, gains)
     except InputError:
         raise
     except Exception as error:  # whatever a law of one's own does with numbers that are symbols
         raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name} ({error})") from error
     names = [name for name, symbol in gains.items() if ca.depends_on(wrench, symbol)]
-    program = _with_gains(wrench, state, reference, params, {name: gains[name] for name in names})
+
+    def written(wrench: Any) -> ca.Function:
+        entries = ca.vertcat(ca.SX(0, 1), *(gains[name] for name in names))
+        return ca.Function("law", [state, forces, reference, entries, params], [ca.cse(wrench)])
+
+    program = lower(written(wrench))
     constant = _in_functions(program, names)
     if constant:
         values = ca.DM([law.numbers[name] for name in constant])
         wrench = ca.substitute(wrench, ca.vertcat(*(gains[name] for name in constant)), values)
         names = [name for name in names if name not in constant]
-        program = _with_gains(wrench, state, reference, params, {name: gains[name] for name in names})
+        program = lower(written(wrench))
     if any(math.isnan(operation.value) for operation in program.operations):  # float() of a symbol
         raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name}, which has NaN in them")
-    return names, (*law.fixed, *constant), program, bool(ca.depends_on(wrench, reference))
-
-
-def _with_gains(wrench: Any, state: Any, reference: Any, params: Any, gains: dict[str, Any]) -> Program:
-    entries = ca.vertcat(*gains.values()) if gains else ca.SX.sym("none", 1)
-    return lower(ca.Function("step", [state, reference, entries, params], [wrench]))
+    return names, (*law.fixed, *constant), written(wrench)
 
 
 def _in_functions(program: Program, names: list[str]) -> tuple[str, ...]:
@@ -183,10 +187,13 @@ def streamed_wrench(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gai
     """
     t = ca.SX.sym("t")
     flown = law.along(_streamed(reference)) if law.along is not None else law
-    wrench = upright_wrench(flown, t, state[:SIZE], vehicle, state[SIZE:], gains)
+    wrench = flown.upright(t, state[:SIZE], state[SIZE:], gains, vehicle)
     if law.along is None and ca.depends_on(wrench, t):
         raise InputError("law", "one that does not depend on time, or a Law with a `path`", law.name)
     return ca.densify(ca.substitute(wrench, t, 0))
+
+
+# What it follows --------------------------------------------------------------------------------------------------
 
 
 def _streamed(reference: Any) -> Any:
@@ -205,45 +212,89 @@ def _polynomial(values: Sequence[Any], t: Any) -> Any:
     return sum(value * t**i / math.factorial(i) for i, value in enumerate(values))
 
 
-def _follow(params: Any, vehicle: Any) -> Program:
-    path, state = ca.SX.sym("path", records.PATH.length), ca.SX.sym("state", records.STATE.length)
-    return lower(ca.Function("follow", [path, state, params], [followed(vehicle, path, state)]))
-
-
-def followed(vehicle: Any, path: Any, state: Any) -> Any:
+def followed(vehicle: Any, path: Any, on_bob: Any) -> Any:
     """The numbers of `records.REFERENCE` on a `path` of the pivot, the bob carried as the laws have it.
 
-    `vehicle` has numbers or symbols; `path` and `state` are the numbers of their records.
+    `vehicle` has numbers or symbols; `path` are the numbers of its record, `on_bob` (3,) is the force on the bob, N.
     """
     t = ca.SX.sym("t")
-    x, p, _ = carrying(lambda time: _polynomial(ca.vertsplit(path, 3), time))(t, vehicle, state[SIZE:][3:])
+    x, p, _ = carrying(lambda time: _polynomial(ca.vertsplit(path, 3), time))(t, vehicle, on_bob)
     orders = len(records.ORDERS)
     values = ca.vertcat(x, *derivatives(x, t, orders - 1), p, *derivatives(p, t, orders - 1))
     return ca.densify(ca.substitute(values, t, 0))
 
 
-def _mix(params: Any, vehicle: Any) -> Program:
+def _carry(params: Any, vehicle: Any) -> ca.Function:
+    path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", FORCES)
+    return ca.Function("carry", [path, forces, params], [ca.cse(followed(vehicle, path, forces[3:]))])
+
+
+def shifted(path: Any, time: float) -> Any:
+    """The numbers of `records.PATH` on a `path` `time` seconds later, as far as its derivatives tell."""
+    orders = ca.vertsplit(path, 3)
+    return ca.densify(ca.vertcat(*(_polynomial(orders[i:], time) for i in range(len(orders)))))
+
+
+# The board --------------------------------------------------------------------------------------------------------
+
+
+def _command(
+    loop: Loop, believed: Believed, steering: ca.Function, carry: ca.Function, *, follows: bool
+) -> ca.Function:
+    """As `board.command.law_command`, as calls of the functions that the bare law has, along a path of the pivot."""
+    t, state, rotors = ca.MX.sym("t"), ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
+    forces, path = ca.MX.sym("forces", FORCES), ca.MX.sym("path", records.PATH.length)
+    gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", believed.symbols.numel())
+    reference = ca.MX(ca.DM.zeros(records.REFERENCE.length))
+    if follows:
+        reference = carry(_shift(loop)(path), forces, params)
+    wrench = steering(state, forces, reference, gains, params)
+    command = finish(loop, believed)(wrench, state, rotors, params)
+    return ca.Function("command", [t, state, rotors, forces, path, gains, params], [command])
+
+
+def _shift(loop: Loop) -> ca.Function:
+    """The path at actuation for that at the measurement."""
+    path = ca.SX.sym("path", records.PATH.length)
+    return ca.Function("shift", [path], [shifted(path, loop.law.computer.latency)])
+
+
+def _begin(loop: Loop, count: int) -> ca.Function:
+    rotors = ca.SX.sym("rotors", count)
+    return ca.Function("begin", [rotors], [ca.densify(initial_memory(loop, rotors))])
+
+
+# Rotors and checks ------------------------------------------------------------------------------------------------
+
+
+def _share(params: Any, vehicle: Any) -> ca.Function:
     wrench = ca.SX.sym("wrench", 4)
-    forces = allocate(wrench[0], wrench[1:], vehicle)
-    return lower(ca.Function("mix", [wrench, params], [ca.densify(forces)]))
+    return ca.Function("share", [wrench, params], [ca.densify(allocate(wrench[0], wrench[1:], vehicle))])
 
 
-def _lead(params: Any, vehicle: Any, count: int) -> Program:
+def _quicken(params: Any, vehicle: Any, count: int) -> ca.Function:
     wanted, modelled, lead = ca.SX.sym("wanted", count), ca.SX.sym("modelled", count), ca.SX.sym("lead")
     low, high = vehicle.rotor_limits
     command = ca.fmin(ca.fmax(led(wanted, modelled, lead), low), high)
-    return lower(ca.Function("lead", [wanted, modelled, lead, params], [ca.densify(command)]))
+    return ca.Function("quicken", [wanted, modelled, lead, params], [ca.densify(command)])
 
 
-def _check() -> Program:
-    """How far a state is from the manifold, in the measures of `State`."""
-    symbols = ca.SX.sym("state", records.STATE.length)
-    state = State.symbolic(symbols[:SIZE])
-    values = (
-        ca.fabs(ca.norm_2(state.y) - 1),
-        ca.fabs(ca.dot(state.y, state.y_dot)),
-        ca.norm_2(state.y_dot),
-        ca.norm_fro(state.R.T @ state.R - ca.SX.eye(3)),
-        ca.det(state.R),
-    )
-    return lower(ca.Function("check", [symbols], [ca.densify(ca.vertcat(*values))]))
+def _gather(params: Any, vehicle: Any, count: int) -> ca.Function:
+    rotors = ca.SX.sym("rotors", count)
+    return ca.Function("gather", [rotors, params], [ca.densify(ca.mtimes(vehicle.mixing(), rotors))])
+
+
+def _rod() -> ca.Function:
+    """State (24,) → ||y| − 1|, |y · ẏ|, |ẏ|."""
+    packed = ca.SX.sym("state", SIZE)
+    s = State.symbolic(packed)
+    values = ca.vertcat(ca.fabs(ca.norm_2(s.y) - 1), ca.fabs(ca.dot(s.y, s.y_dot)), ca.norm_2(s.y_dot))
+    return ca.Function("rod", [packed], [ca.densify(values)])
+
+
+def _attitude() -> ca.Function:
+    """State (24,) → ‖RᵀR − 1‖, det R."""
+    packed = ca.SX.sym("state", SIZE)
+    R = State.symbolic(packed).R
+    values = ca.vertcat(ca.norm_fro(R.T @ R - ca.SX.eye(3)), ca.det(R))
+    return ca.Function("attitude", [packed], [ca.densify(values)])

@@ -1,4 +1,4 @@
-"""The exported law compiled for this machine, as a controller that flies in any sampled plant."""
+"""The exported code compiled for this machine: its functions on arrays, and the board as a flight computer."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
+from flypend.board.program import initial_memory
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
@@ -27,67 +28,130 @@ from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Sampled
 
 FLAGS = ("-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror")
 
 
 class Library:
-    """The C functions of `law` on `vehicle` in `precision`, compiled with the C compiler of this machine.
+    """The C functions of `law` on `vehicle` in `precision` at `rate` (Hz), compiled with the compiler of this machine.
 
     Arrays are the records of `flypend.export.records`, one after the other. Raises InputError without a compiler.
     """
 
-    def __init__(self, law: Law | BoundLaw, vehicle: Vehicle, precision: Precision) -> None:
-        self._of = (law, vehicle, precision)
-        self.made = interface(law, vehicle)
+    def __init__(self, law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> None:
+        self._of = (law, vehicle, precision, rate)
+        self.made = interface(law, vehicle, rate)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
         texts = core(self.made, precision) | {"many.c": filled("many.c", {})}
         with tempfile.TemporaryDirectory(prefix="flypend-c-") as folder:
             for name, text in texts.items():
                 (Path(folder) / name).write_text(text, encoding="utf-8")
-            self._c = ctypes.CDLL(str(_compile(Path(folder))))
+            self.c = ctypes.CDLL(str(_compile(Path(folder))))
         numbers = self.made.law.numbers
-        self.gains = self._array([numbers.get(field.name, 0.0) for field in self.made.gains.fields])
-        self.params = self._array(records.params_of(vehicle))
+        self.gains = self.array([numbers.get(field.name, 0.0) for field in self.made.gains.fields])
+        self.params = self.array(records.params_of(vehicle))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Another process compiles for itself."""
         return (Library, self._of)
 
-    def _array(self, values: Any) -> Any:
+    def array(self, values: Any) -> Any:
+        """`values` as C takes them."""
         return np.ascontiguousarray(values, dtype=self.real)
 
     def step(self, state: Any, reference: Any) -> tuple[Any, Any, Any]:
         """Wrenches (n, 4), rotor forces (n, k) and statuses (n,) for states (n, 30) and references (n, 30)."""
-        state, reference = self._array(np.atleast_2d(state)), self._array(np.atleast_2d(reference))
+        state, reference = self.array(np.atleast_2d(state)), self.array(np.atleast_2d(reference))
         count = len(state)
         wrench, rotors = np.empty((count, 4), self.real), np.empty((count, self.made.rotors.length), self.real)
         status = np.empty(count, np.int32)
-        self._call("flypend_many", count, state, reference, self.gains, self.params, wrench, rotors, status)
+        self.call("flypend_many", count, state, reference, self.gains, self.params, wrench, rotors, status)
         return wrench, rotors, status
 
     def follow(self, path: Any, state: Any) -> Any:
         """The reference (30,) on a `path` (27,) for the forces in a `state` (30,)."""
         reference = np.empty(records.REFERENCE.length, self.real)
-        self._call("flypend_follow", self._array(path), self._array(state), self.params, reference)
+        self.call("flypend_follow", self.array(path), self.array(state), self.params, reference)
         return reference
 
     def lead(self, wanted: Any, modelled: Any, lead: float) -> Any:
         """Commands (k,) for `wanted` and `modelled` rotor forces (k,) and a `lead`."""
         command = np.empty(self.made.rotors.length, self.real)
-        self._call(
-            "flypend_lead", self._array(wanted), self._array(modelled), self.real.type(lead), self.params, command
-        )
+        self.call("flypend_lead", self.array(wanted), self.array(modelled), self.real.type(lead), self.params, command)
         return command
 
-    def _call(self, name: str, *values: Any) -> int:
+    def call(self, name: str, *values: Any) -> int:
+        """The status of the C function `name`: arrays are passed as pointers, integers and reals as they are."""
         real = ctypes.c_double if self.real == np.float64 else ctypes.c_float
         arguments = [
             ctypes.c_void_p(value.ctypes.data) if isinstance(value, np.ndarray)
+            else ctypes.c_void_p(None) if value is None
             else ctypes.c_int(value) if isinstance(value, int) else real(value)
             for value in values
         ]  # fmt: skip
-        return int(getattr(self._c, name)(*arguments))
+        return int(getattr(self.c, name)(*arguments))
+
+
+class CompiledBoard:
+    """A board of `code` that has begun.
+
+    Parameters
+    ----------
+    code : Library
+        What was compiled.
+    path : callable, optional
+        Time (s) → numbers of `records.PATH`; default hover at the origin.
+    rotors : (n,), optional
+        Forces that the rotors begin with, N; default the least.
+
+    `numbers` is the C struct as bytes, `status` the last answer.
+    """
+
+    def __init__(self, code: Library, path: Callable[[float], Any] | None = None, rotors: Any = None) -> None:
+        self.code, self._path = code, path
+        self.numbers = np.zeros(int(code.c.flypend_board_bytes()), np.uint8)
+        self._measurement = np.zeros(records.MEASUREMENT.length, code.real)
+        self._along = np.zeros(records.PATH.length, code.real)
+        self._rotors = np.zeros(code.made.rotors.length, code.real)
+        self.status = code.call("flypend_board_begin", self.numbers, code.gains, code.params)
+        if rotors is not None:
+            self.memory[:] = initial_memory(code.made.loop, np.asarray(rotors, dtype=float))
+        self._pointers = [
+            ctypes.c_void_p(array.ctypes.data)
+            for array in (self.numbers, self._measurement, self._along, code.params, self._rotors)
+        ]
+        self._step = code.c.flypend_board_step
+
+    @property
+    def memory(self) -> Any:
+        """The numbers that the board remembers: a view of them."""
+        start = int(self.code.c.flypend_board_memory())
+        return self.numbers[start : start + self.code.made.memory * self.code.real.itemsize].view(self.code.real)
+
+    def step(self, measurement: Any, path: Any = None) -> Any:
+        """Rotor forces (n,) for a state (24,), or None for none, and numbers of `records.PATH`; sets `status`."""
+        if path is not None:
+            self._along[:] = path
+        if measurement is None:
+            self.status = self._step(self._pointers[0], None, *self._pointers[2:])
+        else:
+            self._measurement[:] = measurement
+            self.status = self._step(*self._pointers)
+        return self._rotors.astype(float)
+
+    def skip(self) -> None:
+        """Let a period go by without a call: `flypend_board_pass`."""
+        self.status = self.code.call("flypend_board_pass", self.numbers)
+
+    def command(self, t: float, measured: Any) -> Any:
+        """Rotor forces (n,) for the state `measured` (24,), e₃ up, at time `t` (s); NaN where the board refuses.
+
+        The safe answer is none of the law's: a flight that needs it ends as singular, as it does in Python.
+        """
+        rotors = self.step(measured, None if self._path is None else self._path(t))
+        return np.full(len(rotors), np.nan) if self.status else rotors
 
 
 def _compile(folder: Path) -> Path:
@@ -95,25 +159,26 @@ def _compile(folder: Path) -> Path:
     compiler = shutil.which(os.environ.get("CC", "cc"))
     if compiler is None:
         raise InputError("controller", "a C compiler called cc on the PATH", "none")
-    target = folder / "flypend_law.so"
-    sources = [str(path) for path in sorted(folder.glob("*.c"))]
-    subprocess.run(  # noqa: S603 (a compiler on a file that was written above)
-        [compiler, *FLAGS, "-shared", "-fPIC", *sources, "-lm", "-o", str(target)], check=True, capture_output=True
-    )
+    target = folder / "law.so"
+    sources = [str(folder / name) for name in ("flypend_law.c", "many.c")]
+    command = [compiler, *FLAGS, "-shared", "-fPIC", *sources, "-lm", "-o", str(target)]
+    done = subprocess.run(command, capture_output=True, text=True)  # noqa: S603 (on files that were written above)
+    if done.returncode:
+        raise InputError("controller", f"C code that {compiler} compiles", done.stderr.strip()[:500])
     return target
 
 
 @lru_cache(maxsize=16)
-def library(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision) -> Library:
+def library(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
-    return Library(law, vehicle, precision)
+    return Library(law, vehicle, precision, rate)
 
 
 def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
-    """`law` for `vehicle` as a controller whose law, mixing and lead are the exported C, compiled here.
+    """The exported flight computer of `law` on `vehicle`, compiled here, as a controller.
 
-    It flies in sampled plants with limits that take rotor forces ("rotors", "mujoco"); prediction and observer stay
-    in Python.
+    It flies in sampled plants with limits that take rotor forces ("rotors", "mujoco"), and stands for the whole flight
+    computer there: nothing of it is left in Python. It is compiled for the control rate of the plant.
 
     Parameters
     ----------
@@ -135,21 +200,18 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
     path = _path(bound.reference)
 
     def wrench(t: float, state: State) -> Wrench:
+        """The bare law, without estimates of external forces."""
         upright = state.packed() * (1.0 if bound.e3 == "up" else FLIP_PACKED)
-        values, _ = _step(code, path, t, upright, np.zeros(6))
-        found = Wrench(values[0], values[1:])
+        numbers = records.state_numbers(upright, np.zeros(6))
+        values, _, status = code.step(numbers, code.follow(path(t), numbers))
+        found = Wrench(values[0, 0], values[0, 1:]) if not status[0] else Wrench(np.nan, np.full(3, np.nan))
         return found if bound.e3 == "up" else found.flipped()
 
-    def source(flown: Vehicle, lead: float) -> Callable[..., Any]:
-        if flown != vehicle:
-            raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", flown.name)
-
-        def command(t: float, packed: Any, rotors: Any, forces: Any) -> Any:
-            _, wanted = _step(code, path, t, packed, forces)
-            # Where the law refuses, what the rotors would safely do is not its answer: the flight ends as singular.
-            return code.lead(wanted, rotors, lead).astype(float) if np.all(np.isfinite(wanted)) else wanted
-
-        return command
+    def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard:
+        if loop.vehicle != vehicle:
+            raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
+        _check_plant(loop.sampled)
+        return CompiledBoard(library(bound, vehicle, precision, loop.sampled.rate), path, rotors)
 
     return Controller(
         name=f"{bound.name}-c" + ("" if precision == "double" else "-float"),
@@ -159,16 +221,13 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
         gains=bound.gains,
         table=bound.table,
         computer=bound.computer,
+        flight_computer=flight_computer,
     )
 
 
-def _step(code: Library, path: Callable[[float], Any], t: float, packed: Any, forces: Any) -> tuple[Any, Any]:
-    """Wrench (4,) and rotor forces (k,); NaN where the C code refuses."""
-    state = records.state_numbers(packed, forces)
-    wrench, rotors, status = code.step(state, code.follow(path(t), state))
-    if status[0]:
-        return np.full(4, np.nan), np.full(rotors.shape[1], np.nan)
-    return wrench[0].astype(float), rotors[0]
+def _check_plant(plant: Sampled) -> None:
+    if plant.interface != "wrench" or not plant.limits:
+        raise InputError("plant", "rotor forces within limits, which exported code commands", "another interface")
 
 
 def _path(reference: Reference | None) -> Callable[[float], Any]:

@@ -55,16 +55,24 @@ def _members(field: Field, access: str) -> list[str]:
     return [f"{access}{field.name}[{i}]" for i in range(field.size)] or [f"{access}{field.name}"]
 
 
+_MOTION = (
+    Field("x", 3, "position of the pivot, world, m"),
+    Field("x_dot", 3, "its velocity, world, m/s"),
+    Field("R", 9, "rotation from body to world, by rows"),
+    Field("omega", 3, "angular velocity, body, rad/s"),
+    Field("y", 3, "unit vector from the pivot to the bob, world"),
+    Field("y_dot", 3, "its rate, world, 1/s; tangent: y . y_dot = 0"),
+)
+MEASUREMENT = Record(
+    "measurement",
+    "State of vehicle and pendulum as measured. World frame with z up, body frame front-left-up.",
+    _MOTION,
+)
 STATE = Record(
     "state",
-    "State of vehicle and pendulum. World frame with z up, body frame front-left-up.",
+    "State of vehicle and pendulum, for those who estimate external forces themselves.",
     (
-        Field("x", 3, "position of the pivot, world, m"),
-        Field("x_dot", 3, "its velocity, world, m/s"),
-        Field("R", 9, "rotation from body to world, by rows"),
-        Field("omega", 3, "angular velocity, body, rad/s"),
-        Field("y", 3, "unit vector from the pivot to the bob, world"),
-        Field("y_dot", 3, "its rate, world, 1/s; tangent: y . y_dot = 0"),
+        *_MOTION,
         Field("force_on_vehicle", 3, "estimated external force on the vehicle, world, N; 0 if there is none"),
         Field("force_on_bob", 3, "the same on the bob, world, N"),
     ),
@@ -118,6 +126,10 @@ def params_record(vehicle: Vehicle) -> Record:
             Field("per_roll", _count(vehicle), "force of each rotor per moment about x, N/(N m)"),
             Field("per_pitch", _count(vehicle), "force of each rotor per moment about y, N/(N m)"),
             Field("per_yaw", 0, "size of the force of each rotor per moment about z, N/(N m)"),
+            Field("roll_arm", _count(vehicle), "moment about x per force of each rotor, m"),
+            Field("pitch_arm", _count(vehicle), "moment about y per force of each rotor, m"),
+            Field("yaw_arm", 0, "size of the moment about z per force of each rotor, m"),
+            Field("spin", _count(vehicle), "+1 or -1: sign of the moment about z of each rotor; the code is for these"),
         ),
     )
 
@@ -130,16 +142,20 @@ def gains_record(law: BoundLaw, names: Sequence[str]) -> Record:
 
 def params_of(vehicle: Vehicle) -> Any:
     """The numbers of `params_record` for `vehicle`."""
-    I, unmixing = vehicle.inertia, vehicle.unmixing()
+    I, (tilting, per_yaw, spins), mixing = vehicle.inertia, vehicle.sharing(), vehicle.mixing()
     inertia = np.diag(I) if _diagonal(vehicle) else [*np.diag(I), I[0, 1], I[0, 2], I[1, 2]]
     return np.concatenate(
         [
             [vehicle.mass, vehicle.bob_mass, vehicle.rod_length, vehicle.gravity],
             inertia,
             vehicle.rotor_limits,
-            unmixing[:, 1],
-            unmixing[:, 2],
-            [abs(unmixing[0, 3])],
+            tilting[:, 0],
+            tilting[:, 1],
+            [per_yaw],
+            mixing[1],
+            mixing[2],
+            [abs(mixing[3, 0])],
+            spins,
         ]
     )
 

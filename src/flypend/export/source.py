@@ -1,12 +1,11 @@
-"""C text of the interface: structs, and a function around each program."""
+"""C text of the interface: structs, the numbers in them, and the functions of the programs."""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Sequence
 
-from flypend.compile.c99 import Precision, literal, statements
-from flypend.compile.program import Program
+from flypend.compile.c99 import Precision, call, function, literal, routine_function, used_inputs
 from flypend.export import records
 from flypend.export.interface import Interface
 from flypend.export.records import Record
@@ -34,59 +33,23 @@ def struct(record: Record, unused: Sequence[str] = ()) -> str:
     return "\n".join([*lines, f"}} flypend_{record.name};"])
 
 
-def unread(program: Program, vector: int, record: Record) -> list[str]:
-    """Fields of `record`, input `vector` of `program`, that the program does not read."""
-    read = {operation.arguments[1] for operation in program.operations if _is_input(operation, vector)}
-    return [field.name for field, place in record.places() if not read & set(range(place.start, place.stop))]
+def unread(entries: set[int], record: Record) -> list[str]:
+    """Fields of `record` of which none of the `entries` is read."""
+    return [field.name for field, place in record.places() if not entries & set(range(place.start, place.stop))]
 
 
-def reads(program: Program, vector: int) -> bool:
-    """Whether `program` reads anything of its input `vector`."""
-    return any(_is_input(operation, vector) for operation in program.operations)
+def numbers_of(record: Record) -> str:
+    """A static C function that writes the numbers of `record` in their order."""
+    lines = [f"    to[{i}] = {member};" for i, member in enumerate(record.members("from->"))]
+    head = f"static void {record.name}_numbers(const flypend_{record.name} *from, flypend_real *to)"
+    return "\n".join([head, "{", *lines, "}"])
 
 
-def _is_input(operation: object, vector: int) -> bool:
-    name, arguments = operation.name, operation.arguments  # type: ignore[attr-defined]
-    return bool(name == "input" and arguments[0] == vector)
-
-
-def inner(
-    name: str, program: Program, given: Sequence[tuple[str, Record | None]], wanted: tuple[str, Record | None],
-    precision: Precision,
-) -> str:  # fmt: skip
-    """A static C function `name` around `program`, of pointers to the records that it reads.
-
-    `given` are the arguments and their records (None for a plain number), `wanted` the result; without a record that is
-    an array of numbers.
-    """
-    inputs = [record.members(f"{argument}->") if record else [argument] for argument, record in given]
-    result, record = wanted
-    count = len(program.outputs[0])
-    outputs = record.members(f"{result}->") if record else [f"{result}[{i}]" for i in range(count)]
-    parameters = [
-        f"const flypend_{record.name} *{argument}" if record else f"flypend_real {argument}"
-        for vector, (argument, record) in enumerate(given)
-        if reads(program, vector)
-    ]
-    parameters.append(f"flypend_{record.name} *{result}" if record else f"flypend_real {result}[{count}]")
-    body = statements(program, inputs, [outputs], precision)
-    return "\n".join([f"static void {name}({', '.join(parameters)})", "{", *(f"    {line}" for line in body), "}"])
-
-
-def call(name: str, program: Program, given: Sequence[str], result: str) -> str:
-    """The call of the function that `inner` writes."""
-    passed = [argument for vector, argument in enumerate(given) if reads(program, vector)]
-    return f"{name}({', '.join([*passed, result])});"
-
-
-def finite(record: Record) -> str:
-    """A static C function that says whether all numbers of `record` are finite."""
-    tests = [
-        f"numbers({record.name}->{field.name}, {field.size})" if field.size else f"number({record.name}->{field.name})"
-        for field in record.fields
-    ]
-    joined = "\n        && ".join(tests)
-    return f"static int finite_{record.name}(const flypend_{record.name} *{record.name})\n{{\n    return {joined};\n}}"
+def record_of(record: Record) -> str:
+    """A static C function that fills `record` with numbers in their order."""
+    lines = [f"    {member} = from[{i}];" for i, member in enumerate(record.members("to->"))]
+    head = f"static void {record.name}_of(const flypend_real *from, flypend_{record.name} *to)"
+    return "\n".join([head, "{", *lines, "}"])
 
 
 def initializer(record: Record, values: Iterable[float], precision: Precision) -> str:
@@ -101,21 +64,23 @@ def initializer(record: Record, values: Iterable[float], precision: Precision) -
 
 def functions(made: Interface, precision: Precision) -> dict[str, str]:
     """The C texts that the template of the source file takes."""
-    state, reference, gains, params = records.STATE, records.REFERENCE, made.gains, made.params
-    rotors, wrench, path = made.rotors, records.WRENCH, records.PATH
-    step = [("state", state), ("reference", reference), ("gains", gains), ("params", params)]
-    follow = [("path", path), ("state", state), ("params", params)]
-    lead = [("wanted", rotors), ("modelled", rotors), ("lead", None), ("params", params)]
-    inertia = next(field for field in params.fields if field.name == "inertia")
+    inputs = [records.MEASUREMENT, records.STATE, records.PATH, made.params, records.WRENCH, made.rotors]
+    inputs += [records.REFERENCE] * made.follows + [made.gains] * made.has_gains
+    outputs = [records.REFERENCE, records.WRENCH, made.rotors]
+    programs = made.all_programs()
+    texts = [function(program, precision) for program in programs.values()]
+    texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
+    inertia = next(place for field, place in made.params.places() if field.name == "inertia")
+    places = {field.name: place.start for field, place in made.params.places()}
+    board_inputs = ("board->memory", "m", "path", "g", "p")
+    law = ("s", "s + FLYPEND_STATE", "r", "g", "p")
     return {
-        "law": inner("law", made.step, step, ("wrench", wrench), precision),
-        "carry": inner("carry", made.follow, follow, ("reference", reference), precision),
-        "share": inner("share", made.mix, [("wrench", wrench), ("params", params)], ("rotors", rotors), precision),
-        "quicken": inner("quicken", made.lead, lead, ("command", rotors), precision),
-        "defects": inner("defects", made.check, [("state", state)], ("defect", None), precision),
-        "call_law": call("law", made.step, [name for name, _ in step], "wrench"),
-        "call_carry": call("carry", made.follow, [name for name, _ in follow], "reference"),
-        "finite": "\n\n".join(finite(r) for r in (state, reference, gains, params, wrench, rotors, path)),
-        "positive_inertia": " && ".join(f"(params->inertia[{i}] > 0)" for i in range(min(inertia.size, 3))),
+        "programs": "\n\n".join(texts),
+        "conversions": "\n\n".join([*map(numbers_of, inputs), *map(record_of, outputs)]),
+        "call_law": call(programs["law"], law, ["w"]),
+        "call_board": f"fly({', '.join([board_inputs[i] for i in used_inputs(made.board)])}, after, command);",
+        "call_hold": call(programs["hold"], ("s", "p"), ["w"]),
+        "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia.start, inertia.start + 3)),
+        "place": places,
         "largest": "DBL_MAX" if precision == "double" else "FLT_MAX",
     }

@@ -1,22 +1,28 @@
-"""Test vectors: what the law and the mixing answer in Python, from the equations with the vehicle's own numbers."""
+"""Test vectors: what law, mixing and board answer in Python, from the equations with the vehicle's own numbers."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
+from flypend.board.believed import Believed
+from flypend.board.command import law_command
+from flypend.board.program import board, initial_memory
 from flypend.compile.c99 import Precision
 from flypend.export import records
-from flypend.export.interface import followed, streamed_wrench
+from flypend.export.interface import followed, shifted, streamed_wrench
 from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
+from flypend.plants.equations import EquationsEngine
+from flypend.plants.loop import Loop
 
 COUNT, SEED = 100, 1
+FLIGHTS, STEPS = 4, 25
 # Spread of the random inputs: the pivot's path and its derivatives, m, m/s and so on; the external forces, weights.
 PATH_SPREAD, FORCE_SPREAD = 0.5, 0.05
 
@@ -51,7 +57,7 @@ def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision)
     forces = FORCE_SPREAD * vehicle.weight * rng.uniform(-1, 1, (count, 6))
     state = records.state_numbers(packed, forces)
     path = PATH_SPREAD * rng.uniform(-1, 1, (count, records.PATH.length))
-    reference = np.array(path_reference(vehicle)(path.T, state.T)).T
+    reference = np.array(path_reference(vehicle)(path.T, forces.T)).T
     return rounded(state, precision), rounded(reference, precision)
 
 
@@ -71,9 +77,55 @@ def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
 
 @lru_cache(maxsize=16)
 def path_reference(vehicle: Vehicle) -> Any:
-    """The CasADi function (path (27), state (30)) → numbers of `records.REFERENCE`."""
-    path, state = ca.SX.sym("path", records.PATH.length), ca.SX.sym("state", records.STATE.length)
-    return ca.Function("path_reference", [path, state], [ca.cse(followed(vehicle, path, state))])
+    """The CasADi function (path (27), forces (6)) → numbers of `records.REFERENCE`."""
+    path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", 6)
+    return ca.Function("path_reference", [path, forces], [ca.cse(followed(vehicle, path, forces[3:]))])
+
+
+@dataclass(frozen=True)
+class Flights:
+    """Flights one after the other: what the board is given, and what it answers, each (flights × steps, length)."""
+
+    measurement: Any
+    path: Any
+    rotors: Any
+
+
+def flights(loop: Loop, count: int, steps: int, seed: int, precision: Precision) -> Flights:
+    """`count` flights of `steps` control periods of the board of `loop` from random states along random paths.
+
+    The board of Python flies the vehicle under random constant forces; its inputs are rounded to `precision`.
+    """
+    rng, step, rotors = np.random.default_rng(seed), board_step(loop), loop.vehicle.rotor_limits[0]
+    period, weight, n = 1 / loop.sampled.rate, loop.vehicle.weight, len(loop.vehicle.rotor_spins)
+    columns: tuple[list[Any], list[Any], list[Any]] = ([], [], [])
+    for _ in range(count):
+        least = np.full(n, rotors)
+        memory, engine = initial_memory(loop, least), EquationsEngine(loop.vehicle)
+        engine.reset(State.random(rng).packed(), least)
+        wind = FORCE_SPREAD * weight * rng.uniform(-1, 1, 6)
+        path = rounded(PATH_SPREAD * rng.uniform(-1, 1, records.PATH.length), precision)
+        for _ in range(steps):
+            measurement = rounded(engine.packed, precision)
+            memory, command = (np.array(v).ravel() for v in step(memory, np.append(0.0, measurement), path, [], []))
+            for values, value in zip(columns, (measurement, path, command), strict=True):
+                values.append(value)
+            engine.step(command, period, wind)
+    return Flights(*map(np.array, columns))
+
+
+@lru_cache(maxsize=16)
+def board_step(loop: Loop) -> ca.Function:
+    """The board of `loop` with all numbers as constants: (memory, measurement, path, –, –) → (memory, command)."""
+    loop = replace(loop, parameters=())
+    believed = Believed.numbers(loop.vehicle)
+
+    def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
+        reference = followed(vehicle, shifted(path, loop.law.computer.latency), forces[3:])
+        return streamed_wrench(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
+
+    length = records.PATH.length
+    return board(loop, believed, law_command(loop, believed, steer, length), length).step
 
 
 def scales(vehicle: Vehicle) -> tuple[float, float]:

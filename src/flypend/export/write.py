@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
+import zlib
+from collections.abc import Sequence
 from importlib import metadata, resources
 from pathlib import Path
 from string import Template
 from typing import Any
 
 from flypend import errors
-from flypend.compile.c99 import PRECISIONS, Precision, literal
+from flypend.board.command import usable_lead
+from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
 from flypend.errors import InputError
 from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
-from flypend.export.source import ascii_of, functions, initializer, reads, struct, unread
+from flypend.export.records import Record
+from flypend.export.source import ascii_of, functions, initializer, struct, unread
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
@@ -25,16 +29,27 @@ ADAPTERS = (
     "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c",
     "adapters/flypend_px4.cpp", "adapters/flypend_px4.hpp", "adapters/flypend_ros2.cpp", "adapters/flypend_ros2.hpp",
 )  # fmt: skip
+# What `python benchmarks/export_flights.py --bare --runs 500 --seed 2024` prints.
+BARE = """\
+| of 500 | board | no observer | no prediction | no lead | bare law |
+|---|---|---|---|---|---|
+| hehn2011 | 500 | 500 | 500 | 500 | 500 |
+| hehn2011, 15 ms from measurement to command | 500 | 500 | 498 | 500 | 0 |
+| hehn2011, vehicle and bob 20 % heavier than known | 500 | 0 | 500 | 500 | 0 |
+| crazyflie | 500 | 500 | 430 | 500 | 0 |"""
 # Largest relative difference of a test vector.
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 
-def export_c(law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double") -> Path:
-    """Write `law` for `vehicle` as C99 into the folder `out`: law, test vectors, adapters, README and CMake file.
+def export_c(
+    law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double", rate: float = 500.0
+) -> Path:
+    """Write the flight computer of `law` on `vehicle` as C99 into the folder `out`.
 
-    The vehicle's numbers and the law's gains are structs that the C code takes at run time; the linear-quadratic law
-    has its gain matrix as constants, computed for this vehicle. The number of rotors, their spins, and whether the
-    inertia matrix is diagonal are fixed as well. The same arguments give the same bytes.
+    Beside it stand the bare law, test vectors, adapters, a README and a CMake file. The vehicle's numbers and the law's
+    gains are structs that the C code takes at run time; the linear-quadratic law has its gain matrix as constants,
+    computed for this vehicle. Fixed as well: control rate, latency, rotor lag, lead and bandwidth of the observer, the
+    number of rotors, their spins, and whether the inertia matrix is diagonal. The same arguments give the same bytes.
 
     Parameters
     ----------
@@ -46,6 +61,8 @@ def export_c(law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precisio
         Folder that receives the files; it may exist.
     precision : "double" or "float"
         Type of every number.
+    rate : float
+        How often the flight computer will be called, Hz.
 
     Returns
     -------
@@ -56,14 +73,15 @@ def export_c(law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precisio
     ------
     InputError
         For a law that is no `Law`, that uses other functions than the square root or the time itself, a vehicle whose
-        rotors do not share thrust and yaw equally, an unknown precision, or a folder that cannot be written.
+        rotors do not share thrust and yaw equally, an unknown precision, a rate out of range, or a folder that cannot
+        be written.
     """
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", repr(law))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     errors.one_of("precision", precision, PRECISIONS)
-    texts = files(interface(law, vehicle), precision)
+    texts = files(interface(law, vehicle, rate), precision)
     with staged(out) as folder:
         for name, text in texts.items():
             path = folder / name
@@ -92,47 +110,73 @@ def filled(name: str, values: dict[str, Any]) -> str:
 
 
 def _values(made: Interface, precision: Precision) -> dict[str, Any]:
-    law, vehicle = made.law, made.vehicle
+    law, vehicle, computer = made.law, made.vehicle, made.law.computer
     parts = functions(made, precision)
     gains = [law.numbers.get(field.name, 0.0) for field in made.gains.fields]
-    has_gains = reads(made.step, 2)
     thrust_scale, moment_scale = vectors.scales(vehicle)
-    checks = [("reference", "reference", made.follows), ("gains", "gains", has_gains)]
-    return parts | {
+    lengths = {
+        "reference_length": records.REFERENCE.length, "path_length": records.PATH.length,
+        "gains_length": made.gains.length, "params_length": made.params.length, "memory": made.memory,
+        "youngest": made.board.outputs[0].index(made.board.outputs[1][0]),
+    }  # fmt: skip
+    places = {f"place_{name}": str(start) for name, start in parts.pop("place").items()}
+    values = parts | places | {name: str(length) for name, length in lengths.items()} | _optional(made)
+    values |= {
         "law": ascii_of(law.name),
-        "law_function": parts["law"],
         "vehicle": ascii_of(vehicle.name),
         "version": metadata.version("flypend"),
         "precision": precision,
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),
+        "rate": f"{made.loop.sampled.rate:g}",
+        "period": literal(1 / made.loop.sampled.rate, precision),
+        "lag": f"{vehicle.rotor_lag:.3g}",
+        "observer": f"{computer.observer:.3g}",
         "tolerance": literal(MANIFOLD_TOLERANCE, precision),
         "rotation_tolerance": literal(round(3 * MANIFOLD_TOLERANCE, 12), precision),
         "structs": "\n\n".join(_structs(made)),
         "gains": initializer(made.gains, gains, precision),
         "params": initializer(made.params, records.params_of(vehicle), precision),
-        "still": initializer(records.REFERENCE, [0.0] * records.REFERENCE.length, precision),
-        "lead": f"{law.computer.lead:.3g}",
-        "lead_number": literal(law.computer.lead, precision),
-        "ignored": "".join(f"    (void){name};\n" for name, _, used in checks if not used),
-        "null_checks": "".join(f" || ({name} == NULL)" for name, _, used in checks if used),
-        "finite_checks": "".join(
-            f"    if (!finite_{record}({name})) {{\n        return FLYPEND_NOT_FINITE;\n    }}\n"
-            for name, record, used in checks
-            if used
-        ),
-        "finite": _without(parts["finite"], () if has_gains else ("gains",)),
-        "zero_state": initializer(records.STATE, [0.0] * records.STATE.length, precision),
+        "spins": ", ".join(literal(float(spin), precision) for spin in vehicle.sharing()[2]),
+        "place_p": str(next(place.start for field, place in records.REFERENCE.places() if field.name == "p")),
+        "lead": f"{usable_lead(law, vehicle, made.loop.sampled):.3g}",
         "zero_path": initializer(records.PATH, [0.0] * records.PATH.length, precision),
+        "zero_measurement": initializer(records.MEASUREMENT, [0.0] * records.MEASUREMENT.length, precision),
         "radians": literal(math.pi / 180, precision),
         "sqrt": "sqrt" if precision == "double" else "sqrtf",
         "order": ", ".join(str(i) for i in range(made.rotors.length)),
         "baked": _baked(made),
-        "latency": f"{law.computer.latency:.3g}",
+        "latency": f"{computer.latency:.3g}",
         "rotor_table": _rotor_table(vehicle),
+        "bare_table": BARE,
+        "period_us": str(round(1e6 / made.loop.sampled.rate)),
         "thrust_scale": repr(thrust_scale),
         "moment_scale": repr(moment_scale),
     }
+    # A board begun by other code is refused; what differs between two codes is in their texts.
+    return values | {"mark": f"{zlib.crc32(repr(sorted(values.items())).encode()) | 1}UL"}
+
+
+def _optional(made: Interface) -> dict[str, str]:
+    """The lines for reference and gains in the functions of the board and of the bare law: only for what is read."""
+    board = {"path": (made.follows, "reference", "PATH"), "g": (made.has_gains, "&board->gains", "GAINS")}
+    step = {"r": (made.follows, "reference", "REFERENCE"), "g": (made.has_gains, "gains", "GAINS")}
+    found = {}
+    for prefix, first, vectors_ in (("board", "m", board), ("step", "s", step)):
+        used = {name: (given, length) for name, (read, given, length) in vectors_.items() if read}
+        ignored = [given for read, given, _ in vectors_.values() if not read and not given.startswith("&")]
+        pointers = [first, *(given for given, _ in used.values() if not given.startswith("&"))]
+        missing = [f"{pointer} == NULL" for pointer in pointers]
+        found |= {
+            f"{prefix}_locals": "".join(f"    flypend_real {n}[FLYPEND_{length}];\n" for n, (_, length) in used.items())
+            + "".join(f"    (void){given};\n" for given in ignored),
+            f"{prefix}_null": missing[0] if len(missing) == 1 else " || ".join(f"({text})" for text in missing),
+            f"{prefix}_fill": "".join(
+                f"    {length.lower()}_numbers({given}, {n});\n" for n, (given, length) in used.items()
+            ),
+            f"{prefix}_finite": "".join(f" || !numbers({n}, FLYPEND_{length})" for n, (_, length) in used.items()),
+        }
+    return found
 
 
 def _baked(made: Interface) -> str:
@@ -145,7 +189,7 @@ def _baked(made: Interface) -> str:
         text += " Gains: " + ", ".join(f"{name} = {made.law.numbers[name]:.6g}" for name in made.constant) + "."
     if options:
         text += " Options: " + ", ".join(f"{name} = {value}" for name, value in options.items()) + "."
-    if not reads(made.step, 2):
+    if not made.has_gains:
         text += f" All gains of the {made.law.name} law, computed for this vehicle: export again after a change of it."
     return ascii_of(text)
 
@@ -157,18 +201,15 @@ def _rotor_table(vehicle: Vehicle) -> str:
     return "\n".join(lines)
 
 
-def _without(text: str, names: tuple[str, ...]) -> str:
-    """The functions in `text` but those for the records `names`, which would stand unused."""
-    kept = [part for part in text.split("\n\n") if not any(f"finite_{name}(" in part for name in names)]
-    return "\n\n".join(kept)
-
-
 def _structs(made: Interface) -> list[str]:
-    unused = unread(made.step, 0, records.STATE)
-    used_to_follow = set(unread(made.follow, 1, records.STATE))
+    law, state = made.programs["law"], len(records.MEASUREMENT.fields)
+    unused = unread(reads(law, 0), records.MEASUREMENT)
+    forces = Record("forces", "", records.STATE.fields[state:])
+    unused_forces = unread(reads(law, 1) | reads(made.programs["carry"], 1), forces)
     return [
-        struct(records.STATE, [name for name in unused if name in used_to_follow]),
-        struct(records.REFERENCE, unread(made.step, 1, records.REFERENCE)),
+        struct(records.MEASUREMENT, unused),
+        struct(records.STATE, unused + unused_forces),
+        struct(records.REFERENCE, unread(reads(law, 2), records.REFERENCE)),
         struct(records.PATH),
         struct(made.gains),
         struct(made.params),
@@ -179,6 +220,7 @@ def _structs(made: Interface) -> list[str]:
 
 def _vectors(made: Interface, precision: Precision) -> str:
     found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
+    flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision)
     kinds = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
     lines = [
         "/* Random inputs, and what flypend answers in Python. */",
@@ -187,14 +229,37 @@ def _vectors(made: Interface, precision: Precision) -> str:
         '#include "flypend_law.h"',
         "",
         f"#define FLYPEND_VECTOR_TOLERANCE {TOLERANCE[precision]!r}",
+        f"#define FLYPEND_FLIGHT_STEPS {vectors.STEPS}",
         "",
-        "typedef struct {",
-        *(f"    flypend_{record.name} {record.name};" for record in kinds),
-        "} flypend_vector;",
+        *_typedef("vector", kinds),
         "",
         "static const flypend_vector flypend_vectors[] = {",
+        *_rows(kinds, (found.state, found.reference, found.wrench, found.rotors), precision),
+        "};",
+        "",
+        "/* Flights of the board one after the other, FLYPEND_FLIGHT_STEPS control periods each. */",
     ]
-    for row in zip(found.state, found.reference, found.wrench, found.rotors, strict=True):
-        parts = [initializer(record, part, precision) for record, part in zip(kinds, row, strict=True)]
-        lines += ["    {" + ",\n     ".join(parts) + "},"]
+    kinds = (records.MEASUREMENT, records.PATH, made.rotors)
+    lines += [
+        *_typedef("period", kinds),
+        "",
+        "static const flypend_period flypend_flights[] = {",
+        *_rows(kinds, (flights.measurement, flights.path, flights.rotors), precision),
+    ]
     return "\n".join([*lines, "};", "#endif", ""])
+
+
+def _typedef(name: str, kinds: Sequence[Record]) -> list[str]:
+    return [
+        "typedef struct {",
+        *(f"    flypend_{record.name} {record.name};" for record in kinds),
+        f"}} flypend_{name};",
+    ]
+
+
+def _rows(kinds: Sequence[Record], columns: Sequence[Any], precision: Precision) -> list[str]:
+    rows = []
+    for row in zip(*columns, strict=True):
+        parts = [initializer(record, part, precision) for record, part in zip(kinds, row, strict=True)]
+        rows.append("    {" + ",\n     ".join(parts) + "},")
+    return rows

@@ -46,23 +46,26 @@ class Samples:
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
-def fly(vehicle: Vehicle, law: BoundLaw | Controller, start: State, duration: float, plant: Plant) -> Samples:
+def fly(
+    vehicle: Vehicle, law: BoundLaw | Controller, start: State, duration: float, plant: Plant, rotors: Any = None
+) -> Samples:
     """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
 
-    Rotors start at their least force. Every quantity is recorded at each control tick.
+    Rotors start with the forces `rotors` (n,), N, by default their least. Every quantity is recorded at each control
+    tick.
     """
     loop = Loop(vehicle, law, plant)
     engine = make_engine(plant.true_vehicle(vehicle), plant)
     packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
-    least = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
-    engine.reset(packed, least)
+    begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
+    engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)
-    computer = flight_computer(loop, least)
+    computer = flight_computer(loop, begin)
 
     period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
     measure, next_wind = _chance(plant, ticks)
-    states, rotors = [engine.packed], [engine.rotors]
-    commands, segments = Commands(idle_command(loop, least)), within_period(plant.delay, period)
+    states, forces = [engine.packed], [engine.rotors]
+    commands, segments = Commands(idle_command(loop, begin)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
     with np.errstate(all="ignore"):
         for k in range(ticks):
@@ -79,8 +82,8 @@ def fly(vehicle: Vehicle, law: BoundLaw | Controller, start: State, duration: fl
                 outcome = Outcome("diverged", k * period, LEFT)
                 break
             states.append(engine.packed)
-            rotors.append(engine.rotors)
-    return Samples(np.arange(len(states)) * period, np.array(states), np.array(rotors), outcome)
+            forces.append(engine.rotors)
+    return Samples(np.arange(len(states)) * period, np.array(states), np.array(forces), outcome)
 
 
 class Commands:

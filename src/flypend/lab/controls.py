@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from flypend.lab.gains import proposed_gains, sliders_of
+from flypend.lab.gains import sliders_of
+from flypend.lab.own import OwnLaws
 from flypend.lab.setting import LONGEST, Setting, plain
 from flypend.laws import law_names
 from flypend.model import State, Vehicle
@@ -18,11 +19,12 @@ _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 FACTOR = 4.0  # of a gain's slider, either way
 
 
-def offer() -> dict[str, Any]:
-    """What there is to choose from, the presets, and the setting to begin with."""
+def offer(own: OwnLaws | None = None) -> dict[str, Any]:
+    """What there is to choose from, laws of one's `own` included, the presets, and the setting to begin with."""
+    mine = list(own or ())
     first = {
         "vehicle": {"base": "hehn2011"},
-        "law": {"name": "inverted", "gains": {}},
+        "law": {"name": mine[0] if mine else "inverted", "gains": {}},
         "plant": {"base": "rotors"},
         "start": plain(State(y=(0.0, 0.0, -1.0))),
         "duration": 6.0,
@@ -30,7 +32,7 @@ def offer() -> dict[str, Any]:
     }
     return {
         "vehicles": vehicle_names(),
-        "laws": law_names(),
+        "laws": [*law_names(), *mine],
         "plants": PLANTS,
         "first": first,
         "starts": {name: plain(State(y=y)) for name, y in STARTS.items()},
@@ -57,15 +59,23 @@ def _preset(name: str) -> dict[str, Any]:
 def sliders(setting: Setting) -> list[dict[str, Any]]:
     """The sliders of `setting`: path in it, group, words, unit, value, range, whether logarithmic."""
     flight, law = setting.flight, setting.law
-    given, proposed = law.gains_for(flight.vehicle), proposed_gains(law.name, flight.vehicle)
+    given, proposed = law.gains_for(flight.vehicle), law.proposed(flight.vehicle)
     out = []
     for name in sliders_of(law):
-        value, usual, gain = given[name], proposed[name], law.gains[name]
-        low, high = min(usual / FACTOR, value), max(usual * FACTOR, value)
-        out.append(_slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, low, high, log=True))
+        value, usual, gain = given[name], proposed[name], law.table[name]
+        low, high, log = _reach(usual)
+        reach = (max(low, gain.bounds.low), min(high, gain.bounds.high))
+        out.append(_slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, *reach, log=log))
     if isinstance(flight.plant, Sampled):
         out += _plant_sliders(flight.plant, flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
+
+
+def _reach(usual: float) -> tuple[float, float, bool]:
+    """Ends of the slider of a gain whose usual value this is, and whether it is logarithmic."""
+    if usual > 0:
+        return usual / FACTOR, usual * FACTOR, True
+    return (usual * FACTOR, -usual * FACTOR, False) if usual < 0 else (-1.0, 1.0, False)
 
 
 def _plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:

@@ -12,18 +12,19 @@ from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 
+OWN = "from flypend.settings.laws import law_from\n"
 POKED = "# The pokes of the laboratory are left out: this is the flight without them.\n"
 
 
 def toml(setting: Setting) -> str:
     """The run file of `setting`, without its pokes."""
-    flight, law = setting.flight, setting.law
+    flight = setting.flight
     base, changed = _vehicle(flight.vehicle)
     written = {
         "duration": flight.duration,
         "plant": _plant(flight.plant),
         "vehicle": {"base": base, **changed} if changed else base,
-        "law": {"name": law.name, **({"gains": dict(law.given)} if law.given else {})},
+        "law": _law(setting),
         "start": _start(flight.starts),
     }
     return (POKED if setting.pokes else "") + toml_text(written)
@@ -31,18 +32,31 @@ def toml(setting: Setting) -> str:
 
 def python(setting: Setting) -> str:
     """Lines of Python that make the trajectory `run` of `setting`, without its pokes."""
-    flight, law = setting.flight, setting.law
+    flight = setting.flight
     base, changed = _vehicle(flight.vehicle)
     machine = f"fp.vehicle({base!r})" + (f".replace({_arguments(changed)})" if changed else "")
     start = ",\n".join(f"    {name}={value!r}" for name, value in _start(flight.starts).items())
     return (
-        f"import flypend as fp\n\n"
+        f"import flypend as fp\n"
+        f"{OWN if setting.where else ''}\n"
         f"{POKED if setting.pokes else ''}vehicle = {machine}\n"
-        f"law = fp.laws.{law.name}({_arguments(law.given)})\n"
+        f"law = {_law_call(setting)}\n"
         f"start = fp.State(\n{start},\n)\n"
         f"run = fp.simulate(vehicle, law, start, duration={flight.duration!r}, plant={_plant_call(flight.plant)})\n"
         f"print(run.outcome)\n"
     )
+
+
+def _law(setting: Setting) -> dict[str, Any]:
+    """The law as a run file has it."""
+    law = setting.law
+    said = {"function": setting.where} if setting.where else {"name": law.name}
+    return said | ({"gains": dict(law.given)} if law.given else {})
+
+
+def _law_call(setting: Setting) -> str:
+    law = setting.law
+    return f"law_from({_law(setting)!r})" if setting.where else f"fp.laws.{law.name}({_arguments(law.given)})"
 
 
 def _vehicle(machine: Vehicle) -> tuple[str, dict[str, Any]]:

@@ -12,9 +12,11 @@ from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
+from flypend.flight.sampled import Samples
+from flypend.flight.sampled import fly as step_by_step
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
-from flypend.lab.tuning import Tell, Tuned, tuned, values
+from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import FLIP_PACKED, E3Direction, split
 from flypend.plants import Sampled
@@ -68,7 +70,7 @@ def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
     )  # fmt: skip
 
 
-def verdict(run: Trajectory, machine: Tuned) -> dict[str, Any]:
+def verdict(run: Trajectory, machine: Tuned | Stepped) -> dict[str, Any]:
     """Whether `run` does what its law is to do: words, whether it is good, and the numbers."""
     judged = metrics(run, machine.criterion)
     distance = f"excursion {round(judged.excursion, 2):.3g} m"
@@ -85,17 +87,21 @@ def verdict(run: Trajectory, machine: Tuned) -> dict[str, Any]:
     return {"words": words, "good": bool(judged.success), "settling": settling, "excursion": excursion}
 
 
-def _after(machine: Tuned, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int) -> Part:
+def _after(
+    machine: Tuned | Stepped, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int
+) -> Part:
     """Part `number` of a flight: from `state` and the forces of the `rotors`, for `duration` s, with its own noise."""
     if isinstance(flight.plant, Sampled):
         duration = max(duration, 1 / flight.plant.rate)
-    elif duration == 0:
+    elif duration == 0 and isinstance(machine, Tuned):
         return _part_of(machine, gains, np.zeros(1), state.packed()[None], Outcome("completed", 0.0))
     part = flight.replace(starts=state, duration=duration, seed=(flight.seed or 0) + number)
     return _part(machine, gains, part, rotors)
 
 
-def _part(machine: Tuned, gains: Any, flight: Flight, rotors: Any) -> Part:
+def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> Part:
+    if isinstance(machine, Stepped):
+        return _stepped_part(flight, rotors)
     if isinstance(machine.kernel, SampledKernel):
         return _sampled_part(machine.kernel, gains, flight, rotors)
     return _ideal_part(machine, machine.kernel, gains, flight)
@@ -117,8 +123,20 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
 
 
 def _sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
-    e3, true = kernel.loop.law.e3, kernel.loop.sampled.true_vehicle(flight.vehicle)
-    samples = sampled_samples(kernel, flight, gains, rotors)
+    return _part_from(sampled_samples(kernel, flight, gains, rotors), flight, kernel.loop.sampled)
+
+
+def _stepped_part(flight: Flight, rotors: Any) -> Part:
+    """A part that is flown step by step in Python."""
+    plant = flight.plant
+    assert isinstance(plant, Sampled)
+    seeded = plant.replace(seed=flight.seed)
+    flown = step_by_step(flight.vehicle, flight.law, flight.starts, flight.duration, seeded, rotors)
+    return _part_from(flown.at(flight.moments * plant.rate), flight, plant)
+
+
+def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
+    e3, true = flight.law.e3, plant.true_vehicle(flight.vehicle)
     packed = samples.packed * (1.0 if e3 == "up" else FLIP_PACKED)
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
 
@@ -130,7 +148,7 @@ def _moved(part: Part, begin: float, *, last: bool) -> Part:
     return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)
 
 
-def _trajectory(setting: Setting, machine: Tuned, parts: list[Part]) -> Trajectory:
+def _trajectory(setting: Setting, machine: Tuned | Stepped, parts: list[Part]) -> Trajectory:
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )

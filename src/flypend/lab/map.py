@@ -9,12 +9,12 @@ import numpy as np
 
 from flypend.flight.ensemble import fly_many
 from flypend.lab.setting import Setting
-from flypend.lab.tuning import Tell, tuned, values
+from flypend.lab.tuning import Stepped, Tell, tuned, values
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.plants import Ideal
 
-RUNS, CHUNK = {"ideal": 3000, "sampled": 1200}, {"ideal": 200, "sampled": 24}
+RUNS, CHUNK = {"ideal": 3000, "sampled": 1200, "stepped": 96}, {"ideal": 200, "sampled": 24, "stepped": 2}
 # Powers of the inverse of the root of x³ = x + 1: the additive sequence that fills a square most evenly.
 STEPS = (0.7548776662466927, 0.5698402909980532)
 
@@ -35,6 +35,7 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
     kind = "ideal" if isinstance(flight.plant, Ideal) else "sampled"
+    kind = "stepped" if isinstance(machine, Stepped) else kind
     count, done = RUNS[kind], 0
     rods = directions(count)
     tuning = {name: float(value) for name, value in zip(machine.names, gains, strict=True)}

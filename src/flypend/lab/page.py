@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from flypend import palette
 from flypend.lab.controls import offer
+from flypend.lab.own import OwnLaws
 from flypend.pages import replay
 
 PAGE = """<!doctype html>
@@ -23,7 +24,7 @@ PAGE = """<!doctype html>
 """
 
 
-def page() -> str:
-    """The page, as text."""
+def page(own: OwnLaws | None = None) -> str:
+    """The page, as text, with laws of one's `own` to choose from."""
     data = {"title": "flypend laboratory", "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": []}
-    return PAGE.format(data=replay.embedded({**data, "offer": offer()}))
+    return PAGE.format(data=replay.embedded({**data, "offer": offer(own)}))

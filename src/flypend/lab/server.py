@@ -13,9 +13,10 @@ import signal
 import socket
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -25,6 +26,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.lab.own import OwnLaws
 from flypend.lab.page import page
 from flypend.lab.session import Slot, flights, maps, read, refusal
 from flypend.pages import replay
@@ -40,8 +42,8 @@ POLICY = (
 class Laboratory:
     """What all pages share: two threads, one for flights and one for maps, and the pages that are open."""
 
-    def __init__(self, host: str) -> None:
-        self.host = host
+    def __init__(self, host: str, own: OwnLaws | None = None) -> None:
+        self.host, self.own = host, own or OwnLaws()
         self.pages: set[Socket] = set()
         self.flights = ThreadPoolExecutor(1, "flypend-flight")
         self.maps = ThreadPoolExecutor(1, "flypend-map")
@@ -62,7 +64,7 @@ class Laboratory:
         shared = {"laboratory": self}
         return Application(
             [
-                (r"/", Page, {**shared, "kind": "text/html", "content": page()}),
+                (r"/", Page, {**shared, "kind": "text/html", "content": page(self.own)}),
                 (r"/lab\.js", Page, {**shared, "kind": "text/javascript", "content": replay.program("lab")}),
                 (r"/socket", Socket, shared),
             ],
@@ -109,8 +111,8 @@ class Socket(WebSocketHandler):
         """A page of `laboratory`."""
         self.laboratory = laboratory
         self.slots = {
-            "fly": Slot(laboratory.flights, flights, self._send),
-            "map": Slot(laboratory.maps, maps, self._send),
+            "fly": Slot(laboratory.flights, partial(flights, own=laboratory.own), self._send),
+            "map": Slot(laboratory.maps, partial(maps, own=laboratory.own), self._send),
         }
 
     def prepare(self) -> None:
@@ -163,6 +165,7 @@ def serve(
     port: int = 0,
     *,
     browser: bool = True,
+    laws: Sequence[str] = (),
     announce: Callable[[str], Any] = print,
 ) -> None:
     """Serve the laboratory until the process is interrupted.
@@ -175,15 +178,18 @@ def serve(
         Port; 0 for a free one.
     browser : bool
         Whether to open the page in a browser.
+    laws : sequence of str
+        Laws of one's own to choose from, as `file.py:function` or `module:function`.
     announce : callable
         Told the address of the page once it is there.
 
     Raises
     ------
     InputError
-        If one cannot listen there.
+        If one cannot listen there, and for a law that is none.
     """
-    asyncio.run(_serve(_listen(host, port), host, browser, announce))
+    own = OwnLaws(laws)
+    asyncio.run(_serve(_listen(host, port), Laboratory(host, own), browser, announce))
 
 
 def _listen(host: str, port: int) -> socket.socket:
@@ -196,8 +202,10 @@ def _listen(host: str, port: int) -> socket.socket:
         raise InputError("--host and --port", "an address to listen on", f"{host}:{port}: {error.strerror}") from None
 
 
-async def _serve(listening: socket.socket, host: str, browser: bool, announce: Callable[[str], Any]) -> None:
-    laboratory, stop = Laboratory(host), asyncio.Event()
+async def _serve(
+    listening: socket.socket, laboratory: Laboratory, browser: bool, announce: Callable[[str], Any]
+) -> None:
+    stop = asyncio.Event()
     listening.setblocking(False)
     server = HTTPServer(laboratory.application(), max_body_size=LARGEST_MESSAGE)
     server.add_socket(listening)
@@ -205,7 +213,7 @@ async def _serve(listening: socket.socket, host: str, browser: bool, announce: C
     for number in (signal.SIGINT, signal.SIGTERM):
         with suppress(NotImplementedError, RuntimeError):  # no signals on this system or in this thread
             loop.add_signal_handler(number, stop.set)
-    url = address(host, listening.getsockname()[1])
+    url = address(laboratory.host, listening.getsockname()[1])
     announce(url)
     if browser:
         threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()  # some wait for their user

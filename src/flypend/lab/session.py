@@ -15,6 +15,7 @@ from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, verdict
 from flypend.lab.map import region
+from flypend.lab.own import NONE, OwnLaws
 from flypend.lab.setting import plain, setting_of
 from flypend.lab.tuning import tuned
 from flypend.pages import replay
@@ -82,12 +83,15 @@ async def _ignore(sent: Awaitable[Any]) -> None:
     await sent
 
 
-def flights(message: Any, tell: Tell) -> Iterator[dict[str, Any]]:
-    """The reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports."""
+def flights(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, Any]]:
+    """The reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports.
+
+    `own` are laws of one's own.
+    """
     begun = time.perf_counter()
     number = message.get("number")
     try:
-        setting = setting_of(message.get("setting"))
+        setting = setting_of(message.get("setting"), own)
         run = fly(setting, tell)
         machine = tuned(setting)
         yield {
@@ -105,11 +109,11 @@ def flights(message: Any, tell: Tell) -> Iterator[dict[str, Any]]:
         yield refusal(error, number)
 
 
-def maps(message: Any, tell: Tell) -> Iterator[dict[str, Any]]:
-    """The replies to "map": chunks of the region of attraction."""
+def maps(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, Any]]:
+    """The replies to "map": chunks of the region of attraction; `own` are laws of one's own."""
     number = message.get("number")
     try:
-        for chunk in region(setting_of(message.get("setting")), tell):
+        for chunk in region(setting_of(message.get("setting"), own), tell):
             yield {"kind": "map", "number": number, **chunk}
     except InputError as error:
         yield refusal(error, number)

@@ -16,8 +16,9 @@ import numpy as np
 from flypend import errors, geometry
 from flypend.errors import InputError
 from flypend.flight.request import Flight
-from flypend.lab.gains import proposed_gains, sliders_of
-from flypend.laws import Law, law_from_dict, law_names
+from flypend.lab.gains import sliders_of
+from flypend.lab.own import NONE, OwnLaws
+from flypend.laws import Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP, SHAPES
 from flypend.model.vehicle import vehicle_names
@@ -52,16 +53,24 @@ class Poke:
 
 @dataclass(frozen=True)
 class Setting:
-    """A flight to make, its law as it was asked for, the pokes on the way, and its start with e₃ up."""
+    """A flight to make, its law as it was asked for, the pokes on the way, and its start with e₃ up.
+
+    A law of one's own also says where it is, and which text it was read from.
+    """
 
     flight: Flight
-    law: Law
+    law: Law | Controller
     pokes: tuple[Poke, ...]
     start: State
+    where: str = ""
+    stamp: str = ""
 
 
-def setting_of(asked: Any) -> Setting:
-    """The setting that a page asks for. Raises InputError for anything unknown, missing or out of range."""
+def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
+    """The setting that a page asks for, which may name one of the laws of one's `own`.
+
+    Raises InputError for anything unknown, missing or out of range.
+    """
     if not isinstance(asked, dict):
         raise InputError("setting", "a table", repr(asked)[:80])
     errors.only_known("", asked, KEYS)
@@ -73,18 +82,20 @@ def setting_of(asked: Any) -> Setting:
         given["plant"] = "ideal"  # what was set of another plant waits
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
-    law = given.get("law")
-    down = isinstance(law, dict) and law.get("name") in ("printed", "corrected")
-    given["start"] = {name: value.tolist() for name, value in vars(start.flipped() if down else start).items()}
-    if isinstance(law, dict) and law.get("name") in law_names() and isinstance(law.get("gains"), dict):
-        errors.only_known("law.gains", law["gains"], sliders_of(law_from_dict({"name": law["name"]})))
-    law_asked = _law(given)
-    flight = run_of(given).flight
-    _check_size(flight)
-    return Setting(flight, law_asked, pokes, start)
+    law = _law(given, own)
+    given["start"] = plain(start if law.e3 == "up" else start.flipped())
+    named = given["law"]["name"]
+    if named not in own:
+        flight = run_of(given).flight
+        _check_size(flight)
+        return Setting(flight, law, pokes, start)
+    others = run_of({**given, "law": {"name": "corrected"}}).flight  # all but the law
+    _check_size(others)
+    flight = others.replace(law=law.bind(others.vehicle), plant=others.plant)
+    return Setting(flight, law, pokes, start, own[named].where, own[named].stamp)
 
 
-def _law(given: dict[str, Any]) -> Law:
+def _law(given: dict[str, Any], own: OwnLaws) -> Law | Controller:
     """The law that a page asks for, its gains near enough to those proposed for steps to follow its loops."""
     for key in ("vehicle", "law"):
         check_plain(key, given.get(key, {}))
@@ -93,7 +104,11 @@ def _law(given: dict[str, Any]) -> Law:
     errors.one_of("vehicle", named, vehicle_names())  # a page reads no files
     with np.errstate(all="ignore"):  # as in `run_of`
         vehicle = Vehicle.from_dict(vehicle_table(given.get("vehicle")))
-        law = law_from_dict(table_at(given, "law"))
+        table = table_at(given, "law")
+        law = own[table["name"]].law if table.get("name") in own else law_from_dict({**table, "gains": {}})
+        gains = table_at(table, "gains", "law.gains")
+        errors.only_known("law.gains", gains, sliders_of(law))
+        law = law.with_gains(gains, "law.gains")
         _check_gains(law, vehicle)
     return law
 
@@ -161,12 +176,13 @@ def _check_size(flight: Flight) -> None:
             raise InputError(f"plant.{name}", f"{low:g} to {high:g}", f"{value:g}")
 
 
-def _check_gains(law: Law, vehicle: Vehicle) -> None:
+def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
     """Whether `law` takes its gains for `vehicle`, and its loops are no faster than steps can follow."""
-    proposed = proposed_gains(law.name, vehicle)
+    proposed = law.proposed(vehicle)
     for name, value in law.given.items():
-        if law.gains[name].label and not proposed[name] / FURTHEST <= value <= proposed[name] * FURTHEST:
-            expected = f"{proposed[name] / FURTHEST:.3g} to {proposed[name] * FURTHEST:.3g}, in the laboratory"
+        usual = proposed[name]
+        if name in sliders_of(law) and usual > 0 and not usual / FURTHEST <= value <= usual * FURTHEST:
+            expected = f"{usual / FURTHEST:.3g} to {usual * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
     try:
         with SYMBOLS:  # a law that is bound for the first time may be linearised

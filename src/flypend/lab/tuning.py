@@ -16,7 +16,7 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
 from flypend.lab.gains import sliders_of
 from flypend.lab.setting import SYMBOLS, Setting
-from flypend.laws import BoundLaw, Law, law_from_dict
+from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
@@ -62,19 +62,37 @@ class Tuned:
         return self.kernel.criterion
 
 
+@dataclass(frozen=True)
+class Stepped:
+    """What flies a flight whose law is not written in symbols: `vehicle`, bound `law`, and what it should do."""
+
+    vehicle: Vehicle
+    law: Controller
+    criterion: Criterion
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Gains that are inputs: none, since nothing was compiled."""
+        return ()
+
+
 _made: OrderedDict[str, Tuned] = OrderedDict()
 
 
-def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned:
+def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
     """What flies `setting`; `tell` is called if it has to be made first, which takes a second."""
     flight, law = setting.flight, setting.law
+    if isinstance(law, Controller):
+        return Stepped(flight.vehicle, law.bind(flight.vehicle), goal(law))
     fixed = {name: value for name, value in law.given.items() if not law.gains[name].label}
     kept = repr(structure(flight.plant)) if isinstance(flight.plant, Sampled) else "ideal"
-    key = json.dumps([flight.vehicle.to_dict(), law.name, fixed, kept, flight.tolerances.rtol], sort_keys=True)
+    key = json.dumps(
+        [flight.vehicle.to_dict(), law.name, setting.stamp, fixed, kept, flight.tolerances.rtol], sort_keys=True
+    )
     with SYMBOLS:
         if key not in _made:
             tell()
-            _made[key] = _make(setting, fixed)
+            _made[key] = _make(setting, law, fixed)
         _made.move_to_end(key)
         while len(_made) > MOST:
             _made.popitem(last=False)
@@ -84,10 +102,10 @@ def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned:
     return made
 
 
-def _make(setting: Setting, fixed: dict[str, Any]) -> Tuned:
-    flight, asked = setting.flight, setting.law
-    tunable, names = law_from_dict({"name": asked.name, "gains": fixed}), sliders_of(asked)
-    if asked.name == "lqr":
+def _make(setting: Setting, asked: Law, fixed: dict[str, Any]) -> Tuned:
+    flight = setting.flight
+    tunable, names = replace(asked, given=fixed), sliders_of(asked)
+    if asked.name == "lqr" and not setting.where:
         tunable = by_matrix(gain_matrix(flight.vehicle, asked.values))
         names = tuple(tunable.gains)
     law = tunable.bind(flight.vehicle)
@@ -101,13 +119,15 @@ def _make(setting: Setting, fixed: dict[str, Any]) -> Tuned:
 def values(setting: Setting) -> NDArray[np.float64]:
     """The values (k,) of the gains that are inputs."""
     law, vehicle = setting.law, setting.flight.vehicle
-    if law.name == "lqr":
+    if isinstance(law, Controller):
+        return np.zeros(0)
+    if law.name == "lqr" and not setting.where:
         with SYMBOLS:  # the linearisation is symbolic, too
             return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
     gains = law.gains_for(vehicle)
     return np.array([float(gains[name]) for name in sliders_of(law)])
 
 
-def goal(law: Law) -> Criterion:
+def goal(law: Law | Controller) -> Criterion:
     """What `law` is to do: to stand inverted; for the paper's laws, to bring the rod to their e₃, anywhere."""
     return Criterion() if law.e3 == "up" else Criterion(target="e3", position=np.inf)

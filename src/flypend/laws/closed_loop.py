@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -95,10 +95,3 @@ def close_loop(vehicle: Vehicle, law: Law | BoundLaw) -> ClosedLoop:
         outputs=ca.Function("outputs", [loop.t, loop.s], [outputs], ["t", "s"], ["outputs"]),
         signal_names=tuple(loop.signals),
     )
-
-
-def upright_wrench(
-    law: BoundLaw, t: Any, packed: Any, vehicle: Vehicle, external: Any, gains: Mapping[str, Any] | None = None
-) -> Any:
-    """As `BoundLaw.upright`, arguments `law`, `t`, `packed`, `vehicle`, `external` and `gains` in another order."""
-    return law.upright(t, packed, external, gains, vehicle)

@@ -81,6 +81,19 @@ class Controller:
         """Those of its gains that are real numbers, in their order."""
         return {name: float(value) for name, value in self.gains.items() if is_number(value)}
 
+    @property
+    def given(self) -> dict[str, Any]:
+        """Values of those of its gains that are not the defaults."""
+        return {name: value for name, value in self.gains.items() if value != self.table[name].default}
+
+    def proposed(self, vehicle: Vehicle) -> dict[str, Any]:
+        """The defaults of all gains for `vehicle`, by name."""
+        return {name: gain.value(vehicle) for name, gain in self.table.items()}
+
+    def gains_for(self, _: Vehicle) -> dict[str, Any]:
+        """The values of its gains, by name, which are the same for every vehicle."""
+        return dict(self.gains)
+
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
         """`values` of the gain called `name`, one or many, if it may take them; messages begin with `prefix`.
 

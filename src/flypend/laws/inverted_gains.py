@@ -130,7 +130,7 @@ GAINS = table(
         ),
         Gain(
             "descent_limit", lambda v: scales(v).numbers["descent"] * v.g, "m/s²",
-            "Largest downward acceleration asked of the bob; below g, so that the rod's target never turns over",
+            "Largest downward acceleration asked of the bob; below g, so that it alone cannot turn the target over",
             POSITIVE,
         ),
         Gain(

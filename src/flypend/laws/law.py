@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
-from flypend.laws.gain import check_gain, checked, table
+from flypend.laws.gain import Gain, check_gain, checked, table
 from flypend.laws.references import Path, Reference
 from flypend.model import Vehicle, Wrench
 from flypend.model.state import E3Direction
@@ -101,6 +101,16 @@ class Law:
         Raises InputError for a name that is no number of the law, and values out of bounds.
         """
         return check_gain(self.gains, name, values, prefix)
+
+    @property
+    def table(self) -> Mapping[str, Gain]:
+        """Its registry of gains."""
+        found: Mapping[str, Gain] = self.gains
+        return found
+
+    def proposed(self, vehicle: Vehicle) -> dict[str, Any]:
+        """The defaults of all gains for `vehicle`, by name, whatever is given."""
+        return {name: gain.value(vehicle) for name, gain in self.table.items()}
 
     def gains_for(self, vehicle: Vehicle) -> dict[str, Any]:
         """Values of all gains by name: those given, and for the others the defaults for `vehicle`.

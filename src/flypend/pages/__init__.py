@@ -1,1 +1,1 @@
-"""Pages for a browser: the replay and the bundle that the laboratory shares."""
+"""Browser pages: the replay, and the bundled scripts that the laboratory uses too."""

@@ -1,7 +1,8 @@
-"""Replay of runs in a browser: one page that holds flights, scene, plots and player, and needs nothing else.
+"""Replay of runs in a browser: one self-contained page with flights, scene, plots and player.
 
-The program of the page is bundled from the folder web/ (`make web`) into flypend/web/replay.js. This module packs runs
-into what it reads: columns of 32-bit floats in base64, at a rate that a screen can show; the page interpolates.
+`make web` bundles the script of the page from the folder web/ into flypend/pages/web/replay.js. This module packs runs
+into the format that the script reads: columns of 32-bit floats in base64, sampled at display rate; the page
+interpolates.
 """
 
 from __future__ import annotations
@@ -23,14 +24,14 @@ from flypend.model.state import E3Direction
 from flypend.pages import sketch
 
 RATE = 100.0  # samples per second of flight
-FINEST = 0.15  # rad that rod or vehicle may turn between two samples, as long as there are not too many
-MOST = 12_000  # samples of all runs in a page, which keeps it below 3 MB
+FINEST = 0.15  # maximum rotation of rod or vehicle between samples, rad, within the limit MOST
+MOST = 12_000  # maximum number of samples in a page, which keeps it below 3 MB
 MOST_RUNS = 4
 LARGEST = float(np.finfo(np.float32).max)
 
-Run = Any  # a flypend.Trajectory, whose module imports this one
+Run = Any  # flypend.Trajectory, not imported: its module imports this one
 
-# A page that may run what is in it and fetch nothing.
+# The page may run inline scripts but fetch nothing.
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 
 PAGE = """<!doctype html>
@@ -58,24 +59,24 @@ def page(
     layout: str = "overlay",
     speed: float = 1.0,
 ) -> str:
-    """The page, as text, that replays `runs`.
+    """Return the HTML of a page that replays `runs`.
 
     Parameters
     ----------
     runs : sequence of Trajectory
-        One to four, in either frame; the camera follows the first. With e₃ down the page shows gravity down the screen
-        all the same, and its numbers are those of the run.
+        One to four runs, in either frame; the camera follows the first. Gravity always points down the screen, and
+        numbers are in the frame of the run.
     title : str, optional
-        Default the laws and vehicles.
+        Page title; default: laws and vehicles.
     layout : "overlay" or "beside"
-        Whether the others are ghosts in the picture of the first, or have pictures of their own; a button changes it.
+        Whether the other runs appear as ghosts in the scene of the first, or in scenes of their own; a button toggles.
     speed : float
-        Time of the flight over time of playback at the beginning, > 0.
+        Initial playback speed, flight time over playback time, > 0.
 
     Raises
     ------
     InputError
-        For no run or more than four, an unknown layout, or a speed that is not positive.
+        If there are no runs or more than four, the layout is unknown, or the speed is not positive.
     """
     if not 1 <= len(runs) <= MOST_RUNS:
         raise errors.InputError("runs", f"1 to {MOST_RUNS} runs", f"{len(runs)}")
@@ -92,13 +93,13 @@ def page(
 
 
 def frame(text: str, height: int = 640) -> str:
-    """The page `text` as an isolated frame of a notebook, `height` CSS pixels high."""
+    """Wrap the page `text` in a sandboxed iframe for notebooks, `height` CSS pixels high."""
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe srcdoc="{html.escape(text)}" sandbox="allow-scripts" style="{style}"></iframe>'
 
 
 def pack(run: Run, most: int = MOST) -> dict[str, Any]:
-    """`run` as the page reads it: facts, and columns in base64 of at most `most` samples."""
+    """Pack `run` for the page: metadata, and base64 columns of at most `most` samples."""
     t, states = _sampled(run, most)
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
     columns = {
@@ -150,7 +151,7 @@ def _upright(states: State, e3: E3Direction) -> State:
 
 
 def _sampled(run: Run, most: int) -> tuple[Any, State]:
-    """Times and states: of the dense output if there is one, else samples of the run."""
+    """Times and states to show: from dense output if available, otherwise a subset of the samples."""
     times, states = np.asarray(run.t, dtype=float), run.states
     if len(times) < 2:
         return times, states
@@ -160,7 +161,7 @@ def _sampled(run: Run, most: int) -> tuple[Any, State]:
     count = int(np.clip(np.ceil(passed[-1] - 1e-6), 1, most - 1)) + 1
     wanted = np.interp(np.linspace(0.0, passed[-1], count), passed, times)
     if run.interpolant is not None:
-        wanted = wanted.astype(np.float32).astype(float)  # the time that the page has
+        wanted = wanted.astype(np.float32).astype(float)  # the times after rounding to 32 bits, as the page sees them
         return wanted, run.at(np.clip(wanted, times[0], times[-1]))
     keep = np.unique(np.clip(np.searchsorted(times, wanted - 1e-9), 0, len(times) - 1))
     return times[keep], states[keep]
@@ -176,12 +177,12 @@ def _base64(values: Any) -> str:
 
 
 def embedded(data: Any) -> str:
-    """JSON that cannot end the script element that holds it, whatever its texts say."""
+    """JSON that is safe inside a script element, whatever strings it contains."""
     text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
 @cache
 def program(name: str = "replay") -> str:
-    """The bundled program of the page called `name`."""
+    """The bundled script of the page `name`."""
     return (resources.files("flypend.pages") / "web" / f"{name}.js").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What a picture shows, before any picture: quadrotor, rod, bob and thrust as points in space, with e₃ up."""
+"""Geometry of drawings: quadrotor, rod, bob and thrust as points in the e₃-up world frame."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ from flypend import geometry
 from flypend.model import State, Vehicle
 
 DISC_POINTS = 25
-DISC_SHARE = 0.28  # radius of a drawn rotor over the distance to its neighbour; the vehicle does not state one
-BOB_SHARE = 0.08  # radius of the drawn bob over the length of the rod; a point mass has none
-HOVER_ARROW = 0.7  # length of the thrust arrow in hover, and its largest length, over the length of the rod
-LONGEST_ARROW = 1.1
+DISC_SHARE = 0.28  # drawn rotor radius over the distance to the nearest rotor; vehicles have no rotor radius
+BOB_SHARE = 0.08  # drawn bob radius over the rod length; the bob is a point mass
+HOVER_ARROW = 0.7  # length of the thrust arrow in hover over the rod length
+LONGEST_ARROW = 1.1  # maximum length of the thrust arrow over the rod length
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sketch:
-    """Points of the drawing of one state, or of a batch (`...`), in the world with e₃ up; m.
+    """Points of the drawing of one state or a batch (`...`), in the e₃-up world frame; m.
 
     Parameters
     ----------
     pivot, bob : (..., 3)
         Ends of the rod.
     arms : (..., n, 2, 3)
-        From the pivot to each of the n rotors.
+        Segments from the pivot to each of the n rotors.
     discs : (..., n, k, 3)
-        Closed circles in the plane of the body around the rotors.
+        Closed circles around the rotors, in the rotor plane.
     front : (n,) bool
-        Which rotors are foremost in the body frame.
+        Which rotors are foremost along the body x axis.
     thrust : (..., 2, 3)
-        Arrow from the pivot along the force of the rotors: 0.7 of the rod in hover, at most 1.1.
+        Arrow from the pivot along the thrust: 0.7 rod lengths in hover, at most 1.1.
     """
 
     pivot: Any
@@ -49,16 +49,16 @@ class Sketch:
 
 
 def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
-    """The drawing of `state`.
+    """Compute the drawing of `state`.
 
     Parameters
     ----------
     state : State
-        One state or a batch, in the frame with e₃ up.
+        One state or a batch, in the e₃-up frame.
     vehicle : Vehicle
-        Its rotors and rod are drawn.
+        Source of the rotor positions and the rod length.
     thrust : (...)
-        Force along z = R e₃, N; the length of the arrow.
+        Thrust along z = R e₃, N, which sets the length of the arrow.
     """
     rotors = vehicle.rotor_positions
     radius, angle = disc_radius(vehicle), np.linspace(0.0, 2 * np.pi, DISC_POINTS)
@@ -66,7 +66,7 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
     pivot = state.x
     ends = pivot[..., None, :] + np.einsum("...ij,nj->...ni", state.R, rotors)
     discs = pivot[..., None, None, :] + np.einsum("...ij,nkj->...nki", state.R, rotors[:, None] + circle)
-    hover = max(vehicle.weight, 1e-9)  # without gravity there is no hover, and every force draws the longest arrow
+    hover = max(vehicle.weight, 1e-9)  # without gravity, any thrust gets the longest arrow
     length = np.clip(HOVER_ARROW * np.asarray(thrust, dtype=float) / hover, -LONGEST_ARROW, LONGEST_ARROW)
     tip = pivot + geometry.scale(vehicle.rod_length * length, state.z)
     return Sketch(
@@ -80,22 +80,22 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
 
 
 def disc_radius(vehicle: Vehicle) -> float:
-    """Radius of a drawn rotor of `vehicle`, m."""
+    """Drawn radius of the rotors of `vehicle`, m."""
     rotors = vehicle.rotor_positions
     gaps = np.linalg.norm(rotors[:, None] - rotors[None], axis=-1) + np.diag(np.full(len(rotors), np.inf))
     return float(DISC_SHARE * gaps.min())
 
 
 def reach(vehicle: Vehicle) -> float:
-    """Distance from the pivot within which the drawing of `vehicle` stays, arrow included; m."""
+    """Radius around the pivot that contains the drawing of `vehicle`, including the thrust arrow; m."""
     rotors = float(np.linalg.norm(vehicle.rotor_positions, axis=-1).max()) + disc_radius(vehicle)
     return max(rotors, vehicle.rod_length * max(1 + BOB_SHARE, LONGEST_ARROW))
 
 
 def main_direction(states: State) -> Any:
-    """Horizontal unit vector (3,) along which the rod moves most; the vehicle, if the rod stays vertical.
+    """Horizontal unit vector (3,) along which the rod moves most, or the vehicle if the rod stays vertical.
 
-    Of the two senses, the one in which the vehicle travels. `states` are a batch over time in the frame with e₃ up.
+    Its sign follows the travel of the vehicle. `states` is a batch over time in the e₃-up frame.
     """
     travel = states.x[-1] - states.x[0]
     axis = np.array([1.0, 0.0])

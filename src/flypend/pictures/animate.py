@@ -1,4 +1,4 @@
-"""Slow-motion movies of a run, as .mp4 or .gif; `flypend.pictures.frames` draws what they show."""
+"""Slow-motion movies of a run as .mp4 or .gif; `flypend.pictures.frames` draws the frames."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from flypend.pictures.frames import Frame, stage
 Progress = Callable[[int, int], None]
 
 MAX_FRAMES = 100_000
-HOLD = 1.5  # s of playback for which the last instant of a run that did not complete stays, with the reason
+HOLD = 1.5  # s of playback for which the last frame of an incomplete run is held, with the outcome
 
 
 def movie(
@@ -32,20 +32,20 @@ def movie(
     size: tuple[int, int] = (640, 640),
     progress: Progress | None = None,
 ) -> None:
-    """Write a movie of `run`, whole or not at all.
+    """Write a movie of `run` atomically.
 
     Parameters
     ----------
     run : Trajectory
-        In either frame. One that ends early is shown to its end, which stays for 1.5 s with the outcome.
+        In either frame. If it ends early, the last frame is held for 1.5 s with the outcome.
     path : str or Path
-        Ends in .mp4 (H.264, yuv420p) or .gif.
+        Path ending in .mp4 (H.264, yuv420p) or .gif.
     view : "side" or "axis"
-        Camera, see `flypend.pictures.drawing.camera_for`.
+        Camera; see `flypend.pictures.drawing.camera_for`.
     speed : float
-        Time of the flight over time of playback, > 0; 0.25 is slow motion.
+        Flight time over playback time, > 0; 0.25 is slow motion.
     fps : float
-        Frames per second of playback, > 0, at most 50 for a .gif.
+        Frames per second of playback, > 0; at most 50 for a .gif.
     size : (2,) int
         Width and height in pixels, even and at least 160.
     progress : callable, optional
@@ -54,7 +54,7 @@ def movie(
     Raises
     ------
     InputError
-        For an unknown view or suffix, numbers out of range, and a file that cannot be written.
+        If the view or suffix is unknown, a number is out of range, or the file is not writable.
     """
     path, gif = Path(path), Path(path).suffix.lower() == ".gif"
     check_encoder(path)
@@ -75,27 +75,27 @@ def movie(
 
 
 def check_encoder(path: str | Path = "movie.mp4") -> None:
-    """Raise InputError where the encoder of a movie at `path` is not installed; a .gif needs none."""
+    """Raise InputError if `path` needs a video encoder that is not installed; a .gif needs none."""
     if Path(path).suffix.lower() != ".gif":
         errors.require("imageio_ffmpeg", extra="movies", for_="movie")
 
 
 def frame_times(run: Trajectory, *, speed: float, fps: float) -> Any:
-    """Instants (n,) of `run` (s) at playback `speed` and `fps` frames per second; the last is the end of the run.
+    """Times (n,) of the frames of `run`, s, at playback `speed` and `fps` frames per second; the last is its end.
 
-    Raises InputError for numbers that are not positive, or more than 100,000 frames.
+    Raises InputError if a number is not positive, or there are more than 100,000 frames.
     """
     step = errors.number("speed", speed, above=0) / errors.number("fps", fps, above=0, unit="1/s")
     start, end = float(run.t[0]), float(run.t[-1])
     count = (end - start) / step
     if count > MAX_FRAMES:
         raise errors.InputError("speed", f"at most {MAX_FRAMES} frames", f"{count:.4g} of {step:.3g} s each")
-    # The tolerance is there for 6.5 s / 0.25 × 30, which is 780 frames and no sliver of a frame more.
+    # The tolerance absorbs roundoff: 6.5 s / 0.25 × 30 is exactly 780 frames.
     return np.minimum(start + step * np.arange(int(np.ceil(count - 1e-6)) + 1), end)
 
 
 def _frames(render: Callable[[int, bool], Frame], count: int, hold: int, progress: Progress | None) -> Iterator[Frame]:
-    """All frames: `count` of the flight, the last one again `hold` times with the outcome written on it."""
+    """Yield all frames: `count` of the flight, then the last one `hold` times with the outcome written on it."""
     for i in range(count + hold):
         if i <= count:
             frame = render(min(i, count - 1), i >= count)
@@ -118,13 +118,13 @@ def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: 
             _send(encoder, frame)
     finally:
         encoder.close()
-    # A full disk is noticed by ffmpeg only; it then leaves a file that ends early or has no index.
+    # Only ffmpeg notices a full disk; it then leaves a truncated file, or one without an index.
     if (written := _frames_in(path)) != count:
         raise OSError(f"{written} of {count} frames from ffmpeg")
 
 
 def _frames_in(path: Path) -> int:
-    """Number of frames in the movie at `path`, read but not decoded; 0 for a file that is none."""
+    """Count the frames of the movie at `path` without decoding; 0 if it is not a movie."""
     import imageio_ffmpeg
 
     command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "quiet", "-i", str(path), "-c", "copy"]
@@ -137,7 +137,7 @@ def _frames_in(path: Path) -> int:
 def _send(encoder: Any, frame: Frame | None) -> None:
     try:
         encoder.send(frame)
-    except (OSError, RuntimeError) as error:  # of many lines, with the whole command
+    except (OSError, RuntimeError) as error:  # only the first line: the rest is the whole command
         raise OSError(f"ffmpeg failed ({str(error).splitlines()[0]})") from None
 
 
@@ -147,7 +147,7 @@ def _write_gif(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: 
 
     first = image(next(frames)).quantize(128, dither=Image.Dither.NONE)
     rest = (image(frame).quantize(palette=first, dither=Image.Dither.NONE) for frame in frames)
-    # A GIF counts hundredths of a second: frames last 3 or 4 of them so that 30 per second come out on average.
+    # GIF frame durations are in units of 10 ms: mix 3 and 4 to average 30 frames per second.
     ends = np.round(100 / fps * np.arange(count + 1)).astype(int)
     durations = (10 * np.diff(ends)).tolist()
     with path.open("wb") as file:

@@ -1,4 +1,4 @@
-"""What all figures share: letters, an empty figure, and the words that name a run."""
+"""Shared by all figures: font sizes, an empty figure, and the title of a run."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ LABEL, SMALL = 8.0, 7.0  # font sizes, pt
 
 
 def new_figure(width: float, height: float, dpi: float = 200) -> Figure:
-    """An empty figure of `width` × `height` inches at `dpi`, on the Agg canvas, known to no pyplot state."""
+    """Create an empty figure of `width` × `height` inches at `dpi` on an Agg canvas, independent of pyplot."""
     figure = Figure(figsize=(width, height), dpi=dpi, layout="constrained", facecolor="white")
     FigureCanvasAgg(figure)
     return figure
 
 
 def title(run: Trajectory, between: str = ", ") -> str:
-    """Law, its options and its gains."""
+    """The name of the law, its options and its gains, joined by `between`."""
     options = [f"{name} {value}" for name, value in run.gains.items() if isinstance(value, str)]
     gains = [f"${name}$ = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
     return between.join(filter(None, [", ".join([f"{run.law} law", *options]), ", ".join(gains)]))
 
 
 def decimals(run: Trajectory) -> int:
-    """Digits after the point that tell the instants of `run` apart."""
+    """Number of decimals that distinguish the snapshot times of `run`."""
     return int(np.clip(2 - np.floor(np.log10(run.t[-1])), 2, 6)) if run.t[-1] > 0 else 2

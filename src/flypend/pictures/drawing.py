@@ -1,7 +1,8 @@
-"""What figures and movies share: the cameras of a run, its states at any time, and the machine drawn into axes.
+"""Shared by figures and movies: cameras, interpolated states, and drawing the vehicle into axes.
 
-Both draw the same points (`flypend.pages.sketch`) through the same cameras. Everything here is in the frame with e₃ up,
-whatever the frame of the run, so gravity points down every picture that looks horizontally (`axis` looks along it).
+Both draw the same points (`flypend.pages.sketch`) through the same cameras. Everything here is in the e₃-up frame,
+whatever the frame of the run, so gravity points down the screen in every horizontal view (the view "axis" looks along
+gravity).
 """
 
 from __future__ import annotations
@@ -44,30 +45,30 @@ ROD: dict[str, Any] = {"color": RED, "linewidth": 3.0, "solid_capstyle": "round"
 TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1))}
 THRUST: dict[str, Any] = {"color": GREEN, "linewidth": 1.1}
 
-EYE = 8.0  # distance of the camera of a picture, over the reach of the drawing
-ELEVATION = np.deg2rad(12.0)  # of the side camera, so that a level rotor is a thin ellipse and not a line
+EYE = 8.0  # camera distance over the reach of the drawing
+ELEVATION = np.deg2rad(12.0)  # of the side camera: level rotors appear as thin ellipses, not lines
 
 
 def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, distance: float = np.inf) -> Camera:
-    """The camera of a view of `run`, looking at the origin (subtract the pivot to follow it).
+    """Return the camera for a view of `run`. It looks at the origin; subtract the pivot position to follow the vehicle.
 
     Parameters
     ----------
     run : Trajectory
         In either frame.
     view : "side" or "axis"
-        "side" looks horizontally, across the direction in which the rod moves most, so gravity points down the
-        screen. "axis" is the camera that the paper mounts on its −e₃ axis: e₃ is along gravity there, so it is above
-        and looks down; gravity points into the screen, and a hanging rod shrinks to its middle.
+        "side" looks horizontally, across the direction in which the rod moves most; gravity points down the screen.
+        "axis" is the paper's camera on its −e₃ axis. In the paper e₃ points along gravity, so the camera looks down:
+        gravity points into the screen, and a hanging rod appears as a point.
     elevation : float
-        Of the side camera above the horizon, rad.
+        Elevation of the side camera above the horizon, rad.
     distance : float
-        From the origin, m.
+        Distance from the origin, m.
 
     Raises
     ------
     InputError
-        For an unknown view.
+        If the view is unknown.
     """
     if errors.one_of("view", view, VIEWS) == "axis":
         return Camera(direction=-geometry.E3, up=geometry.E2, distance=distance)
@@ -83,15 +84,14 @@ def main_direction(run: Trajectory) -> Any:
 
 
 def upright(state: State, run: Trajectory) -> State:
-    """`state`, which is in the frame of `run`, in the frame with e₃ up."""
+    """Convert `state` from the frame of `run` to the e₃-up frame."""
     return state if run.e3 == "up" else state.flipped()
 
 
 def states_at(run: Trajectory, times: Any) -> State:
-    """States of `run` at `times` (n,), s, in the frame with e₃ up; from samples if the dense output is gone.
+    """States of `run` at `times` (n,), s, in the e₃-up frame, from dense output or else interpolated between samples.
 
-    Times outside the run mean its first and last instant. Between samples that are further apart than a quarter turn
-    nothing can be interpolated, and the nearer one is taken.
+    Times outside the run are clipped to it. Between samples more than a quarter turn apart, the nearer sample is used.
     """
     times = np.clip(np.atleast_1d(np.asarray(times, dtype=float)), run.t[0], run.t[-1])
     if run.interpolant is not None:
@@ -109,27 +109,27 @@ def states_at(run: Trajectory, times: Any) -> State:
 
 
 def thrust_at(run: Trajectory, times: Any) -> Any:
-    """Thrust of `run` at `times` (n,), s, along z = R e₃ of the frame with e₃ up; N, interpolated between samples."""
+    """Thrust of `run` at `times` (n,), s, along z = R e₃ of the e₃-up frame; N, interpolated between samples."""
     return np.interp(times, run.t, run.thrust) * (1.0 if run.e3 == "up" else -1.0)
 
 
 def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float, ghosts: int = 5) -> None:
-    """Draw `run` at a time around a point of `ax`, with the path of the bob about the pivot before.
+    """Draw `run` at time `t` around the point `middle` of `ax`, with the preceding path of the bob about the pivot.
 
     Parameters
     ----------
     ax : matplotlib.axes.Axes
-        Its units are metres.
+        Axes in metres.
     run : Trajectory
         In either frame.
     camera : Camera
-        Looks at the origin, where the pivot is put.
+        A camera looking at the origin, where the pivot is placed.
     middle : (2,)
-        Where in `ax` the pivot goes.
+        Position of the pivot in `ax`.
     t, since : float
-        Time of the drawing and of the start of the path of the bob (of a rod that whirls, the last turn); s.
+        Time of the drawing and start of the bob's path (of a whirling rod, at most the last turn); s.
     ghosts : int
-        Number of pale rods along the path.
+        Number of faint rods along the path.
     """
 
     def screen(points: Any) -> Any:
@@ -150,7 +150,7 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         ax.add_collection(PolyCollection(list(screen(shape.discs[shape.front == front])), **style))
     ax.add_collection(LineCollection(list(screen(shape.arms)), color=INK, linewidth=1.6, zorder=3.1))
     if np.linalg.norm(np.diff(project(camera, shape.thrust), axis=0)) > 0.1 * vehicle.rod_length:  # else only a head
-        rim = [withStroke(linewidth=1.9, foreground="white")]  # so that an arrow along the rod is seen in grey
+        rim = [withStroke(linewidth=1.9, foreground="white")]  # keeps an arrow along the rod visible in greyscale
         _arrow(ax, *screen(shape.thrust), **THRUST, path_effects=rim, zorder=4.2)
     ax.plot(*screen(shape.rod).T, **ROD, zorder=2 if behind else 4)
     radius = BOB_SHARE * vehicle.rod_length * float(magnification(camera, shape.bob))
@@ -159,20 +159,20 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
 
 
 def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float) -> None:
-    """The letter g with an arrow down the screen, or ⊗ (into the screen) where the view looks along gravity.
+    """Draw the letter g with an arrow down the screen, or ⊗ (into the screen) if the view is along gravity.
 
     Parameters
     ----------
     ax : matplotlib.axes.Axes
-        With units of equal length on both axes.
+        Axes with equal aspect ratio.
     view : "side" or "axis"
         As in `camera_for`.
     at : (2,)
-        Middle of the symbol in units of `ax`.
+        Centre of the symbol in units of `ax`.
     size : float
-        Half the length of the arrow in units of `ax`.
+        Half the length of the arrow, in units of `ax`.
     fontsize : float
-        Of the letter, pt.
+        Font size of the letter, pt.
     """
     x, y = at
     if view == "axis":

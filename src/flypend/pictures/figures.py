@@ -1,7 +1,7 @@
-"""Figures of one run: the paper's two panels, everything over time, and the motion in stop-motion pictures.
+"""Figures of one run: the paper's two panels, all quantities over time, and stop-motion pictures.
 
-Each returns a matplotlib `Figure` that no window and no pyplot state knows of; `save_figure` writes it. SI units. The
-curves are in the frame of the run, the pictures show gravity pointing down.
+Each function returns a matplotlib `Figure` that is independent of pyplot; `save_figure` writes it. SI units. Curves are
+in the frame of the run; stop-motion pictures show gravity pointing down.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from flypend.pictures.style import style_named
 
 __all__ = ["full_figure", "paper_figure", "save_figure", "snapshot_times", "stop_motion"]
 
-COMPONENTS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))  # of a vector; the line style tells them apart in grey
+COMPONENTS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))  # vector components; line styles distinguish them in greyscale
 
 
 def paper_figure(run: Trajectory, *, style: str = "paper") -> Figure:
-    """The paper's figure: y₃ and z₃ of `run` against time, in the frame of the run, one column wide.
+    """The paper's figure: y₃ and z₃ of `run` over time, in the frame of the run, one column wide.
 
-    `style` is "paper" or "slides"; another raises InputError.
+    `style` is "paper" or "slides". Raises InputError for any other.
     """
     form = style_named(style)
     figure = new_figure(*form.half, form.dpi)
@@ -43,10 +43,10 @@ def paper_figure(run: Trajectory, *, style: str = "paper") -> Figure:
 
 
 def full_figure(run: Trajectory, *, style: str = "paper") -> Figure:
-    """Every quantity of `run` against time: y, z, x, thrust, moment and the Lyapunov functions, two columns wide.
+    """All quantities of `run` over time: y, z, x, thrust, moment and the Lyapunov functions, two columns wide.
 
-    A run of a law without Lyapunov functions shows the rate of the rod in their place. `style` is "paper" or "slides";
-    another raises InputError.
+    If the law has no Lyapunov functions, the rod rate is shown instead. `style` is "paper" or "slides"; raises
+    InputError for any other.
     """
     form = style_named(style)
     figure = new_figure(*form.full, form.dpi)
@@ -66,9 +66,9 @@ def full_figure(run: Trajectory, *, style: str = "paper") -> Figure:
         _lyapunov(panels[5], run)
     else:
         _components(panels[5], run.t, r"\dot{y}", run.y_dot, "1/s")
-    _mind_spikes(panels[3], run.thrust, "N")
-    _mind_spikes(panels[4], run.moment, "N m")
-    for ax in panels:  # above the axes, where no curve can run into it
+    _clip_spikes(panels[3], run.thrust, "N")
+    _clip_spikes(panels[4], run.moment, "N m")
+    for ax in panels:  # above the axes, clear of the curves
         at = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "borderpad": 0.1}
         ax.legend(fontsize=SMALL, ncols=3, frameon=False, columnspacing=1.2, **at)
     along = "along" if run.e3 == "down" else "against"
@@ -78,9 +78,9 @@ def full_figure(run: Trajectory, *, style: str = "paper") -> Figure:
 
 
 def _between_poles(ax: Any, run: Trajectory, name: str) -> None:
-    """Scale `ax` for components of the unit vector `name` ("y" or "z") of `run`, and name the poses at ±1.
+    """Scale `ax` for components of the unit vector `name` ("y" or "z") of `run`, and label the poses at ±1.
 
-    The body frame turns over with the world frame, so z₃ = 1 is the upright vehicle in both.
+    The body frame flips together with the world frame, so z₃ = 1 is the upright vehicle in either.
     """
     poses = ("upright", "upside down") if name == "z" else ("inverted", "hanging")
     if name == "y" and run.e3 == "down":
@@ -93,7 +93,7 @@ def _between_poles(ax: Any, run: Trajectory, name: str) -> None:
 
 
 def _unit_vectors(run: Trajectory) -> tuple[Any, dict[str, Any]]:
-    """Times, and y and z at them: the samples, or more if the rod or the vehicle turns too fast for these."""
+    """Times, and y and z at those times: the samples, or finer if rod or vehicle turn too fast for them."""
     rate = max(geometry.norm(run.y_dot).max(), geometry.norm(run.omega).max())
     steps = int(min(rate * (run.t[-1] - run.t[0]) / 0.2, 20_000))
     if run.interpolant is None or steps < len(run.t):
@@ -114,7 +114,7 @@ def _components(ax: Any, t: Any, name: str, values: Any, unit: str, word: str = 
 
 
 def _lyapunov(ax: Any, run: Trajectory) -> None:
-    """V and its terms V_1, V_2, ... on a logarithmic axis that leaves out what is zero to rounding."""
+    """Plot V and its terms V_1, V_2, ... on a logarithmic axis, cut off where they vanish to roundoff."""
     terms = [name for name in run.signals if name.startswith("V_") and name[2:].isdigit()]
     styles = ((INK, "-"), (RED, "--"), (GREEN, "-."), (BLUE, ":"))
     for name, (color, style) in zip(["V", *terms], styles, strict=False):
@@ -126,8 +126,8 @@ def _lyapunov(ax: Any, run: Trajectory) -> None:
     ax.set_ylabel("Lyapunov function (1/s²)", fontsize=LABEL)
 
 
-def _mind_spikes(ax: Any, values: Any, unit: str) -> None:
-    """Keep a spike of `values` (a singular law ends in one) from flattening the curves of `ax`, and name its height."""
+def _clip_spikes(ax: Any, values: Any, unit: str) -> None:
+    """Clip `ax` if `values` have a spike (as a singular law does at its end), and state the height of the spike."""
     size = np.abs(values)
     usual, peak = np.percentile(size, 95), size.max()
     if peak > 10 * usual > 0:
@@ -137,7 +137,7 @@ def _mind_spikes(ax: Any, values: Any, unit: str) -> None:
 
 
 def _finish(rows: Any, run: Trajectory) -> None:
-    """Style the grid of axes `rows`, label their common time axis, and mark how `run` ended if it did not complete."""
+    """Style the grid of axes `rows`, label the time axis, and mark the outcome of `run` if it did not complete."""
     end, completed = float(run.t[-1]), run.outcome.status == "completed"
     for ax in rows.flat:
         ax.set_xlim(run.t[0], end if completed else max(1.45 * end, 1e-3))

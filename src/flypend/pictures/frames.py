@@ -1,6 +1,6 @@
-"""Frames of a movie: the camera follows the pivot, a grid scrolls past, y₃ and z₃ run along below.
+"""Frames of a movie: the camera follows the pivot over a scrolling grid, with y₃ and z₃ plotted below.
 
-Everything that does not move is drawn once; a frame restores that background and draws a dozen artists over it.
+The static background is drawn once; each frame restores it and draws a dozen artists on top.
 """
 
 from __future__ import annotations
@@ -27,29 +27,29 @@ from flypend.pictures import drawing, lettering
 from flypend.pictures.camera import Camera, depth, magnification, project
 
 Frame = Any  # memoryview of (height, width, 4) bytes, valid until the next frame is drawn
-Part = Callable[[int], list[Any]]  # sets artists to a frame and returns them in the order of drawing
+Part = Callable[[int], list[Any]]  # updates artists for a frame and returns them in drawing order
 
-TRAIL = 0.5  # s of flight that the path of the bob goes back
-ZOOM = 1.3  # half the shorter side of the scene over the reach of the drawing
-GRIDS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # spacings, m
-# Left, bottom, width and height in the picture; what does not move is written above the scene, where no line runs.
+TRAIL = 0.5  # length of the bob's trail, s of flight
+ZOOM = 1.3  # half the shorter side of the scene, over the reach of the drawing
+GRIDS = (0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # grid spacings, m
+# Left, bottom, width and height as fractions of the picture. Static labels go above the scene, clear of the lines.
 SCENE, STRIP, HEAD = (0.0, 0.215, 1.0, 0.665), (0.085, 0.07, 0.885, 0.115), (0.0, 0.88, 1.0, 0.12)
 LINE = "#d4d4d4"
 
 
 def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int, int]) -> Callable[[int, bool], Frame]:
-    """Set up the picture of `size` pixels; returns `render(i, ended)`, which draws the instant `times[i]`."""
+    """Set up a picture of `size` pixels; return `render(i, ended)`, which draws the frame at `times[i]`."""
     rod = run.vehicle.rod_length
     camera = drawing.camera_for(run, view, distance=drawing.EYE * drawing.reach(run.vehicle))
     states = drawing.states_at(run, times)
     shape = drawing.sketch(replace(states, x=np.zeros(3)), run.vehicle, drawing.thrust_at(run, times))
-    # Between frames a fast rod goes further than a line can follow: `finer` points of its path for each frame.
+    # A fast rod turns too far between frames for a straight line: use `finer` path points per frame.
     turn = geometry.norm(states.y_dot).max() * np.diff(times).max(initial=0.0)
     finer = int(np.clip(np.ceil(turn / 0.15), 1, 24))
     fine = np.interp(np.arange((len(times) - 1) * finer + 1) / finer, np.arange(len(times)), times)
     path = drawing.states_at(run, fine)
 
-    dpi = 100 * min(size) / 640  # a hundredth of a pixel more, so that no side is rounded down
+    dpi = 100 * min(size) / 640  # a hundredth of a pixel is added so that no side is rounded down
     figure = Figure(figsize=((size[0] + 0.01) / dpi, (size[1] + 0.01) / dpi), dpi=dpi, facecolor="white")
     canvas = FigureCanvasAgg(figure)
     head, scene, strip = (figure.add_axes(place) for place in (HEAD, SCENE, STRIP))
@@ -82,7 +82,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
 
 
 def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> tuple[float, float]:
-    """Prepare the middle of the picture, around the pivot; returns half its width and height in metres."""
+    """Set up the scene around the pivot; return half its width and height, m."""
     pixels = (size[0] * SCENE[2], size[1] * SCENE[3])
     scale = ZOOM * drawing.reach(run.vehicle) / min(pixels)
     half = (pixels[0] * scale, pixels[1] * scale)
@@ -92,7 +92,7 @@ def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> tuple[float, floa
 
 
 def _head(ax: Any, view: str, speed: float, size: tuple[int, int]) -> None:
-    """Prepare the upper end of the picture, with units of its height: how slow, which way is down, what is what."""
+    """Draw the header, in units of its height: playback speed, direction of gravity, legend."""
     width = size[0] * HEAD[2] / (size[1] * HEAD[3])
     ax.set(xlim=(0, width), ylim=(0, 1))
     ax.set_axis_off()
@@ -107,10 +107,10 @@ def _head(ax: Any, view: str, speed: float, size: tuple[int, int]) -> None:
 
 
 def _strip(ax: Any, run: Trajectory, t: Any, states: State) -> None:
-    """y₃ and z₃ over time in the frame of the run, from `states` (e₃ up) at times `t`."""
+    """Plot y₃ and z₃ over time in the frame of the run, from `states` (e₃ up) at times `t`."""
     sign, pole = (1, "inverted") if run.e3 == "up" else (-1, "hanging")
     ax.plot(t, sign * states.y[:, 2], color=RED, linewidth=1.6, label=f"$y_3$ (1: {pole})")
-    # Turning the world and the body frame over leaves z₃ = R₃₃ what it is.
+    # Flipping both world and body frame leaves z₃ = R₃₃ unchanged.
     ax.plot(t, states.z[:, 2], color=BLUE, linewidth=1.3, linestyle="--", label="$z_3$ (1: upright)")
     ax.set(xlim=(run.t[0], max(run.t[-1], run.t[0] + 1e-3)), ylim=(-1.15, 1.15), yticks=[-1, 0, 1])
     ax.tick_params(labelsize=8, length=2.5)
@@ -122,14 +122,14 @@ def _strip(ax: Any, run: Trajectory, t: Any, states: State) -> None:
 
 
 def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: tuple[float, float]) -> list[Part]:
-    """Lines that stand still in the world, in the plane of the pivot x (n, 3; e₃ up), with their coordinates."""
-    if view == "axis":  # coordinates as in the frame of the run
+    """Grid lines fixed in the world, in the plane of the pivot x (n, 3; e₃ up), with coordinate labels."""
+    if view == "axis":  # coordinates in the frame of the run
         across, up, origin, names = geometry.E1, geometry.E2, 0.0, ("x₁ = ", "x₂ = ")
     else:
         across, up, origin, names = camera.right, geometry.E3, x[0], ("travel ", "height ")
     sign = -1 if view == "axis" and run.e3 == "down" else 1
     at = ((x - origin) @ across, (x - origin) @ up)
-    # Coarse enough not to run backwards for half of the movie or more, like the wheels of a coach.
+    # Coarse enough that the grid does not alias and seem to run backwards for half of the movie or more.
     per_frame = max(np.median(np.abs(np.diff(values, prepend=values[0]))) for values in at)
     spacing = next((s for s in GRIDS if s > max(3 * per_frame, 0.45 * min(half))), GRIDS[-1])
     return [
@@ -148,13 +148,13 @@ def _ruler(
     sign: int,
     upright: bool = False,
 ) -> Part:
-    """Parallel lines every `spacing` metres past a pivot at the coordinate `at` (n,), to the right or `upright`.
+    """Parallel lines every `spacing` m that scroll past a pivot at coordinate `at` (n,), to the right or `upright`.
 
-    The picture reaches `half[0]` metres from the pivot along the coordinate, drawn shorter by `slant`, and `half[1]`
-    across. A label is the `name` and the coordinate times `sign`.
+    The picture extends `half[0]` m from the pivot along the coordinate, which is foreshortened by the factor `slant`,
+    and `half[1]` m across. Labels show `name` and the coordinate times `sign`.
     """
     reach, across = half
-    low = (0.92 if upright else 1.0) * reach  # no line runs through the labels at the bottom
+    low = (0.92 if upright else 1.0) * reach  # keep lines clear of the labels at the bottom
     line = ax.add_line(Line2D([], [], color=LINE, linewidth=1.0, animated=True))
     labels = [lettering.words(ax, 8, "#5a5a5a", right=upright) for _ in range(int(2 * reach / slant / spacing) + 2)]
 
@@ -168,7 +168,7 @@ def _ruler(
         line.set_data(*(data[::-1] if upright else data))
         shown = [line]
         for label, tick, place in zip(labels, ticks, places, strict=False):
-            if place < (0.92 if upright else 0.72) * reach:  # no label runs over an edge
+            if place < (0.92 if upright else 0.72) * reach:  # keep labels inside the picture
                 at_label = (0.98 * across, place) if upright else (place + 0.015 * reach, -0.985 * across)
                 shown.append(label(f"{name}{sign * tick + 0.0:g} m", at_label))
         return shown
@@ -177,7 +177,7 @@ def _ruler(
 
 
 def _trail(ax: Any, points: Any, finer: int, t: Any) -> Part:
-    """The last half second of the path of the bob, `points` (n, 2) at `t` (n,), `finer` to a frame, paler backwards."""
+    """The last half second of the bob's path, fading: `points` (n, 2) at `t` (n,), `finer` points per frame."""
     first = np.searchsorted(t, t - TRAIL)
     shades = np.linspace(0.15, 1.0, 6)
     colors = [(*to_rgb(BLUE), shade) for shade in shades]
@@ -193,7 +193,7 @@ def _trail(ax: Any, points: Any, finer: int, t: Any) -> Part:
 
 
 def _body(ax: Any, shape: Sketch, camera: Camera, rod_length: float) -> Part:
-    """Quadrotor, thrust, rod and bob of `shape` (n, ...), whose pivot is where `camera` looks."""
+    """Quadrotor, thrust, rod and bob of `shape` (n, ...), with the pivot at the centre of `camera`."""
     discs, arms = project(camera, shape.discs), project(camera, shape.arms)
     rods, behind = project(camera, shape.rod), depth(camera, shape.bob) > 0
     radii = drawing.BOB_SHARE * rod_length * magnification(camera, shape.bob)
@@ -221,7 +221,7 @@ def _body(ax: Any, shape: Sketch, camera: Camera, rod_length: float) -> Part:
 
 
 def _arrows(segments: Any, width: float) -> Any:
-    """Outlines (n, 7, 2) of arrows of the given `width` along `segments` (n, 2, 2); heads shrink with short arrows."""
+    """Outlines (n, 7, 2) of arrows of the given `width` along `segments` (n, 2, 2); short arrows get smaller heads."""
     along = segments[:, 1] - segments[:, 0]
     length = np.linalg.norm(along, axis=1)[:, None]
     along = along / np.maximum(length, 1e-9)
@@ -234,7 +234,7 @@ def _arrows(segments: Any, width: float) -> Any:
 
 
 def _readout(ax: Any, t: Any, states: State) -> Part:
-    """Time, height above the start and speed of the vehicle, at the left of `ax`."""
+    """Time, height above the start and speed of the vehicle, on the left of `ax`."""
     rise, pace = np.round(states.x[:, 2] - states.x[0, 2], 1) + 0.0, geometry.norm(states.x_dot)
     digits = 2 if t[-1] >= 1 else 4
     clock, below = lettering.words(ax, 13, INK), lettering.words(ax, 9, INK)

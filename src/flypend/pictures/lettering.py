@@ -1,4 +1,4 @@
-"""Words that change from frame to frame, drawn as outlines of characters that are laid out once."""
+"""Text that changes between frames, drawn from cached glyph outlines."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from matplotlib.transforms import IdentityTransform
 
 
 def words(ax: Any, fontsize: float, color: str, *, right: bool = False) -> Callable[[str, Any], Any]:
-    """A text that changes: returns `place(words, at)`, an artist with words that start, or end, at a point of `ax`.
+    """Create changeable text: returns `place(words, at)`, which sets its string and position in `ax` and returns it.
 
-    It is drawn as outlines of characters kept from one frame to the next: laying out a string anew, as matplotlib's
-    `Text` does, takes longer than drawing all the rest of a frame.
+    The text starts at `at`, or ends there if `right`. It is drawn from cached glyph outlines: laying out a string
+    again, as matplotlib's `Text` does, takes longer than the rest of a frame.
     """
     patch = ax.add_patch(PathPatch(Path([[0.0, 0.0]]), facecolor=color, edgecolor="none", animated=True))
     patch.set_transform(IdentityTransform())
@@ -35,7 +35,7 @@ def words(ax: Any, fontsize: float, color: str, *, right: bool = False) -> Calla
 
 @lru_cache(maxsize=4096)
 def outline(words: str) -> tuple[Any, Any, float]:
-    """Vertices (n, 2), codes (n,) and width of `words` in a font of size 1."""
+    """Vertices (n, 2), path codes (n,) and width of the string `words` at font size 1."""
     vertices, codes, x = [np.zeros((0, 2))], [np.zeros(0, dtype=Path.code_type)], 0.0
     for character in words:
         outline, advance = glyph(character)
@@ -48,7 +48,7 @@ def outline(words: str) -> tuple[Any, Any, float]:
 
 @cache
 def glyph(character: str) -> tuple[Any, float]:
-    """Outline of `character` in a font of size 1 (None for a space), and how far the next one stands from it."""
+    """Outline of `character` at font size 1 (None for a space), and its advance width."""
     bar, pair = (TextPath((0, 0), words, size=1) for words in ("|", character + "|"))
     outline = None if character.isspace() else TextPath((0, 0), character, size=1)
     return outline, float(pair.vertices[:, 0].max() - bar.vertices[:, 0].max())

@@ -1,4 +1,4 @@
-"""Maps of a store: where the rod may start, on the sphere and in a plane, and what becomes of it."""
+"""Maps of a store of runs: outcomes by initial rod direction on the sphere, and in a plane of two quantities."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.studies.sweep.bins import EDGE, Cells, Runs, default_plane, label, plane, side, sphere
 from flypend.studies.sweep.chunk import CAUSES
 
-WIDTH = 7.16  # of two columns of a paper, in
-# One colour per cause of a failure; success is left white.
+WIDTH = 7.16  # two-column width of a paper, in
+# One colour per cause of failure; success is white.
 CAUSE_COLOURS = {"rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK}
 EMPTY = "#e4e4e4"
-# An interval this wide says little: the cell is hatched.
+# Cells with a wider confidence interval are hatched.
 WIDE = 0.2
 RINGS = (30, 60)
 HATCH = "//////"
@@ -31,7 +31,7 @@ HATCH = "//////"
 
 @dataclass(frozen=True, eq=False)
 class _Panel:
-    """One picture of cells: where it is drawn, the edges of its cells, and whether it is a disc."""
+    """One panel: its title, its cells and their edges, and the hemisphere if it is a disc."""
 
     name: str
     cells: Cells
@@ -39,32 +39,33 @@ class _Panel:
     part: int | None = None  # hemisphere
 
     def square(self, values: Any) -> Any:
-        """Values of the cells (n,) as rows and columns."""
+        """Reshape values of the cells (n,) to rows and columns."""
         shape = (len(self.edges[1]) - 1, len(self.edges[0]) - 1)
         size = shape[0] * shape[1]
         return values[(self.part or 0) * size :][:size].reshape(shape)
 
 
 def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None, cells: int | None = None) -> Figure:
-    """Success, settling time, excursion and causes of failure of the runs of a store, one row each.
+    """Draw success, settling time, excursion and causes of failure of the runs of a store, one row each.
 
-    On the sphere of initial rods, if the study varies them, in Lambert's equal-area projection of both hemispheres;
-    and in a plane. Cells without runs are grey; in the row of success, those
-    whose Wilson interval (95 %) is wider than 20 % are hatched.
+    If the study varies the initial rod direction, its sphere is shown as two hemispheres in Lambert's equal-area
+    projection; a plane of two quantities comes last. Cells without runs are grey. In the success row, cells whose
+    Wilson interval (95 %) is wider than 20 % are hatched.
 
     Parameters
     ----------
     store : path
-        What `sweep` has written; it may be unfinished. It is read chunk by chunk.
+        Store written by `sweep`, possibly unfinished. It is read chunk by chunk.
     x, y : str, optional
-        Quantities of the plane: tilt, rate, spin, speed, body_tilt, or what the study varies; default tilt and rate.
+        Axes of the plane: tilt, rate, spin, speed, body_tilt, or any quantity that the study varies; default: tilt and
+        rate.
     cells : int, optional
-        Along a side; default by the number of runs.
+        Number of cells per side; default: from the number of runs.
 
     Raises
     ------
     InputError
-        For a store without runs, and quantities that it lacks.
+        If the store has no runs or lacks a quantity.
     """
     runs = Runs(store)
     panels, names = _panels(runs, x, y, cells)
@@ -87,7 +88,7 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
 
 
 def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tuple[list[_Panel], tuple[str, str] | None]:
-    """The pictures to draw, of one pass over the store, and the quantities of the plane."""
+    """The panels, gathered in one pass over the store, and the quantities of the plane."""
     names = (x, y) if x and y else default_plane(runs)
     if (x is None) != (y is None):
         raise InputError("x, y", "both or none", "one")
@@ -100,7 +101,7 @@ def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tupl
         grid, edges = plane(runs, names, cells or side(runs.number))
         grids.append(grid)
     if not grids:
-        raise InputError("store", "a study in which two quantities vary", "less")
+        raise InputError("store", "a study in which two quantities vary", "fewer")
     gathered = runs.gather(grids)
     panels = []
     if len(grids[0].shape) == 3:
@@ -113,7 +114,7 @@ def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tupl
 
 
 def _headline(runs: Runs, cells: Cells) -> str:
-    """What was flown, and the success rate with its interval."""
+    """Title: law, vehicle, plant, duration, and the success rate with its interval."""
     study = runs.study
     number, good = int(cells.runs.sum()), int(cells.successes.sum())
     low, high = wilson(good, number)
@@ -129,7 +130,7 @@ def _headline(runs: Runs, cells: Cells) -> str:
 def _row(
     figure: Figure, axes: Any, panels: Sequence[_Panel], words: str, of: Any, colours: str, norm: Normalize | None
 ) -> None:
-    """One quantity in every panel, on one scale."""
+    """Draw one quantity in every panel, on a common colour scale."""
     norm = norm or _scale([of(panel.cells) for panel in panels])
     image = None
     for axis, panel in zip(axes, panels, strict=True):
@@ -142,14 +143,14 @@ def _row(
 
 
 def _rates(panels: Sequence[_Panel]) -> Normalize:
-    """From 0 to 100 %, or to what nearly all cells stay below where that is less than half."""
+    """Scale from 0 to 100 %, or to the 99th percentile of the cells, rounded up to 10 %, if that is at most 50 %."""
     known = np.concatenate([panel.cells.rate[panel.cells.runs > 0] for panel in panels])
     most = float(np.percentile(100 * known, 99))
     return Normalize(0, 100 if most > 50 else max(10.0, 10 * np.ceil(most / 10)))
 
 
 def _scale(values: Sequence[Any]) -> Normalize:
-    """From the 2nd to the 98th percentile, in the logarithm where that spans more than a factor 20."""
+    """Scale from the 2nd to the 98th percentile, logarithmic if that spans more than a factor of 20."""
     known = np.concatenate([np.ravel(value[np.isfinite(value)]) for value in values])
     if not len(known):
         return Normalize(0, 1)
@@ -158,7 +159,7 @@ def _scale(values: Sequence[Any]) -> Normalize:
 
 
 def _hatch(axis: Any, panel: _Panel) -> None:
-    """Hatch the cells whose success rate is not known well."""
+    """Hatch the cells whose success rate is uncertain."""
     unsure = panel.square(_unsure(panel))
     if np.any(unsure):
         cover = np.ma.masked_where(~unsure, np.zeros(unsure.shape))
@@ -172,7 +173,7 @@ def _unsure(panel: _Panel) -> Any:
 
 
 def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -> None:
-    """The most frequent cause of failure in each cell; white where nothing failed."""
+    """Draw the most frequent cause of failure in each cell; white where no run failed."""
     colours = ListedColormap(["#ffffff", *CAUSE_COLOURS.values()])
     image = None
     for axis, panel in zip(axes, panels, strict=True):
@@ -187,7 +188,7 @@ def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -
     bar.set_ticks(range(len(CAUSES)), labels=["none", *shares])
     bar.ax.tick_params(labelsize=SMALL, length=0)
     bar.set_label("most frequent cause of failure", fontsize=LABEL)
-    handles = [Patch(facecolor=EMPTY, label="no runs, or none that settles")]
+    handles = [Patch(facecolor=EMPTY, label="no runs, or none settled")]
     if any(np.any(_unsure(panel)) for panel in panels):
         words = f"interval of the success rate wider than {100 * WIDE:.0f} %"
         handles.append(Patch(facecolor="white", edgecolor=INK, hatch=HATCH, label=words))
@@ -195,13 +196,13 @@ def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -
 
 
 def _clip(axis: Any, panel: _Panel, image: Any) -> None:
-    """Cut what belongs to a hemisphere off at the horizon."""
+    """Clip the image of a hemisphere at the horizon."""
     if panel.part is not None:
         image.set_clip_path(Circle((0, 0), EDGE, transform=axis.transData))
 
 
 def _frame(axis: Any, panel: _Panel, names: tuple[str, str] | None, *, last: bool) -> None:
-    """Rings of equal tilt and the poles of a hemisphere; the axes of a plane."""
+    """Draw rings of equal tilt and the pole of a hemisphere, or label the axes of a plane."""
     axis.tick_params(labelsize=SMALL)
     if panel.part is None:
         assert names is not None

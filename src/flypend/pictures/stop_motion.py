@@ -1,4 +1,4 @@
-"""The motion of one run in stop-motion pictures, gravity down, and where on its path each was taken."""
+"""Stop-motion pictures of a run, gravity pointing down, and their positions on the path."""
 
 from __future__ import annotations
 
@@ -17,32 +17,32 @@ from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
 from flypend.pictures.drawing import THRUST, TRAIL
 from flypend.pictures.style import style_named
 
-PICTURES = 0.726  # share of the width that the stop-motion pictures take
+PICTURES = 0.726  # fraction of the figure width for the stop-motion pictures
 
 
 def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: str = "paper") -> Figure:
-    """The motion of `run` in `count` pictures, and where on its path each was taken; two columns wide.
+    """Draw `run` as `count` stop-motion pictures, and their positions on its path; two columns wide.
 
-    The vehicle may travel a hundred metres while a rod of half a metre turns over. So the pictures follow the pivot;
-    each shows the path of the bob about the pivot since the one before, with the rod at equal times in between. They
-    are taken at equal increments of turning (`snapshot_times`). The path is drawn to scale beside them, seen from the
-    side, with the rod enlarged by the factor stated.
+    The vehicle may travel a hundred metres while a half-metre rod turns over, so the pictures follow the pivot. Each
+    shows the path of the bob about the pivot since the previous picture, with the rod at equally spaced times. The
+    pictures are taken at equal increments of rotation (`snapshot_times`). Next to them, the path is drawn to scale in
+    side view, with the rod enlarged by the stated factor.
 
     Parameters
     ----------
     run : Trajectory
-        In either frame; the pictures are the same.
+        A run in either frame; the pictures do not depend on it.
     count : int
-        Number of pictures, >= 1. A run that ends where it starts has one.
+        Number of pictures, >= 1. A run of zero length has one.
     view : "side" or "axis"
-        Camera of the pictures, see `flypend.pictures.drawing.camera_for`.
+        Camera of the pictures; see `flypend.pictures.drawing.camera_for`.
     style : "paper" or "slides"
-        Format.
+        Figure format.
 
     Raises
     ------
     InputError
-        For an unknown view or style, or a count below 1.
+        If the view or style is unknown, or the count is below 1.
     """
     form = style_named(style)
     count = int(errors.number("count", count, at_least=1))
@@ -52,7 +52,7 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
     columns = max(int(np.ceil(np.sqrt(form.wide * len(times)))), 3)
     rows = -(-len(times) // columns)
     width, height = 2.3 * reach, 2.55 * reach
-    inch = columns * width / (PICTURES * form.full[0])  # metres of the pictures per inch of paper
+    inch = columns * width / (PICTURES * form.full[0])  # m of the drawing per inch of paper
     figure = new_figure(form.full[0], max(2.8, rows * height / inch + 0.6), form.dpi)
     path, pictures = figure.subplots(1, 2, width_ratios=(1 - PICTURES, PICTURES))
     pictures.set_axis_off()
@@ -75,10 +75,10 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
 
 
 def snapshot_times(run: Trajectory, count: int) -> Any:
-    """`count` instants of `run` (s), first and last included, at equal increments of turning of rod and thrust axis.
+    """`count` times of `run` (s), first and last included, at equal increments of rotation of rod and thrust axis.
 
-    A tenth of the increments is plain time, so that a vehicle at rest is seen as well, and turning faster than twice
-    the frequency of the pendulum counts no more than that, so that a rod whirling at the end does not take all.
+    A small part of each increment is plain time, so a vehicle at rest also gets pictures. The rotation rate is capped
+    at twice the pendulum frequency, so a rod whirling at the end does not take them all.
     """
     start, end = float(run.t[0]), float(run.t[-1])
     if end <= start or count == 1:
@@ -93,7 +93,7 @@ def snapshot_times(run: Trajectory, count: int) -> Any:
 
 
 def _key(ax: Any, run: Trajectory, view: str, level: float, width: float) -> None:
-    """Below the pictures, at height `level`: scale bar of the length of the rod, gravity, what the lines mean."""
+    """Draw the key below the pictures, at height `level`: scale bar of one rod length, gravity, legend."""
     bar, x = run.vehicle.rod_length, 0.02 * width
     ax.plot([x, x + bar], [level, level], color=INK, linewidth=2.0, solid_capstyle="butt")
     ax.text(x + bar + 0.01 * width, level, f"{bar:g} m", fontsize=SMALL, va="center")
@@ -110,7 +110,7 @@ def _key(ax: Any, run: Trajectory, view: str, level: float, width: float) -> Non
 
 
 def _path(ax: Any, run: Trajectory, times: Any) -> None:
-    """Paths of pivot and bob from the side, to scale, with the instants of the pictures and the rods enlarged."""
+    """Draw the paths of pivot and bob to scale in side view, with enlarged rods at the times of the pictures."""
     camera = drawing.camera_for(run, "side", elevation=0.0)
     shown = np.unique(np.concatenate([np.linspace(run.t[0], run.t[-1], 1001), times]))
     states = drawing.states_at(run, shown)
@@ -135,10 +135,10 @@ def _path(ax: Any, run: Trajectory, times: Any) -> None:
 
 
 def _number(ax: Any, points: Any, everything: Any) -> None:
-    """Number `points` (n, 2) in a column right of `ax`, which shows `everything` (k, 2), apart enough to be read."""
-    tall = max(np.ptp(everything[:, 1]), 2.6 * np.ptp(everything[:, 0]))  # the axes are about 2.6 times as high as wide
+    """Number `points` (n, 2) in a legible column to the right of `ax`, which shows `everything` (k, 2)."""
+    tall = max(np.ptp(everything[:, 1]), 2.6 * np.ptp(everything[:, 0]))  # the axes are about 2.6 times as tall as wide
     gap = 0.036 * tall
-    every = -(-len(points) // 24)  # more numbers than this find no place
+    every = -(-len(points) // 24)  # at most 24 numbers fit
     order = np.argsort(-points[:, 1], kind="stable")[::every]
     heights = points[order, 1]
     for i in range(1, len(heights)):

@@ -1,4 +1,4 @@
-"""Pictures of studies: distributions side by side, and the ladder."""
+"""Figures of studies: distributions per law, and the ladder."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
 
 MARKERS = "osD^vPX"
-WIDTH = 7.16  # of two columns of a paper, in
+WIDTH = 7.16  # two-column width of a paper, in
 
 
 def comparison_figure(comparison: Comparison) -> Figure:
-    """Share of runs that stand by a time, and that stay within an excursion, one curve per law of `comparison`."""
+    """Cumulative distributions of settling time and excursion over all runs, one curve per law of `comparison`."""
     figure = new_figure(WIDTH, 2.9)
     axes = figure.subplots(1, 2, sharey=True)
     for i, (name, ensemble) in enumerate(comparison.ensembles.items()):
@@ -38,7 +38,7 @@ def comparison_figure(comparison: Comparison) -> Figure:
 
 
 def ladder_figure(ladder: Ladder) -> Figure:
-    """Success rate with its Wilson interval (95 %), and 95th percentile of the excursion, on each rung of `ladder`."""
+    """Success rate with its Wilson interval (95 %), and 95th percentile of the excursion, per rung of `ladder`."""
     rungs = list(ladder.rungs)
     figure = new_figure(WIDTH, 4.6)
     axes = figure.subplots(2, 1, sharex=True)
@@ -61,7 +61,7 @@ def ladder_figure(ladder: Ladder) -> Figure:
 
 
 def _finish(axes: Any) -> None:
-    """Letters and grid as in the figures of a run."""
+    """Set fonts and grid as in the figures of a run."""
     for axis in axes:
         axis.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
         axis.xaxis.label.set_size(LABEL)

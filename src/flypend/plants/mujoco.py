@@ -387,7 +387,7 @@ def _library() -> ctypes.CDLL:
         path for path in folder.iterdir() if re.fullmatch(r"(lib)?mujoco.*\.(so|dylib|dll)[.\d]*", path.name)
     )
     if not found:
-        raise InputError("plant", "a mujoco package with its C library", "none beside it")
+        raise InputError("plant", "a mujoco package that includes its C library", "no such file in the package")
     return ctypes.CDLL(str(found[0]))
 
 

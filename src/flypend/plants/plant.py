@@ -209,7 +209,7 @@ def plant(name: str | AnyPlant) -> AnyPlant:
 
 
 def sampled_plant(name: str | AnyPlant) -> Sampled:
-    """The plant called `name`, like `plant`, where a sampled one is required: raises InputError for the ideal plant."""
+    """Like `plant`, but `name` must be a sampled plant. Raises InputError for the ideal plant."""
     found = plant(name)
     if isinstance(found, Ideal):
         raise InputError("plant", "a plant with numbers, such as 'rotors'", "the ideal plant")

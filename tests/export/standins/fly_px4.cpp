@@ -1,5 +1,6 @@
 // Reads position, velocity, quaternion wxyz, rates, bob, its velocity (all NED and FRD), setpoint position; writes the
-// state and the path as the adapter sees them, the motors, and the motors 0.2 s later with the same bob.
+// state and the path as the adapter sees them, the motors with the status, the same half a period later, a period later,
+// and 0.2 s later with the same bob.
 #include <cstdio>
 
 #include "flypend_px4.hpp"
@@ -25,7 +26,16 @@ void print_motors()
     for (int i = 0; i < FLYPEND_ROTORS; i++) {
         std::printf("%.9g ", static_cast<double>(standin::Topic<actuator_motors_s>::message.control[i]));
     }
-    std::printf("\n");
+    const debug_key_value_s &told = standin::Topic<debug_key_value_s>::message;
+    std::printf("%g %d\n", static_cast<double>(told.value), static_cast<int>(told.timestamp));
+}
+
+void fly(Flypend &module, vehicle_angular_velocity_s &rates, uint64_t time)
+{
+    rates.timestamp = rates.timestamp_sample = time;
+    give(rates);
+    module.ScheduleNow();
+    print_motors();
 }
 } // namespace
 
@@ -43,7 +53,7 @@ int main()
     debug_array_s bob{0, {v[13], v[14], v[15], v[16], v[17], v[18]}};
     const float none = __builtin_nanf("");
     trajectory_setpoint_s setpoint{0, {v[19], v[20], v[21]}, {none, none, none}, {none, none, none}, {none, none, none}};
-    const flypend_state state = flypend_from_px4(position, attitude, rates, bob);
+    const flypend_measurement state = flypend_from_px4(position, attitude, rates, bob);
     const flypend_path path = flypend_path_from_px4(setpoint);
     print(reinterpret_cast<const flypend_real *>(&state), 24);
     print(reinterpret_cast<const flypend_real *>(&path), 27);
@@ -56,11 +66,9 @@ int main()
     if (!module.init()) {
         return 1;
     }
-    module.ScheduleNow();
-    print_motors();
-    rates.timestamp = 200000;
-    give(rates);
-    module.ScheduleNow();
-    print_motors();
+    fly(module, rates, 5);
+    fly(module, rates, 1005);
+    fly(module, rates, 2005);
+    fly(module, rates, 200000);
     return 0;
 }

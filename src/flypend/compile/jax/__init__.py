@@ -1,1 +1,1 @@
-"""The same programs as functions of JAX arrays, for a GPU."""
+"""Scalar programs as functions on JAX arrays, for GPUs."""

@@ -1,7 +1,7 @@
-"""Embedded Runge-Kutta steps in JAX on rows of runs, each run with its own time and step.
+"""Embedded Runge-Kutta integration in JAX of many runs at once, each with its own time and step size.
 
-Steps and queue are those of `flypend.compile.llvm.runge_kutta`: a lane whose run has ended takes the next one, so
-that a few runs of many steps do not hold up the rest, and what a run gives does not depend on its neighbours.
+Step control and queue are those of `flypend.compile.llvm.runge_kutta`: a lane whose run has ended takes the next one.
+So a few runs with many steps do not stall the others, and the result of a run does not depend on its neighbours.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ FLYING, IDLE = -1, -2
 
 
 class Lanes(NamedTuple):
-    """L runs under way: which, time, next step (L,), state and rate (24, L), how they ended, steps tried, rejected.
+    """L runs in progress: run index, time, next step (L,), state and rate (24, L), code, steps tried, last rejected.
 
-    `judged` is how they have been judged so far.
+    `judged` holds the state of the reductions; see `flypend.compile.jax.judging`.
     """
 
     run: Any
@@ -51,7 +51,7 @@ class Lanes(NamedTuple):
 
 
 class Results(NamedTuple):
-    """Final states (24, n+1), ends, codes and steps (n+1,), reductions (k, n+1); entry n is for lanes without a run."""
+    """Final states (24, n+1), end times, codes, steps (n+1,), reductions (k, n+1); entry n is for idle lanes."""
 
     s: Any
     t: Any
@@ -61,7 +61,7 @@ class Results(NamedTuple):
 
 
 class Setting(NamedTuple):
-    """Number of runs, duration, tolerances, most steps, and the times to judge at, with infinity at the end."""
+    """Number of runs, duration, tolerances, maximum number of steps, and the sample times, ending with infinity."""
 
     count: Any
 
@@ -73,9 +73,9 @@ class Setting(NamedTuple):
 
 
 def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[..., Results]:
-    """A function (starts (24, n), parameters (k, n), setting) of JAX arrays that flies the first `setting.count` runs.
+    """Return a JAX function (starts (24, n), parameters (k, n), setting) → results.
 
-    It is compiled anew for each n; so many runs as there are `lanes` are under way together.
+    It integrates the first `setting.count` runs, up to `lanes` of them at a time, and is recompiled for each n.
     """
     import jax
     import jax.numpy as jnp
@@ -130,13 +130,13 @@ class _Step:
         self._margin: Function | None = as_jax(problem.margin) if problem.margin is not None else None
         self.judge = Judge(problem, method, self._rate)
         s = method.stages
-        # Row i weighs the stages for the state at which stage i is evaluated; stage s stands at the end of the step.
+        # Row i holds the weights of the state at which stage i is evaluated; stage s is the end of the step.
         self._A: Any = np.zeros((s + 1, s + 1))
         self._A[:s, : method.A.shape[1]], self._A[s, :s] = method.A[:s], method.B
         self._C = np.append(method.C[:s], 1.0)
 
     def begin(self, run: Any, starts: Any, parameters: Any, setting: Setting) -> Lanes:
-        """All runs at their start, with a cautious first step; those that cannot begin have ended."""
+        """Initialise the runs with a conservative first step. Those that are singular or undefined at the start end."""
         import jax.numpy as jnp
 
         n = starts.shape[1]
@@ -166,7 +166,7 @@ class _Step:
         allowed = self._allowed(t_new, new, parameters)
         inside = jnp.max(jnp.abs(new), axis=0) < MAX_STATE
         accepted, lost = good & allowed & inside, good & allowed & ~inside
-        if self.method.errors[0][-1] == 0:  # else f at the end is known, up to the projection
+        if self.method.errors[0][-1] == 0:  # otherwise f at the end is known, up to projection
             after = self._rate(t_new, new, parameters)
         taken = Taken(runs.t, t_new, h, runs.s, new, K.at[self.method.stages].set(after))
         judged = self.judge(runs.judged, taken, accepted, parameters, setting.times)
@@ -191,7 +191,10 @@ class _Step:
         )
 
     def _attempt(self, runs: Lanes, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any]:
-        """The new state before projection, all stages (f there, if the error weighs it), and the error: at most 1."""
+        """The new state before projection, all stages, and the error (accept if <= 1).
+
+        The last stage, f at the new state, is computed only if the error estimate uses it.
+        """
         import jax
         import jax.numpy as jnp
 
@@ -200,7 +203,7 @@ class _Step:
         last = method.stages + (method.errors[0][-1] != 0)
 
         def stage(i: Any, K: Any) -> Any:
-            # One copy of the program serves all stages: that is what keeps compilation short.
+            # One copy of the program serves all stages, which keeps compilation fast.
             y = runs.s + h * jnp.tensordot(A[i], K, axes=1)
             return K.at[i].set(self._rate(runs.t + C[i] * h, y, parameters))
 

@@ -1,6 +1,6 @@
-"""A scalar program as JAX code on rows: entry i of a vector is row i of an array (length, runs).
+"""Scalar programs as JAX code: entry i of a vector is row i of an array (length, runs).
 
-JAX is imported when this is used, not before. Operations are those of `flypend.compile.program`.
+JAX is imported on first use. The operations are those of `flypend.compile.program`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ Function = Callable[..., tuple[Any, ...]]
 
 
 def as_jax(program: Program) -> Function:
-    """`program` as a function of arrays (length, runs), one per input vector, that gives one per output vector."""
+    """Convert `program` to a function from one array (length, runs) per input vector to one per output vector."""
     import jax.numpy as jnp
 
     operations = _operations()

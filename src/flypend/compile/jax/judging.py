@@ -1,6 +1,6 @@
-"""How runs are judged inside their steps, in JAX: the dense output of a step, reduced at the times of the caller.
+"""Reductions in JAX of the dense output of runs at the caller's sample times.
 
-The same as `flypend.compile.llvm.sampling` and `flypend.compile.llvm.reductions`.
+The counterpart of `flypend.compile.llvm.sampling` and `flypend.compile.llvm.reductions`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _BEGIN = {"max": float("-inf"), "mean": 0.0, "last": -1.0, "since": float("inf")
 
 
 class Judged(NamedTuple):
-    """How L runs have been judged: place of the next time (L,), values so far (k, L), samples taken (L,)."""
+    """Reductions of L runs in progress: index of the next time (L,), values (k, L), number of samples (L,)."""
 
     place: Any
     values: Any
@@ -25,7 +25,7 @@ class Judged(NamedTuple):
 
 
 class Taken(NamedTuple):
-    """A step of L runs: t to t_new over h (L,), s to s_new (24, L), stages K (s+1, 24, L) with f at the end."""
+    """A step of L runs: t to t_new = t + h (L,), s to s_new (24, L), stages K (s+1, 24, L) including f at the end."""
 
     t: Any
     t_new: Any
@@ -36,7 +36,7 @@ class Taken(NamedTuple):
 
 
 class Judge:
-    """Reduces the samples inside accepted steps, as `problem` says."""
+    """Applies the reductions of `problem` to the samples inside accepted steps."""
 
     def __init__(self, problem: Problem, method: Method, rate: Callable[[Any, Any, Any], Any]) -> None:
         assert set(problem.reductions) <= set(KINDS)
@@ -44,14 +44,14 @@ class Judge:
         self._observe, self._project = as_jax(problem.observe), as_jax(problem.project)
 
     def begin(self, runs: int) -> Judged:
-        """Of `runs` runs before their first step."""
+        """Initial reductions of `runs` runs, before their first step."""
         import jax.numpy as jnp
 
         values = jnp.array([_BEGIN[kind] for kind in self._kinds])
         return Judged(jnp.zeros(runs, int), jnp.tile(values[:, None], (1, runs)), jnp.zeros(runs))
 
     def reductions(self, judged: Judged) -> Any:
-        """The reductions (k, L) of runs that have ended."""
+        """Final reductions (k, L) of runs that have ended."""
         import jax.numpy as jnp
 
         rows = [judged.values[i] / judged.number if kind == "mean" else judged.values[i]
@@ -59,7 +59,7 @@ class Judge:
         return jnp.stack(rows) if rows else judged.values
 
     def __call__(self, judged: Judged, step: Taken, accepted: Any, parameters: Any, times: Any) -> Judged:
-        """`judged` after an `accepted` step of those runs."""
+        """Return `judged` updated with the samples inside `step`, for the runs where it was `accepted`."""
         import jax
 
         def due(now: Judged) -> Any:
@@ -96,7 +96,7 @@ class Judge:
         return Judged(now.place + here, jnp.stack(rows), now.number + here)
 
     def _dense(self, step: Taken, parameters: Any) -> Callable[[Any], Any]:
-        """The states (24, L) of a step at places θ (L,) in it, as a function."""
+        """Return a function from positions θ (L,) in the step to states (24, L)."""
         return self._dp5(step) if self._method.name == "dp5" else self._dop853(step, parameters)
 
     def _dp5(self, step: Taken) -> Callable[[Any], Any]:
@@ -111,7 +111,7 @@ class Judge:
         return dense
 
     def _dop853(self, step: Taken, parameters: Any) -> Callable[[Any], Any]:
-        """As SciPy has it: s(θ) = s + θ(F₀ + (1−θ)(F₁ + θ(F₂ + …))), with further stages."""
+        """SciPy's formula with additional stages: s(θ) = s + θ(F₀ + (1−θ)(F₁ + θ(F₂ + …)))."""
         import jax.numpy as jnp
 
         method, K = self._method, step.K

@@ -1,1 +1,1 @@
-"""Machine code through LLVM: vectors of lanes, kernels, and the cache of compiled code."""
+"""Machine code via LLVM: SIMD lanes, kernels and the cache of compiled code."""

@@ -13,7 +13,7 @@ from flypend.compile.routine import Cell, Routine, stretches
 
 
 def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]]) -> list[list[Value]]:
-    """Emit `program`, entry i of input vector j being `inputs[j](i)`; the values of each output vector."""
+    """Emit `program`, where entry i of input vector j is `inputs[j](i)`; return the values of each output vector."""
     operations = {name: partial(operation, code) for name, operation in _OPERATIONS.items()}
     return interpret(program, inputs, operations, code.value)
 
@@ -51,9 +51,9 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
 
 
 def define(lanes: Lanes, program: Program) -> ir.Function:
-    """`program` as a function of the module: one pointer to vectors per input, then one per output.
+    """Define `program` as a function of the module, with one pointer to vectors per input, then one per output.
 
-    All inputs are read before any output is written, so that an output may take the place of an input.
+    All inputs are read before any output is written, so an output may alias an input.
     """
     function, code = lanes.function(program.name, len(program.inputs) + len(program.outputs))
     sources, targets = function.args[: len(program.inputs)], function.args[len(program.inputs) :]
@@ -66,7 +66,7 @@ def define(lanes: Lanes, program: Program) -> ir.Function:
 
 
 def define_routine(lanes: Lanes, routine: Routine) -> ir.Function:
-    """`routine` as a function of the module, and the programs that it calls: one pointer per input, then per output.
+    """Define `routine` and the programs it calls as functions of the module: one pointer per input, then per output.
 
     Inputs and outputs must not overlap.
     """
@@ -81,7 +81,7 @@ def define_routine(lanes: Lanes, routine: Routine) -> ir.Function:
         return code.load(function.args[cell.number] if cell.memory == "input" else memories[cell.number], cell.place)
 
     def vector(cells: Sequence[Cell]) -> ir.Value:
-        """Where the vector with these cells begins: where it is, or in memory of its own."""
+        """Address of the vector with these cells: in place if contiguous, otherwise a gathered copy."""
         found = stretches(cells)
         if len(found) == 1 and found[0][0].memory != "constant":
             first = found[0][0]

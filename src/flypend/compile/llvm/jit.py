@@ -1,4 +1,4 @@
-"""Machine code from LLVM modules: compiled once, kept on disk, checked before it is trusted."""
+"""Compilation of LLVM modules to machine code, with a disk cache whose entries are verified by checksum."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _lock = Lock()
 
 
 def cache_folder() -> Path:
-    """Where compiled kernels are kept: $FLYPEND_CACHE, or `flypend` in the user's folder for caches."""
+    """Folder of compiled kernels: $FLYPEND_CACHE, or `flypend` in the user's cache folder."""
     given = os.environ.get(CACHE_VARIABLE)
     if given:
         return Path(given)
@@ -33,7 +33,7 @@ def cache_folder() -> Path:
 
 @lru_cache(maxsize=1)
 def _machine() -> tuple[Any, str]:
-    """The target of this processor, and the text that names it and the versions at work."""
+    """The target machine of this processor, and a string that identifies it and the LLVM versions."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     cpu, features = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
@@ -45,7 +45,7 @@ def _machine() -> tuple[Any, str]:
 
 @lru_cache(maxsize=1)
 def source_digest() -> str:
-    """Digest of the code generators' own source: what they make of a key changes when they do."""
+    """Digest of the source of the code generators, which invalidates cache entries when they change."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(path.read_bytes())
@@ -53,9 +53,9 @@ def source_digest() -> str:
 
 
 class Native:
-    """A compiled function: called with numbers and addresses, it lets other Python threads run meanwhile.
+    """A compiled function, called with numbers and addresses. Calls release the GIL.
 
-    It can be sent to another process of the same machine.
+    Instances can be pickled and sent to another process on the same machine.
     """
 
     def __init__(self, code: bytes, name: str, arguments: tuple[Any, ...]) -> None:
@@ -66,11 +66,11 @@ class Native:
         self._call = ctypes.CFUNCTYPE(None, *arguments)(self._library[name])
 
     def __call__(self, *values: Any) -> None:
-        """Call it."""
+        """Call the function."""
         self._call(*values)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """By its machine code."""
+        """Pickle the machine code."""
         return Native, self._made_of
 
 
@@ -80,10 +80,10 @@ def _jit() -> Any:
 
 
 def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[Any]) -> Native:
-    """The function `name` of the LLVM module that `module()` writes, from the cache if an entry for `key` is sound.
+    """Return the function `name` of the LLVM module built by `module()`, or of a valid cache entry for `key`.
 
-    `key` must determine the module; processor, versions and the generators' source are added to it here. `arguments`
-    are the ctypes of its arguments.
+    `key` must determine the module. Processor, versions and the generators' source are added to the key here.
+    `arguments` are the ctypes types of the function's arguments.
     """
     entry = hashlib.sha256("\n".join([key, _machine()[1], source_digest()]).encode()).hexdigest()
     path = cache_folder() / f"{entry}.o"
@@ -95,7 +95,7 @@ def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[An
 
 
 def compiled(module: Any) -> bytes:
-    """The object file of an LLVM `module`, optimised for this processor."""
+    """Compile an LLVM `module` to an object file optimised for this processor."""
     machine, _ = _machine()
     parsed = llvm.parse_assembly(str(module))
     parsed.verify()
@@ -108,7 +108,7 @@ def compiled(module: Any) -> bytes:
 
 
 def _read(path: Path) -> bytes | None:
-    """The object kept at `path`; None if there is none, or one that is not what was written."""
+    """Read the cached object at `path`; None if it is missing or corrupt."""
     try:
         entry = path.read_bytes()
     except OSError:
@@ -118,7 +118,7 @@ def _read(path: Path) -> bytes | None:
 
 
 def _write(path: Path, code: bytes) -> None:
-    """Keep `code` at `path`, whole or not at all; without a folder that can be written nothing is kept."""
+    """Write `code` to `path` atomically; do nothing if the folder is not writable."""
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, partial = tempfile.mkstemp(dir=path.parent, suffix=".partial")

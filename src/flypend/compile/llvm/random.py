@@ -1,4 +1,4 @@
-"""Normal numbers from a counter: what run and tick draw depends on nothing else, in whatever order it is drawn."""
+"""Counter-based normal random numbers: the draws of a tick depend on seed and tick only, not on their order."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ WIDTH = 8
 
 
 def philox(builder: ir.IRBuilder, counter: list[ir.Value], key: list[ir.Value]) -> list[ir.Value]:
-    """Four words for a `counter` of four and a `key` of two, each the low 32 bits of an integer of 64 (or a vector)."""
+    """Four random words from four of `counter` and two of `key`: 32 bits each, in 64-bit integers or vectors."""
     kind = counter[0].type
 
     def fixed(number: int) -> ir.Value:
@@ -40,7 +40,7 @@ def philox(builder: ir.IRBuilder, counter: list[ir.Value], key: list[ir.Value]) 
 
 
 def define_normals(lanes: Lanes) -> ir.Function:
-    """A function (seeds, ticks, out) of the module: `PER_TICK` normal numbers per lane, from integers per lane."""
+    """Define a function (seeds, ticks, out): `PER_TICK` normal numbers per lane, one seed and tick per lane."""
     function, code = lanes.function("normals", 3)
     kind = ir.VectorType(I64, lanes.width)
     seed, tick = (_integers(code, memory, kind) for memory in function.args[:2])
@@ -72,7 +72,7 @@ def _box_muller(code: Code, u: Value, v: Value, out: ir.Value, place: int) -> No
 
 
 def normals(seed: int, ticks: int) -> Any:
-    """Normal numbers (ticks, 24) of the flight with `seed`, row k being what control tick k draws."""
+    """Normal numbers (ticks, 24) of the flight with `seed`; row k holds the draws of control tick k."""
     rows = -(-ticks // WIDTH)
     out: Any = np.zeros((rows, PER_TICK, WIDTH))
     _compiled()(seed & 0xFFFFFFFFFFFFFFFF, rows, out.ctypes.data)
@@ -85,7 +85,7 @@ def _compiled() -> Any:
 
 
 def _module() -> ir.Module:
-    """A function (seed, rows, out): row i holds the numbers of ticks i·WIDTH …, one tick per lane."""
+    """Module with a function (seed, rows, out); row i holds the numbers of ticks i·WIDTH …, one tick per lane."""
     lanes = Lanes(ir.Module("normals"), WIDTH)
     draw = define_normals(lanes)
     function = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, I64, ir.PointerType()]), "normals_of_ticks")

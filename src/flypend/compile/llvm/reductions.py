@@ -1,4 +1,4 @@
-"""Reductions of a run inside a kernel: what a map needs of it, without keeping its samples."""
+"""Reductions over the samples of a run inside a kernel, so that the samples need not be stored."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from flypend.compile.llvm.emit import define
 from flypend.compile.llvm.vector import I64, Code, Value
 from flypend.compile.program import Program
 
-# max, mean   of the value over the samples; NaN counts as +inf for max
-# last        time of the last sample with value > 0; −1 if there is none
-# since       time of the first sample of those at the end with value <= 0; inf if there is none
+# max, mean   maximum (NaN counts as +inf) or mean of the value over the samples
+# last        time of the last sample with value > 0 or NaN, −1 if none
+# since       time from which all samples have value <= 0 (a settling time), inf if the last sample does not
 KINDS = ("max", "mean", "last", "since")
 
 
 class Reductions:
-    """Writes the reductions of the values of `observe` (t, s, p) → values, one of `KINDS` for each."""
+    """Emits reductions of the values of `observe` (t, s, p) → values, with one of `KINDS` per value."""
 
     def __init__(self, code: Code, observe: Program, kinds: Sequence[str]) -> None:
         if len(observe.outputs) != 1 or len(observe.outputs[0]) != len(kinds) or not set(kinds) <= set(KINDS):
-            raise ValueError(f"one of {KINDS} for each of the values of {observe.name}")
+            raise ValueError(f"expected one of {KINDS} per value of {observe.name}")
         self.code = code
         self.kinds = tuple(kinds)
         self._observe = define(code.lanes, observe)
@@ -30,7 +30,7 @@ class Reductions:
         self._number = code.reserve(1)
 
     def reset(self, lane: ir.Value) -> None:
-        """Begin a run in `lane`."""
+        """Start a new run in `lane`."""
         code = self.code
         begin = {"max": float("-inf"), "mean": 0.0, "last": -1.0, "since": float("inf")}
         scalar = code.lanes.scalar
@@ -40,7 +40,7 @@ class Reductions:
         code.put(ir.Constant(scalar, 0.0), self._number, lane)
 
     def update(self, here: Value, time: ir.Value, state: ir.Value, parameters: ir.Value) -> None:
-        """Take in the samples `state` at `time`, in the lanes `here`."""
+        """Add the samples `state` at `time`, in the lanes of `here`."""
         code = self.code
         code.call(self._observe, time, state, parameters, self._values)
         now = code.load(time)

@@ -1,4 +1,4 @@
-"""Between lanes and rows: a kernel holds component i of all lanes side by side, a caller's array run by run."""
+"""Conversion between memory layouts: kernels store component by component across lanes, callers run by run."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from llvmlite import ir
 
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
 
-# Lanes and components that are turned at a time, in registers.
+# Size of the square blocks of lanes × components that are transposed in registers.
 BLOCK = 8
 DOUBLES = ir.VectorType(ir.DoubleType(), BLOCK)
 _I32 = ir.IntType(32)
 
 
 def define_turn(lanes: Lanes, length: int) -> ir.Function:
-    """A function (vectors, rows) of the module: `length` vectors become one row of `length` doubles per lane."""
+    """Define a function (vectors, rows) that transposes `length` vectors to one row of `length` doubles per lane."""
     known = lanes.module.globals.get(f"turn_{length}")
     if known is not None:
         return known
@@ -22,7 +22,7 @@ def define_turn(lanes: Lanes, length: int) -> ir.Function:
     for lane in range(0, lanes.width, BLOCK):
         for first in range(0, length - length % BLOCK, BLOCK):
             block = [_eight_lanes(code, source, first + i, lane) for i in range(BLOCK)]
-            for i, row in enumerate(_turned(code.builder, block)):
+            for i, row in enumerate(_transposed(code.builder, block)):
                 place = ir.Constant(I64, (lane + i) * length + first)
                 code.builder.store(row, code.scalar_at(rows, place, ir.DoubleType())).align = 8
     for i in range(length - length % BLOCK, length):
@@ -35,15 +35,15 @@ def define_turn(lanes: Lanes, length: int) -> ir.Function:
 
 
 def _eight_lanes(code: Code, memory: ir.Value, index: int, lane: int) -> ir.Value:
-    """Eight lanes of vector `index` from `lane` on, as doubles."""
+    """Eight lanes of vector `index`, starting at `lane`, as doubles."""
     vector = code.load(memory, index).raw
     if code.lanes.width > BLOCK:
         vector = code.builder.shuffle_vector(vector, vector, _mask(range(lane, lane + BLOCK)))
     return vector if code.lanes.precision == "double" else code.builder.fpext(vector, DOUBLES)
 
 
-def _turned(builder: ir.IRBuilder, block: list[ir.Value]) -> list[ir.Value]:
-    """The transpose of eight vectors of eight: blocks of one, two and four change places."""
+def _transposed(builder: ir.IRBuilder, block: list[ir.Value]) -> list[ir.Value]:
+    """Transpose eight vectors of eight by swapping off-diagonal blocks of size one, two and four."""
     for size in (1, 2, 4):
         low = _mask(k if not k & size else BLOCK + k - size for k in range(BLOCK))
         high = _mask(k + size if not k & size else BLOCK + k for k in range(BLOCK))
@@ -62,7 +62,7 @@ def _mask(places: object) -> ir.Constant:
 
 
 def copy_row(code: Code, source: ir.Value, here: ir.Value, target: ir.Value, there: ir.Value, length: int) -> None:
-    """Copy row `here` of `length` doubles of `source` to row `there` of `target`, where the next row will be next."""
+    """Copy row `here` of `source`, `length` doubles, to row `there` of `target`, and prefetch the row after that."""
     builder = code.builder
     first, second = (builder.mul(row, ir.Constant(I64, length)) for row in (here, there))
 
@@ -81,19 +81,19 @@ def copy_row(code: Code, source: ir.Value, here: ir.Value, target: ir.Value, the
 
 
 def _fetch(code: Code, place: ir.Value) -> None:
-    """Have the memory at `place` brought near, to be written; it need not be ours."""
+    """Prefetch the cache line at `place` for writing; `place` may lie outside the array."""
     kind = ir.FunctionType(VOID, [POINTER, _I32, _I32, _I32])
     write, keep, data = (ir.Constant(_I32, value) for value in (1, 3, 1))
     code.builder.call(code.lanes.declared("llvm.prefetch.p0", kind), [place, write, keep, data])
 
 
 def gathered(code: Code, memory: ir.Value, places: ir.Value, mask: Value) -> Value:
-    """The doubles of `memory` at `places` (a vector of i64), in the lanes of `mask`; 0 in the others."""
+    """Gather the doubles of `memory` at the indices `places` (a vector of i64) in the lanes of `mask`; 0 elsewhere."""
     builder, lanes = code.builder, code.lanes
     integers, pointers = ir.VectorType(I64, lanes.width), ir.VectorType(POINTER, lanes.width)
     doubles = ir.VectorType(ir.DoubleType(), lanes.width)
     base = code.repeated(builder.ptrtoint(memory, I64))
-    offsets = builder.shl(places, ir.Constant(integers, [3] * lanes.width))  # of 8 bytes
+    offsets = builder.shl(places, ir.Constant(integers, [3] * lanes.width))  # times 8 bytes
     addresses = builder.inttoptr(builder.add(base, offsets), pointers)
     kind = ir.FunctionType(doubles, [pointers, _I32, lanes.mask, doubles])
     gather = lanes.declared(f"llvm.masked.gather.v{lanes.width}f64.v{lanes.width}p0", kind)
@@ -103,19 +103,19 @@ def gathered(code: Code, memory: ir.Value, places: ir.Value, mask: Value) -> Val
 
 
 def as_double(code: Code, value: ir.Value) -> ir.Value:
-    """A scalar of the lanes as a double."""
+    """Convert a scalar of the lanes to double."""
     return value if code.lanes.precision == "double" else code.builder.fpext(value, ir.DoubleType())
 
 
 def from_double(code: Code, value: ir.Value) -> ir.Value:
-    """A double as a scalar of the lanes."""
+    """Convert a double to the scalar type of the lanes."""
     return value if code.lanes.precision == "double" else code.builder.fptrunc(value, code.lanes.scalar)
 
 
 def copy_lane(
     code: Code, memory: ir.Value, lane: ir.Value, rows: ir.Value, row: ir.Value, length: int, *, out: bool
 ) -> None:
-    """Copy lane `lane` of `length` vectors to (`out`) or from row `row` of an array of doubles."""
+    """Copy lane `lane` of `length` vectors to row `row` of an array of doubles, or from it unless `out`."""
     builder = code.builder
     with code.count(length) as i:
         here = builder.add(builder.mul(i, ir.Constant(I64, code.lanes.width)), lane)

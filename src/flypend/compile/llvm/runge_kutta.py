@@ -1,8 +1,8 @@
-"""The kernel of the ideal plant: embedded Runge-Kutta steps in vectors of lanes, one run per lane.
+"""The kernel of the ideal plant: embedded Runge-Kutta integration in SIMD lanes, one run per lane.
 
-Every lane has its own time and step. When its run ends (completed, diverged, singular) it takes the next start from a
-queue, which is the number of the next run and which calls in other threads may share. So no lane waits for another, and
-what a run gives does not depend on its neighbours.
+Every lane has its own time and step size. When its run ends (completed, diverged, singular), it takes the next start
+from a queue: a counter that calls in other threads can share. No lane waits for another, and the result of a run does
+not depend on its neighbours.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from flypend.compile.program import Program, needed
 from flypend.model.state import MAX_STATE
 
 COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY = range(6)
-# Half of the rejected steps of SciPy's 0.9 and 10, for 3 to 7 % fewer evaluations at the same error.
+# Half as many rejected steps as with SciPy's 0.9 and 10, and 3 to 7 % fewer evaluations at the same error.
 SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
-# Shortest step, s: below it the time no longer moves, or a singularity has been located.
+# Minimum step, s: below it, time no longer advances or a singularity has been located.
 SHORTEST = 1e-13
 
 ARGUMENTS = (
@@ -35,7 +35,7 @@ INTEGERS, REALS = ("runs", "max_steps", "time_count", "row_count"), ("duration",
 
 
 def write_kernel(lanes: Lanes, problem: Problem, method: Method) -> None:
-    """Write the function "kernel" for `problem` into the module of `lanes`; its arguments are `ARGUMENTS`."""
+    """Emit the function "kernel" for `problem` into the module of `lanes`; its arguments are `ARGUMENTS`."""
     kinds = [I64 if name in INTEGERS else ir.DoubleType() if name in REALS else POINTER for name in ARGUMENTS]
     function = ir.Function(lanes.module, ir.FunctionType(VOID, kinds), "kernel")
     function.attributes.add("nounwind")
@@ -43,7 +43,7 @@ def write_kernel(lanes: Lanes, problem: Problem, method: Method) -> None:
 
 
 class _Kernel:
-    """Writes the kernel, part by part; `self.at` are its arguments by name."""
+    """Emits the kernel; `self.at` maps the names of its arguments to values."""
 
     def __init__(self, lanes: Lanes, problem: Problem, method: Method, function: ir.Function) -> None:
         self.lanes, self.problem, self.method = lanes, problem, method
@@ -110,7 +110,7 @@ class _Kernel:
         self._finish_step(t, h, t_new, error, accepted & ~lost, guarded, lost, active)
 
     def _trial_step(self, t: Value) -> Value:
-        """The step to try: that of the controller, or for a new run a cautious one from the sizes of s and its rate."""
+        """The step to try: from the step controller, or for a new run a conservative guess from the norms of s, ṡ."""
         code, n = self.code, self.problem.size
         size, rate = code.reserve(1), code.reserve(1)
         h = code.load(self.h)
@@ -130,12 +130,12 @@ class _Kernel:
                 code.store(code.load(size) + value * value, size)
                 code.store(code.load(rate) + slope * slope, rate)
             first = 0.01 * code.sqrt(code.load(size) / code.most(code.load(rate), 1e-10))
-            # NaN rates give a step that is not finite: the run ends below. No first step is longer than 10 ms.
+            # At most 10 ms. A run with non-finite rates ends in `_end_runs`, whatever its step.
             code.store(code.select(new, code.most(code.least(first, 1e-2), 1e-6), h), self.h)
         return code.load(self.h)
 
     def _factor(self, error: Value) -> Value:
-        """Ratio of the next step to this one: that which would bring the error to `SAFETY` of what is allowed."""
+        """Ratio of the next step size to this one: `SAFETY` times the ratio that would just meet the tolerance."""
         code = self.code
         order = 8 if self.method.stages > 8 else 5
         factor = SAFETY * code.power(code.most(error, 1e-12), -1 / order)
@@ -153,7 +153,7 @@ class _Kernel:
         active: Value,
     ) -> None:
         code, n = self.code, self.problem.size
-        if self.method.errors[0][-1] != 0:  # f at the end is known, up to the projection
+        if self.method.errors[0][-1] != 0:  # f at the end is known, up to projection
             after = self.stages.rate(self.method.stages)
         else:
             after = code.reserve(n)
@@ -169,7 +169,7 @@ class _Kernel:
         code.store(count, self.count)
         t_now = code.select(accepted, t_new, t)
         code.store(t_now, self.t)
-        # After a rejection the next step does not grow; there is no way to know that one was but its factor below 1.
+        # `limit` keeps the step from growing right after a rejection. A NaN error shrinks it by LEAST_FACTOR.
         factor = self._factor(error)
         factor = code.select(accepted, code.select(code.load(self.limit) > 0.0, code.least(factor, 1.0), factor),
                              code.select(factor < 1.0, factor, LEAST_FACTOR))  # fmt: skip
@@ -213,7 +213,7 @@ class _Kernel:
             self._first_rates()
 
     def _first_rates(self) -> None:
-        """The rates of new runs; those of the others stay as their last step left them, to the last bit."""
+        """Evaluate the rates of new runs. The rates of all other lanes stay bit-identical."""
         code, n = self.code, self.problem.size
         first, new = code.reserve(n), code.load(self.h) <= 0.0
         code.call(self.stages.rates, self.t, self.S, self.P, first)
@@ -225,7 +225,7 @@ class _Kernel:
         return code.value(code.builder.sitofp(self.at["max_steps"], self.lanes.scalar))
 
     def _first_rate_undefined(self) -> Value:
-        """Whether the run stands at its start and has a rate that is not finite."""
+        """Whether a run is at its start and has a non-finite rate."""
         code = self.code
         total, at_start = code.reserve(1), code.load(self.t) <= 0.0
         code.store(0.0, total)
@@ -243,7 +243,7 @@ class _Kernel:
         self.sampler.finish(lane, run)
 
     def _load_next(self, lane: ir.Value) -> None:
-        """Put the next start into `lane`, or let it rest when there is none."""
+        """Load the next start into `lane`, or idle the lane if the queue is empty."""
         code, builder = self.code, self.code.builder
         run = builder.atomic_rmw("add", self.at["queue"], ir.Constant(I64, 1), "monotonic")
         zero, one = (ir.Constant(self.lanes.scalar, number) for number in (0.0, 1.0))
@@ -261,7 +261,7 @@ class _Kernel:
                 builder.store(builder.sub(builder.load(self.left, typ=I64), ir.Constant(I64, 1)), self.left)
 
     def _record_knot(self, t: Value, accepted: Value) -> None:
-        """Time and drift of an accepted step of lane 0, if the caller wants them (then there is one run)."""
+        """Store time and drift of an accepted step of lane 0, if the caller wants them (for a single run)."""
         code, builder = self.code, self.code.builder
         wanted = builder.icmp_unsigned("!=", builder.ptrtoint(self.at["knots"], I64), ir.Constant(I64, 0))
         first = builder.extract_element(accepted.raw, ir.Constant(ir.IntType(32), 0))
@@ -281,5 +281,5 @@ class _Kernel:
 
 
 def without_drift(project: Program) -> Program:
-    """The program s → s on the manifold."""
+    """The program s → s projected onto the manifold, without the drift output."""
     return needed(Program("onto", project.inputs, project.operations, project.outputs[:1]))

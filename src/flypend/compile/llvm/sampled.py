@@ -1,7 +1,7 @@
-"""The kernel of sampled flights: measure, command, hold, in vectors of lanes, one flight per lane.
+"""The kernel of sampled flights: measure, command, hold, in SIMD lanes, one flight per lane.
 
-All flights of one kernel have the same control ticks, so lanes go in step; what a flight gives does not depend on its
-neighbours. `flypend.flight.sampled` is the same, one flight at a time, in Python.
+All flights of a kernel share the control ticks, so the lanes run in lockstep. The result of a flight does not depend on
+its neighbours. `flypend.flight.sampled` does the same in Python, one flight at a time.
 """
 
 from __future__ import annotations
@@ -23,23 +23,23 @@ ARGUMENTS = (
     "sample_ticks", "sample_count", "judged", "rows", "row_count",
     "samples", "reductions", "final", "end", "status",
 )  # fmt: skip
-GUSTS = 18  # place of the numbers that gusts draw
+GUSTS = 18  # offset of the gust numbers among the draws of a tick
 
 
 def arguments(problem: SampledProblem) -> tuple[str, ...]:
-    """Names of the arguments of the kernel of `problem`: `ARGUMENTS`, and for MuJoCo's world its addresses."""
+    """Names of the kernel's arguments for `problem`: `ARGUMENTS`, and for MuJoCo `MUJOCO_ARGUMENTS`."""
     return ARGUMENTS if isinstance(problem.world, EquationsProblem) else ARGUMENTS + MUJOCO_ARGUMENTS
 
 
 def write_kernel(lanes: Lanes, problem: SampledProblem) -> None:
-    """Write the function "kernel" for `problem` into the module of `lanes`; see `arguments`."""
+    """Emit the function "kernel" for `problem` into the module of `lanes`; for its arguments see `arguments`."""
     kinds = [I64 if name in INTEGERS else POINTER for name in arguments(problem)]
     function = ir.Function(lanes.module, ir.FunctionType(VOID, kinds), "kernel")
     _Kernel(lanes, problem, function).write()
 
 
 class _Kernel:
-    """Writes the kernel, part by part; `self.at` are its arguments by name."""
+    """Emits the kernel; `self.at` maps the names of its arguments to values."""
 
     def __init__(self, lanes: Lanes, problem: SampledProblem, function: ir.Function) -> None:
         self.lanes, self.problem = lanes, problem
@@ -51,8 +51,8 @@ class _Kernel:
         self.normals = define_normals(lanes) if problem.random else None
         n, k = problem.size, problem.rotors
         self.state, self.next = code.reserve(n + k), code.reserve(n + k)
-        self.measured = code.reserve(1 + n)  # with the time in front
-        self.memory, self.none = code.reserve(2 * problem.memory), code.reserve(1)  # before and after a tick
+        self.measured = code.reserve(1 + n)  # preceded by the time
+        self.memory, self.none = code.reserve(2 * problem.memory), code.reserve(1)  # double buffer
         self.P, self.wind, self.gust = code.reserve(problem.gains), code.reserve(6), code.reserve(6)
         self.ring, self.draws = code.reserve(problem.depth * problem.command), code.reserve(PER_TICK)
         self.t, self.alive, self.status, self.end = (code.reserve(1) for _ in range(4))
@@ -71,8 +71,8 @@ class _Kernel:
     def write(self) -> None:
         code, builder, width = self.code, self.code.builder, self.lanes.width
         groups = builder.sdiv(builder.add(self.at["runs"], ir.Constant(I64, width - 1)), ir.Constant(I64, width))
-        self._take_inputs()
-        with code.count(PER_TICK) as i:  # what is not drawn is 0
+        self._load_inputs()
+        with code.count(PER_TICK) as i:  # without random numbers, all draws are 0
             code.store(0.0, self.draws, i)
         with code.count(groups) as group:
             self.first = builder.mul(group, ir.Constant(I64, width))
@@ -84,8 +84,8 @@ class _Kernel:
             self._store_results()
         builder.ret_void()
 
-    def _take_inputs(self) -> None:
-        """Spread the numbers of the plant over all lanes."""
+    def _load_inputs(self) -> None:
+        """Broadcast the plant parameters to all lanes."""
         code, place = self.code, 0
         for memory, length in zip((self.timings, self.noise, self.blowing), self.problem.inputs, strict=True):
             for i in range(length):
@@ -96,7 +96,7 @@ class _Kernel:
     # Begin and end --------------------------------------------------------------------------------------------
 
     def _run(self, lane: ir.Value) -> ir.Value:
-        """The run in `lane`; lanes past the last run fly the last run again."""
+        """The run in `lane`; surplus lanes repeat the last run."""
         builder = self.code.builder
         run, last = builder.add(self.first, lane), builder.sub(self.at["runs"], ir.Constant(I64, 1))
         return builder.select(builder.icmp_signed("<", run, last), run, last)
@@ -176,7 +176,7 @@ class _Kernel:
             code.store(kept, self.next, i)
 
     def _memories(self, tick: ir.Value) -> tuple[ir.Value, ir.Value]:
-        """The board's memory before and after `tick`: two places that take turns."""
+        """Addresses of the board's memory before and after `tick`, which alternate."""
         builder, length = self.code.builder, ir.Constant(I64, self.problem.memory)
         odd = builder.mul(builder.and_(tick, ir.Constant(I64, 1)), length)
         return self.code.vector_at(self.memory, odd), self.code.vector_at(self.memory, builder.sub(length, odd))
@@ -215,7 +215,7 @@ class _Kernel:
         with code.count(self.problem.size) as i:
             size = code.fabs(code.load(self.next, i))
             before = code.load(largest)
-            code.store(code.select(size <= before, before, size), largest)  # NaN stays
+            code.store(code.select(size <= before, before, size), largest)  # NaN propagates
         return ~(code.load(largest) < MAX_STATE)
 
     def _end_runs(self, where: Value, status: int, time: Value) -> None:
@@ -228,7 +228,7 @@ class _Kernel:
     # Samples --------------------------------------------------------------------------------------------------
 
     def _sample(self, tick: ir.Value) -> None:
-        """Store and reduce the state at `tick`, if it is one of the sample ticks."""
+        """Store and reduce the state at `tick` if it is a sample tick."""
         code, builder = self.code, self.code.builder
         cursor = builder.load(self.cursor, typ=I64)
         with (
@@ -242,7 +242,7 @@ class _Kernel:
                 self.results.update(alive, self.t, self.state, self.P)
             following = builder.add(cursor, ir.Constant(I64, 1))
             row, after = (code.scalar(self.at["rows"], place, I64) for place in (cursor, following))
-            with code.when(builder.icmp_signed(">", after, row)):  # none is, where the caller keeps none
+            with code.when(builder.icmp_signed(">", after, row)):  # never true if the caller stores no samples
                 self._store_samples(row)
             builder.store(following, self.cursor)
 

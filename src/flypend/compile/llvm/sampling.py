@@ -1,4 +1,4 @@
-"""Samples of a run at given times: the dense output of a Runge-Kutta step, stored and reduced inside the kernel."""
+"""Samples of runs at given times from dense output, stored and reduced inside the kernel."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from flypend.compile.methods import Method
 
 @dataclass(frozen=True)
 class Step:
-    """An accepted step: its stages and the rate `after` it in memory; from `t` over `h` to `t_new`."""
+    """A step `h` from `t` to `t_new`: its stages, and the address of the rates at its end, `after`."""
 
     stages: Stages
     after: ir.Value
@@ -28,9 +28,10 @@ class Step:
 
 
 class Sampler:
-    """Takes the samples of every lane at the times of the caller, which end with infinity.
+    """Samples every lane at the caller's times, which must end with infinity.
 
-    A sample is reduced where `judged` is positive at its time. `rows` says how many are kept before each, and in all.
+    A sample is reduced if `judged` is positive at its time. `rows` holds the number of stored samples before each
+    time, and in total.
     """
 
     def __init__(
@@ -50,18 +51,18 @@ class Sampler:
         self.state, self.moved = code.reserve(size), code.reserve(size)
         self.rows = code.reserve(width * size, ir.DoubleType())
         self.turn = define_turn(code.lanes, size)
-        for lane in range(width):  # also of a lane that never has a run
+        for lane in range(width):  # also for lanes that never receive a run
             code.put(ir.Constant(code.lanes.scalar, float("inf")), self.wanted, ir.Constant(I64, lane))
 
     def reset(self, lane: ir.Value) -> None:
-        """Begin a run in `lane`."""
+        """Start a new run in `lane`."""
         code, first = self.code, ir.Constant(I64, 0)
         code.put(first, self.cursor, lane)
         code.put(from_double(code, code.scalar(self.at["times"], first, ir.DoubleType())), self.wanted, lane)
         self.reductions.reset(lane)
 
-    def _aim(self, due: Value) -> None:
-        """Let the lanes `due` wait for their next times."""
+    def _advance(self, due: Value) -> None:
+        """Advance the lanes `due` to their next sample times."""
         code, builder = self.code, self.code.builder
         now = builder.load(self.cursor, typ=self.places)
         later = builder.add(now, ir.Constant(self.places, [1] * code.lanes.width))
@@ -71,7 +72,7 @@ class Sampler:
         code.store(code.select(due, times, code.load(self.wanted)), self.wanted)
 
     def take(self, step: Step, accepted: Value) -> None:
-        """Take every wanted sample inside the accepted steps."""
+        """Take all samples that fall within the accepted steps."""
         code = self.code
 
         def here() -> Value:
@@ -88,10 +89,10 @@ class Sampler:
                     self.reductions.update(due & (judged > 0.0), self.wanted, self.state, step.stages.P)
                 self._store(due)
 
-    # The polynomial of a step is a sum of its stages, weighted by polynomials of the place in the step -----------
+    # The interpolant of a step is a sum of its stages, weighted by polynomials in θ = (t − t₀)/h -------------------
 
     def _prepare(self, step: Step) -> None:
-        """Further stages of DOP853; its polynomial is written with Y − S, and Y is used for the stages."""
+        """Compute the additional stages of DOP853 for dense output. They overwrite Y, so save Y − S and restore Y."""
         if self.method.name == "dp5":
             return
         code, n, s, stages = self.code, self.size, self.method.stages, step.stages
@@ -129,7 +130,7 @@ class Sampler:
     def _dop853(self, theta: Value) -> tuple[Value, dict[int, Value]]:
         """s(θ) = S + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))), F₀ = Y − S, F₁ = h k₀ − F₀, F₂ = 2 F₀ − h (k₀ + k_s).
 
-        The upper F are sums of stages: rows of `Method.dense`.
+        F₃ and above are weighted sums of the stages: the rows of `Method.dense`.
         """
         s, rest = self.method.stages, 1.0 - theta
         factors = [theta]
@@ -146,7 +147,7 @@ class Sampler:
     # Results -------------------------------------------------------------------------------------------------------
 
     def _store(self, due: Value) -> None:
-        """Store the samples of the lanes `due`, if the caller keeps them, and aim at the next times."""
+        """Store the samples of the lanes `due` if the caller wants them, and advance to the next times."""
         code = self.code
         with self._if_kept():
             code.call(self.turn, self.state, self.rows)
@@ -155,7 +156,7 @@ class Sampler:
                 before, after = self._kept(place), self._kept(code.builder.add(place, ir.Constant(I64, 1)))
                 with code.when(code.builder.icmp_signed(">", after, before)):
                     copy_row(code, self.rows, lane, self.at["samples"], self._row(lane, before), self.size)
-        self._aim(due)
+        self._advance(due)
 
     def _if_kept(self) -> AbstractContextManager[None]:
         return self.code.when(self._given("samples"))
@@ -168,17 +169,17 @@ class Sampler:
         return builder.icmp_unsigned("!=", builder.ptrtoint(self.at[name], I64), ir.Constant(I64, 0))
 
     def _kept(self, place: ir.Value) -> ir.Value:
-        """How many samples are kept before the time at `place`."""
+        """Number of samples stored before the time at `place`."""
         return self.code.scalar(self.at["rows"], place, I64)
 
     def _row(self, lane: ir.Value, kept: ir.Value) -> ir.Value:
         run = self.code.scalar(self.run, lane, I64)
         return self.code.builder.add(self.code.builder.mul(run, self.at["row_count"]), kept)
 
-    run: ir.Value  # which run each lane has
+    run: ir.Value  # index of the run in each lane
 
     def finish(self, lane: ir.Value, run: ir.Value) -> None:
-        """Store the reductions of the run in `lane`, and NaN for the samples that it did not reach."""
+        """Store the reductions of the run in `lane`, and fill the samples it did not reach with NaN."""
         code, builder = self.code, self.code.builder
         with self._if_reduced():
             self.reductions.store(lane, run, self.at["reductions"])

@@ -1,4 +1,4 @@
-"""The stages of one Runge-Kutta step in every lane, and the error of the step."""
+"""The stages of one Runge-Kutta step in every lane, and its error estimate."""
 
 from __future__ import annotations
 
@@ -13,57 +13,57 @@ from flypend.compile.llvm.vector import I64, Code, Value
 from flypend.compile.methods import Method
 from flypend.compile.program import Program
 
-STRANDS = 4  # divides the sizes of a state and of a state with its tangent
+STRANDS = 4  # divides the length of a state, with or without its tangent
 
 
 class Stages:
-    """Memory and code of a step: from the state S to Y, with parameters P and the rates K of the stages.
+    """Memory and code of a step from state S to state Y, with parameters P and stage rates K.
 
-    `rates` is the function (t, s, p) → rates of the state; stage 0 must hold the rates at S.
+    `rates` is the program (t, s, p) → state rates. Stage 0 of K must hold the rates at S before a step.
     """
 
     def __init__(self, code: Code, method: Method, rates: Program) -> None:
         self.code, self.method, self.size = code, method, rates.inputs[1]
         if self.size % STRANDS:
-            raise ValueError(f"a state of a multiple of {STRANDS} entries, not {self.size}")
+            raise ValueError(f"the state length must be a multiple of {STRANDS}, not {self.size}")
         self.rates = define(code.lanes, rates)
         self.S, self.Y, self.P = code.reserve(self.size), code.reserve(self.size), code.reserve(rates.inputs[2])
         self.K = code.reserve(self.size * (len(method.errors[0]) + len(method.C_extra)))
         self._when = code.reserve(1)
 
     def rate(self, stage: int) -> ir.Value:
-        """Where the rates of `stage` are."""
+        """Address of the rates of `stage`."""
         return self.code.vector_at(self.K, stage * self.size)
 
     def evaluate(self, t: Value, stage: int) -> None:
-        """The rates at `t` and Y, as those of `stage`."""
+        """Evaluate the rates at (`t`, Y) into `stage`."""
         self.code.store(t, self._when)
         self.code.call(self.rates, self._when, self.Y, self.P, self.rate(stage))
 
     def combine(self, weights: Any, h: Value) -> None:
-        """Y = S + h Σ w_j k_j."""
+        """Set Y = S + h Σ_j w_j k_j, with w the `weights`."""
         code = self.code
         with code.count(self.size) as i:
             code.store(code.load(self.S, i) + h * self._weighted(weights, i), self.Y, i)
 
     def attempt(self, t: Value, h: Value, rtol: Value, atol: Value) -> tuple[Value, Value]:
-        """Stages from `t` over `h`, the new state in Y; its error relative to the tolerance and its largest entry.
+        """Compute the stages of a step `h` from `t` and the new state Y.
 
-        Accept an error of at most 1.
+        Returns the error relative to the tolerances (accept if <= 1) and the largest magnitude of an entry of Y.
         """
         method = self.method
         for s in range(1, method.stages):
             self.combine(method.A[s, :s], h)
             self.evaluate(t + float(method.C[s]) * h, s)
         self.combine(method.B, h)
-        if method.errors[0][-1] != 0:  # the estimate weighs f at the end of the step
+        if method.errors[0][-1] != 0:  # the estimate uses f at the end of the step
             self.evaluate(t + h, method.stages)
         return self._judged(h, rtol, atol)
 
     def _judged(self, h: Value, rtol: Value, atol: Value) -> tuple[Value, Value]:
-        """Error of the step relative to the tolerance, and the largest size of an entry of Y."""
+        """Error of the step relative to the tolerances, and the largest magnitude of an entry of Y."""
         code, method = self.code, self.method
-        # Sums are taken in strands: one alone would wait for each addition.
+        # Independent partial sums hide the latency of the additions.
         strands = [([code.reserve(1) for _ in method.errors], code.reserve(1)) for _ in range(STRANDS)]
         for sums, largest in strands:
             for memory in (*sums, largest):
@@ -90,7 +90,7 @@ class Stages:
         return code.select(joined > 0.0, h * sums[0] / code.sqrt(joined * n), joined)
 
     def _weighted(self, weights: Any, i: ir.Value) -> Value:
-        """Σ w_j k_j in component i."""
+        """Component i of Σ_j w_j k_j."""
         code = self.code
         total: Value | None = None
         for j, weight in enumerate(weights):

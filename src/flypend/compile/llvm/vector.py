@@ -1,4 +1,4 @@
-"""LLVM code on vectors of lanes: memory, arithmetic that reads as such, and loops."""
+"""LLVM code generation on SIMD lanes: memory, operator-overloaded arithmetic and control flow."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from contextlib import contextmanager
 from llvmlite import ir
 
 I1, I64, POINTER, VOID = ir.IntType(1), ir.IntType(64), ir.PointerType(), ir.VoidType()
-# a·b + c may become one fused operation, a sum may be taken in another order and 1/b be shared: a tenth faster, and the
-# same in every lane of a kernel. NaN and infinity stay what they are.
+# Allow fused multiply-add, reassociation, ignoring the sign of zero, and shared reciprocals: 10 % faster, with the same
+# result in every lane of a kernel. NaN and infinity keep their meaning.
 FLAGS = ("contract", "reassoc", "nsz", "arcp")
 
 
 class Lanes:
-    """Type and width of the vectors of one module: `width` lanes of `precision` "double" or "float"."""
+    """Vector type of a module: `width` lanes of `precision` "double" or "float"."""
 
     def __init__(self, module: ir.Module, width: int, precision: str = "double") -> None:
         self.module = module
@@ -30,32 +30,32 @@ class Lanes:
         return ir.Constant(self.vector, [ir.Constant(self.scalar, value)] * self.width)
 
     def array(self, length: int) -> ir.Type:
-        """Memory of `length` vectors."""
+        """Array type of `length` vectors."""
         return ir.ArrayType(self.vector, max(1, length))
 
     def intrinsic(self, name: str, arguments: int = 1) -> ir.Function:
-        """LLVM's own function called `name` on vectors."""
+        """The LLVM intrinsic `name` on vectors."""
         bits = 64 if self.precision == "double" else 32
         return self.declared(
             f"llvm.{name}.v{self.width}f{bits}", ir.FunctionType(self.vector, [self.vector] * arguments)
         )
 
     def library(self, name: str, arguments: int) -> ir.Function:
-        """The function of the C library called `name`, on scalars."""
+        """The C library function `name` on scalars."""
         suffix = "" if self.precision == "double" else "f"
         return self.declared(name + suffix, ir.FunctionType(self.scalar, [self.scalar] * arguments))
 
     def declared(self, name: str, kind: ir.FunctionType) -> ir.Function:
-        """The function called `name` of another module."""
+        """Declare the external function `name`."""
         known = self.module.globals.get(name)
         return known if known is not None else ir.Function(self.module, kind, name)
 
     def function(self, name: str, pointers: int) -> tuple[ir.Function, Code]:
-        """A new function of this module that takes `pointers`, and code at its beginning."""
+        """Add a function with this many `pointers` as arguments to the module; return it and its `Code`."""
         function = ir.Function(self.module, ir.FunctionType(VOID, [POINTER] * pointers), name)
         function.linkage = "internal"
         function.attributes.add("noinline")
-        # Without it LLVM finds out too late that it spills vectors, and half of the spills straddle two cache lines.
+        # Without it LLVM discovers vector spills too late to align the stack, and half straddle two cache lines.
         function.attributes.alignstack = max(16, self.size)
         return function, Code(self, ir.IRBuilder(function.append_basic_block()))
 
@@ -70,45 +70,45 @@ class Code:
     # Memory -------------------------------------------------------------------------------------------------------
 
     def reserve(self, length: int, kind: ir.Type | None = None) -> ir.Value:
-        """Memory for `length` vectors (of `kind`), on the stack."""
+        """Allocate `length` vectors (of type `kind`) on the stack."""
         kind = kind or self.lanes.vector
         with self.builder.goto_entry_block():
             memory = self.builder.alloca(ir.ArrayType(kind, max(1, length)))
             memory.align = 64
-            memory.type = POINTER  # llvmlite would insist on the type of what was allocated
+            memory.type = POINTER  # make it opaque; llvmlite would insist on the allocated type
         return memory
 
     def vector_at(self, memory: ir.Value, index: int | ir.Value, kind: ir.Type | None = None) -> ir.Value:
-        """Address of vector `index` of `memory`."""
+        """Address of vector `index` in `memory`."""
         index = ir.Constant(I64, index) if isinstance(index, int) else index
         return self.builder.gep(memory, [index], source_etype=kind or self.lanes.vector)
 
     def load(self, memory: ir.Value, index: int | ir.Value = 0) -> Value:
-        """Vector `index` of `memory`."""
+        """Load vector `index` of `memory`."""
         loaded = self.builder.load(self.vector_at(memory, index), typ=self.lanes.vector)
         loaded.align = self.lanes.size
         return Value(self, loaded)
 
     def store(self, value: Value | float, memory: ir.Value, index: int | ir.Value = 0) -> None:
-        """Put `value` into vector `index` of `memory`."""
+        """Store `value` to vector `index` of `memory`."""
         self.builder.store(self.value(value).raw, self.vector_at(memory, index)).align = self.lanes.size
 
     def scalar_at(self, memory: ir.Value, index: ir.Value, kind: ir.Type | None = None) -> ir.Value:
-        """Address of scalar `index` (an i64) of `memory`."""
+        """Address of scalar `index` (an i64) in `memory`."""
         return self.builder.gep(memory, [index], source_etype=kind or self.lanes.scalar)
 
     def scalar(self, memory: ir.Value, index: ir.Value, kind: ir.Type | None = None) -> ir.Value:
-        """Scalar `index` of `memory`."""
+        """Load scalar `index` of `memory`."""
         return self.builder.load(self.scalar_at(memory, index, kind), typ=kind or self.lanes.scalar)
 
     def put(self, value: ir.Value, memory: ir.Value, index: ir.Value) -> None:
-        """Put the scalar `value` into place `index` of `memory`."""
+        """Store the scalar `value` at `index` of `memory`."""
         self.builder.store(value, self.scalar_at(memory, index, value.type))
 
     # Values -------------------------------------------------------------------------------------------------------
 
     def value(self, value: Value | float | ir.Value) -> Value:
-        """`value` in every lane; a scalar of LLVM is repeated."""
+        """Convert `value` to a vector value; numbers and LLVM scalars are broadcast."""
         if isinstance(value, Value):
             return value
         if isinstance(value, (int, float)):
@@ -116,7 +116,7 @@ class Code:
         return Value(self, self.repeated(value))
 
     def repeated(self, single: ir.Value) -> ir.Value:
-        """The vector with the scalar `single` in every lane."""
+        """Broadcast the scalar `single` to every lane."""
         width, i32 = self.lanes.width, ir.IntType(32)
         nothing = ir.Constant(ir.VectorType(single.type, width), ir.Undefined)
         first = self.builder.insert_element(nothing, single, ir.Constant(i32, 0))
@@ -127,15 +127,15 @@ class Code:
         return Value(self, self.builder.select(mask.raw, self.value(yes).raw, self.value(no).raw))
 
     def least(self, a: Value | float, b: Value | float) -> Value:
-        """The lesser, lane by lane; `b` where one is NaN."""
+        """Minimum per lane; `b` if either is NaN."""
         return self.select(self.value(a) < b, a, b)
 
     def most(self, a: Value | float, b: Value | float) -> Value:
-        """The greater, lane by lane; `b` where one is NaN."""
+        """Maximum per lane; `b` if either is NaN."""
         return self.select(self.value(a) > b, a, b)
 
     def any(self, mask: Value) -> ir.Value:
-        """Whether `mask` is true in any lane, one bit."""
+        """Whether `mask` is true in any lane, as an i1."""
         bits = ir.IntType(self.lanes.width)
         return self.builder.icmp_unsigned("!=", self.builder.bitcast(mask.raw, bits), ir.Constant(bits, 0))
 
@@ -144,7 +144,7 @@ class Code:
         return Value(self, self.builder.call(self.lanes.intrinsic("sqrt"), [value.raw]))
 
     def power(self, value: Value, exponent: float) -> Value:
-        """`value` > 0 to a power, to some per cent: through its bits, which are nearly its logarithm."""
+        """`value` > 0 to a power, accurate to a few per cent: the bit pattern of a float approximates its logarithm."""
         lanes, builder = self.lanes, self.builder
         bits = 64 if lanes.precision == "double" else 32
         kind = ir.VectorType(ir.IntType(bits), lanes.width)
@@ -158,7 +158,7 @@ class Code:
         return Value(self, self.builder.call(self.lanes.intrinsic("fabs"), [value.raw]))
 
     def library(self, name: str, *values: Value) -> Value:
-        """The C library's function `name`, lane by lane."""
+        """Call the C library function `name` per lane."""
         function = self.lanes.library(name, len(values))
         result = ir.Constant(self.lanes.vector, ir.Undefined)
         for lane in range(self.lanes.width):
@@ -167,17 +167,17 @@ class Code:
             result = self.builder.insert_element(result, self.builder.call(function, scalars), place)
         return Value(self, result)
 
-    # Control ------------------------------------------------------------------------------------------------------
+    # Control flow -------------------------------------------------------------------------------------------------
 
     @contextmanager
     def when(self, bit: ir.Value) -> Iterator[None]:
-        """Code that runs if `bit` is set."""
+        """Emit code that runs if `bit` is set."""
         with self.builder.if_then(bit):
             yield
 
     @contextmanager
     def count(self, number: int | ir.Value) -> Iterator[ir.Value]:
-        """Code that runs `number` times; gives the i64 that counts from 0."""
+        """Emit a loop that runs `number` times; yields the i64 index, from 0."""
         limit = ir.Constant(I64, number) if isinstance(number, int) else number
         counter = self.reserve(1, I64)
         self.builder.store(ir.Constant(I64, 0), counter)
@@ -188,7 +188,7 @@ class Code:
 
     @contextmanager
     def each(self, mask: Value) -> Iterator[ir.Value]:
-        """Code that runs for every lane of `mask`; gives the i64 that numbers it."""
+        """Emit a loop over the lanes set in `mask`; yields the i64 lane index."""
         builder, left = self.builder, self.reserve(1, I64)
         bits = builder.bitcast(mask.raw, ir.IntType(self.lanes.width))
         builder.store(builder.zext(bits, I64), left)
@@ -200,7 +200,7 @@ class Code:
 
     @contextmanager
     def loop(self, condition: Callable[[], ir.Value]) -> Iterator[None]:
-        """Code that runs while `condition()`, which emits a bit, holds."""
+        """Emit a loop that runs while the i1 emitted by `condition()` is true."""
         head, body, after = (self.builder.append_basic_block(name) for name in ("while", "do", "after"))
         self.builder.branch(head)
         self.builder.position_at_end(head)
@@ -211,12 +211,12 @@ class Code:
         self.builder.position_at_end(after)
 
     def call(self, function: ir.Function, *arguments: ir.Value) -> None:
-        """Call `function` of this module."""
+        """Emit a call of `function`."""
         self.builder.call(function, arguments)
 
 
 class Value:
-    """A vector with one number per lane (or a mask) that code computes; arithmetic emits instructions."""
+    """A computed vector with one number per lane, or a mask; arithmetic on it emits instructions."""
 
     def __init__(self, code: Code, raw: ir.Value) -> None:
         self.code = code
@@ -254,7 +254,7 @@ class Value:
         return Value(self.code, self.code.builder.fneg(self.raw))
 
     def compare(self, sign: str, other: Value | float) -> Value:
-        """A mask: "<", "<=", ">", ">=", "==" are false for NaN, "!=" is true."""
+        """Compare to a mask: "<", "<=", ">", ">=" and "==" are false for NaN, "!=" is true."""
         method = self.code.builder.fcmp_unordered if sign == "!=" else self.code.builder.fcmp_ordered
         return Value(self.code, method(sign, self.raw, self.code.value(other).raw))
 

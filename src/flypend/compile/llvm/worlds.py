@@ -1,6 +1,6 @@
-"""The worlds of sampled flights inside a kernel: ours, a program on vectors of lanes, and MuJoCo, one flight at a time.
+"""Worlds of sampled flights inside a kernel: the built-in equations in SIMD lanes, or MuJoCo, one flight at a time.
 
-A world begins a run, steps under a command, and shows its state behind `state`: the packed state and the rotor forces.
+A world starts a run, steps under a command, and keeps the packed state and rotor forces at the address `state`.
 """
 
 from __future__ import annotations
@@ -13,29 +13,29 @@ from flypend.compile.llvm.emit import define
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code
 from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
 
-OMEGA = 15  # place of the angular velocity in a packed state
-QVEL_OMEGA = 3  # and among MuJoCo's velocities
-# What MuJoCo's world is told by address: data, its arrays, the two functions that are called, and where runs begin.
+OMEGA = 15  # offset of the angular velocity in a packed state
+QVEL_OMEGA = 3  # and in MuJoCo's qvel
+# Addresses passed for MuJoCo: data and its arrays, two functions, the initial coordinates of the runs, the models.
 MUJOCO_ARGUMENTS = ("data", "qpos", "qvel", "act", "ctrl", "xfrc", "mj_step", "mj_reset", "begins", "models")
-# Of xfrc_applied: six numbers a body, for the world, the vehicle and the bob; forces stand first.
+# Offsets in xfrc_applied: six numbers each, force first, for the world, the vehicle and the bob.
 ON_VEHICLE, ON_BOB = 6, 12
 
 
 class World(Protocol):
-    """What moves between two control ticks."""
+    """Simulates vehicle and pendulum between control ticks."""
 
     def begin(self, run: ir.Value) -> None:
-        """Take over the start of `run` from `state`."""
+        """Start `run` from the state in `state`."""
 
     def advance(self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value) -> None:
-        """Go through `stretch`, number `place` of the tick, under `command` and `wind`; `timing` are its numbers."""
+        """Advance through `stretch`, number `place` of the tick, under `command` and `wind`, with inputs `timing`."""
 
     def show(self) -> None:
-        """Bring `state` up to date."""
+        """Update `state`."""
 
 
 class Equations:
-    """Our own equations of motion, on as many lanes as the kernel has."""
+    """The built-in equations of motion, on all lanes of the kernel."""
 
     def __init__(self, code: Code, problem: SampledProblem, world: EquationsProblem, state: ir.Value) -> None:
         self._code, self._state = code, state
@@ -45,10 +45,10 @@ class Equations:
         self._forces, self._none = code.reserve(problem.rotors), code.reserve(1)
 
     def begin(self, run: ir.Value) -> None:
-        """Nothing: the state is where it moves."""
+        """Do nothing: the steps operate on `state` in place."""
 
     def advance(self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value) -> None:
-        """As `World.advance`."""
+        """Implement `World.advance`."""
         code, state, rotors = self._code, self._state, self._rotors
         with code.count(stretch.steps):
             wanted = command
@@ -58,11 +58,11 @@ class Equations:
             code.call(self._step, state, rotors, wanted, wind, timing, self._none, state, rotors)
 
     def show(self) -> None:
-        """Nothing."""
+        """Do nothing: `state` is always up to date."""
 
 
 class _At:
-    """The function (model, data) at an `address`: an opaque pointer alone does not say what it points to."""
+    """The function (model, data) at `address`, with the function type that an opaque pointer lacks."""
 
     def __init__(self, address: ir.Value) -> None:
         self.type = address.type
@@ -71,17 +71,17 @@ class _At:
 
 
 class Mujoco:
-    """MuJoCo, called by address; a kernel with it has one lane, whose vectors lie in memory like MuJoCo's numbers.
+    """MuJoCo, called by address. The kernel must have one lane, so its memory layout matches MuJoCo's arrays.
 
-    `at` are the kernel's arguments by name, `MUJOCO_ARGUMENTS` among them. `timing` of a stretch is the number of
-    MuJoCo's steps for each evaluation of the rate loop; `models` has a model for each stretch, whose timestep fits.
+    `at` maps names to the kernel's arguments, including `MUJOCO_ARGUMENTS`. The `timing` of a stretch is the number of
+    MuJoCo steps per evaluation of the rate loop; `models` holds one model per stretch, with the matching timestep.
     """
 
     def __init__(
         self, code: Code, problem: SampledProblem, world: MujocoProblem, state: ir.Value, at: dict[str, ir.Value]
     ) -> None:
         if code.lanes.width != 1:
-            raise ValueError("MuJoCo flies one run at a time")
+            raise ValueError("MuJoCo requires a kernel with one lane")
         self._code, self._problem, self._world, self._state, self._at = code, problem, world, state, at
         self._seen = define(code.lanes, world.seen)
         self._loop = define(code.lanes, problem.loop) if problem.loop is not None else None
@@ -89,7 +89,7 @@ class Mujoco:
         self._rotors = at["act"] if world.filtered else at["ctrl"]
 
     def begin(self, run: ir.Value) -> None:
-        """As `World.begin`: MuJoCo's own coordinates of the start are row `run` of `begins`."""
+        """Implement `World.begin`; row `run` of `begins` holds the MuJoCo coordinates of the start."""
         code, builder, at = self._code, self._code.builder, self._at
         builder.call(self._function("mj_reset"), [self._model(0), at["data"]])
         positions, velocities = self._world.seen.inputs[:2]
@@ -101,7 +101,7 @@ class Mujoco:
         code.store(0.0, self._lost)
 
     def advance(self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value) -> None:
-        """As `World.advance`."""
+        """Implement `World.advance`."""
         code, builder, at = self._code, self._code.builder, self._at
         self._copy(wind, code.vector_at(at["xfrc"], ON_VEHICLE), 3)
         self._copy(code.vector_at(wind, 3), code.vector_at(at["xfrc"], ON_BOB), 3)
@@ -112,20 +112,20 @@ class Mujoco:
                 code.call(self._loop, command, omega, self._none, at["ctrl"])
             else:
                 self._copy(command, at["ctrl"], self._problem.rotors)
-            self._look_at_forces()
+            self._check_forces()
             with code.count(inner), code.when(code.any(code.load(self._lost) < 1.0)):
                 builder.call(self._function("mj_step"), [self._model(place), at["data"]])
 
     def show(self) -> None:
-        """As `World.show`; NaN once a force was none."""
+        """Implement `World.show`; NaN once a force has been invalid."""
         code, at = self._code, self._at
         rotors = code.vector_at(self._state, self._problem.size)
         code.call(self._seen, at["qpos"], at["qvel"], self._rotors, self._state, rotors)
         with code.when(code.any(code.load(self._lost) > 0.0)):
             code.store(float("nan"), self._state)
 
-    def _look_at_forces(self) -> None:
-        """MuJoCo takes a force that is none, or too large for it, as zero; a run ends there instead."""
+    def _check_forces(self) -> None:
+        """Mark the run as lost if a force is NaN or too large; MuJoCo itself would replace the force by zero."""
         code = self._code
         size = code.value(0.0)
         for i in range(self._problem.rotors):

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What the board is given one after the other: good measurements follow on bad ones. */
+#define STEPS 3
+
 typedef struct {
     flypend_state state;
     flypend_reference reference;
@@ -17,6 +20,8 @@ typedef struct {
     flypend_rotors wanted;
     flypend_rotors modelled;
     flypend_real lead;
+    flypend_real memory[FLYPEND_MEMORY];
+    flypend_measurement measurement[STEPS];
 } inputs;
 
 static void require_finite(const flypend_real *values, size_t count)
@@ -30,12 +35,42 @@ static void require_finite(const flypend_real *values, size_t count)
 
 #define REQUIRE_FINITE(record) require_finite((const flypend_real *)&(record), sizeof(record) / sizeof(flypend_real))
 
+static const flypend_real upright[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+static void fly_board(unsigned valid, inputs *in)
+{
+    flypend_board board;
+    flypend_rotors rotors;
+    memset(&board, 0, sizeof board);
+    if (flypend_board_begin(&board, &in->gains, &in->params) == FLYPEND_OK) {
+        require_finite(board.memory, FLYPEND_MEMORY);
+    }
+    if (valid & 64U) { /* damaged, or a memory that may be */
+        memcpy(board.memory, in->memory, sizeof board.memory);
+    }
+    for (int i = 0; i < STEPS; i++) {
+        flypend_measurement *measurement = &in->measurement[i];
+        if (valid & 4U) {
+            memcpy(measurement->R, upright, sizeof upright);
+        }
+        if (valid & 8U) {
+            memcpy(measurement->y, upright, sizeof measurement->y);
+            measurement->y_dot[0] = 0;
+        }
+        (void)flypend_board_step(&board, (valid & 128U) && (i == 1) ? NULL : measurement, &in->path, &in->params, &rotors);
+        REQUIRE_FINITE(rotors);
+        (void)flypend_board_pass(&board);
+    }
+    if ((valid & 64U) == 0) {
+        require_finite(board.memory, FLYPEND_MEMORY);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* The first byte says which records keep numbers that are valid, so that the equations are reached as well. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const flypend_real upright[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     inputs in;
     flypend_wrench wrench;
     flypend_rotors rotors;
@@ -62,6 +97,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     if (valid & 16U) {
         memset(&in.reference, 0, sizeof in.reference);
+        memset(&in.path, 0, sizeof in.path);
     }
     (void)flypend_step(&in.state, &in.reference, &in.gains, &in.params, &wrench);
     REQUIRE_FINITE(wrench);
@@ -69,7 +105,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     REQUIRE_FINITE(rotors);
     (void)flypend_lead((valid & 32U) ? &rotors : &in.wanted, &in.modelled, in.lead, &in.params, &in.wanted);
     REQUIRE_FINITE(in.wanted);
+    (void)flypend_unmix(&in.modelled, &in.params, &wrench);
+    REQUIRE_FINITE(wrench);
     (void)flypend_follow(&in.path, &in.state, &in.params, &reference);
     REQUIRE_FINITE(reference);
+    fly_board(valid, &in);
     return 0;
 }

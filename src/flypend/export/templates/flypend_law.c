@@ -9,18 +9,28 @@
 #error "-ffast-math lets a compiler assume that no number is NaN, and drops the checks below"
 #endif
 
+/* Lengths of the records, as numbers in their order. STATE is without the external forces. */
+#define FLYPEND_STATE 24
+#define FLYPEND_FORCES 6
+#define FLYPEND_REFERENCE $reference_length
+#define FLYPEND_PATH $path_length
+#define FLYPEND_GAINS $gains_length
+#define FLYPEND_PARAMS_LENGTH $params_length
+#define FLYPEND_MARK $mark
+/* Where attitude and rates lie in a state. */
+#define FLYPEND_R 6
+#define FLYPEND_TURNING 12
+/* Where the youngest command lies in the memory. */
+#define FLYPEND_YOUNGEST $youngest
+
 const flypend_gains flypend_default_gains = $gains;
 const flypend_params flypend_default_params = $params;
 
-$law_function
+$programs
 
-$carry
+$conversions
 
-$share
-
-$quicken
-
-$defects
+/* Checks ------------------------------------------------------------------------------------------------------- */
 
 static int number(flypend_real value)
 {
@@ -36,152 +46,370 @@ static int numbers(const flypend_real *values, int count)
     return all;
 }
 
-$finite
-
-static flypend_status check_params(const flypend_params *params)
+static int spins_as_written(const flypend_real *spin)
 {
-    if (!finite_params(params)) {
+    static const flypend_real written[FLYPEND_ROTORS] = {$spins};
+    int same = 1;
+    for (int i = 0; i < FLYPEND_ROTORS; i++) {
+        same = same && (spin[i] * written[i] > 0);
+    }
+    return same;
+}
+
+static flypend_status check_params(const flypend_real *p)
+{
+    if (!numbers(p, FLYPEND_PARAMS_LENGTH)) {
         return FLYPEND_NOT_FINITE;
     }
-    const int bodies = (params->mass > 0) && (params->bob_mass > 0) && (params->rod_length > 0)
-        && (params->gravity >= 0) && $positive_inertia;
-    const int rotors = (params->rotor_least >= 0) && (params->rotor_largest > params->rotor_least);
+    if (!spins_as_written(p + $place_spin)) {
+        return FLYPEND_WRONG_VEHICLE;
+    }
+    const int bodies = (p[$place_mass] > 0) && (p[$place_bob_mass] > 0) && (p[$place_rod_length] > 0)
+        && (p[$place_gravity] >= 0) && $positive_inertia;
+    const int rotors = (p[$place_rotor_least] >= 0) && (p[$place_rotor_largest] > p[$place_rotor_least]);
     return (bodies && rotors) ? FLYPEND_OK : FLYPEND_PARAMS;
 }
 
-static flypend_status check_state(const flypend_state *state)
+static int is_rotation(const flypend_real *s)
 {
-    flypend_real defect[5];
-    if (!finite_state(state)) {
-        return FLYPEND_NOT_FINITE;
-    }
-    defects(state, defect);
+    flypend_real defect[2];
+    attitude(s, defect);
+    return (defect[0] <= FLYPEND_ROTATION_TOLERANCE) && (defect[1] > 0);
+}
+
+static flypend_status check_state(const flypend_real *s)
+{
+    flypend_real defect[3];
+    rod(s, defect);
     if (!((defect[0] <= FLYPEND_TOLERANCE) && (defect[1] <= FLYPEND_TOLERANCE * (1 + defect[2])))) {
         return FLYPEND_ROD;
     }
-    return ((defect[3] <= FLYPEND_ROTATION_TOLERANCE) && (defect[4] > 0)) ? FLYPEND_OK : FLYPEND_ATTITUDE;
+    return is_rotation(s) ? FLYPEND_OK : FLYPEND_ATTITUDE;
 }
 
-/* The least force of a rotor, 0 if that is not known. */
-static flypend_real least_force(const flypend_params *params)
+/* Safe answers ------------------------------------------------------------------------------------------------- */
+
+/* The wrench w for the numbers s of a state, null for none, and p of usable parameters: it levels the vehicle if its
+ * attitude can be trusted, and has no moment and the least thrust if not. */
+static void safe_wrench(const flypend_real *s, const flypend_real *p, flypend_real *w)
 {
-    const int known = (params != NULL) && (check_params(params) == FLYPEND_OK);
-    return (known && number(FLYPEND_ROTORS * params->rotor_least)) ? params->rotor_least : 0;
+    const flypend_real least = FLYPEND_ROTORS * p[$place_rotor_least];
+    if ((s != NULL) && numbers(s + FLYPEND_R, FLYPEND_TURNING) && is_rotation(s)) {
+        $call_hold
+        if (numbers(w, 4)) {
+            return;
+        }
+    }
+    w[0] = number(least) ? least : 0;
+    for (int i = 1; i < 4; i++) {
+        w[i] = 0;
+    }
 }
 
-static flypend_status safe_rotors(flypend_status status, const flypend_params *params, flypend_rotors *rotors)
+static void least_forces(const flypend_real *p, flypend_real *forces)
 {
-    const flypend_real force = least_force(params);
     for (int i = 0; i < FLYPEND_ROTORS; i++) {
-        rotors->force[i] = force;
+        forces[i] = p[$place_rotor_least];
+    }
+}
+
+static void safe_command(const flypend_real *s, const flypend_real *p, flypend_real *command)
+{
+    flypend_real w[4];
+    safe_wrench(s, p, w);
+    share(w, p, command);
+    if (!numbers(command, FLYPEND_ROTORS)) {
+        least_forces(p, command);
+    }
+}
+
+/* The numbers p of the parameters, and what is wrong with them. */
+static flypend_status usable_params(const flypend_params *params, flypend_real *p)
+{
+    if (params == NULL) {
+        return FLYPEND_NULL;
+    }
+    params_numbers(params, p);
+    return check_params(p);
+}
+
+static void stop(flypend_real *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        values[i] = 0;
+    }
+}
+
+/* The flight computer ------------------------------------------------------------------------------------------ */
+
+flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *gains, const flypend_params *params)
+{
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real rotors[FLYPEND_ROTORS];
+    flypend_status status;
+    if ((board == NULL) || (gains == NULL)) {
+        return FLYPEND_NULL;
+    }
+    board->mark = 0;
+    status = usable_params(params, p);
+    if (status == FLYPEND_OK) {
+        least_forces(p, rotors);
+        begin(rotors, board->memory);
+        board->gains = *gains;
+        board->mark = FLYPEND_MARK;
     }
     return status;
 }
 
-static flypend_status try_step(const flypend_state *state, const flypend_reference *reference,
-                               const flypend_gains *gains, const flypend_params *params, flypend_wrench *wrench)
+static int has_begun(const flypend_board *board)
 {
-    flypend_status status;
-$ignored    if ((state == NULL) || (params == NULL)$null_checks) {
+    return (board != NULL) && (board->mark == FLYPEND_MARK) && numbers(board->memory, FLYPEND_MEMORY);
+}
+
+static flypend_status try_board(const flypend_board *board, const flypend_real *m, const flypend_path *reference,
+                                const flypend_real *p, flypend_real *after, flypend_real *command)
+{
+$board_locals    if ($board_null) {
         return FLYPEND_NULL;
     }
-$finite_checks    status = check_params(params);
-    if (status == FLYPEND_OK) {
-        status = check_state(state);
+$board_fill    if (!numbers(m + 1, FLYPEND_STATE)$board_finite) {
+        return FLYPEND_NOT_FINITE;
     }
+    const flypend_status status = check_state(m + 1);
+    if (status != FLYPEND_OK) {
+        return status;
+    }
+    $call_board
+    return (numbers(command, FLYPEND_ROTORS) && numbers(after, FLYPEND_MEMORY)) ? FLYPEND_OK : FLYPEND_SINGULAR;
+}
+
+static void remember(flypend_board *board, const flypend_real *after)
+{
+    for (int i = 0; i < FLYPEND_MEMORY; i++) {
+        board->memory[i] = after[i];
+    }
+}
+
+flypend_status flypend_board_step(flypend_board *board, const flypend_measurement *measurement,
+                                  const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors)
+{
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real m[1 + FLYPEND_STATE]; /* the law does not depend on time: that stays 0 */
+    flypend_real command[FLYPEND_ROTORS];
+    flypend_real after[FLYPEND_MEMORY];
+    flypend_status status;
+    if (rotors == NULL) {
+        return FLYPEND_NULL;
+    }
+    m[0] = 0;
+    if (measurement != NULL) {
+        measurement_numbers(measurement, m + 1);
+    }
+    const int begun = has_begun(board);
+    status = usable_params(params, p);
+    if (status != FLYPEND_OK) {
+        stop(command, FLYPEND_ROTORS);
+    } else {
+        status = (board == NULL) ? FLYPEND_NULL : FLYPEND_NOT_BEGUN;
+        if (begun) {
+            status = try_board(board, (measurement == NULL) ? NULL : m, reference, p, after, command);
+        }
+        if (status != FLYPEND_OK) {
+            safe_command((measurement == NULL) ? NULL : m + 1, p, command);
+        }
+    }
+    if (begun) {
+        if (status != FLYPEND_OK) {
+            unmeasured(board->memory, command, after);
+        }
+        remember(board, after);
+    }
+    rotors_of(command, rotors);
+    return status;
+}
+
+flypend_status flypend_board_pass(flypend_board *board)
+{
+    flypend_real after[FLYPEND_MEMORY];
+    if (board == NULL) {
+        return FLYPEND_NULL;
+    }
+    if (!has_begun(board)) {
+        return FLYPEND_NOT_BEGUN;
+    }
+    unmeasured(board->memory, board->memory + FLYPEND_YOUNGEST, after);
+    remember(board, after);
+    return FLYPEND_OK;
+}
+
+/* The law alone ------------------------------------------------------------------------------------------------ */
+
+static flypend_status try_step(const flypend_real *s, const flypend_reference *reference, const flypend_gains *gains,
+                               const flypend_real *p, flypend_real *w)
+{
+$step_locals    if ($step_null) {
+        return FLYPEND_NULL;
+    }
+$step_fill    if (!numbers(s, FLYPEND_STATE + FLYPEND_FORCES)$step_finite) {
+        return FLYPEND_NOT_FINITE;
+    }
+    const flypend_status status = check_state(s);
     if (status != FLYPEND_OK) {
         return status;
     }
     $call_law
-    return finite_wrench(wrench) ? FLYPEND_OK : FLYPEND_SINGULAR;
+    return numbers(w, 4) ? FLYPEND_OK : FLYPEND_SINGULAR;
 }
 
 flypend_status flypend_step(const flypend_state *state, const flypend_reference *reference, const flypend_gains *gains,
                             const flypend_params *params, flypend_wrench *wrench)
 {
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
+    flypend_real w[4];
     flypend_status status;
     if (wrench == NULL) {
         return FLYPEND_NULL;
     }
-    status = try_step(state, reference, gains, params, wrench);
+    if (state != NULL) {
+        state_numbers(state, s);
+    }
+    status = usable_params(params, p);
     if (status != FLYPEND_OK) {
-        wrench->thrust = FLYPEND_ROTORS * least_force(params);
-        for (int i = 0; i < 3; i++) {
-            wrench->moment[i] = 0;
+        stop(w, 4);
+    } else {
+        status = try_step((state == NULL) ? NULL : s, reference, gains, p, w);
+        if (status != FLYPEND_OK) {
+            safe_wrench((state == NULL) ? NULL : s, p, w);
         }
     }
-    return status;
-}
-
-/* Hover at the origin with the rod upright, or, without a vehicle, all 0. */
-static flypend_status safe_reference(flypend_status status, const flypend_params *params, flypend_reference *reference)
-{
-    static const flypend_reference still = $still;
-    *reference = still;
-    if ((params != NULL) && (check_params(params) == FLYPEND_OK)) {
-        reference->p[2] = params->rod_length;
-    }
+    wrench_of(w, wrench);
     return status;
 }
 
 flypend_status flypend_follow(const flypend_path *path, const flypend_state *state, const flypend_params *params,
                               flypend_reference *reference)
 {
-    flypend_status status;
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
+    flypend_real along[FLYPEND_PATH];
+    flypend_real r[FLYPEND_REFERENCE];
     if (reference == NULL) {
         return FLYPEND_NULL;
     }
-    if ((path == NULL) || (state == NULL) || (params == NULL)) {
-        return safe_reference(FLYPEND_NULL, params, reference);
-    }
-    status = check_params(params);
-    if ((status == FLYPEND_OK) && !(finite_path(path) && finite_state(state))) {
-        status = FLYPEND_NOT_FINITE;
-    }
+    /* Hover at the origin with the rod upright, or, without a vehicle, all 0. */
+    stop(r, FLYPEND_REFERENCE);
+    flypend_status status = usable_params(params, p);
     if (status == FLYPEND_OK) {
-        $call_carry
-        status = finite_reference(reference) ? FLYPEND_OK : FLYPEND_SINGULAR;
+        r[$place_p + 2] = p[$place_rod_length];
+        status = ((path == NULL) || (state == NULL)) ? FLYPEND_NULL : FLYPEND_OK;
     }
-    return (status == FLYPEND_OK) ? status : safe_reference(status, params, reference);
+    reference_of(r, reference);
+    if (status == FLYPEND_OK) {
+        path_numbers(path, along);
+        state_numbers(state, s);
+        if (!(numbers(along, FLYPEND_PATH) && numbers(s, FLYPEND_STATE + FLYPEND_FORCES))) {
+            return FLYPEND_NOT_FINITE;
+        }
+        carry(along, s + FLYPEND_STATE, p, r);
+        if (!numbers(r, FLYPEND_REFERENCE)) {
+            return FLYPEND_SINGULAR;
+        }
+        reference_of(r, reference);
+    }
+    return status;
+}
+
+/* The least forces, or none with unusable parameters. */
+static flypend_status safe_rotors(flypend_status status, const flypend_real *p, flypend_rotors *rotors)
+{
+    flypend_real forces[FLYPEND_ROTORS];
+    stop(forces, FLYPEND_ROTORS);
+    if (p != NULL) {
+        least_forces(p, forces);
+    }
+    rotors_of(forces, rotors);
+    return status;
 }
 
 flypend_status flypend_mix(const flypend_wrench *wrench, const flypend_params *params, flypend_rotors *rotors)
 {
-    flypend_status status;
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real w[4];
+    flypend_real forces[FLYPEND_ROTORS];
     if (rotors == NULL) {
         return FLYPEND_NULL;
     }
-    if ((wrench == NULL) || (params == NULL)) {
-        return safe_rotors(FLYPEND_NULL, params, rotors);
+    const flypend_status status = usable_params(params, p);
+    if (status != FLYPEND_OK) {
+        return safe_rotors(status, NULL, rotors);
     }
-    status = check_params(params);
-    if ((status == FLYPEND_OK) && !finite_wrench(wrench)) {
-        status = FLYPEND_NOT_FINITE;
+    if (wrench == NULL) {
+        return safe_rotors(FLYPEND_NULL, p, rotors);
+    }
+    wrench_numbers(wrench, w);
+    if (!numbers(w, 4)) {
+        return safe_rotors(FLYPEND_NOT_FINITE, p, rotors);
+    }
+    share(w, p, forces);
+    if (!numbers(forces, FLYPEND_ROTORS)) {
+        return safe_rotors(FLYPEND_SINGULAR, p, rotors);
+    }
+    rotors_of(forces, rotors);
+    return FLYPEND_OK;
+}
+
+flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params *params, flypend_wrench *wrench)
+{
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real w[4];
+    flypend_real forces[FLYPEND_ROTORS];
+    if (wrench == NULL) {
+        return FLYPEND_NULL;
+    }
+    flypend_status status = usable_params(params, p);
+    if ((status == FLYPEND_OK) && (rotors == NULL)) {
+        status = FLYPEND_NULL;
     }
     if (status == FLYPEND_OK) {
-        share(wrench, params, rotors);
-        status = finite_rotors(rotors) ? FLYPEND_OK : FLYPEND_SINGULAR;
+        rotors_numbers(rotors, forces);
+        gather(forces, p, w);
+        if (!numbers(w, 4)) {
+            status = numbers(forces, FLYPEND_ROTORS) ? FLYPEND_SINGULAR : FLYPEND_NOT_FINITE;
+        }
     }
-    return (status == FLYPEND_OK) ? status : safe_rotors(status, params, rotors);
+    if (status != FLYPEND_OK) {
+        stop(w, 4);
+    }
+    wrench_of(w, wrench);
+    return status;
 }
 
 flypend_status flypend_lead(const flypend_rotors *wanted, const flypend_rotors *modelled, flypend_real lead,
                             const flypend_params *params, flypend_rotors *command)
 {
-    flypend_status status;
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real from[FLYPEND_ROTORS];
+    flypend_real to[FLYPEND_ROTORS];
     if (command == NULL) {
         return FLYPEND_NULL;
     }
-    if ((wanted == NULL) || (modelled == NULL) || (params == NULL)) {
-        return safe_rotors(FLYPEND_NULL, params, command);
+    const flypend_status status = usable_params(params, p);
+    if (status != FLYPEND_OK) {
+        return safe_rotors(status, NULL, command);
     }
-    status = check_params(params);
-    if ((status == FLYPEND_OK) && !(finite_rotors(wanted) && finite_rotors(modelled) && number(lead))) {
-        status = FLYPEND_NOT_FINITE;
+    if ((wanted == NULL) || (modelled == NULL)) {
+        return safe_rotors(FLYPEND_NULL, p, command);
     }
-    if (status == FLYPEND_OK) {
-        quicken(wanted, modelled, lead, params, command);
-        status = finite_rotors(command) ? FLYPEND_OK : FLYPEND_SINGULAR;
+    rotors_numbers(wanted, to);
+    rotors_numbers(modelled, from);
+    if (!(numbers(to, FLYPEND_ROTORS) && numbers(from, FLYPEND_ROTORS) && number(lead))) {
+        return safe_rotors(FLYPEND_NOT_FINITE, p, command);
     }
-    return (status == FLYPEND_OK) ? status : safe_rotors(status, params, command);
+    quicken(to, from, &lead, p, to);
+    if (!numbers(to, FLYPEND_ROTORS)) {
+        return safe_rotors(FLYPEND_SINGULAR, p, command);
+    }
+    rotors_of(to, command);
+    return FLYPEND_OK;
 }

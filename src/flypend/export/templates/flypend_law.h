@@ -2,8 +2,14 @@
  *
  * SI units. World frame with z up, body frame front-left-up, R takes body to world. The rod points from the pivot,
  * which is the centre of mass of the quadrotor, to the bob: y = (0, 0, 1) is inverted.
- * Nothing here allocates, recurses, loops without a bound or keeps a state; the only function of the C library that is
- * called is the square root. All functions may be called from several threads at once.
+ *
+ * flypend_board_step is the whole flight computer: observer of external forces, prediction over the latency, law,
+ * allocation within rotor limits, and lead over the rotors. Constants of the code: control rate $rate Hz, latency
+ * $latency s, rotor lag $lag s, lead $lead, bandwidth of the observer $observer 1/s. Gains and vehicle come at run time.
+ *
+ * Nothing here allocates, recurses or loops without a bound; the only function of the C library that is called is the
+ * square root. What is remembered lies in flypend_board. Functions may be called from several threads at once, each
+ * with a board of its own.
  */
 #ifndef FLYPEND_LAW_H
 #define FLYPEND_LAW_H
@@ -17,6 +23,10 @@ typedef $precision flypend_real;
 #define FLYPEND_ROTORS $rotors
 /* 1 if the law reads a reference. */
 #define FLYPEND_FOLLOWS $follows
+/* Control period, s: flypend_board_step is to be called once in each. */
+#define FLYPEND_PERIOD $period
+/* How many numbers the board remembers. */
+#define FLYPEND_MEMORY $memory
 /* How far y may be from a unit vector and y_dot from tangent (relative to 1 + |y_dot|), and R from a rotation. */
 #define FLYPEND_TOLERANCE $tolerance
 #define FLYPEND_ROTATION_TOLERANCE $rotation_tolerance
@@ -34,20 +44,51 @@ typedef enum {
     /* A mass, length, inertia or rotor limit is out of range. */
     FLYPEND_PARAMS = 5,
     /* The law has no finite answer at this state: its numbers overflow, or it is singular there. */
-    FLYPEND_SINGULAR = 6
+    FLYPEND_SINGULAR = 6,
+    /* The rotors of the vehicle spin otherwise than those that the code was written for. */
+    FLYPEND_WRONG_VEHICLE = 7,
+    /* The board was not begun by this code, or its memory is damaged: call flypend_board_begin. */
+    FLYPEND_NOT_BEGUN = 8
 } flypend_status;
 
 $structs
+
+/* The flight computer between two control periods. */
+typedef struct {
+    /* set by flypend_board_begin */
+    unsigned long mark;
+    /* gains of the law; may be changed between two steps */
+    flypend_gains gains;
+    /* modelled forces of the rotors (FLYPEND_ROTORS numbers, N), the observer, and the commands under way */
+    flypend_real memory[FLYPEND_MEMORY];
+} flypend_board;
 
 /* What flypend proposes for this vehicle. */
 extern const flypend_gains flypend_default_gains;
 extern const flypend_params flypend_default_params;
 
-/* The law: the wrench for a state.
+/* Prepares `board` for a vehicle whose rotors give their least force. Call it on the ground, before the first step. */
+flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *gains, const flypend_params *params);
+
+/* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for what was measured now.
  *
- * Anything but FLYPEND_OK comes with the safe wrench: no moment, and the least thrust that the rotors give (none if the
- * parameters are unusable). With an attitude that cannot be trusted any larger thrust would push in a direction that
- * nobody knows; the least one is what a flight computer can take over from. The output is finite in every case.
+ * `reference` is the path of the pivot with its derivatives at the time of the measurement; it may be null if
+ * FLYPEND_FOLLOWS is 0.
+ *
+ * Anything but FLYPEND_OK comes with a safe command. As long as attitude and rates are finite and R is a rotation, the
+ * vehicle is levelled, its rates are damped, and the thrust carries it (FLYPEND_ROD, FLYPEND_SINGULAR, numbers elsewhere
+ * that are not finite). Otherwise nobody knows where a thrust would push: all rotors at their least force, or 0 with
+ * unusable parameters. The output is finite in every case. The board remembers the command that was given and keeps its
+ * estimates of external forces, so that it flies on with the next good measurement. */
+flypend_status flypend_board_step(flypend_board *board, const flypend_measurement *measurement,
+                                  const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors);
+
+/* For a period in which flypend_board_step was not called and the last command stayed. */
+flypend_status flypend_board_pass(flypend_board *board);
+
+/* The law alone, for those who have their own flight computer: the wrench for a state.
+ *
+ * Anything but FLYPEND_OK comes with the safe wrench, chosen as flypend_board_step chooses its safe command.
  * `reference` may be null if FLYPEND_FOLLOWS is 0. */
 flypend_status flypend_step(const flypend_state *state, const flypend_reference *reference, const flypend_gains *gains,
                             const flypend_params *params, flypend_wrench *wrench);
@@ -60,6 +101,9 @@ flypend_status flypend_follow(const flypend_path *path, const flypend_state *sta
 /* Rotor forces for a wrench, each within its limits: roll and pitch first, then thrust, then yaw.
  * Anything but FLYPEND_OK comes with all rotors at their least force (0 if the parameters are unusable). */
 flypend_status flypend_mix(const flypend_wrench *wrench, const flypend_params *params, flypend_rotors *rotors);
+
+/* The wrench of rotor forces. Anything but FLYPEND_OK comes with zeros. */
+flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params *params, flypend_wrench *wrench);
 
 /* Commands modelled + lead (wanted - modelled) within the limits, for rotors that lag: lead $lead is proposed here, at
  * most 1 / (1 - exp(-h / T)) for a control period h and a lag T. `command` may be `wanted`. Called with the command

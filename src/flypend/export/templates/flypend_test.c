@@ -21,7 +21,13 @@ static double difference(const flypend_real *found, const flypend_real *wanted, 
     return apart / scale;
 }
 
-int main(void)
+static double most(double a, double b)
+{
+    return (a > b) ? a : b;
+}
+
+/* Largest difference of the bare law and the mixing; -1 if a vector is refused. */
+static double law_apart(void)
 {
     const flypend_params *params = &flypend_default_params;
     const double moment_scale = $moment_scale;
@@ -32,19 +38,45 @@ int main(void)
         const flypend_vector *vector = &flypend_vectors[i];
         flypend_wrench wrench;
         flypend_rotors rotors;
-        double apart[3];
         if ((flypend_step(&vector->state, &vector->reference, &flypend_default_gains, params, &wrench) != FLYPEND_OK)
             || (flypend_mix(&vector->wrench, params, &rotors) != FLYPEND_OK)) {
             (void)printf("vector %d is refused\n", i);
-            return 1;
+            return -1;
         }
-        apart[0] = difference(&wrench.thrust, &vector->wrench.thrust, 1, thrust_scale);
-        apart[1] = difference(wrench.moment, vector->wrench.moment, 3, moment_scale);
-        apart[2] = difference(rotors.force, vector->rotors.force, FLYPEND_ROTORS, thrust_scale);
-        for (int j = 0; j < 3; j++) {
-            worst = (apart[j] > worst) ? apart[j] : worst;
-        }
+        worst = most(worst, difference(&wrench.thrust, &vector->wrench.thrust, 1, thrust_scale));
+        worst = most(worst, difference(wrench.moment, vector->wrench.moment, 3, moment_scale));
+        worst = most(worst, difference(rotors.force, vector->rotors.force, FLYPEND_ROTORS, thrust_scale));
     }
     (void)printf("%d vectors, largest relative difference %.3g, allowed %.3g\n", count, worst, FLYPEND_VECTOR_TOLERANCE);
-    return (worst <= FLYPEND_VECTOR_TOLERANCE) ? 0 : 1;
+    return worst;
+}
+
+/* The same of the board along flights, in which it remembers what it did itself. */
+static double board_apart(void)
+{
+    const flypend_params *params = &flypend_default_params;
+    const int count = (int)(sizeof flypend_flights / sizeof flypend_flights[0]);
+    flypend_board board;
+    double worst = 0.0;
+    for (int i = 0; i < count; i++) {
+        const flypend_period *period = &flypend_flights[i];
+        flypend_rotors rotors;
+        if (((i % FLYPEND_FLIGHT_STEPS == 0)
+             && (flypend_board_begin(&board, &flypend_default_gains, params) != FLYPEND_OK))
+            || (flypend_board_step(&board, &period->measurement, &period->path, params, &rotors) != FLYPEND_OK)) {
+            (void)printf("period %d is refused\n", i);
+            return -1;
+        }
+        worst = most(worst, difference(rotors.force, period->rotors.force, FLYPEND_ROTORS, $thrust_scale));
+    }
+    (void)printf("%d periods, largest relative difference %.3g, allowed %.3g\n", count, worst, FLYPEND_VECTOR_TOLERANCE);
+    return worst;
+}
+
+int main(void)
+{
+    const double law = law_apart();
+    const double board = board_apart();
+    const int right = (law >= 0) && (law <= FLYPEND_VECTOR_TOLERANCE) && (board >= 0) && (board <= FLYPEND_VECTOR_TOLERANCE);
+    return right ? 0 : 1;
 }

@@ -2,8 +2,12 @@
  *
  * Put this file, flypend_frames.c and flypend_law.c into an app of the firmware and choose the out-of-tree controller.
  * The firmware's frames are those of the law: world with z up, body front-left-up. It does not know the rod: call
- * flypend_crazyflie_bob with what the motion capture system sees. Until it has been called, and when the last call lies
- * more than ROD_STEPS back, no thrust is asked for. Export with --precision float: the processor has no doubles.
+ * flypend_crazyflie_bob with what the motion capture system sees. Until it has been called no thrust is asked for; when
+ * the last call lies more than ROD_STEPS back the vehicle levels out and hovers. Call flypend_crazyflie_begin right
+ * before lift-off: the ground pushes a vehicle that stands on it, which the observer would take for a force.
+ * The answer is given as thrust and torques, which the firmware shares among the motors again; they are within the limits
+ * of the rotors already. Export with --precision float: the processor has no doubles. The status is logged as
+ * flypend.status.
  */
 #include "flypend_frames.h"
 #include "flypend_law.h"
@@ -12,17 +16,24 @@
 #include <stdint.h>
 
 #include "controller.h"
+#include "log.h"
 #include "stabilizer_types.h"
 
 #define ROD_STEPS 100U /* of the stabilizer loop, 1 ms each */
+#if (RATE_MAIN_LOOP % $rate) != 0
+#error "the stabilizer loop is no multiple of the control rate that the code was exported for"
+#endif
 
 void flypend_crazyflie_bob(const float position[3], const float velocity[3]);
+void flypend_crazyflie_begin(void);
 
+static flypend_board board;
 static flypend_real bob[3];
 static flypend_real bob_dot[3];
 static bool bob_is_new = false;
-static bool bob_is_known = false;
+static bool bob_was_seen = false;
 static uint32_t bob_step = 0;
+static uint8_t status = FLYPEND_NOT_BEGUN;
 
 /* Position and velocity of the bob, world frame, m and m/s. */
 void flypend_crazyflie_bob(const float position[3], const float velocity[3])
@@ -34,10 +45,16 @@ void flypend_crazyflie_bob(const float position[3], const float velocity[3])
     bob_is_new = true;
 }
 
+void flypend_crazyflie_begin(void)
+{
+    status = (uint8_t)flypend_board_begin(&board, &flypend_default_gains, &flypend_default_params);
+}
+
 void controllerOutOfTreeInit(void)
 {
     bob_is_new = false;
-    bob_is_known = false;
+    bob_was_seen = false;
+    flypend_crazyflie_begin();
 }
 
 bool controllerOutOfTreeTest(void)
@@ -45,9 +62,10 @@ bool controllerOutOfTreeTest(void)
     return true;
 }
 
-static void read_state(const sensorData_t *sensors, const state_t *from, flypend_state *to)
+/* What is measured; with a bob that is too old the rod is left 0, which the flight computer refuses. */
+static void read_measurement(const sensorData_t *sensors, const state_t *from, bool bob_is_known, flypend_measurement *to)
 {
-    static const flypend_state zero = $zero_state;
+    static const flypend_measurement zero = $zero_measurement;
     const flypend_real position[3] = {(flypend_real)from->position.x, (flypend_real)from->position.y,
                                       (flypend_real)from->position.z};
     const flypend_real velocity[3] = {(flypend_real)from->velocity.x, (flypend_real)from->velocity.y,
@@ -62,7 +80,9 @@ static void read_state(const sensorData_t *sensors, const state_t *from, flypend
     to->omega[0] = flypend_radians((flypend_real)sensors->gyro.x);
     to->omega[1] = flypend_radians((flypend_real)sensors->gyro.y);
     to->omega[2] = flypend_radians((flypend_real)sensors->gyro.z);
-    flypend_rod(position, velocity, bob, bob_dot, to->y, to->y_dot);
+    if (bob_is_known) {
+        flypend_rod(position, velocity, bob, bob_dot, to->y, to->y_dot);
+    }
 }
 
 static void read_path(const setpoint_t *setpoint, flypend_path *path)
@@ -83,24 +103,24 @@ static void read_path(const setpoint_t *setpoint, flypend_path *path)
 void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                          const state_t *state, const stabilizerStep_t stabilizerStep)
 {
-    flypend_state now;
-    flypend_path path;
-    flypend_reference reference;
     flypend_wrench wrench = {0, {0, 0, 0}};
-    if (!RATE_DO_EXECUTE(RATE_500_HZ, stabilizerStep)) {
+    if (!RATE_DO_EXECUTE($rate, stabilizerStep)) {
         return;
     }
     if (bob_is_new) {
         bob_is_new = false;
-        bob_is_known = true;
+        bob_was_seen = true;
         bob_step = stabilizerStep;
     }
-    bob_is_known = bob_is_known && ((uint32_t)(stabilizerStep - bob_step) <= ROD_STEPS);
-    if (bob_is_known) {
-        read_state(sensors, state, &now);
+    if (bob_was_seen) {
+        const bool bob_is_known = (uint32_t)(stabilizerStep - bob_step) <= ROD_STEPS;
+        flypend_measurement now;
+        flypend_path path;
+        flypend_rotors rotors;
+        read_measurement(sensors, state, bob_is_known, &now);
         read_path(setpoint, &path);
-        (void)flypend_follow(&path, &now, &flypend_default_params, &reference);
-        (void)flypend_step(&now, &reference, &flypend_default_gains, &flypend_default_params, &wrench);
+        status = (uint8_t)flypend_board_step(&board, &now, &path, &flypend_default_params, &rotors);
+        (void)flypend_unmix(&rotors, &flypend_default_params, &wrench);
     }
     control->controlMode = controlModeForceTorque;
     control->thrustSi = (float)wrench.thrust;
@@ -108,3 +128,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     control->torqueY = (float)wrench.moment[1];
     control->torqueZ = (float)wrench.moment[2];
 }
+
+LOG_GROUP_START(flypend)
+LOG_ADD(LOG_UINT8, status, &status)
+LOG_GROUP_STOP(flypend)

@@ -25,10 +25,10 @@ void flipped(float north, float east, float down, flypend_real to[3])
 }
 } // namespace
 
-flypend_state flypend_from_px4(const vehicle_local_position_s &position, const vehicle_attitude_s &attitude,
-                               const vehicle_angular_velocity_s &rates, const debug_array_s &bob)
+flypend_measurement flypend_from_px4(const vehicle_local_position_s &position, const vehicle_attitude_s &attitude,
+                                     const vehicle_angular_velocity_s &rates, const debug_array_s &bob)
 {
-    flypend_state state{};
+    flypend_measurement state{};
     flypend_real ned[9];
     flypend_real p[3];
     flypend_real p_dot[3];
@@ -73,7 +73,13 @@ Flypend::Flypend() : ScheduledWorkItem("flypend", px4::wq_configurations::rate_c
 
 bool Flypend::init()
 {
-    return _rates.registerCallback();
+    return (begin() == FLYPEND_OK) && _rates.registerCallback();
+}
+
+flypend_status Flypend::begin()
+{
+    _status = flypend_board_begin(&_board, &flypend_default_gains, &flypend_default_params);
+    return _status;
 }
 
 void Flypend::Run()
@@ -87,22 +93,33 @@ void Flypend::Run()
     if (!_rates.update(&rates)) {
         return;
     }
-    flypend_wrench wrench{0, {0, 0, 0}};
-    const bool known = _position.copy(&position) && _attitude.copy(&attitude) && _bob.copy(&bob)
-        && (rates.timestamp < bob.timestamp + BOB_TIMEOUT);
-    if (known) {
-        (void)_setpoint.copy(&setpoint); // without one it hovers at the origin
-        const flypend_state state = flypend_from_px4(position, attitude, rates, bob);
-        const flypend_path path = flypend_path_from_px4(setpoint);
-        flypend_reference reference;
-        (void)flypend_follow(&path, &state, &flypend_default_params, &reference);
-        (void)flypend_step(&state, &reference, &flypend_default_gains, &flypend_default_params, &wrench);
+    const int periods = flypend_due(rates.timestamp_sample, &_due);
+    if (periods == 0) {
+        return;
     }
-    flypend_rotors rotors;
+    for (int i = 1; i < periods; i++) {
+        (void)flypend_board_pass(&_board);
+    }
+    flypend_rotors rotors{};
+    if (_position.copy(&position) && _attitude.copy(&attitude) && _bob.copy(&bob)) {
+        (void)_setpoint.copy(&setpoint); // without one it hovers at the origin
+        flypend_measurement now = flypend_from_px4(position, attitude, rates, bob);
+        if (rates.timestamp >= bob.timestamp + BOB_TIMEOUT) {
+            now.y[0] = now.y[1] = now.y[2] = 0; // no rod, which the flight computer refuses
+        }
+        const flypend_path path = flypend_path_from_px4(setpoint);
+        _status = flypend_board_step(&_board, &now, &path, &flypend_default_params, &rotors);
+    }
     actuator_motors_s motors{};
-    (void)flypend_mix(&wrench, &flypend_default_params, &rotors);
     motors.timestamp = rates.timestamp;
     motors.timestamp_sample = rates.timestamp_sample;
     flypend_to_px4(rotors, flypend_default_params, order, motors);
     _motors.publish(motors);
+    debug_key_value_s told{};
+    told.timestamp = rates.timestamp;
+    told.value = static_cast<float>(_status);
+    for (int i = 0; i < 7; i++) {
+        told.key[i] = "flypend"[i];
+    }
+    _telemetry.publish(told);
 }

@@ -9,6 +9,7 @@
 #include <uORB/SubscriptionCallback.hpp>
 #include <uORB/topics/actuator_motors.h>
 #include <uORB/topics/debug_array.h>
+#include <uORB/topics/debug_key_value.h>
 #include <uORB/topics/trajectory_setpoint.h>
 #include <uORB/topics/vehicle_angular_velocity.h>
 #include <uORB/topics/vehicle_attitude.h>
@@ -16,9 +17,9 @@
 
 #include "flypend_law.h"
 
-// The state from PX4's estimates and a bob whose position and velocity (NED) are entries 0 to 2 and 3 to 5 of `bob`.
-flypend_state flypend_from_px4(const vehicle_local_position_s &position, const vehicle_attitude_s &attitude,
-                               const vehicle_angular_velocity_s &rates, const debug_array_s &bob);
+// What PX4 estimates, and a bob whose position and velocity (NED) are entries 0 to 2 and 3 to 5 of `bob`.
+flypend_measurement flypend_from_px4(const vehicle_local_position_s &position, const vehicle_attitude_s &attitude,
+                                     const vehicle_angular_velocity_s &rates, const debug_array_s &bob);
 
 // The path of the pivot from a setpoint (NED); what PX4 leaves open (NaN) counts as 0.
 flypend_path flypend_path_from_px4(const trajectory_setpoint_s &setpoint);
@@ -28,12 +29,16 @@ flypend_path flypend_path_from_px4(const trajectory_setpoint_s &setpoint);
 void flypend_to_px4(const flypend_rotors &rotors, const flypend_params &params, const int order[FLYPEND_ROTORS],
                     actuator_motors_s &motors);
 
-// Runs the law at every measurement of the angular velocity.
+// Runs the flight computer at the measurement of the angular velocity at which a control period begins, and tells its
+// status as the debug value "flypend". Without a bob it asks for no thrust; when the bob is lost in flight the vehicle
+// levels out and hovers.
 class Flypend : public px4::ScheduledWorkItem
 {
 public:
     Flypend();
     bool init();
+    // Call it right before lift-off: the ground pushes a vehicle that stands on it, which the observer takes for a force.
+    flypend_status begin();
 
 private:
     void Run() override;
@@ -44,4 +49,8 @@ private:
     uORB::Subscription _bob{ORB_ID(debug_array)};
     uORB::Subscription _setpoint{ORB_ID(trajectory_setpoint)};
     uORB::Publication<actuator_motors_s> _motors{ORB_ID(actuator_motors)};
+    uORB::Publication<debug_key_value_s> _telemetry{ORB_ID(debug_key_value)};
+    flypend_board _board{};
+    flypend_status _status{FLYPEND_NOT_BEGUN};
+    uint64_t _due{0};
 };

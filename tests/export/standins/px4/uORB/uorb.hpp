@@ -11,7 +11,10 @@ template <typename Message> struct Topic {
 };
 template <typename Message> Message Topic<Message>::message{};
 template <typename Message> bool Topic<Message>::given = false;
-enum class Id { vehicle_local_position, vehicle_attitude, vehicle_angular_velocity, debug_array, trajectory_setpoint, actuator_motors };
+enum class Id {
+    vehicle_local_position, vehicle_attitude, vehicle_angular_velocity, debug_array, debug_key_value, trajectory_setpoint,
+    actuator_motors
+};
 } // namespace standin
 #define ORB_ID(topic) standin::Id::topic
 

@@ -18,6 +18,11 @@ struct debug_array_s {
     uint64_t timestamp;
     float data[58];
 };
+struct debug_key_value_s {
+    uint64_t timestamp;
+    float value;
+    char key[10];
+};
 struct trajectory_setpoint_s {
     uint64_t timestamp;
     float position[3], velocity[3], acceleration[3], jerk[3];

@@ -1,0 +1,2 @@
+// Stand-in: see topics.hpp.
+#include <uORB/topics/topics.hpp>

@@ -1,0 +1,324 @@
+"""The exported board: against Python's, in flight, where it refuses, and how it goes on."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.random import default_rng
+
+import flypend as fp
+from flypend.board.computer import SteppedBoard
+from flypend.board.program import observer_memory
+from flypend.export import compiled, records, vectors
+from flypend.export.library import CompiledBoard, library
+from flypend.laws.references import circle
+from flypend.model.state import FLIP_PACKED
+from flypend.plants.equations import EquationsEngine
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Sampled
+
+VEHICLES = {name: fp.vehicle(name) for name in ("hehn2011", "crazyflie")}
+VEHICLE = VEHICLES["hehn2011"]
+INVERTED = fp.laws.inverted().bind(VEHICLE)
+OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE, NOT_BEGUN = range(9)
+START = fp.State.random(default_rng(3))
+LEAST, LARGEST = VEHICLE.rotor_limits
+
+
+def board(precision="double", rate=500.0, law=INVERTED, vehicle=VEHICLE):
+    return CompiledBoard(library(law, vehicle, precision, rate))
+
+
+# Numbers --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("machine", "name", "rate"),
+    [
+        ("hehn2011", "inverted", 500.0), ("crazyflie", "inverted", 300.0), ("hehn2011", "light", 100.0),
+        ("crazyflie", "corrected", 500.0), ("hehn2011", "lqr", 100.0),
+    ],
+)  # fmt: skip
+def test_it_commands_what_the_board_of_python_commands(machine, name, rate):
+    vehicle = VEHICLES[machine]
+    law = fp.laws.inverted(form="light") if name == "light" else getattr(fp.laws, name)()
+    bound = law.bind(vehicle)
+    loop = Loop(vehicle, bound, Sampled(rate=rate))
+    steps = 30
+    for precision, limit in (("double", 1e-12), ("float", 1e-4)):
+        wanted = vectors.flights(loop, 3, steps, 5, precision)
+        for flight in range(3):
+            code = board(precision, rate, bound, vehicle)
+            for i in range(flight * steps, (flight + 1) * steps):
+                rotors = code.step(wanted.measurement[i], wanted.path[i])
+                assert code.status == OK
+                assert np.linalg.norm(rotors - wanted.rotors[i]) < limit * vehicle.weight
+    assert np.ptp(wanted.rotors) > 0.1 * vehicle.weight / 4  # far from constant
+
+
+def test_six_rotors_a_full_inertia_matrix_and_other_numbers_at_run_time():
+    angles = np.deg2rad([30, 90, 150, 210, 270, 330])
+    vehicle = VEHICLE.replace(
+        inertia=((4e-3, 2e-4, -1e-4), (2e-4, 5e-3, 3e-4), (-1e-4, 3e-4, 7e-3)),
+        rotor_positions=np.stack([0.2 * np.cos(angles), 0.2 * np.sin(angles), 0 * angles], axis=1),
+        rotor_spins=(1, -1, 1, -1, 1, -1),
+    )
+    other = vehicle.replace(mass=0.7, bob_mass=0.06, drag_ratio=0.02, rotor_limits=(0.1, 3.0))
+    law = fp.laws.inverted().bind(vehicle)
+    changed = replace(fp.laws.inverted().bind(other), computer=law.computer)  # whose numbers are constants of the code
+    wanted = vectors.flights(Loop(other, changed, Sampled()), 1, 30, 2, "double")
+    code = library(law, vehicle, "double")
+    code.params[:] = records.params_of(other)
+    code.gains[:] = [changed.numbers[field.name] for field in code.made.gains.fields]
+    made = CompiledBoard(code)
+    rotors = np.array([made.step(m, p) for m, p in zip(wanted.measurement, wanted.path, strict=True)])
+    assert made.status == OK
+    assert np.max(np.abs(rotors - wanted.rotors)) < 1e-11
+
+
+def test_one_program_is_one_function_however_often_it_is_called():
+    code = library(INVERTED, VEHICLE, "double")
+    routine = code.made.board
+    calls = [routine.programs[call.program].name for call in routine.calls]
+    assert calls.count("twin_2000000") == 12
+    assert len(calls) > len(routine.programs) == len(set(calls))
+
+
+# Flights --------------------------------------------------------------------------------------------------------
+
+
+def _apart(one, other):
+    assert str(one.outcome) == str(other.outcome)
+    names = ("x", "x_dot", "R", "omega", "y", "y_dot", "rotor_forces")
+    return max(float(np.max(np.abs(getattr(one, name) - getattr(other, name)))) for name in names)
+
+
+WINDY = fp.Plant(wind=fp.Wind(on_vehicle=(0.3, 0, 0), on_bob=(0, 0.1, 0)), rate=200.0, delay=0.01)
+# A path of eight derivatives is shifted over the latency as far as they tell; hover is exact.
+MOVING = fp.laws.inverted(circle(0.5, 1.5), form="light")
+
+
+@pytest.mark.parametrize(
+    ("law", "plant", "limit"),
+    [
+        (fp.laws.inverted(), "mujoco", 1e-9), (fp.laws.inverted(), "rotors", 1e-9), (fp.laws.inverted(), WINDY, 1e-9),
+        (fp.laws.corrected(), "rotors", 1e-9), (MOVING, "rotors", 1e-4),
+    ],
+)  # fmt: skip
+def test_it_flies_as_the_kernel_does(law, plant, limit):
+    kernel = fp.simulate(VEHICLE, law, START, 4.0, plant=plant)
+    flown = fp.simulate(VEHICLE, compiled(law, VEHICLE), START, 4.0, plant=plant)
+    assert _apart(kernel, flown) < limit
+    assert flown.law == f"{law.name}-c"
+
+
+def test_nothing_of_the_flight_computer_is_left_in_python(monkeypatch):
+    def no(*_):
+        raise AssertionError("Python computed a command")
+
+    monkeypatch.setattr(SteppedBoard, "command", no)
+    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE), START, 0.2)
+    assert run.outcome.status == "completed"
+
+
+def test_single_precision_inverts_as_well():
+    python = fp.simulate(VEHICLE, fp.laws.inverted(), START, 4.0, plant="mujoco")
+    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), START, 4.0, plant="mujoco")
+    assert 1e-9 < _apart(python, run) < 1e-3  # another precision, the same flight
+    assert np.max(np.abs(run.y[-20:] - [0, 0, 1])) < 0.05
+
+
+@pytest.mark.parametrize("plant", ["rotors", "mujoco"])
+def test_the_crazyflie_stands_inverted_by_the_exported_c_alone(plant):
+    vehicle = VEHICLES["crazyflie"]
+    starts = fp.State.random(default_rng(2024), 6)
+    runs = fp.simulate_ensemble(
+        vehicle, compiled(fp.laws.inverted(), vehicle, "float"), starts, 8.0, plant=plant, workers=1
+    )
+    assert runs.rate == 1.0
+
+
+def test_a_refused_state_ends_a_flight_as_singular():
+    start = fp.State(y=(0, 0, 1), omega=(1e20, 1e20, 0))  # ω × I ω overflows single precision
+    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), start, 0.1, plant="rotors")
+    assert run.outcome.status == "singular"
+
+
+def test_it_needs_rotors_within_limits_and_its_vehicle():
+    flown = compiled(fp.laws.inverted(), VEHICLE)
+    for plant in ("ideal", "hehn2011", fp.Plant(limits=False)):
+        with pytest.raises(fp.InputError, match="plant: expected rotor forces within limits"):
+            fp.simulate(VEHICLE, flown, START, 0.1, plant=plant)
+    with pytest.raises(fp.InputError, match="vehicle: expected hehn2011, which the law was compiled for"):
+        fp.simulate(VEHICLE.replace(mass=1.0), flown, START, 0.1, plant="rotors")
+    with pytest.raises(fp.InputError, match="law: expected a Law"):
+        compiled(flown, VEHICLE)
+
+
+# Where it refuses -----------------------------------------------------------------------------------------------
+
+
+def _measurement(seed=7):
+    return fp.State.random(default_rng(seed)).packed().copy()
+
+
+def _broken(name):
+    measurement, path = _measurement(), np.zeros(27)
+    match name:
+        case "rod":
+            measurement[18:21] *= 1.001
+        case "position":
+            measurement[0] = np.nan
+        case "path":
+            path[3] = np.inf
+        case "rates":
+            measurement[16] = np.nan
+        case "attitude":
+            measurement[6:15] *= -1
+        case "everything":
+            measurement[:] = np.nan
+    return measurement, path
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "levels"),
+    [
+        ("rod", ROD, True), ("position", NOT_FINITE, True), ("path", NOT_FINITE, True), ("rates", NOT_FINITE, False),
+        ("attitude", ATTITUDE, False), ("everything", NOT_FINITE, False),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_the_safe_command_levels_where_the_attitude_can_be_trusted(name, status, levels, precision):
+    made = board(precision)
+    rotors = made.step(*_broken(name))
+    assert made.status == status
+    if levels:
+        assert np.ptp(rotors) > 0.01
+        assert np.all((rotors >= LEAST - 1e-6) & (rotors <= LARGEST + 1e-6))
+    else:
+        assert np.allclose(rotors, LEAST)
+
+
+@pytest.mark.parametrize("machine", VEHICLES)
+def test_without_a_rod_to_be_seen_the_vehicle_levels_out_and_keeps_its_height(machine):
+    vehicle = VEHICLES[machine]
+    law = fp.laws.inverted().bind(vehicle)
+    for seed in range(8):
+        made, engine = board(law=law, vehicle=vehicle), EquationsEngine(vehicle)
+        start = fp.State.random(default_rng(seed))
+        engine.reset(fp.State(R=start.R, omega=start.omega, y=(0, 0, -1)).packed(), np.full(4, vehicle.rotor_limits[0]))
+        for _ in range(1500):
+            measured = engine.packed.copy()
+            measured[18:] = np.nan
+            engine.step(made.step(measured), 2e-3, np.zeros(6))
+            assert made.status == NOT_FINITE
+        state = fp.State.from_packed(engine.packed)
+        assert state.z[2] > 0.999
+        assert np.linalg.norm(state.omega) < 0.1
+        # Its speed is what turning over cost; it grows no more.
+        before = state.x_dot[2]
+        for _ in range(250):
+            engine.step(made.step(np.append(engine.packed[:18], np.full(6, np.nan))), 2e-3, np.zeros(6))
+        assert abs(engine.packed[5] - before) < 0.1
+
+
+def test_a_dropout_in_flight_is_survived():
+    made, engine, idle = board(), EquationsEngine(VEHICLE), np.full(4, LEAST)
+    engine.reset(fp.State(y=(0, 0, 1)).packed(), idle)
+    wind = np.array([0.3, 0, 0, 0, 0.02, 0])
+    believed = []
+    for k in range(2500):
+        measured = engine.packed.copy()
+        if 1500 <= k < 1515:  # 30 ms
+            measured[18] = np.nan
+        rotors = made.step(measured)
+        assert (made.status == OK) == (not 1500 <= k < 1515)
+        engine.step(rotors, 2e-3, wind)
+        n = len(idle)
+        believed.append(made.memory[n + 13 : n + 16].copy())  # the estimate of the sum of the forces
+    assert observer_memory(made.code.made.loop) == 19
+    assert np.allclose(believed[1499], wind[:3] + wind[3:], atol=0.05)
+    assert np.allclose(believed[1515], believed[1499], atol=0.05)  # kept over the gap, not begun from nothing
+    assert fp.State.from_packed(engine.packed).y[2] > 0.98
+
+
+def test_after_a_refusal_it_remembers_the_command_that_was_given():
+    made, n = board(), 4
+    for _k in range(20):
+        made.step(_measurement(), np.zeros(27))
+    before = made.memory.copy()
+    safe = made.step(_broken("rod")[0])
+    assert made.status == ROD
+    commands = slice(n + 19, n + 23)
+    assert np.array_equal(made.memory[commands], safe)
+    depth = (len(before) - n - 19) // n
+    acting = before[n + 19 + n * (depth - 1) :][:n]  # 24 ms of latency are twelve periods: the oldest acts
+    lag = np.exp(-2e-3 / VEHICLE.rotor_lag)
+    assert np.allclose(made.memory[:n], acting + (before[:n] - acting) * lag, rtol=1e-12)
+    assert np.all(np.isfinite(made.memory))
+
+
+def test_a_period_without_a_call_repeats_the_last_command():
+    made, n = board(), 4
+    last = made.step(_measurement())
+    made.step(_measurement(8))
+    last = made.memory[n + 19 : n + 23].copy()
+    made.skip()
+    assert made.status == OK
+    assert np.array_equal(made.memory[n + 19 : n + 27], [*last, *last])
+    assert made.memory[n] == 0  # the observer begins anew
+
+
+def test_no_measurement_no_board_no_params_are_refused_and_answered():
+    made, rotors = board(), np.full(4, np.nan)
+    assert np.allclose(made.step(None), LEAST)
+    assert made.status == NULL
+    code = made.code
+    for arguments in ([None] * 4, [None, _measurement(), np.zeros(27), code.params]):
+        rotors[:] = np.nan
+        assert code.call("flypend_board_step", *arguments, rotors) == NULL
+        assert np.all(np.isfinite(rotors))
+    assert code.call("flypend_board_step", *[None] * 5) == NULL
+    assert code.call("flypend_board_begin", None, code.gains, code.params) == NULL
+    assert code.call("flypend_board_pass", None) == NULL
+
+
+def test_a_board_that_was_not_begun_or_is_damaged_is_refused():
+    made = board()
+    made.memory[5] = np.nan
+    made.step(_measurement(), np.zeros(27))
+    assert made.status == NOT_BEGUN
+    made.skip()
+    assert made.status == NOT_BEGUN
+    blank = np.zeros(10_000, np.uint8)
+    rotors = np.empty(4)
+    assert (
+        made.code.call("flypend_board_step", blank, _measurement(), np.zeros(27), made.code.params, rotors) == NOT_BEGUN
+    )
+    assert np.all(rotors >= LEAST)
+    other = library(INVERTED, VEHICLE, "double", 250.0)  # a board of the same law at another rate
+    fresh = board()
+    assert (
+        other.call("flypend_board_step", fresh.numbers, _measurement(), np.zeros(27), other.params, rotors) == NOT_BEGUN
+    )
+
+
+def test_a_vehicle_with_other_spins_stops_the_rotors():
+    turned = VEHICLE.replace(rotor_spins=-VEHICLE.rotor_spins)
+    code = library(INVERTED, VEHICLE, "double")
+    made, params = CompiledBoard(code), records.params_of(turned)
+    rotors = np.full(4, np.nan)
+    blank = np.zeros(10_000, np.uint8)
+    assert code.call("flypend_board_begin", blank, code.gains, params) == WRONG_VEHICLE
+    assert code.call("flypend_board_step", made.numbers, _measurement(), np.zeros(27), params, rotors) == WRONG_VEHICLE
+    assert np.array_equal(rotors, np.zeros(4))
+
+
+def test_a_law_with_the_other_third_axis_is_flown_in_its_own():
+    law = fp.laws.corrected().bind(VEHICLE)
+    assert law.e3 == "down"
+    made = board(law=law)
+    state = _measurement()
+    python = SteppedBoard(Loop(VEHICLE, law, Sampled()), np.full(4, LEAST))
+    assert np.allclose(made.step(state), python.command(0.0, state), rtol=1e-12)
+    assert not np.allclose(made.step(state * FLIP_PACKED), python.command(0.0, state), rtol=1e-2)

@@ -12,8 +12,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
-from flypend.flight.sampled import Samples
-from flypend.flight.sampled import fly as step_by_step
+from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
@@ -172,9 +171,7 @@ def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
         kernel = kernel_of(flight)
         assert isinstance(kernel, SampledKernel)
         return sampled_samples(kernel, flight)
-    seeded = plant.replace(seed=flight.seed)
-    flown = step_by_step(flight.vehicle, flight.law, flight.starts, flight.duration, seeded)
-    return flown.at(flight.moments * plant.rate)
+    return fly_stepwise(flight).at(flight.moments * plant.rate)
 
 
 def _reference(law: BoundLaw | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:

@@ -12,8 +12,7 @@ from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
-from flypend.flight.sampled import Samples
-from flypend.flight.sampled import fly as step_by_step
+from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
@@ -130,9 +129,7 @@ def _stepped_part(flight: Flight, rotors: Any) -> Part:
     """A part that is flown step by step in Python."""
     plant = flight.plant
     assert isinstance(plant, Sampled)
-    seeded = plant.replace(seed=flight.seed)
-    flown = step_by_step(flight.vehicle, flight.law, flight.starts, flight.duration, seeded, rotors)
-    return _part_from(flown.at(flight.moments * plant.rate), flight, plant)
+    return _part_from(fly_stepwise(flight, rotors).at(flight.moments * plant.rate), flight, plant)
 
 
 def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:

@@ -287,7 +287,7 @@ def test_the_table_of_the_page_has_the_defaults():
 
 
 def test_its_commands_can_be_typed(monkeypatch):
-    monkeypatch.chdir(Path(fp.__file__).parent)  # where the examples are
+    monkeypatch.chdir(Path(fp.__file__).parent)  # which has the folder that `flypend examples` writes
     lines = re.findall(r"^    (flypend .*)$", PAGE, flags=re.MULTILINE)
     assert len(lines) >= 5
     for line in lines:

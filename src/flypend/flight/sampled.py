@@ -20,7 +20,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.laws import Controller
-from flypend.model.state import FLIP_PACKED, MAX_STATE
+from flypend.model.state import MAX_STATE, seen_packed
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
@@ -56,7 +56,7 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
     vehicle, law, plant = loop.vehicle, loop.law, loop.sampled.replace(seed=flight.seed)
     start, duration = flight.starts, flight.duration
     engine = make_engine(plant.true_vehicle(vehicle), plant)
-    packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    packed = seen_packed(start.packed(), law.e3)
     begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)

@@ -18,7 +18,7 @@ from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
-from flypend.model.state import FLIP_PACKED, split
+from flypend.model.state import seen_packed, split
 from flypend.plants import AnyPlant, Ideal, Sampled
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     return Trajectory(
         t=samples.t,
-        **split(samples.packed * (1.0 if law.e3 == "up" else FLIP_PACKED)),
+        **split(seen_packed(samples.packed, law.e3)),
         thrust=wrench[:, 0],
         moment=wrench[:, 1:],
         rotor_forces=samples.rotors,

@@ -17,7 +17,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
-from flypend.model.state import FLIP_PACKED, E3Direction, split
+from flypend.model.state import E3Direction, seen_packed, split
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
@@ -134,7 +134,7 @@ def _stepped_part(flight: Flight, rotors: Any) -> Part:
 
 def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
     e3, true = flight.law.e3, plant.true_vehicle(flight.vehicle)
-    packed = samples.packed * (1.0 if e3 == "up" else FLIP_PACKED)
+    packed = seen_packed(samples.packed, e3)
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
 
 

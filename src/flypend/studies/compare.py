@@ -82,7 +82,7 @@ def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State
         raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
     flights: dict[str, Flight] = {}
     for law in laws:
-        own = starts if law.e3 == "up" else starts.flipped()
+        own = starts.seen(law.e3)
         name = _free_name(law.name, flights)
         flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
     return flights

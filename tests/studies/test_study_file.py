@@ -112,7 +112,6 @@ def test_a_default_that_is_spelt_out_changes_nothing():
         ("final", 1, "final: expected true or false"),
         ("precision", "half", "precision: expected one of double, float"),
         ("precision", "float", "precision: expected 'double' in a sampled flight"),
-        ("plant", "mujoco", "plant: expected one that is compiled"),
         ("plant", "ideal", "vary.plant: expected a plant with numbers"),
         ("law.name", "corected", "law.name: "),
         ("criterion.rods", 1.0, "criterion.rods: "),

@@ -157,6 +157,13 @@ def test_the_python_of_the_readme_runs_as_it_stands(tmp_path, monkeypatch, capsy
     np.testing.assert_array_equal(fp.load(saved).y, run.y)
 
 
+def test_the_python_of_the_page_of_flights_runs(capsys):
+    page = (ROOT / "docs" / "flight" / "flights.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
+    exec(compile(code, "flights.md", "exec"), {})
+    assert capsys.readouterr().out.startswith("completed at 6 s 1.0 ")
+
+
 def commands():
     """Every line of flypend that the README or an example tells one to type."""
     sources = [README, *(path.read_text(encoding="utf-8") for path in TOML + OWN)]
@@ -196,6 +203,19 @@ def test_a_command_that_is_named_can_be_typed(at_home, line):
     laws = options.get("law") or ()
     for law in [laws] if isinstance(laws, str) else laws:
         assert law_named(law).bind(VEHICLE)
+
+
+def commands_of_pages():
+    """Lines of flypend that a page in docs tells one to type, but for those that leave something out."""
+    pages = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").rglob("*.md"))]
+    return sorted({line for text in pages for line in re.findall(r"^    (flypend [^…\n]*)$", text, flags=re.MULTILINE)})
+
+
+@pytest.mark.parametrize("line", commands_of_pages())
+def test_a_command_of_a_page_can_be_typed(at_home, line):
+    """Its options exist and take such values; files may be the reader's own."""
+    assert len(commands_of_pages()) >= 8
+    parsed(line)
 
 
 @pytest.mark.parametrize("line", ["flypend ladder --step 1", "flypend fly", "flypend compare --runs many"])

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from flypend.studies.sweep.study import Study, study
     from flypend.studies.tune import Objective, Tuned, tune
 
-__version__ = "0.1.0"
+__version__ = "0.2.0.dev0"
 
 # Where each name is defined.
 _WHERE = {

@@ -111,7 +111,10 @@ def final(run):
         (lambda: Plant(seed=0.5), "plant.seed: expected an integer >= 0, got 0.5"),
         (lambda: Plant().replace(rates=50), "plant.rates: expected one of engine, limits"),
         (lambda: Plant().replace(rate=-50), "plant.rate: expected a finite number > 0 Hz, got -50"),
-        (lambda: plant("rotor"), "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean 'rotors'"),
+        (
+            lambda: plant("rotor"),
+            "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean 'rotors'",
+        ),
         (lambda: plant(None), "plant: expected a Plant, Ideal() or one of ideal, rotors, mujoco, hehn2011, got None"),
     ],
 )

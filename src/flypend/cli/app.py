@@ -1,4 +1,4 @@
-"""Command line: arguments in, one call, a table out. Bad input is one line and exit code 2."""
+"""The commands: parse arguments, make one call, print a table. Bad input prints one line and exits with code 2."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from flypend.cli.viewing import Style
 from flypend.errors import InputError
 
 app = typer.Typer(
-    help="Spherical pendulum on a quadrotor: reproduce the paper, fly experiments, see what holds.",
+    help="Spherical pendulum on a quadrotor: reproduce the paper, test its claims, fly your own experiments.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -31,7 +31,7 @@ app.add_typer(viewing.app)
 app.add_typer(studies.app)
 app.add_typer(examples.app)
 
-Out = Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")]
+Out = Annotated[Path, typer.Option("--out", "-o", help="Output folder.")]
 
 
 def _version(wanted: bool) -> None:
@@ -43,22 +43,22 @@ def _version(wanted: bool) -> None:
 @app.callback()
 def _root(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
     debug: Annotated[
-        bool, typer.Option("--debug", help="Show the whole traceback of a mistake, as in flypend --debug run 1.")
+        bool, typer.Option("--debug", help="Show the full traceback of an error, as in flypend --debug run 1.")
     ] = False,
 ) -> None:
-    """Options of all commands."""  # main looks for --debug itself: it must know when nothing else could be read
+    """Options common to all commands."""  # main looks for --debug itself: it must work even if parsing fails
 
 
 @app.command()
 def paper(
     out: Out = Path("paper-out"),
-    quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out: seconds instead of a minute.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Skip the movies: seconds instead of a minute.")] = False,
     style: Style = "paper",
 ) -> None:
-    """Fly the paper's five experiments and say for every claim whether it holds.
+    """Fly the paper's five experiments and check every claim of its theorem.
 
     Writes figures, stop-motion, movies, every run as NetCDF, report.md and report.json.
     """
@@ -69,8 +69,8 @@ def paper(
         result = reproduce(out, quick=quick, style=style, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(findings_table(result.findings))
-    console.print(f"The promise kept by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
-    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; read report.md first.")
+    console.print(f"One swing-up by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
+    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; start with report.md.")
 
 
 @app.command()
@@ -79,30 +79,30 @@ def run(
         str, typer.Argument(help="An experiment of the paper (1, 2, 2-projected, 3, 4, 5) or a TOML file.")
     ],
     out: Out = Path("run-out"),
-    law: Annotated[str | None, typer.Option("--law", help=f"In place of the law there: {LAW_HELP}.")] = None,
+    law: Annotated[str | None, typer.Option("--law", help=f"Replace the law: {LAW_HELP}.")] = None,
     override: Annotated[
         list[str] | None,
         typer.Option(
             "--set", metavar="KEY=VALUE", help="Override a setting, such as law.gains.k_d=2 or law.name=printed."
         ),
     ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Leave the movies out.")] = False,
-    figures: Annotated[bool, typer.Option(help="Draw the figures (--no-figures leaves movies out as well).")] = True,
+    quick: Annotated[bool, typer.Option("--quick", help="Skip the movies.")] = False,
+    figures: Annotated[bool, typer.Option(help="Draw the figures (--no-figures also skips the movies).")] = True,
     controller: Annotated[
-        str | None, typer.Option(help="python, or the law exported and compiled: c (double) or c-float.")
+        str | None, typer.Option(help="python, or the law as exported, compiled C: c (double) or c-float.")
     ] = None,
     html: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Write the replay, a page for any browser, as well.")
+        Path | None, typer.Option("--html", metavar="FILE", help="Also write the replay, a page for any browser.")
     ] = None,
     style: Style = "paper",
 ) -> None:
-    """Fly one experiment, or one's own vehicle, law, gains and start.
+    """Fly one experiment of the paper, or your own vehicle, law, gains and start.
 
-    A TOML file has the keys [bold]vehicle[/bold] (a name, or a table), [bold]law[/bold] (name, or function, and gains),
-    [bold]start[/bold] (x, x_dot, R, omega, y, y_dot), [bold]duration[/bold] in seconds, and optionally
-    [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]experiment[/bold], which brings all but the
-    plant, and [bold]rtol[/bold]. A law that holds a position takes a [bold]reference[/bold] (shape and its numbers).
-    [bold]controller[/bold] = "c" flies the law as exported C, in the plants rotors and mujoco.
+    A TOML file has the keys [bold]vehicle[/bold] (a name or a table), [bold]law[/bold] (a name or a function, and
+    gains), [bold]start[/bold] (x, x_dot, R, omega, y, y_dot) and [bold]duration[/bold] in seconds. Optional keys are
+    [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]rtol[/bold], and [bold]experiment[/bold],
+    which supplies whatever else the file leaves out. A law that holds a position accepts a [bold]reference[/bold]
+    (a shape and its parameters). [bold]controller[/bold] = "c" flies the law as exported C, on rotors and mujoco.
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
@@ -123,7 +123,7 @@ def run(
     if html is not None:
         check_file(html, (".html",))
     trajectory = fly(flight)
-    # A rod that is driven would spin ever faster: only the law that settles is flown for longer.
+    # Only the corrected law is flown for longer: a law that drives the rod would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
     settled = fly(longer) if trajectory.law == "corrected" else None
     from flypend.report.flight import write_flight
@@ -150,12 +150,12 @@ def run(
 
 Laws = Annotated[
     list[str] | None,
-    typer.Option("--law", help=f"What steers: {LAW_HELP}; repeat it."),
+    typer.Option("--law", help=f"Law to fly: {LAW_HELP}; repeatable."),
 ]
-Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts read with e₃ up.")]
+Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts, read in the e₃-up frame.")]
 Runs = Annotated[int, typer.Option("--runs", help="Number of random starts.", min=1)]
 Seed = Annotated[int, typer.Option("--seed", help="Seed of the random starts.", min=0)]
-VehicleName = Annotated[str, typer.Option("--vehicle", help="Name of a vehicle, or a TOML file.")]
+VehicleName = Annotated[str, typer.Option("--vehicle", help="Vehicle name or TOML file.")]
 Duration = Annotated[float, typer.Option("--duration", help="Seconds per flight.")]
 
 
@@ -170,9 +170,10 @@ def compare(
     plant: Annotated[str, typer.Option("--plant", help="ideal, rotors, mujoco or hehn2011.")] = "rotors",
     duration: Duration = 10.0,
 ) -> None:
-    """Fly laws, one's own included, from the same starts: one table, one figure.
+    """Compare laws, your own included, from the same starts: one table, one figure.
 
-    Success is to stand inverted within 0.05 and 0.2 m of the reference during the last second.
+    A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the vehicle stays within 0.2 m
+    of its reference.
     """
     from flypend.files.staging import check_writable
     from flypend.report.studies import comparison_table, write_comparison
@@ -199,9 +200,9 @@ def ladder(
     seed: Seed = 1,
     vehicle: VehicleName = "hehn2011",
     duration: Duration = 10.0,
-    rung: Annotated[list[str] | None, typer.Option("--rung", help="Only this rung; repeat it.")] = None,
+    rung: Annotated[list[str] | None, typer.Option("--rung", help="Fly only this rung; repeatable.")] = None,
 ) -> None:
-    """See which step towards reality breaks which law: limits, lag, sampling, delay, noise, mismatch, pivot offset."""
+    """Find what breaks each law: rotor limits, lag, sampling, delay, noise, model mismatch or a pivot offset."""
     from flypend import errors
     from flypend.files.staging import check_writable
     from flypend.report.studies import ladder_table, write_ladder
@@ -220,7 +221,7 @@ def ladder(
 
 @app.command()
 def circles(law: Laws = None, seed: Seed = 1) -> None:
-    """Hover and two circles in the set-up of Hehn and D'Andrea (2011), beside what they published."""
+    """Fly hover and two circles in the set-up of Hehn and D'Andrea (2011), next to their published results."""
     from flypend.report.studies import tracking_table
     from flypend.studies.hehn import hehn2011
 
@@ -229,17 +230,17 @@ def circles(law: Laws = None, seed: Seed = 1) -> None:
 
 @app.command()
 def lab(
-    host: Annotated[str, typer.Option("--host", help="Address to listen on; others let other machines in.")] = (
+    host: Annotated[str, typer.Option("--host", help="Address to listen on; the default admits this machine only.")] = (
         "127.0.0.1"
     ),
-    port: Annotated[int, typer.Option("--port", help="Port; 0 takes a free one.", min=0, max=65535)] = 0,
-    browser: Annotated[bool, typer.Option(help="Open the page in a browser (--no-browser does not).")] = True,
+    port: Annotated[int, typer.Option("--port", help="Port; 0 picks a free one.", min=0, max=65535)] = 0,
+    browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,
     law: Annotated[
         list[str] | None,
-        typer.Option("--law", help="A law of one's own to choose, file.py:function or module:function; repeat it."),
+        typer.Option("--law", help="Custom law to offer, file.py:function or module:function; repeatable."),
     ] = None,
 ) -> None:
-    """Open the laboratory in a browser: move sliders, drag the rod, poke; the flight follows. Ctrl-C ends it."""
+    """Open the laboratory in a browser: move sliders, drag the rod, poke it, and watch the flight. Ctrl-C stops it."""
     from flypend.lab import serve
     from flypend.settings.laws import law_named
 
@@ -253,14 +254,14 @@ def lab(
 
 @app.command("export-c")
 def export_c(
-    law: Annotated[str, typer.Option("--law", help=f"What to write: {LAW_HELP}.")] = "inverted",
+    law: Annotated[str, typer.Option("--law", help=f"Law to export: {LAW_HELP}.")] = "inverted",
     vehicle: VehicleName = "hehn2011",
     out: Out = Path("c-out"),
     precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
     rate: Annotated[float, typer.Option("--rate", help="Control rate, Hz.")] = 500.0,
-    light: Annotated[bool, typer.Option("--light", help="The light form of the inverted law.")] = False,
+    light: Annotated[bool, typer.Option("--light", help="Export the light form of the inverted law.")] = False,
 ) -> None:
-    """Write the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
+    """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
@@ -275,13 +276,13 @@ def export_c(
         raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
     write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate)
-    console.print(f"C code of the {chosen.name} law is in {bold(out)}; read README.md there first.")
+    console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
 def _study(
     names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
 ) -> tuple[list[Any], Any, Any, dict[str, Any]]:
-    """Laws, starts and vehicle of a study, checked, and the settings that say so in its report."""
+    """Return the validated laws, starts and vehicle of a study, and the settings for its report."""
     from flypend import errors, model
     from flypend.studies import law_named, paper_starts, random_starts
 
@@ -300,7 +301,7 @@ def _plant(name: str) -> Any:
     from flypend import errors
     from flypend.plants import PRESETS, plant
 
-    return plant(errors.one_of("--plant", name, PRESETS))  # says so if it is not installed
+    return plant(errors.one_of("--plant", name, PRESETS))  # raises if an extra is not installed
 
 
 def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
@@ -315,17 +316,17 @@ def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
 
 def main() -> None:
     """Run the command line; bad input prints one line and exits with code 2."""
-    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as after Ctrl-C
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as on Ctrl-C
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # where the encoding of the terminal lacks ✓ or ẍ
+            stream.reconfigure(errors="replace")  # the terminal's encoding may lack ✓ or ẍ
     try:
         code = app(standalone_mode=False)
     except (InputError, TyperException) as error:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, TyperException) else str(error)
-        if message:  # without arguments the help has been printed already
+        if message:  # empty without arguments: the help has already been printed
             line = " ".join(f"flypend: {message}".split())
             Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
         sys.exit(2)

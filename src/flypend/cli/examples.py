@@ -1,4 +1,4 @@
-"""The command that writes the examples: files of flights and studies, and a law of one's own."""
+"""The command that writes the examples: run files, a study, and a custom law."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ SUFFIXES = (".toml", ".py")
 
 @app.command()
 def examples(
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the examples.")] = Path("examples"),
-    force: Annotated[bool, typer.Option("--force", help="Replace files that differ from the examples.")] = False,
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("examples"),
+    force: Annotated[bool, typer.Option("--force", help="Overwrite files that differ from the examples.")] = False,
 ) -> None:
-    """Write the examples: run files, a study, a law of one's own. A file that is there already is left as it is."""
+    """Write the examples: run files, a study, a custom law. Existing files are not overwritten without --force."""
     contents = {name: source.read_bytes() for name, source in shipped().items()}
     if not force:
         _check_free(out, contents)
@@ -36,14 +36,14 @@ def examples(
 
 
 def shipped() -> dict[PurePosixPath, Traversable]:
-    """The examples in this installation, by their names in the folder of examples."""
+    """Return the examples shipped with the package, by path relative to the output folder."""
 
     def walk(folder: Traversable, name: PurePosixPath) -> dict[PurePosixPath, Traversable]:
         found: dict[PurePosixPath, Traversable] = {}
         for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
             if entry.is_dir():
                 found |= walk(entry, name / entry.name)
-            elif entry.name.endswith(SUFFIXES):  # and not what Python compiled
+            elif entry.name.endswith(SUFFIXES):  # skips Python's bytecode
                 found[name / entry.name] = entry
         return found
 
@@ -54,4 +54,4 @@ def _check_free(out: Path, contents: dict[PurePosixPath, bytes]) -> None:
     for name, content in contents.items():
         place = out / name
         if place.is_file() and place.read_bytes() != content:
-            raise InputError(str(place), "nothing there, or the example (--force replaces it)", "another file")
+            raise InputError(str(place), "no file, or the example itself (--force overwrites it)", "another file")

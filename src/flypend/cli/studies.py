@@ -1,4 +1,4 @@
-"""Commands for studies of many flights: arguments in, one call, what came of it out."""
+"""The commands for studies of many flights: sweep, map and tune."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from flypend.cli.terminal import LAW_HELP, bold, console, stepped, tell_how
 
 app = typer.Typer()
 
-StudyFile = Annotated[Path, typer.Argument(help="TOML file of the study; docs/studies/studies.md lists its keys.")]
-Store = Annotated[Path, typer.Option("--out", "-o", help="Zarr store that receives the runs, ending in .zarr.")]
+StudyFile = Annotated[Path, typer.Argument(help="TOML file of the study; docs/studies/studies.md lists the keys.")]
+Store = Annotated[Path, typer.Option("--out", "-o", help="Zarr store for the runs; its name ends in .zarr.")]
 Scheduler = Annotated[
     str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786.")
 ]
 Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Cores of this machine to use; default all.")]
-Processes = Annotated[bool, typer.Option("--processes", help="Use worker processes in place of threads.")]
-Law = Annotated[str | None, typer.Option("--law", help=f"In place of the law of the study: {LAW_HELP}.")]
-Force = Annotated[bool, typer.Option("--force", help="Begin anew, whatever a sweep has left there.")]
+Processes = Annotated[bool, typer.Option("--processes", help="Use worker processes instead of threads.")]
+Law = Annotated[str | None, typer.Option("--law", help=f"Replace the law of the study: {LAW_HELP}.")]
+Force = Annotated[bool, typer.Option("--force", help="Start over: discard the store of an earlier sweep.")]
 
 
 @app.command()
@@ -49,7 +49,7 @@ def sweep(
 ) -> None:
     """Fly a study of up to 10⁷ runs into a Zarr store.
 
-    Stopped in any way, the same command goes on where it was; the result is the same to the last bit.
+    After any interruption, the same command resumes the sweep. The result is bit-identical to an uninterrupted one.
     """
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep import sweep as fly
@@ -65,17 +65,17 @@ def sweep(
 @app.command("map")
 def draw_map(
     what: Annotated[
-        Path | None, typer.Argument(help="Store of a sweep (.zarr), or the TOML file of a study, which is flown first.")
+        Path | None, typer.Argument(help="Store of a sweep (.zarr), or the TOML file of a study to fly first.")
     ] = None,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Picture: .png, .pdf or .svg.")] = Path("map.png"),
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output file: .png, .pdf or .svg.")] = Path("map.png"),
     x: Annotated[
-        str | None, typer.Option("--x", help="Quantity along the plane, such as tilt, rate or gains.k_d.")
+        str | None, typer.Option("--x", help="Quantity on the horizontal axis, such as tilt, rate or gains.k_d.")
     ] = None,
-    y: Annotated[str | None, typer.Option("--y", help="Quantity up the plane.")] = None,
+    y: Annotated[str | None, typer.Option("--y", help="Quantity on the vertical axis.")] = None,
     law: Annotated[
-        str | None, typer.Option("--law", help=f"In place of a store, from random starts: {LAW_HELP}.")
+        str | None, typer.Option("--law", help=f"Instead of a store or study, fly this law from random starts: {LAW_HELP}.")
     ] = None,
-    vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: name of a vehicle.")] = None,
+    vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: vehicle name or TOML file.")] = None,
     plant: Annotated[str, typer.Option("--plant", help="With --law: rotors, ideal or hehn2011.")] = "rotors",
     runs: Annotated[int, typer.Option("--runs", min=1, help="With --law: number of runs.")] = 100_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="With --law: seed of the starts.")] = 1,
@@ -117,13 +117,13 @@ def draw_map(
 @app.command()
 def tune(
     study: StudyFile,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the results.")] = Path("tune-out"),
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("tune-out"),
     workers: Workers = None,
     law: Law = None,
 ) -> None:
-    """Improve gains on the objective of a study, by CMA-ES; report on starts that were not tuned on.
+    """Tune gains on the objective of a study, by CMA-ES, and report on held-out starts.
 
-    Writes tuned.toml, which [bold]flypend run[/bold] takes, and the history of the search with its picture.
+    Writes tuned.toml, an input of [bold]flypend run[/bold], and the history of the search as JSON and as a figure.
     """
     from flypend.files.staging import check_writable
     from flypend.report.tuning import told as told_of
@@ -144,7 +144,7 @@ def tune(
 
 
 def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force: bool) -> None:
-    """Fly the study with this `content` into `store`, with a progress bar, and say what came of it."""
+    """Fly the study with this `content` into `store`, show a progress bar, and print the success rate."""
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep import sweep as fly
 
@@ -156,7 +156,7 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
 
 
 def told(successes: int, runs: int) -> str:
-    """A success rate with its interval, in words."""
+    """Format a success rate with its 95 % confidence interval."""
     from flypend.flight.metrics import wilson
 
     low, high = wilson(successes, runs)
@@ -165,7 +165,7 @@ def told(successes: int, runs: int) -> str:
 
 
 class _Rate(ProgressColumn):
-    """Runs per second."""
+    """Column of the progress bar: runs per second."""
 
     def render(self, task: Task) -> Text:
         return Text("" if task.speed is None else f"{task.speed:,.0f}/s")
@@ -173,14 +173,14 @@ class _Rate(ProgressColumn):
 
 @contextmanager
 def run_counter(name: str) -> Iterator[Callable[[int, int], None]]:
-    """A progress bar with rate and remaining time, told (done, total); on a terminal only."""
+    """Yield the callback `(done, total)` of a progress bar with rate and remaining time; silent off a terminal."""
     on = Console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
     with Progress(*columns, console=on, transient=True, disable=not on.is_terminal) as bar:
         tasks: list[TaskID] = []
 
         def tell(done: int, total: int) -> None:
-            if not tasks:  # what was there already is not counted into the rate
+            if not tasks:  # runs flown earlier do not count towards the rate
                 tasks.append(bar.add_task(escape(name), total=total, completed=done))
             bar.update(tasks[0], completed=done)
 

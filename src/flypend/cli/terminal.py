@@ -1,4 +1,4 @@
-"""What commands share: the console, progress bars, and how a path is shown."""
+"""Shared by all commands: the console, progress bars and the formatting of paths."""
 
 from __future__ import annotations
 
@@ -17,33 +17,33 @@ LAW_HELP = "a name (inverted, lqr, corrected, printed, detuned), file.py:functio
 
 @contextmanager
 def counter() -> Iterator[Callable[[str, int, int], None]]:
-    """A progress bar that is told what is done, of how many, under which name."""
+    """Yield the callback `(name, done, total)` of a progress bar."""
     with progress() as bar:
         task = bar.add_task("starting", total=None)
         yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
 
 
 def progress() -> Progress:
-    """An empty progress bar, on stderr if that is a terminal and nowhere else."""
+    """Return an empty progress bar on stderr; it is silent if stderr is not a terminal."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     on = Console(stderr=True)
     return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
 
 
 def bold(path: Path) -> str:
-    """`path` in bold, whatever is in its name."""
+    """Return `path` in bold, any markup in its name escaped."""
     return f"[bold]{escape(str(path))}[/bold]"
 
 
 def stepped(law: Any) -> bool:
-    """Whether a `law` flies step by step in Python, so that only processes make use of more than one core."""
+    """Whether `law` flies step by step in Python, so that only processes can use more than one core."""
     from flypend.laws import Controller
 
     return isinstance(law, Controller)
 
 
 def tell_how(law: Any) -> None:
-    """Say in one line, on stderr, that no compiled code flies a `law`, where that is so."""
+    """Print one line on stderr if `law` cannot be compiled."""
     from flypend.settings.laws import note
 
     if said := note(law):

@@ -1,4 +1,4 @@
-"""Commands that look at runs that were saved: replay, movie, figures."""
+"""The commands for saved runs: replay, movie and figures."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from flypend.cli.terminal import bold, console, counter, progress
 
 app = typer.Typer()
 
-Saved = Annotated[Path, typer.Argument(help="A run that flypend saved (.nc).")]
-Style = Annotated[str, typer.Option("--style", help="paper (one or two columns) or slides (16:9, larger letters).")]
+Saved = Annotated[Path, typer.Argument(help="A run saved by flypend (.nc).")]
+Style = Annotated[str, typer.Option("--style", help="paper (one or two columns) or slides (16:9, larger fonts).")]
 
 
 @app.command()
 def replay(
-    runs: Annotated[list[Path], typer.Argument(help="One to four saved runs (.nc); the first is followed.")],
-    out: Annotated[Path, typer.Option("--out", "-o", help="The page (.html).")] = Path("replay.html"),
+    runs: Annotated[list[Path], typer.Argument(help="One to four saved runs (.nc); the camera follows the first.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output page (.html).")] = Path("replay.html"),
     beside: Annotated[
-        bool, typer.Option("--beside", help="A picture for each run; default one, with ghosts. The page can change it.")
+        bool, typer.Option("--beside", help="One panel per run; default one panel with ghosts. The page can switch.")
     ] = False,
-    title: Annotated[str | None, typer.Option("--title", help="Default the laws and vehicles.")] = None,
-    speed: Annotated[float, typer.Option("--speed", help="Time of the flight over time of playback.")] = 1.0,
+    title: Annotated[str | None, typer.Option("--title", help="Title; default the laws and vehicles.")] = None,
+    speed: Annotated[float, typer.Option("--speed", help="Flight time over playback time.")] = 1.0,
 ) -> None:
-    """Write saved runs as one page that opens from disk, offline, in any browser: play, scrub, turn, compare."""
+    """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare."""
     from flypend.flight.trajectory import load
 
     first, *others = [load(path) for path in runs]
@@ -36,12 +36,12 @@ def replay(
 @app.command()
 def movie(
     run: Saved,
-    out: Annotated[Path, typer.Option("--out", "-o", help="The movie, .mp4 or .gif.")] = Path("flight.mp4"),
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output movie (.mp4 or .gif).")] = Path("flight.mp4"),
     camera: Annotated[str, typer.Option("--camera", help="side, or axis (from above, along gravity).")] = "side",
-    speed: Annotated[float, typer.Option("--speed", help="Time of the flight over time of playback.")] = 0.25,
-    fps: Annotated[float, typer.Option("--fps", help="Pictures per second of playback.")] = 30,
+    speed: Annotated[float, typer.Option("--speed", help="Flight time over playback time.")] = 0.25,
+    fps: Annotated[float, typer.Option("--fps", help="Frames per second of playback.")] = 30,
     size: Annotated[
-        tuple[int, int], typer.Option("--size", metavar="WIDTH HEIGHT", help="In pixels, even numbers.")
+        tuple[int, int], typer.Option("--size", metavar="WIDTH HEIGHT", help="Size in pixels; even numbers.")
     ] = (640, 640),
 ) -> None:
     """Write a slow-motion movie of a saved run."""
@@ -62,10 +62,10 @@ def movie(
 @app.command()
 def figures(
     run: Saved,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder that receives the figures.")] = Path("figures-out"),
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("figures-out"),
     style: Style = "paper",
 ) -> None:
-    """Draw the figures of a saved run, each as vectors (.pdf) and as .png."""
+    """Draw the figures of a saved run, each as .pdf and .png."""
     from flypend.files.staging import check_writable, staged
     from flypend.flight.trajectory import load
     from flypend.pictures.style import style_named

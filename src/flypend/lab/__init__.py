@@ -1,8 +1,8 @@
-"""The laboratory: a page on this machine in which a flight changes while one moves a slider."""
+"""The laboratory: a page in the browser whose sliders change a flight while it plays."""
 
 from flypend import errors
 
 errors.require("tornado", extra="lab", for_="lab")
-from flypend.lab.server import serve  # noqa: E402  brings tornado
+from flypend.lab.server import serve  # noqa: E402  imports tornado
 
 __all__ = ["serve"]

@@ -1,4 +1,4 @@
-"""What a page offers: laws, plants, presets, and the sliders of a setting with their ranges and present values."""
+"""The controls of the page: laws, plants, presets, and the sliders of a setting with their ranges and values."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 
 PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
-FACTOR = 4.0  # of a gain's slider, either way
+FACTOR = 4.0  # a gain's slider spans its default divided and multiplied by this
 
 
 def offer(own: OwnLaws | None = None) -> dict[str, Any]:
-    """What there is to choose from, laws of one's `own` included, the presets, and the setting to begin with."""
+    """Return the choices (including the custom laws `own`), the presets, and the initial setting."""
     mine = list(own or ())
     first = {
         "vehicle": {"base": "hehn2011"},
@@ -44,7 +44,7 @@ STARTS = {"hanging": (0.0, 0.0, -1.0), "level": (1.0, 0.0, 0.0), "leaning": (0.2
 
 
 def _preset(name: str) -> dict[str, Any]:
-    """An experiment of the paper as a setting, its start turned into the frame with e₃ up."""
+    """An experiment of the paper as a setting, its start flipped into the e₃-up frame."""
     row = experiment(name)
     return {
         "vehicle": {"base": row.vehicle.name},
@@ -57,7 +57,7 @@ def _preset(name: str) -> dict[str, Any]:
 
 
 def sliders(setting: Setting) -> list[dict[str, Any]]:
-    """The sliders of `setting`: path in it, group, words, unit, value, range, whether logarithmic."""
+    """Return the sliders of `setting`: path in it, group, label, unit, value, range, and whether logarithmic."""
     flight, law = setting.flight, setting.law
     given, proposed = law.gains_for(flight.vehicle), law.proposed(flight.vehicle)
     out = []
@@ -72,7 +72,7 @@ def sliders(setting: Setting) -> list[dict[str, Any]]:
 
 
 def _reach(usual: float) -> tuple[float, float, bool]:
-    """Ends of the slider of a gain whose usual value this is, and whether it is logarithmic."""
+    """Range of the slider of a gain whose default is `usual`, and whether it is logarithmic."""
     if usual > 0:
         return usual / FACTOR, usual * FACTOR, True
     return (usual * FACTOR, -usual * FACTOR, False) if usual < 0 else (-1.0, 1.0, False)
@@ -111,9 +111,9 @@ def _slider(
     log: bool = False,
     put: Any = None,
 ) -> dict[str, Any]:
-    """One slider; the range reaches the value, whoever set it.
+    """One slider; its range is widened to include `value`.
 
-    `put` is what to write at `path`, {"#": factor} in it standing for factor times the value; None for the value.
+    `put` is what the page writes at `path`, where {"#": factor} stands for factor times the value; None for the value.
     """
     return {
         "path": path, "group": group, "words": words, "unit": unit, "value": float(value),

@@ -1,4 +1,4 @@
-"""A setting as the TOML that `flypend run` takes, and as the Python lines that do the same."""
+"""A setting as a run file for `flypend run`, and as equivalent Python."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ POKED = "# The pokes of the laboratory are left out: this is the flight without 
 
 
 def toml(setting: Setting) -> str:
-    """The run file of `setting`, without its pokes."""
+    """Return the run file of `setting`, without its pokes."""
     flight = setting.flight
     base, changed = _vehicle(flight.vehicle)
     written = {
@@ -31,7 +31,7 @@ def toml(setting: Setting) -> str:
 
 
 def python(setting: Setting) -> str:
-    """Lines of Python that make the trajectory `run` of `setting`, without its pokes."""
+    """Return Python code that computes the trajectory `run` of `setting`, without its pokes."""
     flight = setting.flight
     base, changed = _vehicle(flight.vehicle)
     machine = f"fp.vehicle({base!r})" + (f".replace({_arguments(changed)})" if changed else "")
@@ -48,7 +48,7 @@ def python(setting: Setting) -> str:
 
 
 def _law(setting: Setting) -> dict[str, Any]:
-    """The law as a run file has it."""
+    """The law, as in a run file."""
     law = setting.law
     said = {"function": setting.where} if setting.where else {"name": law.name}
     return said | ({"gains": dict(law.given)} if law.given else {})
@@ -60,13 +60,13 @@ def _law_call(setting: Setting) -> str:
 
 
 def _vehicle(machine: Vehicle) -> tuple[str, dict[str, Any]]:
-    """The vehicle's name, and the fields in which it differs from the one of that name."""
+    """The vehicle's name, and the fields that differ from the shipped vehicle of that name."""
     own, named = machine.to_dict(), vehicle(machine.name).to_dict()
     return machine.name, {name: value for name, value in own.items() if value != named[name]}
 
 
 def _plant(plant: AnyPlant) -> str | dict[str, Any]:
-    """The plant as a run file has it: "ideal", "rotors", or a table of what differs from it."""
+    """The plant, as in a run file: "ideal", "rotors", or a table of the fields that differ from "rotors"."""
     if isinstance(plant, Ideal):
         return "ideal"
     changed: dict[str, Any] = {}
@@ -79,12 +79,12 @@ def _plant(plant: AnyPlant) -> str | dict[str, Any]:
 
 
 def _record(record: Any) -> dict[str, Any]:
-    """The fields of a noise or a wind, lists for tuples."""
+    """The fields of a `Noise` or a `Wind`, tuples as lists."""
     return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(record).items()}
 
 
 def _plant_call(plant: AnyPlant) -> str:
-    """The plant as an expression."""
+    """The plant as a Python expression."""
     table = _plant(plant)
     if isinstance(table, str):
         return repr(table)

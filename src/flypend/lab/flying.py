@@ -1,4 +1,4 @@
-"""The flight of a setting: from poke to poke, each part from the state in which the one before was hit."""
+"""The flight of a setting, in parts: each poke ends one part, and the state it leaves starts the next."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ STILL = Wrench(0.0, np.zeros(3))
 
 @dataclass(frozen=True)
 class Part:
-    """Samples between two pokes: times from the start of the part, packed states, rotor forces, wrench, outcome."""
+    """Samples between two pokes: time since the start of the part, packed states, rotor forces, wrench, outcome."""
 
     t: Any
     packed: Any
@@ -35,9 +35,9 @@ class Part:
 
 
 def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
-    """The trajectory of `setting`, pokes included, in the frame of its law.
+    """Fly `setting`, pokes included, and return the trajectory in the frame of its law.
 
-    After a poke it goes on for the duration of the setting. `tell` is called before something is compiled.
+    The flight continues for the duration of the setting after the last poke. `tell` is called before a compilation.
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
@@ -56,9 +56,10 @@ def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
 
 
 def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
-    """`state` (frame `e3`) after the blow of `poke`: the rates that its force, for one second, adds at once.
+    """Return `state` (frame `e3`) after the impulse of `poke`: x_dot and y_dot jump, all else stays.
 
-    The accelerations are affine in external forces, and only what a force adds to them counts in a blow.
+    The accelerations are affine in the external force, so the jump is the acceleration with the force, minus that
+    without it, times one second.
     """
     mass = vehicle.bob_mass if poke.on == "bob" else vehicle.mass
     blow = {f"force_on_{poke.on}": mass * in_frame(poke.velocity, e3)}
@@ -70,7 +71,7 @@ def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
 
 
 def verdict(run: Trajectory, machine: Tuned | Stepped) -> dict[str, Any]:
-    """Whether `run` does what its law is to do: words, whether it is good, and the numbers."""
+    """Evaluate `run` by the criterion of its law: a line of text, success, settling time (s) and excursion (m)."""
     judged = metrics(run, machine.criterion)
     distance = f"excursion {round(judged.excursion, 2):.3g} m"
     if run.outcome.status != "completed":
@@ -79,7 +80,7 @@ def verdict(run: Trajectory, machine: Tuned | Stepped) -> dict[str, Any]:
         pose = "upright" if run.e3 == "up" else "rod along e₃, which hangs,"
         words = f"{pose} after {judged.settling:.1f} s, {distance}"
     else:
-        missed = {"rod": "rod not settled", "axis": "vehicle not level", "position": "away from its place"}
+        missed = {"rod": "rod not settled", "axis": "vehicle not level", "position": "off its reference"}
         words = f"{missed.get(judged.cause, judged.cause)} during the last second, {distance}"
     settling = judged.settling if judged.success else None
     excursion = judged.excursion if np.isfinite(judged.excursion) else None
@@ -89,7 +90,7 @@ def verdict(run: Trajectory, machine: Tuned | Stepped) -> dict[str, Any]:
 def _after(
     machine: Tuned | Stepped, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int
 ) -> Part:
-    """Part `number` of a flight: from `state` and the forces of the `rotors`, for `duration` s, with its own noise."""
+    """Fly part `number`: from `state` and the rotor forces `rotors` (N), for `duration` s, with its own noise."""
     if isinstance(flight.plant, Sampled):
         duration = max(duration, 1 / flight.plant.rate)
     elif duration == 0 and isinstance(machine, Tuned):
@@ -126,7 +127,7 @@ def _sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any
 
 
 def _stepped_part(flight: Flight, rotors: Any) -> Part:
-    """A part that is flown step by step in Python."""
+    """Fly a part step by step in Python."""
     plant = flight.plant
     assert isinstance(plant, Sampled)
     return _part_from(fly_stepwise(flight, rotors).at(flight.moments * plant.rate), flight, plant)
@@ -139,7 +140,7 @@ def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
 
 
 def _moved(part: Part, begin: float, *, last: bool) -> Part:
-    """`part` in the time of the whole flight, without the instant at which the next begins."""
+    """Shift `part` to flight time and drop its last sample, which the next part repeats."""
     keep = slice(None) if last or part.outcome.status != "completed" else slice(0, -1)
     outcome = Outcome(part.outcome.status, begin + part.outcome.time, part.outcome.reason)
     return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)

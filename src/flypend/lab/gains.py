@@ -1,4 +1,4 @@
-"""The gains of the laws: which have sliders."""
+"""Which gains of a law have sliders."""
 
 from __future__ import annotations
 
@@ -6,5 +6,5 @@ from flypend.laws import Controller, Law
 
 
 def sliders_of(law: Law | Controller) -> tuple[str, ...]:
-    """Gains of `law` that have sliders: numbers with a label."""
+    """Return the names of the gains of `law` that have sliders: numeric gains with a label."""
     return tuple(name for name, gain in law.table.items() if gain.label and gain.numeric)

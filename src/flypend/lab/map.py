@@ -1,4 +1,4 @@
-"""The region of attraction over the directions of the rod, chunk by chunk."""
+"""The region of attraction over initial directions of the rod, chunk by chunk."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from flypend.model.state import SHAPES
 from flypend.plants import Ideal
 
 RUNS, CHUNK = {"ideal": 3000, "sampled": 1200, "stepped": 96}, {"ideal": 200, "sampled": 24, "stepped": 2}
-# Powers of the inverse of the root of x³ = x + 1: the additive sequence that fills a square most evenly.
+# 1/ρ and 1/ρ² for the plastic number ρ³ = ρ + 1: Roberts's R2 low-discrepancy sequence on the unit square.
 STEPS = (0.7548776662466927, 0.5698402909980532)
 
 
 def directions(count: int) -> Any:
-    """`count` unit vectors (count, 3), each for the same area of S², and so in every beginning of them."""
+    """Return `count` unit vectors (count, 3) spread evenly over S²; every prefix is spread evenly, too."""
     height, turn = (np.modf(0.5 + step * np.arange(count))[0] for step in STEPS)
     y_3 = 1 - 2 * height
     level = np.sqrt(1 - y_3**2)
@@ -28,9 +28,10 @@ def directions(count: int) -> Any:
 
 
 def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, Any]]:
-    """Flights of `setting` from rods at rest in all directions, the rest of its start as it is.
+    """Fly `setting` with the rod at rest in all directions, the rest of its start unchanged, and yield chunks.
 
-    Each chunk has `total`, `done`, and of its flights `y` (e₃ up), `settling` (s; None for a failure) and `cause`.
+    A chunk holds `total`, `done` and, for each of its flights, `y` (e₃ up), `settling` (s; None for a failure) and
+    `cause`.
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)

@@ -1,4 +1,4 @@
-"""Laws of one's own that pages may choose, by name. A page never says which file to run."""
+"""Custom laws, which a page selects by name. A page can never name a file to run."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from flypend.settings.laws import absolute, law_named
 
 @dataclass(frozen=True, eq=False)
 class OwnLaw:
-    """A law of one's own.
+    """A custom law.
 
     Parameters
     ----------
     law : Law or Controller
         The law.
     where : str
-        `file.py:function`, the path absolute, or `module:function`.
+        `file.py:function` with an absolute path, or `module:function`.
     stamp : str
-        Digest of its file, so that what was compiled from another text is not flown.
+        Digest of its file, so that code compiled from an older version is never flown.
     """
 
     law: Law | Controller
@@ -34,9 +34,9 @@ class OwnLaw:
 
 
 class OwnLaws:
-    """The laws of one's own called `names`, as `--law` takes them; a file that has changed is read again.
+    """The custom laws called `names`, like `--law`; a file that has changed is read again.
 
-    Raises InputError for one that is none.
+    Raises InputError if a name does not lead to a law.
     """
 
     def __init__(self, names: Iterable[str] = ()) -> None:
@@ -50,15 +50,15 @@ class OwnLaws:
             self._kept[title] = own
 
     def __iter__(self) -> Iterator[str]:
-        """Their names."""
+        """Iterate over the names."""
         return iter(self._kept)
 
     def __contains__(self, name: object) -> bool:
-        """Whether one is called so."""
+        """Whether there is a law called `name`."""
         return isinstance(name, str) and name in self._kept
 
     def __getitem__(self, name: str) -> OwnLaw:
-        """The law called `name`, as its file says now. Raises InputError for a mistake in it."""
+        """Return the law called `name`, from its file as it is now. Raises InputError if the file has an error."""
         kept = self._kept[name]
         if kept.stamp != _stamp(kept.where):
             kept = self._kept[name] = _loaded(kept.where)
@@ -71,7 +71,7 @@ def _loaded(where: str) -> OwnLaw:
 
 
 def _tunable(law: Law) -> Law:
-    """`law` with sliders only for what can be an input of compiled code: not for a gain that decides an `if`."""
+    """Return `law` with sliders only for gains that can be inputs of compiled code, such as none in an `if`."""
     example = vehicle("hehn2011")
 
     def usable(gain: Gain) -> bool:

@@ -1,4 +1,4 @@
-"""The page of the laboratory: what there is to choose from, inside a shell that loads one program."""
+"""The page of the laboratory: an HTML shell that embeds the choices and loads one script."""
 
 from __future__ import annotations
 
@@ -25,6 +25,6 @@ PAGE = """<!doctype html>
 
 
 def page(own: OwnLaws | None = None) -> str:
-    """The page, as text, with laws of one's `own` to choose from."""
+    """Return the page as HTML, offering the custom laws `own`."""
     data = {"title": "flypend laboratory", "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": []}
     return PAGE.format(data=replay.embedded({**data, "offer": offer(own)}))

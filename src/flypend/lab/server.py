@@ -1,7 +1,7 @@
-"""The server of the laboratory: one page, its program and a socket, for browsers on this machine unless told otherwise.
+"""The server of the laboratory: a page, its script and a socket. By default it admits only this machine.
 
-A page of another site that gets a browser to call here is refused by its origin; another name that was made to
-point here, by the host in the request.
+The origin check refuses a foreign site that makes a browser connect here (cross-site requests); the host check refuses
+a foreign name that resolves to this server (DNS rebinding).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from flypend.lab.page import page
 from flypend.lab.session import Slot, flights, maps, read, refusal
 from flypend.pages import replay
 
-LARGEST_MESSAGE = 64 * 1024  # bytes; a setting takes one or two thousand
+LARGEST_MESSAGE = 64 * 1024  # bytes; a setting needs one or two thousand
 MOST_PAGES = 32
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; img-src data:; "
@@ -40,7 +40,7 @@ POLICY = (
 
 
 class Laboratory:
-    """What all pages share: two threads, one for flights and one for maps, and the pages that are open."""
+    """State shared by all pages: one thread for flights, one for maps, and the set of open pages."""
 
     def __init__(self, host: str, own: OwnLaws | None = None) -> None:
         self.host, self.own = host, own or OwnLaws()
@@ -49,7 +49,7 @@ class Laboratory:
         self.maps = ThreadPoolExecutor(1, "flypend-map")
 
     def trusts(self, host: str) -> bool:
-        """Whether a request for `host`, as a browser wrote it, is for this server and not for a name pointing here."""
+        """Whether the Host header `host` names this server, and not a foreign name that resolves to it."""
         name = urlsplit(f"//{host}").hostname or ""
         if name in ("localhost", self.host):
             return True
@@ -60,7 +60,7 @@ class Laboratory:
         return address.is_loopback or not _is_loopback(self.host)
 
     def application(self) -> Application:
-        """Page, program and socket."""
+        """Build the Tornado application: page, script and socket."""
         shared = {"laboratory": self}
         return Application(
             [
@@ -68,14 +68,14 @@ class Laboratory:
                 (r"/lab\.js", Page, {**shared, "kind": "text/javascript", "content": replay.program("lab")}),
                 (r"/socket", Socket, shared),
             ],
-            log_function=lambda _: None,  # a refusal is told to who asked
+            log_function=lambda _: None,  # the client is told of a refusal; no need to log it
             websocket_max_message_size=LARGEST_MESSAGE,
             websocket_ping_interval=20,
             websocket_ping_timeout=20,
         )
 
     def close(self) -> None:
-        """Leave every page and every thread; what is being computed ends with its present piece."""
+        """Close every page and thread; work in progress stops after its current reply."""
         for open_page in list(self.pages):
             open_page.leave()
         for pool in (self.flights, self.maps):
@@ -83,10 +83,10 @@ class Laboratory:
 
 
 class Page(RequestHandler):
-    """A file that is made once."""
+    """A file built once, at start."""
 
     def initialize(self, laboratory: Laboratory, kind: str, content: str) -> None:
-        """Keep what to send: `content` of the media type `kind`."""
+        """Store `content`, of the media type `kind`."""
         self.laboratory, self.kind, self.content = laboratory, kind, content
 
     def prepare(self) -> None:
@@ -95,7 +95,7 @@ class Page(RequestHandler):
             raise HTTPError(403)
 
     def get(self) -> None:
-        """Send it."""
+        """Send the file."""
         self.set_header("Content-Type", f"{self.kind}; charset=utf-8")
         self.set_header("Content-Security-Policy", POLICY.format(host=self.request.host))
         self.set_header("X-Content-Type-Options", "nosniff")
@@ -105,10 +105,10 @@ class Page(RequestHandler):
 
 
 class Socket(WebSocketHandler):
-    """One page that is open."""
+    """The connection to one open page."""
 
     def initialize(self, laboratory: Laboratory) -> None:
-        """A page of `laboratory`."""
+        """Connect the page to `laboratory`, with a slot for flights and one for maps."""
         self.laboratory = laboratory
         self.slots = {
             "fly": Slot(laboratory.flights, partial(flights, own=laboratory.own), self._send),
@@ -116,24 +116,24 @@ class Socket(WebSocketHandler):
         }
 
     def prepare(self) -> None:
-        """Refuse requests for another host, and more pages than one person opens."""
+        """Refuse requests for another host, and too many open pages."""
         if not self.laboratory.trusts(self.request.host):
             raise HTTPError(403)
         if len(self.laboratory.pages) >= MOST_PAGES:
             raise HTTPError(503)
 
     def check_origin(self, origin: str) -> bool:
-        """Only the page of this server may open a socket."""
+        """Whether `origin` is this server's own page; no other may open a socket."""
         parts = urlsplit(origin)
         return parts.scheme in ("http", "https") and parts.netloc == self.request.host
 
     def open(self, *_: str, **__: str) -> None:
-        """Remember the page."""
+        """Register the page."""
         self.laboratory.pages.add(self)
         self.set_nodelay(True)
 
     async def on_message(self, message: str | bytes) -> None:
-        """Put work into its slot, or say what is wrong with the message."""
+        """Put the request into its slot, or reply with the error."""
         try:
             asked = read(message)
         except InputError as error:
@@ -145,11 +145,11 @@ class Socket(WebSocketHandler):
             self.slots[asked["kind"]].put(asked)
 
     def on_close(self) -> None:
-        """Drop what was asked for."""
+        """Drop the page's requests."""
         self.leave()
 
     def leave(self) -> None:
-        """Forget the page and what it asked for."""
+        """Unregister the page and drop its requests."""
         self.laboratory.pages.discard(self)
         for slot in self.slots.values():
             slot.drop()
@@ -173,20 +173,20 @@ def serve(
     Parameters
     ----------
     host : str
-        Address to listen on; anything but a loopback address lets other machines in.
+        Address to listen on; any but a loopback address admits other machines.
     port : int
         Port; 0 for a free one.
     browser : bool
         Whether to open the page in a browser.
     laws : sequence of str
-        Laws of one's own to choose from, as `file.py:function` or `module:function`.
+        Custom laws to offer, as `file.py:function` or `module:function`.
     announce : callable
-        Told the address of the page once it is there.
+        Called with the address of the page once the server is listening.
 
     Raises
     ------
     InputError
-        If one cannot listen there, and for a law that is none.
+        If the address is unavailable, or if a custom law cannot be loaded.
     """
     own = OwnLaws(laws)
     asyncio.run(_serve(_listen(host, port), Laboratory(host, own), browser, announce))
@@ -216,7 +216,7 @@ async def _serve(
     url = address(laboratory.host, listening.getsockname()[1])
     announce(url)
     if browser:
-        threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()  # some wait for their user
+        threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()  # some browsers block until closed
     try:
         await stop.wait()
     finally:
@@ -226,7 +226,7 @@ async def _serve(
 
 
 def address(host: str, port: int) -> str:
-    """What to type into a browser of this machine for a server on `host` and `port`."""
+    """Return the URL, for a browser on this machine, of a server on `host` and `port`."""
     errors.number("port", port, at_least=1)
     shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)  # noqa: S104
     return f"http{'://'}{shown}:{port}/"

@@ -1,4 +1,4 @@
-"""What happens with the messages of one page: the last one asked for is the one that is answered."""
+"""The messages of one page: parsed, queued and answered. Only the latest request is answered."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from flypend.lab.tuning import tuned
 from flypend.pages import replay
 
 log = logging.getLogger(__name__)
-MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands exhaust the parser
+MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands overflow the parser's stack
 KINDS = ("fly", "map", "stop")
 Send = Callable[[dict[str, Any]], Awaitable[Any]]
 Tell = Callable[[], Any]
 
 
 class Slot:
-    """Room for one piece of work: what comes while it is busy waits, and only the last that came is done next.
+    """A queue of length one: while a request is in progress, only the latest new one is kept.
 
-    `work(message, tell)` is an iterator of replies, made in a thread of `pool` one by one; it is dropped when another
-    message comes. `send` takes each reply.
+    `work(message, tell)` returns an iterator of replies, which a thread of `pool` advances one by one; a new message
+    abandons it. `send` sends each reply.
     """
 
     def __init__(self, pool: Executor, work: Callable[[Any, Tell], Iterator[dict[str, Any]]], send: Send) -> None:
@@ -40,13 +40,13 @@ class Slot:
         self.task: asyncio.Task[None] | None = None
 
     def put(self, message: Any) -> None:
-        """Ask for `message`, instead of whatever waits."""
+        """Queue `message` in place of any that waits."""
         self.pending = message
         if self.task is None or self.task.done():
             self.task = asyncio.get_running_loop().create_task(self._run())
 
     def drop(self) -> None:
-        """Leave what waits, and what is under way as soon as its present piece is made."""
+        """Discard the waiting request, and abandon the one in progress after its current reply."""
         self.pending = False
 
     async def _run(self) -> None:
@@ -65,7 +65,7 @@ class Slot:
         while True:
             try:
                 reply = await loop.run_in_executor(self.pool, next, replies, None)
-            except Exception as error:  # a page waits for an answer, and others for the server
+            except Exception as error:  # the page needs a reply, and the server must survive for the others
                 log.exception("a setting could not be flown")
                 reason = f"{type(error).__name__}: {error}"
                 await self.send(
@@ -84,9 +84,9 @@ async def _ignore(sent: Awaitable[Any]) -> None:
 
 
 def flights(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, Any]]:
-    """The reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports.
+    """Yield the reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports.
 
-    `own` are laws of one's own.
+    `own` are the custom laws.
     """
     begun = time.perf_counter()
     number = message.get("number")
@@ -110,7 +110,7 @@ def flights(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str,
 
 
 def maps(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, Any]]:
-    """The replies to "map": chunks of the region of attraction; `own` are laws of one's own."""
+    """Yield the replies to "map": chunks of the region of attraction; `own` are the custom laws."""
     number = message.get("number")
     try:
         for chunk in region(setting_of(message.get("setting"), own), tell):
@@ -120,12 +120,12 @@ def maps(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, An
 
 
 def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
-    """The reply to what cannot be done."""
+    """Return the reply to a request that failed with `error`."""
     return {"kind": "error", "number": number, "field": error.field, "message": str(error)}
 
 
 def read(text: Any) -> dict[str, Any]:
-    """The message in `text`. Raises InputError if it is none."""
+    """Parse the message `text`. Raises InputError if it is not a valid message."""
     try:
         nested = isinstance(text, str) and text.count("[") + text.count("{") > MOST_BRACKETS
         message = json.loads(text) if isinstance(text, str) and not nested else None

@@ -1,7 +1,7 @@
-"""What a page asks for: a setting in plain JSON, checked, into a flight and the pokes on the way.
+"""A page's request: a setting in plain JSON, validated and turned into a flight and its pokes.
 
 A setting has the keys of a run file (vehicle, law, plant, start, duration) and `pokes`. Its start and its pokes are in
-the frame with e₃ up, whatever the law: who changes the law keeps the start.
+the e₃-up frame whatever the law, so that a change of law keeps the start.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ TABLES: Mapping[str, tuple[str, ...]] = {
     "start": (*SHAPES, "random"),
 }
 LONGEST, MOST_POKES = 30.0, 20
-# Bounds of what makes a flight long to compute: (least, largest).
+# Bounds (low, high) of plant parameters that make a flight expensive.
 BOUNDS = {"rate": (20.0, 2000.0), "delay": (0.0, 0.2), "lag": (0.0, 1.0)}
-FURTHEST = 100.0  # of a gain from the one proposed, as a factor
-# Largest entries of a start, SI.
+FURTHEST = 100.0  # largest ratio of a gain to its default, either way
+# Largest magnitude of an entry of the start, SI.
 LARGEST = {"x": 1e3, "x_dot": 1e3, "omega": 100.0, "y_dot": 100.0}
 BODIES = ("bob", "vehicle")
-SYMBOLS = RLock()  # CasADi's symbols are shared by no two threads
+SYMBOLS = RLock()  # CasADi expressions must not be used by two threads at once
 
 
 @dataclass(frozen=True)
 class Poke:
-    """At `time` (s) a body ("bob" or "vehicle") is hit as if, free, it would take the `velocity` (3,), m/s, e₃ up."""
+    """An impulse at `time` (s) on a body ("bob" or "vehicle"): its mass times `velocity` (3,), m/s, e₃ up."""
 
     time: float
     on: str
@@ -53,9 +53,9 @@ class Poke:
 
 @dataclass(frozen=True)
 class Setting:
-    """A flight to make, its law as it was asked for, the pokes on the way, and its start with e₃ up.
+    """A validated request: the flight, the law as requested, the pokes, and the start in the e₃-up frame.
 
-    A law of one's own also says where it is, and which text it was read from.
+    For a custom law, `where` is its location and `stamp` the digest of its file.
     """
 
     flight: Flight
@@ -67,7 +67,7 @@ class Setting:
 
 
 def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
-    """The setting that a page asks for, which may name one of the laws of one's `own`.
+    """Validate a page's request `asked`, which may name one of the custom laws `own`.
 
     Raises InputError for anything unknown, missing or out of range.
     """
@@ -79,7 +79,7 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
         if isinstance(given.get(key), dict):
             errors.only_known(key, given[key], known)
     if isinstance(given.get("plant"), dict) and given["plant"].get("base") == "ideal":
-        given["plant"] = "ideal"  # what was set of another plant waits
+        given["plant"] = "ideal"  # the page keeps the fields of the sampled plant for later; ignore them
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)
@@ -89,20 +89,20 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
         flight = run_of(given).flight
         _check_size(flight)
         return Setting(flight, law, pokes, start)
-    others = run_of({**given, "law": {"name": "corrected"}}).flight  # all but the law
+    others = run_of({**given, "law": {"name": "corrected"}}).flight  # everything but the law
     _check_size(others)
     flight = others.replace(law=law.bind(others.vehicle), plant=others.plant)
     return Setting(flight, law, pokes, start, own[named].where, own[named].stamp)
 
 
 def _law(given: dict[str, Any], own: OwnLaws) -> Law | Controller:
-    """The law that a page asks for, its gains near enough to those proposed for steps to follow its loops."""
+    """The requested law, its gains close enough to the defaults for the integrator to resolve its loops."""
     for key in ("vehicle", "law"):
         check_plain(key, given.get(key, {}))
     machine = given.get("vehicle")
     named = machine.get("base") if isinstance(machine, dict) else machine
-    errors.one_of("vehicle", named, vehicle_names())  # a page reads no files
-    with np.errstate(all="ignore"):  # as in `run_of`
+    errors.one_of("vehicle", named, vehicle_names())  # a page must not read files
+    with np.errstate(all="ignore"):  # like `run_of`
         vehicle = Vehicle.from_dict(vehicle_table(given.get("vehicle")))
         table = table_at(given, "law")
         law = own[table["name"]].law if table.get("name") in own else law_from_dict({**table, "gains": {}})
@@ -114,12 +114,12 @@ def _law(given: dict[str, Any], own: OwnLaws) -> Law | Controller:
 
 
 def plain(state: State) -> dict[str, Any]:
-    """The fields of `state` as lists."""
+    """Return the fields of `state` as lists."""
     return {name: getattr(state, name).tolist() for name in SHAPES}
 
 
 def _start(given: Any) -> State:
-    """The state in the table `given`; with `random`, a seed, what is not given is random."""
+    """The state in the table `given`; if it has a seed `random`, the missing fields are random."""
     if not isinstance(given, dict):
         raise InputError("start", "a table", repr(given)[:80])
     fields = dict(given)
@@ -129,7 +129,7 @@ def _start(given: Any) -> State:
     try:
         y = errors.array("y", fields.get("y"), (3,))
         length = errors.number("|y|", geometry.norm(y), above=1e-3)
-        fields["y"] = y / length  # a page that drags the rod keeps neither length nor tangency
+        fields["y"] = y / length  # dragging the rod preserves neither unit length nor tangency
         y_dot = errors.array("y_dot", fields.get("y_dot", (0.0, 0.0, 0.0)), (3,))
         fields["y_dot"] = geometry.project_tangent(fields["y"], y_dot)
         start = State(**fields)
@@ -177,7 +177,7 @@ def _check_size(flight: Flight) -> None:
 
 
 def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
-    """Whether `law` takes its gains for `vehicle`, and its loops are no faster than steps can follow."""
+    """Raise InputError if `law` rejects its gains for `vehicle`, or if a loop is too fast for the integrator."""
     proposed = law.proposed(vehicle)
     for name, value in law.given.items():
         usual = proposed[name]
@@ -185,12 +185,12 @@ def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
             expected = f"{usual / FURTHEST:.3g} to {usual * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
     try:
-        with SYMBOLS:  # a law that is bound for the first time may be linearised
+        with SYMBOLS:  # the first binding of a law may linearise it
             law.bind(vehicle)
     except InputError as error:
         raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 
 
 def in_frame(vector: Any, e3: str) -> Any:
-    """`vector` (3,), given with e₃ up, in the frame `e3`."""
+    """Return `vector` (3,), given in the e₃-up frame, in the frame `e3`."""
     return np.asarray(vector, dtype=float) if e3 == "up" else FLIP @ vector

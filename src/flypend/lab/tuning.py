@@ -1,4 +1,4 @@
-"""Flights whose gains, lag, noise and wind are inputs of the machine code: others compile nothing."""
+"""Compiled flights whose gains, lag, noise and wind are inputs: changing them recompiles nothing."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ Tell = Callable[[], Any]
 
 @dataclass(frozen=True)
 class Tuned:
-    """What flies a flight.
+    """A compiled closed loop.
 
     Parameters
     ----------
     kernel : IdealKernel or SampledKernel
         The machine code; the parameters of its loop are inputs.
     wrench : Function
-        (t, state, gains) → thrust and moment, as commanded.
+        (t, state, gains) → commanded thrust and moment.
     """
 
     kernel: IdealKernel | SampledKernel
@@ -43,28 +43,28 @@ class Tuned:
 
     @property
     def vehicle(self) -> Vehicle:
-        """What flies."""
+        """The vehicle."""
         return self.kernel.loop.vehicle
 
     @property
     def law(self) -> BoundLaw:
-        """The law of the machine code, whose `names` are inputs."""
+        """The compiled law; its gains `names` are inputs."""
         return self.kernel.loop.symbolic
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Gains that are inputs."""
+        """The gains that are inputs."""
         return self.kernel.loop.parameters
 
     @property
     def criterion(self) -> Criterion:
-        """What the flight should do."""
+        """The success criterion."""
         return self.kernel.criterion
 
 
 @dataclass(frozen=True)
 class Stepped:
-    """What flies a flight whose law is not written in symbols: `vehicle`, bound `law`, and what it should do."""
+    """A closed loop whose law is not symbolic: `vehicle`, bound `law` and success `criterion`."""
 
     vehicle: Vehicle
     law: Controller
@@ -72,7 +72,7 @@ class Stepped:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Gains that are inputs: none, since nothing was compiled."""
+        """The gains that are inputs: none, since nothing is compiled."""
         return ()
 
 
@@ -80,7 +80,7 @@ _made: OrderedDict[str, Tuned] = OrderedDict()
 
 
 def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
-    """What flies `setting`; `tell` is called if it has to be made first, which takes a second."""
+    """Return the closed loop of `setting`; `tell` is called before a compilation, which takes about a second."""
     flight, law = setting.flight, setting.law
     if isinstance(law, Controller):
         return Stepped(flight.vehicle, law.bind(flight.vehicle), goal(law))
@@ -117,17 +117,17 @@ def _make(setting: Setting, asked: Law, fixed: dict[str, Any]) -> Tuned:
 
 
 def values(setting: Setting) -> NDArray[np.float64]:
-    """The values (k,) of the gains that are inputs."""
+    """Return the values (k,) of the gains that are inputs."""
     law, vehicle = setting.law, setting.flight.vehicle
     if isinstance(law, Controller):
         return np.zeros(0)
     if law.name == "lqr" and not setting.where:
-        with SYMBOLS:  # the linearisation is symbolic, too
+        with SYMBOLS:  # the linearisation is symbolic
             return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
     gains = law.gains_for(vehicle)
     return np.array([float(gains[name]) for name in sliders_of(law)])
 
 
 def goal(law: Law | Controller) -> Criterion:
-    """What `law` is to do: to stand inverted; for the paper's laws, to bring the rod to their e₃, anywhere."""
+    """Return the criterion of `law`: inverted at the reference if e₃ is up, else y → e₃ at any position."""
     return Criterion() if law.e3 == "up" else Criterion(target="e3", position=np.inf)

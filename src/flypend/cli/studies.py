@@ -73,7 +73,7 @@ def draw_map(
     ] = None,
     y: Annotated[str | None, typer.Option("--y", help="Quantity on the vertical axis.")] = None,
     law: Annotated[
-        str | None, typer.Option("--law", help=f"Instead of a store or study, fly this law from random starts: {LAW_HELP}.")
+        str | None, typer.Option("--law", help=f"Fly this law from random starts, not a study: {LAW_HELP}.")
     ] = None,
     vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: vehicle name or TOML file.")] = None,
     plant: Annotated[str, typer.Option("--plant", help="With --law: rotors, ideal or hehn2011.")] = "rotors",

@@ -71,7 +71,7 @@ def _loaded(where: str) -> OwnLaw:
 
 
 def _tunable(law: Law) -> Law:
-    """Return `law` with sliders only for gains that can be inputs of compiled code, such as none in an `if`."""
+    """Return `law` with sliders only for gains that can be compiled inputs; a gain tested by an `if` cannot."""
     example = vehicle("hehn2011")
 
     def usable(gain: Gain) -> bool:

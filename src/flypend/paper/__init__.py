@@ -1,4 +1,4 @@
-"""The paper's experiments as data, and their reproduction with a verdict per claim."""
+"""The paper's experiments as data, the verdicts on its claims, and its defects."""
 
 from flypend.paper.table import Experiment, experiment, experiment_names
 

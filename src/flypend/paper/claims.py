@@ -1,4 +1,4 @@
-"""The claims of Theorem 1, each checked on a run: a value beside the value that it should have."""
+"""The claims of Theorem 1, each checked on a run: a measured value against a criterion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.model import equations_of_motion
 
-# Seconds, long enough for the rod to come to rest, so that the limit of ẍ can be read.
+# Duration, s, after which the rod is at rest, so that the limit of ẍ can be measured.
 SETTLED = 30.0
 
 
@@ -23,15 +23,15 @@ class Verdict:
     Parameters
     ----------
     claim : str
-        What the paper says.
+        The paper's claim.
     measured : str
-        The name of the number below, with its unit.
+        The measured quantity, with its unit.
     value : float
-        What came out.
+        Its value.
     criterion : str
-        What it should be.
+        The bound on the value.
     holds : bool
-        Whether value meets criterion, on a run that exists to its end.
+        Whether the value meets the criterion and the run is completed.
     """
 
     claim: str
@@ -42,18 +42,18 @@ class Verdict:
 
 
 def pivot_acceleration(run: Trajectory) -> Any:
-    """ẍ (n, 3) along `run`, m/s², from the equations of motion."""
+    """Return ẍ (n, 3) along `run`, m/s², from the equations of motion."""
     return equations_of_motion(run.states, run.wrench, run.vehicle, run.e3).x_ddot
 
 
 def largest_rise(values: Any) -> float:
-    """Largest rise of a sequence `values` (n,) above its own running minimum; 0 if it never increases."""
+    """Return the largest rise of the sequence `values` (n,) above its running minimum; 0 if it never increases."""
     values = np.asarray(values)
     return float(np.max(values - np.minimum.accumulate(values)))
 
 
 def upright_since(run: Trajectory, threshold: float = 0.99) -> float:
-    """Time, s, after which y₃ of `run` stays above `threshold`; NaN if it is below at the end."""
+    """Return the time, s, from which y₃ of `run` stays at or above `threshold`; NaN if it ends below."""
     below = np.flatnonzero(run.y[:, 2] < threshold)
     if not len(below):
         return 0.0
@@ -82,7 +82,7 @@ def _thrust_axis(run: Trajectory, _: Trajectory) -> Verdict:
 
 
 def _lyapunov(run: Trajectory, _: Trajectory) -> Verdict:
-    rise = largest_rise(run.signals["V"]) / (run.signals["V"][0] or 1.0)  # 0/0 for a run that starts at its goal
+    rise = largest_rise(run.signals["V"]) / (run.signals["V"][0] or 1.0)  # avoids 0/0 for a run that starts at its goal
     return _claim(run, "V falls", "largest rise of V over V(0) at the samples", rise, 1e-6, above=False)
 
 
@@ -107,9 +107,9 @@ CLAIMS: tuple[Callable[[Trajectory, Trajectory], Verdict], ...] = (
 
 
 def theorem_claims(run: Trajectory, settled: Trajectory | None = None) -> list[Verdict]:
-    """Verdict on each claim of Theorem 1 for a `run` of one of its laws.
+    """Return the verdict on each claim of Theorem 1 for a `run` of one of its laws.
 
-    `settled` is the same flight over a longer time, on which the limit ẍ → 0 is read; default `run` itself.
+    The limit ẍ → 0 is measured on `settled`, the same flight over a longer duration; default `run` itself.
     """
-    with np.errstate(all="ignore"):  # a run that diverged may hold numbers without bound, which meet no criterion
+    with np.errstate(all="ignore"):  # a diverged run may hold huge values, which meet no criterion
         return [claim(run, settled or run) for claim in CLAIMS]

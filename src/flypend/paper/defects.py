@@ -1,4 +1,4 @@
-"""The defects of the paper as printed, each shown by a computation: the first eight, the list, and the runs."""
+"""Defects 1 to 8 of the paper as printed, each shown by a computation; the list of all; the runs they use."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def damping_sign(runs: Runs) -> Finding:
 
 
 def gravity_direction(runs: Runs) -> Finding:
-    """Defect 2: gravity acts along +e₃, so y → e₃ is the pose that hangs."""
+    """Defect 2: gravity acts along +e₃, so the pose y = e₃ hangs."""
     run = runs.corrected["1"]
     vehicle = run.vehicle
     at_target, opposite = (potential_energy(State(y=y), vehicle, "down") for y in (E3, -E3))
@@ -57,7 +57,7 @@ def gravity_direction(runs: Runs) -> Finding:
     return Finding(
         "Direction of gravity in (pe) and (xeqn_txt)",
         "y → e₃ is called inverted, with V = −⟨Mgx, e₃⟩ − ⟨mg(x + ly), e₃⟩",
-        "y = e₃ is the minimum of V on S²: the bob hangs along gravity and the rod pulls; inverted is y = −e₃",
+        "y = e₃ is the minimum of V on S²: the bob hangs along gravity and the rod is in tension; inverted is y = −e₃",
         {
             "V(e₃) − V(−e₃), J": at_target - opposite,
             "−2 m g l, J": -2 * vehicle.m * vehicle.g * vehicle.l,
@@ -69,7 +69,7 @@ def gravity_direction(runs: Runs) -> Finding:
 
 
 def singular_beta(runs: Runs) -> Finding:
-    """Defect 3: the minimum-norm beta drives v_e to zero in finite time, where it is not defined."""
+    """Defect 3: the minimum-norm beta drives v_e to zero in finite time, and there beta is undefined."""
     evidence: dict[str, float] = {}
     for label, group in (("as printed", runs.printed), ("damping sign corrected", runs.corrected_singular)):
         evidence |= {f"|v_e| = 0 at, experiment {name}, {label}, s": run.outcome.time for name, run in group.items()}
@@ -79,7 +79,7 @@ def singular_beta(runs: Runs) -> Finding:
     return Finding(
         "beta in (weqn) is singular",
         "beta = −|f_p| Aᵀ(z − z_d) with the minimum-norm A = ẏ v_eᵀ/|v_e|²",
-        "drop beta, or regularise: v_e/(|v_e|² + ε²); neither gives a proof (defect 9)",
+        "drop beta, or regularise it: v_e/(|v_e|² + ε²); neither restores the proof (defect 9)",
         evidence,
         all(status == "singular" for status in outcomes),
     )
@@ -108,7 +108,7 @@ def gain_depends_on_speed(runs: Runs) -> Finding:
     return Finding(
         "k_p in (kpeqn) depends on |ẏ|",
         "dV₁/dt with k_p constant; k_p = (M+m)g/(Ml(1 + |ẏ|))",
-        "dV₁/dt has the further term k̇_p(1 − yᵀe₃); √(|ẏ|² + s²) for |ẏ|, which has no derivative at ẏ = 0",
+        "dV₁/dt has the additional term k̇_p(1 − yᵀe₃); √(|ẏ|² + s²) for |ẏ|, which has no derivative at ẏ = 0",
         evidence,
         bool(
             min(rises) > 0.01
@@ -120,14 +120,14 @@ def gain_depends_on_speed(runs: Runs) -> Finding:
 
 
 def finely(name: str) -> Trajectory:
-    """The corrected run of the experiment called `name`, every 0.1 ms: k_p has a kink of 0.5 ms where ẏ passes 0."""
+    """Fly experiment `name` under the corrected law, sampled every 0.1 ms: where ẏ passes 0, k_p has a 0.5 ms kink."""
     row = experiment(name)
     times = np.linspace(0, row.duration, round(row.duration / FINE) + 1)
     return simulate(row.vehicle, row.law(), row.start, row.duration, plant=row.plant, rtol=1e-10, times=times)
 
 
 def terms_left_out(run: Trajectory) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """k̇_p(1 − yᵀe₃) and |f_p| ẏ·(z − z_d), each (n,), 1/s³: what V̇ has beside the claimed rate on a corrected `run`."""
+    """Return k̇_p(1 − yᵀe₃) and |f_p| ẏ·(z − z_d), each (n,), 1/s³: V̇ of a corrected `run` minus the claimed rate."""
     signals, vehicle = run.signals, run.vehicle
     length = -run.thrust / (vehicle.M * vehicle.l)  # |f_p|
     missing = signals["V_1_rate"] + signals["k_p"] * run.y_dot[:, 2] - length * dot(run.y_dot, run.z)
@@ -135,7 +135,7 @@ def terms_left_out(run: Trajectory) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def lemma_2(_: Runs) -> Finding:
-    """Defect 5: Lemma 2 with e₃ does not track, and with φ̈ its force has no bound near the reference."""
+    """Defect 5: with e₃, Lemma 2 does not track; with φ̈, its force is unbounded near the reference."""
     times = np.linspace(0, 12, 241)
     phi_d = np.array([sphere.circle(t)[0] for t in times])
     start, rate = sphere.near(phi_d[0], 0.3), np.zeros(3)
@@ -188,14 +188,14 @@ def position_drifts(runs: Runs) -> Finding:
     return Finding(
         "Position is not controlled",
         "zero dynamics ẍ = 0 at the equilibrium",
-        "ẋ is whatever it was when the equilibrium was reached: the vehicle falls on",
+        "ẋ keeps the value it had on reaching the equilibrium: the vehicle keeps falling",
         {**travel, "least |ẋ| at 6.5 s, m/s": min(norm(run.x_dot)[-1] for run in runs.corrected.values())},
         min(travel.values()) > 10,
     )
 
 
 def free_component(runs: Runs) -> Finding:
-    """Defect 8: (setmu) leaves the third component of I⁻¹mu free: any choice gives the same y(t) and z(t)."""
+    """Defect 8: (setmu) leaves the third component of I⁻¹mu free; y(t) and z(t) do not depend on it."""
     chosen = experiment("1")
     zero = runs.corrected["1"]
     damped = simulate(
@@ -204,8 +204,8 @@ def free_component(runs: Runs) -> Finding:
     difference = max(np.max(np.abs(zero.y - damped.y)), np.max(np.abs(zero.z - damped.z)))
     return Finding(
         "Third component of I⁻¹mu in (setmu)",
-        "{I⁻¹mu}^ e₃ = ..., which says nothing about the component along e₃",
-        "a choice has to be stated; here I⁻¹mu has third component zero (or yaw_damping · ω₃)",
+        "{I⁻¹mu}^ e₃ = ..., which leaves the component along e₃ undetermined",
+        "state the choice; here the third component of I⁻¹mu is zero (or yaw_damping · ω₃)",
         {
             "largest difference of y and z between two choices": difference,
             "ω₃ at 6.5 s, third component zero, rad/s": zero.omega[-1, 2],
@@ -236,14 +236,14 @@ DEFECTS: tuple[Callable[[Runs], Finding], ...] = (
 
 
 def findings(runs: Runs) -> list[Finding]:
-    """All defects of the paper, in the order of docs/paper/errata.md, computed on `runs`."""
+    """Return all defects of the paper, in the order of docs/paper/errata.md, computed on `runs`."""
     return [defect(runs) for defect in DEFECTS]
 
 
 def fly_all(progress: Callable[[str], Any] = lambda _: None) -> Runs:
-    """Fly every experiment under the four laws; `progress` is told the name of each run before it.
+    """Fly every experiment under the four laws; `progress` is called with the name of each run before it starts.
 
-    At rtol 1e-10, but 1e-8 for the runs without beta: they spin up to 2000 rad/s, and only the size of it matters.
+    rtol is 1e-10, but 1e-8 for the runs without beta: they spin up to 2000 rad/s, and only the magnitude matters.
     """
 
     def group(label: str, law: str, rtol: float = 1e-10, **options: Any) -> dict[str, Trajectory]:

@@ -1,4 +1,4 @@
-"""What a defect leaves behind: the formula, the numbers that show it, and the flights that they are read from."""
+"""The record of a defect: the formula, the numbers that show it, and the runs that they come from."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from flypend.flight.trajectory import Trajectory
 
 @dataclass(frozen=True)
 class Finding:
-    """One defect.
+    """One defect of the paper.
 
     Parameters
     ----------
     title : str
-        What is wrong.
+        The defect in a few words.
     printed, corrected : str
         The formula as printed, and as it should read.
     evidence : dict
-        Names and numbers of this computation.
+        The computed values, by name.
     shown : bool
-        Whether the numbers show the defect.
+        Whether these values show the defect.
     """
 
     title: str

@@ -12,13 +12,13 @@ from flypend.geometry import cross, dot, hat_squared, scale, unit
 from flypend.laws.sphere import acceleration, regulation, tracking, velocity_error
 
 K_P, K_D = 9.0, 4.2  # 1/s², 1/s: natural frequency 3 rad/s, damping ratio 0.7
-# s. Of order 8, a step of this length errs by less than 1e-11, at rates of a few rad/s.
+# s. With a method of order 8, the error per step is below 1e-11 at rates of a few rad/s.
 STEP = 0.025
 Reference = tuple[Any, Any, Any]
 
 
 def circle(t: float, height: float = 0.6, rate: float = 1.5) -> Reference:
-    """φ_d, φ̇_d and φ̈_d at time `t` of a reference on the circle of the given `height`, at angular `rate` (rad/s)."""
+    """Return φ_d, φ̇_d, φ̈_d at time `t` (s) on the circle at `height` on S², followed at angular `rate` (rad/s)."""
     radius = np.sqrt(1 - height**2)
     c, s = np.cos(rate * t), np.sin(rate * t)
     phi_d = np.array([radius * c, radius * s, height])
@@ -27,7 +27,7 @@ def circle(t: float, height: float = 0.6, rate: float = 1.5) -> Reference:
 
 
 def fly(force: Callable[[float, Any, Any], Any], start: Any, start_rate: Any, times: Any) -> Any:
-    """Points φ (n, 3) at `times` (n,) of ∇_φ̇ φ̇ = `force`(t, φ, φ̇) from `start`, `start_rate` (3,)."""
+    """Integrate ∇_φ̇ φ̇ = `force`(t, φ, φ̇) from `start`, `start_rate` (3,); return φ (n, 3) at `times` (n,), s."""
 
     def rates(t: float, s: Any) -> Any:
         return np.concatenate([s[3:], acceleration(s[:3], s[3:], force(t, s[:3], s[3:]))])
@@ -41,7 +41,7 @@ def fly(force: Callable[[float, Any, Any], Any], start: Any, start_rate: Any, ti
 
 
 def _stepped(rates: Callable[[float, Any], Any], t: float, s: Any, h: float, steps: int) -> Any:
-    """The state after some `steps` of length `h` (s) from `s` at `t`, by the stages of DOP853."""
+    """The state after `steps` fixed DOP853 steps of length `h` (s) from `s` at time `t`."""
     scheme = method("dop853")
     for number in range(steps):
         slopes = np.zeros((scheme.stages, len(s)))
@@ -52,19 +52,19 @@ def _stepped(rates: Callable[[float, Any], Any], t: float, s: Any, h: float, ste
 
 
 def regulate(start: Any, start_rate: Any, target: Any, times: Any) -> Any:
-    """Lemma 1: points φ (n, 3) at `times` from `start`, `start_rate` under regulation to `target` (3,)."""
+    """Lemma 1: regulate φ to `target` (3,) from `start`, `start_rate`; return φ (n, 3) at `times`."""
     return fly(lambda _, phi, phi_dot: regulation(phi, phi_dot, target, K_P, K_D), start, start_rate, times)
 
 
 def track(start: Any, start_rate: Any, reference: Callable[[float], Reference], times: Any) -> Any:
-    """Lemma 2, corrected: points φ (n, 3) at `times` from `start`, `start_rate` tracking `reference`(t)."""
+    """Lemma 2, corrected: track `reference`(t) from `start`, `start_rate`; return φ (n, 3) at `times`."""
     return fly(lambda t, phi, phi_dot: tracking(phi, phi_dot, *reference(t), K_P, K_D), start, start_rate, times)
 
 
 def track_as_printed(
     start: Any, start_rate: Any, reference: Callable[[float], Reference], target: Any, times: Any
 ) -> Any:
-    """Lemma 2 with its printed proportional term −k_p φ̂²e₃, `target` being e₃; the feedforward is the true one.
+    """Lemma 2 with the printed proportional term −k_p φ̂²e₃, where `target` is e₃, and the correct feedforward.
 
     The other arguments are those of `track`.
     """
@@ -77,10 +77,10 @@ def track_as_printed(
 
 
 def printed_feedforward_force(phi: Any, phi_dot: Any, reference: Reference) -> Any:
-    """Force that Lemma 2 implies at `phi`, `phi_dot` if its feedforward holds φ̈, as printed, instead of φ̈_d.
+    """Return the force u of Lemma 2 at `phi`, `phi_dot` if its feedforward contains φ̈, as printed, instead of φ̈_d.
 
-    On S², (φ_d × φ̈) × φ = (φ·φ_d) φ̈ + |φ̇|² φ_d with φ̈ = u − |φ̇|² φ, so that u (1 − φ·φ_d) = the other terms: the force
-    grows without bound where tracking is perfect. `reference` is (φ_d, φ̇_d, φ̈_d), each (3,).
+    On S², (φ_d × φ̈) × φ = (φ·φ_d) φ̈ + |φ̇|² φ_d with φ̈ = u − |φ̇|² φ, hence u (1 − φ·φ_d) = the other terms: the force
+    is unbounded as φ → φ_d. `reference` is (φ_d, φ̇_d, φ̈_d), each (3,).
     """
     phi_d, phi_d_dot, _ = reference
     alignment = dot(phi, phi_d)
@@ -91,6 +91,6 @@ def printed_feedforward_force(phi: Any, phi_dot: Any, reference: Reference) -> A
 
 
 def near(phi_d: Any, angle: float) -> Any:
-    """The point at `angle` (rad) from the unit vector `phi_d` (3,), towards e₁."""
+    """Return the point at `angle` (rad) from the unit vector `phi_d` (3,), towards e₁."""
     towards = unit(-hat_squared(phi_d, np.array([1.0, 0.0, 0.0])))
     return np.cos(angle) * phi_d + np.sin(angle) * towards

@@ -1,4 +1,4 @@
-"""The table of experiments of the paper, read from `nayak2018.toml` beside this file."""
+"""The paper's table of experiments, read from `nayak2018.toml` in this folder."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ class Experiment:
     duration : float
         Seconds.
     plant : str
-        Name of the plant: the paper speaks of the ideal one.
+        Name of the plant; the paper's is the ideal one.
     reading : str
-        How a row that cannot be taken as printed was read; empty otherwise.
+        How the row is read where it cannot be taken as printed; empty otherwise.
     """
 
     name: str
@@ -47,24 +47,24 @@ class Experiment:
     reading: str = ""
 
     def law(self, name: str = "corrected", **options: Any) -> Law:
-        """The law called `name` ("printed" or "corrected") with this row's gains and further `options`."""
+        """Return the law `name` ("printed" or "corrected") with this row's gains and additional `options`."""
         return _FACTORIES[errors.one_of("law", name, _FACTORIES)](**self.gains, **options)
 
 
 @cache
 def table() -> dict[str, Any]:
-    """Content of the table file."""
+    """Return the content of the table file."""
     text = (resources.files("flypend.paper") / "nayak2018.toml").read_text(encoding="utf-8")
     return tomllib.loads(text)
 
 
 def experiment_names() -> list[str]:
-    """Names of the experiments, in the paper's order."""
+    """Return the names of the experiments, in the paper's order."""
     return list(table()["experiments"])
 
 
 def experiment(name: str) -> Experiment:
-    """The experiment called `name`. Raises InputError for an unknown name."""
+    """Return the experiment called `name`. Raises InputError if the name is unknown."""
     data = table()
     row = data["experiments"][errors.one_of("experiment", name, experiment_names())]
     start = State(**data["start"], y=row["y"], y_dot=row["y_dot"])

@@ -1,1 +1,1 @@
-"""What a command leaves behind: figures, movies, runs as files, and a report with verdicts, in one folder."""
+"""The output of a command in one folder: figures, movies, saved runs, and a report with verdicts."""

@@ -1,4 +1,4 @@
-"""Everything that one run leaves behind: its file, figures, movies, verdicts."""
+"""The output of one run: its file, figures, movies and verdicts."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ Task = Callable[[], Any]
 def figure_tasks(
     run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True, style: str = "paper"
 ) -> list[tuple[str, Task]]:
-    """Named tasks that draw the figures of `run` in a `style` into `folder`, file names beginning with `prefix`."""
-    from flypend.pictures import figures  # brings matplotlib, which a run without figures does not wait for
+    """Return named tasks that draw the figures of `run` in `style` into `folder`; `prefix` starts each file name."""
+    from flypend.pictures import figures  # imports matplotlib, which is slow and not needed without figures
 
     kinds: list[tuple[str, Callable[..., Any]]] = [
         ("y3-z3", figures.paper_figure),
@@ -38,12 +38,12 @@ def figure_tasks(
 
 
 def check_movies() -> None:
-    """Raise InputError where movies cannot be made. Call it before anything is flown."""
+    """Raise InputError if movies cannot be made. Call it before any flight."""
     errors.require("imageio_ffmpeg", extra="movies", for_="movies (--quick leaves them out)")
 
 
 def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
-    """Named tasks that write the movies of `run`, from the side and along e₃, into `folder`."""
+    """Return named tasks that write the movies of `run`, from the side and along e₃, into `folder`."""
     from flypend.pictures.animate import movie
 
     return [
@@ -56,7 +56,7 @@ def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[s
 
 
 def draw(figure: Callable[..., Any], run: Trajectory, path: Path, style: str = "paper") -> None:
-    """Draw one `figure` of `run` in a `style` into files called `path`, as vectors (.pdf) and as .png."""
+    """Draw one `figure` of `run` in `style` to `path` as .pdf and .png."""
     whole.save_both(figure(run, style=style), path)
 
 
@@ -71,24 +71,24 @@ def write_flight(
     style: str = "paper",
     progress: Callable[[Iterable[tuple[str, Task]]], Any] | None = None,
 ) -> list[Verdict]:
-    """Write run.nc, figures, movies, report.md and report.json of `run` into the folder `out`, whole or not at all.
+    """Write run.nc, figures, movies, report.md and report.json of `run` into the folder `out`, atomically.
 
     Parameters
     ----------
     run : Trajectory
         The run.
     settings : dict
-        What was flown, in the form of a run TOML, kept in report.json.
+        The content of the run file, saved in report.json.
     out : path
-        The folder; made if it does not exist.
+        The folder; created if it does not exist.
     settled : Trajectory, optional
-        The same flight over a longer time, on which the limit ẍ → 0 is read; default `run`.
+        The same flight over a longer duration, on which the limit ẍ → 0 is measured; default `run`.
     with_figures, with_movies : bool
-        Whether to draw and to film.
+        Whether to draw figures and make movies.
     style : "paper" or "slides"
         Format of the figures.
     progress : callable, optional
-        Runs an iterable of named tasks and shows how far they are; default runs them in silence.
+        Runs an iterable of named tasks and shows progress; by default they run silently.
 
     Returns
     -------
@@ -98,7 +98,7 @@ def write_flight(
     Raises
     ------
     InputError
-        If `out` cannot be written.
+        If `out` is not writable.
     """
     if with_movies:
         check_movies()

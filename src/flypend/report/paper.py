@@ -1,4 +1,4 @@
-"""The main job: the paper's experiments, its figures and movies, and a verdict on each of its claims."""
+"""The reproduction of the paper: its experiments, figures and movies, and a verdict on each of its claims."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class Reproduction:
     Parameters
     ----------
     verdicts, ends : dict
-        Verdicts on the claims, and how the run ended, by (law, experiment).
+        Verdicts on the claims, and how each run ended, by (law, experiment).
     findings : list of Finding
         The defects of the paper.
     swing_up : Trajectory
-        What the paper promises, flown by the inverted law: from hanging at rest, under real rotors.
+        One flight under the inverted law from hanging at rest, with rotor limits and lag.
     """
 
     verdicts: dict[Column, list[Verdict]]
@@ -58,18 +58,18 @@ def reproduce(
     Parameters
     ----------
     out : path
-        The folder; made if it does not exist. It receives everything or, if something fails, nothing.
+        The folder; created if it does not exist. If anything fails, nothing is written to it.
     quick : bool
-        Leave the movies out.
+        Whether to skip the movies.
     style : "paper" or "slides"
         Format of the figures.
     progress : callable
-        Told `(what, done, total)` as the work goes on.
+        Called with `(task, done, total)` as the work proceeds.
 
     Raises
     ------
     InputError
-        If `out` cannot be written, or for an unknown style.
+        If `out` is not writable or the style is unknown.
     """
     style_named(style)
     if not quick:
@@ -100,7 +100,7 @@ def reproduce(
 
 
 def _pictures(runs: Runs, folder: Path, quick: bool, style: str = "paper") -> list[tuple[str, Task]]:
-    """Named tasks for all pictures, the long ones (movies) first, so that they start first."""
+    """Named tasks for all figures and movies; the movies take longest and start first."""
     tasks: list[tuple[str, Task]] = []
     if not quick:
         for name in MOVIES:
@@ -142,18 +142,19 @@ def _save_runs(runs: Runs, folder: Path) -> None:
 
 def _write_reports(result: Reproduction, folder: Path) -> None:
     parts = [
-        "# Stabilizing a spherical pendulum on a quadrotor: what of it holds",
+        "# Stabilizing a spherical pendulum on a quadrotor: which claims hold",
         "The five experiments of Nayak, Banavar and Maithripala, flown by flypend "
         f"{__version__} under Theorem 1 as printed and as corrected. Experiment 2 cannot be taken as printed "
         "(defect 6) and is flown in both readings. The frame is the paper's: e₃ along gravity.",
         "## Claims of Theorem 1",
         text.verdicts_markdown(result.verdicts, result.ends),
-        "A claim holds on a run only if the run exists to its end. V rises under the corrected law as well: the paper "
-        "leaves out a term of V̇₁ (defect 4), and without beta a cross term remains. y = e₃ hangs (defect 2). The "
-        "starts of the paper converge under the corrected law; others run away (defect 9).",
-        "## The promise kept by another law",
-        f"The inverted law on {result.swing_up.vehicle.name}, from hanging at rest, rotors with limits and lag: "
-        f"{text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png).",
+        "A claim holds on a run only if the run is completed. V rises under the corrected law, too: the paper omits a "
+        "term of V̇₁ (defect 4), and without beta a cross term remains. The pose y = e₃ hangs (defect 2). The paper's "
+        "starts converge under the corrected law; some others run away (defect 9).",
+        "## A swing-up by another law",
+        f"One flight of the inverted law on {result.swing_up.vehicle.name}, from hanging at rest, with rotor limits "
+        f"and lag: {text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png). One flight from one start "
+        "proves nothing about others; docs/laws/inverted.md counts successes over random starts.",
         "## Defects of the paper, re-derived by this run",
         text.findings_markdown(result.findings),
     ]

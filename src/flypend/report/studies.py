@@ -1,4 +1,4 @@
-"""What `flypend compare` and `flypend ladder` leave behind: a table, its numbers, and a figure."""
+"""The output of `flypend compare` and `flypend ladder`: a table, its numbers, and a figure."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ COLUMNS = ("runs", "success % (95 %)", "settle s", "exc. m", "effort", "peak N",
 
 
 def comparison_cells(row: dict[str, Any]) -> list[str]:
-    """The cells of one law: `row` is a record of `Comparison.rows`."""
+    """Return the table cells of one law; `row` is a record of `Comparison.rows`."""
     return [
         str(row["runs"]),
         f"{100 * row['success']:.4g} ({100 * row['wilson_low']:.1f}-{100 * row['wilson_high']:.1f})",
@@ -35,7 +35,7 @@ def comparison_cells(row: dict[str, Any]) -> list[str]:
 
 
 def comparison_table(comparison: Comparison) -> Table:
-    """One row per law for the terminal."""
+    """Return the table for the terminal, one row per law."""
     table = Table(title="Same starts, same plant", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
     table.add_column("law", overflow="fold")
     for name in COLUMNS[:-1]:
@@ -46,7 +46,7 @@ def comparison_table(comparison: Comparison) -> Table:
         table.add_row(escape(row["law"]), *cells)
         failed += [f"{row['law']}: {causes}"] if row["causes"] else []
     table.caption = escape(
-        f"settle, exc. (excursion): median/95th percentile; effort: RMS rotor force over hover; peak: of one rotor\n"
+        f"settle, exc. (excursion): median/95th percentile; effort: RMS rotor force over hover; peak: any one rotor\n"
         f"failed: {'; '.join(failed) or 'none'}"
     )
     table.caption_justify = "left"
@@ -54,7 +54,7 @@ def comparison_table(comparison: Comparison) -> Table:
 
 
 def comparison_markdown(comparison: Comparison) -> str:
-    """One row per law as a Markdown table."""
+    """Return the Markdown table, one row per law."""
     lines = ["| law | " + " | ".join(COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
     lines += [f"| {_barred(row['law'])} | " + " | ".join(comparison_cells(row)) + " |" for row in comparison.rows()]
     return "\n".join(lines)
@@ -74,7 +74,7 @@ def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str 
 
 
 def ladder_rows(ladder: Ladder) -> list[list[str]]:
-    """Cells of the ladder: a row per rung, for each law success and excursion."""
+    """Return the cells of the ladder, one row per rung: success and excursion of each law."""
     rows = []
     for rung, comparison in ladder.rungs.items():
         cells = []
@@ -85,7 +85,7 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
 
 
 def ladder_table(ladder: Ladder) -> Table:
-    """The ladder for the terminal."""
+    """Return the ladder as a table for the terminal."""
     laws = list(next(iter(ladder.rungs.values())).ensembles)
     title = "Reality ladder: success, 95th percentile of the excursion"
     table = Table(title=title, title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
@@ -112,7 +112,7 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     failures = "\n".join(_failures(ladder)) or "none"
     with staged(out) as folder:
         text = f"# Reality ladder\n\n{_told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
-        text += f"\nFailures by cause (what was out of tolerance in the last second):\n\n{failures}\n"
+        text += f"\nFailures by cause (the quantity out of tolerance during the last second):\n\n{failures}\n"
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {
             rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}
@@ -123,20 +123,22 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
 
 
 def tracking_table(results: Iterable[Tracking]) -> Table:
-    """Offsets and errors of hover and circles for the terminal."""
+    """Return the table of offsets and errors, hover and circles, for the terminal."""
     table = Table(title="Set-up of Hehn and D'Andrea (2011)", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
     for name in ("case", "law", "stands", "offset m", "RMS error m", "published m"):
         table.add_column(name, justify="left" if name in ("case", "law") else "right")
     for r in results:
         stands = "yes" if r.stood else "[red]no"
         table.add_row(r.case, r.law, stands, _short(r.offset), _short(r.error), r.published)
-    table.caption = "50 Hz, 30 ms, noise of a motion capture, 2 % of error in mass and rod; published: their experiment"
+    table.caption = (
+        "50 Hz, 30 ms latency, motion-capture noise, 2 % error in mass and rod length; published: their experiment"
+    )
     table.caption_justify = "left"
     return table
 
 
 def _failures(ladder: Ladder) -> list[str]:
-    """One line per rung and law with failures: how many of each cause."""
+    """One line per rung and law with failures: the count of each cause."""
     lines = []
     for rung, comparison in ladder.rungs.items():
         for law, ensemble in comparison.ensembles.items():
@@ -152,12 +154,12 @@ def _broken(ladder: Ladder, law: str) -> str:
 
 
 def _short(value: float) -> str:
-    """Three digits, thousands written out, and a dash for NaN: a quantile of nothing."""
+    """Format to three digits, without an exponent from 1000 up; NaN, the quantile of no runs, becomes a dash."""
     return "-" if math.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
 def _barred(name: str) -> str:
-    """A name as a cell of a Markdown table."""
+    """Escape a name for a cell of a Markdown table."""
     return name.replace("|", "\\|")
 
 

@@ -1,4 +1,4 @@
-"""Verdicts and findings as Markdown, JSON and a table for the terminal."""
+"""Verdicts and findings as Markdown, as JSON, and as tables for the terminal."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ Column = tuple[str, str]
 
 
 def number(value: float) -> str:
-    """A number for a table: three significant digits, but five decimals near 1, where the distance to 1 counts."""
+    """Format a number for a table: three significant digits, but five decimals near 1 to show the distance from 1."""
     return f"{value:.5f}" if 0 < abs(value - 1) < 1e-2 else f"{value:.3g}"
 
 
 def judgement(run: Trajectory) -> str:
-    """One line on whether `run` ends inverted at its reference, and what it took."""
+    """Return one line: whether `run` ends inverted at its reference, its excursion and its peak rotor force."""
     m = metrics(run)
     verdict = f"stands after {m.settling:.2f} s" if m.success else f"does not stand ({m.cause})"
     return f"{verdict}, largest distance {number(m.excursion)} m, largest rotor force {number(m.peak_force)} N"
 
 
 def mark(holds: bool) -> str:
-    """The word that stands for a verdict."""
+    """Return the label of a verdict."""
     return "holds" if holds else "fails"
 
 
 def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
-    """Claims by experiment and law for the terminal: rows are (law, experiment), columns the claims."""
+    """Return the verdicts as a table for the terminal: one row per (law, experiment), one column per claim."""
     table = Table(title="Theorem 1: which claim holds", title_justify="left", box=SIMPLE, padding=0)  # 80 columns
     first = next(iter(verdicts.values()))
     table.add_column("law", overflow="fold")
@@ -56,7 +56,7 @@ def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
 
 
 def findings_table(findings: Iterable[Finding]) -> Table:
-    """The defects of the paper for the terminal, each with the first numbers of its evidence."""
+    """Return the defects of the paper as a table for the terminal, each with the first number of its evidence."""
     table = Table(title="Defects of the paper, re-derived by this run", title_justify="left", box=SIMPLE)
     table.add_column("#", justify="right")
     table.add_column("defect")
@@ -69,7 +69,7 @@ def findings_table(findings: Iterable[Finding]) -> Table:
 
 
 def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str]) -> str:
-    """Claims by experiment and law as a Markdown table, with how each run ended (`ends`)."""
+    """Return the verdicts by (law, experiment) as a Markdown table; `ends` states how each run ended."""
     first = next(iter(verdicts.values()))
     lines = [
         "| law | experiment | run | " + " | ".join(_cell(v.claim) for v in first) + " |",
@@ -84,7 +84,7 @@ def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mappin
 
 
 def findings_markdown(findings: Iterable[Finding]) -> str:
-    """The defects as Markdown sections: printed, corrected, and the numbers of this run."""
+    """Return the defects as Markdown sections: as printed, as corrected, and the computed numbers."""
     sections = []
     for i, finding in enumerate(findings, 1):
         rows = "\n".join(f"| {_cell(name)} | {number(value)} |" for name, value in finding.evidence.items())

@@ -1,4 +1,4 @@
-"""What `flypend tune` leaves behind: gains to fly with, the history of the search, and its picture."""
+"""The output of `flypend tune`: a run file with the tuned gains, and the history of the search."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.report.text import write_json
 from flypend.studies.tune import Tuned
 
-WIDTH = 7.16  # of two columns of a paper, in
+WIDTH = 7.16  # in, two columns of a paper
 STYLES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (ORANGE, ":"), (GREY, (0, (5, 1, 1, 1, 1, 1))))
 
 
 def write_tuned(result: Tuned, out: str | Path) -> None:
     """Write tuned.toml (for `flypend run`), history.json and history.png of `result` into the folder `out`.
 
-    Raises InputError if it cannot be written.
+    Raises InputError if `out` is not writable.
     """
     with staged(out) as folder:
         words = f"# {told(result.before)} before,\n# {told(result.after)} with these gains.\n"
@@ -42,7 +42,7 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
 
 
 def told(report: dict[str, Any]) -> str:
-    """Success and settling time of `report`, which is `Tuned.before` or `Tuned.after`, in words."""
+    """Return one line on `report` (`Tuned.before` or `Tuned.after`): success rate, settling time and cost."""
     settling = "-" if report["settling_p50"] is None else f"{report['settling_p50']:.3g} s"
     return (
         f"{100 * report['success']:.4g} % of {report['runs']} runs succeed "
@@ -52,21 +52,21 @@ def told(report: dict[str, Any]) -> str:
 
 
 def history_figure(result: Tuned) -> Figure:
-    """Cost against runs flown, beside the cost before and after on the study's own starts; and gains at the centre."""
+    """Draw cost against runs flown, with the cost before and after on the study's starts, and the central gains."""
     figure = new_figure(WIDTH, 2.9)
     left, right = figure.subplots(1, 2)
     runs = np.array([entry["runs"] for entry in result.history])
-    left.plot(runs, [entry["best"] for entry in result.history], color=BLUE, label="best so far, starts tuned on")
+    left.plot(runs, [entry["best"] for entry in result.history], color=BLUE, label="best so far, tuning starts")
     left.plot(runs, [entry["median"] for entry in result.history], color=GREY, ls="--", label="median of a generation")
-    left.axhline(result.before["cost"], color=RED, ls=":", label="before, starts of the study")
-    left.axhline(result.after["cost"], color=GREEN, ls="-.", label="after, starts of the study")
+    left.axhline(result.before["cost"], color=RED, ls=":", label="before, study starts")
+    left.axhline(result.after["cost"], color=GREEN, ls="-.", label="after, study starts")
     left.set_ylabel("cost (–)", fontsize=LABEL)
     for i, name in enumerate(result.gains):
         colour, style = STYLES[i % len(STYLES)]
         values = np.array([entry["centre"][name] for entry in result.history]) / result.before["gains"][name]
         right.plot(runs, values, color=colour, ls=style, label=f"{name} = {result.gains[name]:g}")
     right.axhline(1.0, color=GREY, lw=0.6)
-    right.set_ylabel("gain over the one before (–)", fontsize=LABEL)
+    right.set_ylabel("gain over initial gain (–)", fontsize=LABEL)
     for axis in (left, right):
         axis.set_yscale("log")
         axis.set_xlabel("runs flown", fontsize=LABEL)

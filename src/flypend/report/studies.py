@@ -130,9 +130,7 @@ def tracking_table(results: Iterable[Tracking]) -> Table:
     for r in results:
         stands = "yes" if r.stood else "[red]no"
         table.add_row(r.case, r.law, stands, _short(r.offset), _short(r.error), r.published)
-    table.caption = (
-        "50 Hz, 30 ms latency, motion-capture noise, 2 % error in mass and rod length; published: their experiment"
-    )
+    table.caption = "50 Hz, 30 ms latency, motion-capture noise, 2 % model error; published: their experiment"
     table.caption_justify = "left"
     return table
 

@@ -1,1 +1,1 @@
-"""TOML files and names become vehicles, laws, plants and flights here."""
+"""Turns TOML files and names into vehicles, laws, plants and flights."""

@@ -1,4 +1,4 @@
-"""Laws from what people write: a name, `module:function`, `file.py:function`, or the table of a TOML file."""
+"""Laws from user input: a name, `module:function`, `file.py:function`, or the table of a TOML file."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_d
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 
-# Gains of the inverted law with a slow attitude and no rate of its target: in the table to be seen failing.
+# Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
 
 def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | Controller:
-    """The law that `value` says.
+    """Return the law that `value` specifies.
 
     Parameters
     ----------
     value : str, dict or a law
         A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}.
     folder : Path, optional
-        Folder from which the path of a file is taken; default the current one.
+        Folder to which file paths are relative; default the current one.
     key : str
-        What messages begin with.
+        Field name for error messages.
 
     Raises
     ------
     InputError
-        For what is unknown, out of range, or fails while it is loaded.
+        If anything is unknown or out of range, or if a file or module fails to load.
     """
     if isinstance(value, Law | Controller):
         return value
@@ -57,13 +57,14 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
 
 
 def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law | Controller:
-    """The law called `name`: one of the package, "detuned" (a negative control), or one's own.
+    """Return the law called `name`: one shipped with the package, "detuned" (a negative control), or a custom law.
 
-    One's own is `file.py:function`, the path taken from `folder` (default the current one), or `module:function`, for
-    which the current folder is searched as well. What is found may be a Law, a Controller, a function of no arguments
-    that gives one, or a function as `laws.from_function` takes it; messages begin with `key`.
+    A custom law is `file.py:function`, with the path relative to `folder` (default the current one), or
+    `module:function`; modules are also searched for in the current folder. The name must lead to a Law, a Controller,
+    a function without arguments that returns one, or a function for `laws.from_function`. `key` is the field name for
+    error messages.
 
-    Raises InputError if there is no such law, or it fails while it is loaded.
+    Raises InputError if there is no such law, or if it fails to load.
     """
     if ":" in name:
         return _own(name, folder, key, None)
@@ -73,7 +74,7 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
 
 
 def absolute(value: Any, folder: Path) -> Any:
-    """A law as in `law_from`, the path of its file made absolute from `folder`, so that it can be kept with results."""
+    """Return `value`, a law like in `law_from`, with its file path made absolute from `folder`, to save with results."""
     if isinstance(value, Mapping):
         return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
     file, colon, attribute = value.rpartition(":") if isinstance(value, str) else ("", "", "")
@@ -81,7 +82,7 @@ def absolute(value: Any, folder: Path) -> Any:
 
 
 def note(law: AnyLaw) -> str:
-    """One line for a `law` that no compiled code flies, "" for others."""
+    """Return a one-line note if `law` cannot be compiled, else ""."""
     if not isinstance(law, Controller):
         return ""
     why = f": {law.because}" if law.because else ""
@@ -89,7 +90,7 @@ def note(law: AnyLaw) -> str:
 
 
 def law_table(value: Any, key: str = "law") -> dict[str, Any]:
-    """The table of a TOML file for a law, which may be a name; messages begin with `key`. Raises InputError."""
+    """Return the TOML table of the law `value`, a name or a table. Raises InputError with the field name `key`."""
     if isinstance(value, str):
         return table_of(value)
     if not isinstance(value, dict):
@@ -98,7 +99,7 @@ def law_table(value: Any, key: str = "law") -> dict[str, Any]:
 
 
 def table_of(name: str) -> dict[str, Any]:
-    """The table of a TOML file that says the law called `name`, as `law_named` takes it."""
+    """Return the TOML table that specifies the law `name`, a name like in `law_named`."""
     return {"function": name} if ":" in name else {"name": name}
 
 
@@ -110,7 +111,7 @@ def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:
     if not hasattr(module, attribute):
         known = [word for word, value in vars(module).items() if not word.startswith("_") and _is_own(value, module)]
         if not known:
-            raise InputError(key, f"a law in {source}", f"{attribute!r}, and nothing there is one")
+            raise InputError(key, f"a law in {source}", f"{attribute!r}; the file or module defines none")
         one_of(key, attribute, known)
     return _as_law(getattr(module, attribute), name, key, e3)
 
@@ -135,7 +136,7 @@ def _as_law(found: Any, name: str, key: str, e3: Any) -> Law | Controller:
         return replace(found, control=Located(found.control, found.name))
     if isinstance(found, Controller):
         return replace(found, function=Located(found.function, found.name))
-    raise InputError(key, EXPECTED, f"{name!r}, which is none")
+    raise InputError(key, EXPECTED, f"{name!r}, which is none of these")
 
 
 def _module(name: str, key: str) -> ModuleType:
@@ -155,17 +156,17 @@ def _module(name: str, key: str) -> ModuleType:
 
 
 def _file(name: str, folder: Path, key: str) -> ModuleType:
-    """The module in a file; it is not among `sys.modules`, so that other processes are sent what it defines."""
+    """Load the module in a file. It is kept out of `sys.modules`, so that its definitions are pickled by value."""
     path = (folder / name).resolve()
     if not path.is_file():
         raise InputError(key, "a file that is there", f"{name!r} in {folder}")
     if str(path.parent) not in sys.path:
-        sys.path.append(str(path.parent))  # for what it imports beside it
+        sys.path.append(str(path.parent))  # for its imports from the same folder
     title = f"flypend_law_{path.stem}"
     module = ModuleType(title)
     module.__file__ = str(path)
-    sys.modules[title] = module  # dataclasses look for their module while they are made
-    try:  # read anew every time: an edit within a second of the last one would be missed by Python's cache
+    sys.modules[title] = module  # the dataclass decorator looks its module up here
+    try:  # reread every time: Python's bytecode cache would miss a second edit within one second
         exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # noqa: S102 (a law of the user's own)
     except Exception as error:
         raise _load_error(error, str(path)) from error
@@ -175,7 +176,7 @@ def _file(name: str, folder: Path, key: str) -> ModuleType:
 
 
 def _load_error(error: Exception, name: str) -> LawError:
-    """The one line for a file or module `name` that cannot be loaded."""
+    """The one-line error for a file or module `name` that fails to load."""
     if isinstance(error, SyntaxError):
         line = f":{error.lineno}" if error.lineno else ""
         return LawError(f"{shown(error.filename or name)}{line}", "", f"{type(error).__name__}: {error.msg}")

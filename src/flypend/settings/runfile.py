@@ -1,4 +1,4 @@
-"""What to fly, as data: an experiment of the paper or a TOML file, with overrides, into a `Flight`."""
+"""Run files: an experiment of the paper or a TOML file, with overrides, becomes a `Flight`."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of 
 
 
 class RunFile(NamedTuple):
-    """One run to make, and the content of a TOML file that says so."""
+    """The request for one run, and the equivalent content of a TOML file."""
 
     flight: Flight
     settings: dict[str, Any]
 
 
 def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -> RunFile:
-    """The run called `what`: an experiment of the paper by name, or the path of a TOML file.
+    """Return the run `what`: an experiment of the paper by name, or a TOML file by path.
 
-    `law`, as on the command line, takes the place of the law there. `overrides` are texts such as `law.gains.k_d=2`,
-    applied in order; the value is TOML, or else a plain word.
+    `law`, in the form used on the command line, replaces the law. `overrides` are strings such as `law.gains.k_d=2`,
+    applied in order; a value that is not valid TOML is a plain string.
 
-    Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
+    Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
     try:
         settings = _read(what)
@@ -55,11 +55,11 @@ def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -
 
 
 def run_of(settings: dict[str, Any]) -> RunFile:
-    """The run that `settings`, the content of a TOML file, describe. Raises InputError as `run_file`."""
+    """Return the run that `settings`, the content of a TOML file, specifies. Raises InputError like `run_file`."""
     try:
         for key, value in settings.items():
             check_plain(key, value)
-        with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
+        with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
             return _build(_complete(settings))
     except RecursionError:
         raise _TOO_DEEP from None
@@ -77,7 +77,7 @@ def _read(what: str) -> dict[str, Any]:
 
 
 def check_plain(key: str, value: Any) -> None:
-    """Refuse what TOML can say and no setting is: a date, an integer beyond 64 bits, a list of anything but numbers."""
+    """Reject TOML values that no setting accepts: dates, integers beyond 64 bits, lists of anything but numbers."""
     if not key.isprintable():
         raise InputError("run", "printable keys", repr(key))
     if isinstance(value, dict):
@@ -95,7 +95,7 @@ def check_plain(key: str, value: Any) -> None:
 
 
 def _complete(settings: dict[str, Any]) -> dict[str, Any]:
-    """Fill in what `experiment` stands for, and expand the vehicle to a table."""
+    """Fill in the values of `experiment`, and expand the vehicle to a full table."""
     errors.only_known("", settings, KEYS)
     out = deepcopy(settings)
     if isinstance(out.get("vehicle"), str):
@@ -122,7 +122,7 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def vehicle_table(value: Any) -> dict[str, Any]:
-    """All fields of the vehicle that a name, or a table of fields on top of `base`, stands for. Raises InputError."""
+    """Return all fields of a vehicle, given by name or as a table on top of `base`. Raises InputError."""
     chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
     if "base" in chosen:
         chosen = vehicle(chosen.pop("base")).to_dict() | chosen
@@ -130,7 +130,7 @@ def vehicle_table(value: Any) -> dict[str, Any]:
 
 
 def start_of(table: dict[str, Any]) -> State:
-    """The single state that a table of fields says; messages begin with `start`. Raises InputError."""
+    """Return the single state in a table of fields. Raises InputError with field names that begin with `start`."""
     errors.only_known("start", table, SHAPES)
     if "y" not in table:
         raise InputError("start.y", "a unit vector", "nothing")
@@ -144,7 +144,7 @@ def start_of(table: dict[str, Any]) -> State:
 
 
 def plant_of(value: Any) -> AnyPlant:
-    """A plant by name, or as a table of its fields on top of `base` (default "rotors"), noise and wind as tables."""
+    """Return a plant, given by name or as a table on top of `base` (default "rotors"); noise and wind are tables."""
     if isinstance(value, str):
         return plant(value)
     if not isinstance(value, dict):
@@ -164,7 +164,7 @@ def plant_of(value: Any) -> AnyPlant:
 
 
 def _controller(law: Law | Controller, vehicle: Vehicle, kind: Any) -> Law | Controller:
-    """The law itself, or its exported C, compiled: `kind` is "python", "c" (double precision) or "c-float"."""
+    """Return the law itself (`kind` "python"), or its exported and compiled C ("c" in double, "c-float" in float)."""
     if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
         return law
     if isinstance(law, Controller):
@@ -173,7 +173,7 @@ def _controller(law: Law | Controller, vehicle: Vehicle, kind: Any) -> Law | Con
 
 
 def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
-    """The table called `key` of `settings`, empty if there is none; `field` for messages. Raises InputError."""
+    """Return the table `key` of `settings`, empty if absent. Raises InputError, with the field name `field`."""
     value = settings.get(key, {})
     if not isinstance(value, dict):
         raise InputError(field or key, "a table", repr(value))
@@ -181,7 +181,7 @@ def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, A
 
 
 def _override(settings: dict[str, Any], text: str) -> None:
-    """Apply one `a.b.c=value` to `settings`."""
+    """Apply one override `a.b.c=value` to `settings`."""
     path, equals, value = text.partition("=")
     keys = [key.strip() for key in path.split(".")]
     if not equals or not all(key and key.isprintable() for key in keys):

@@ -1,4 +1,4 @@
-"""Studies of many flights: laws compared on the same starts, and the ladder from the ideal to the machine."""
+"""Studies of many flights: laws compared from the same starts, and the ladder from the ideal plant to reality."""
 
 from flypend.settings.laws import law_named
 from flypend.studies.compare import Comparison, compare

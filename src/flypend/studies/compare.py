@@ -29,17 +29,17 @@ class Comparison:
     Parameters
     ----------
     ensembles : dict of Ensemble
-        By the name of the law; a second law of one name is called "name (2)".
+        By name of the law; a second law of the same name is called "name (2)".
     """
 
     ensembles: dict[str, Ensemble]
 
     def rows(self) -> list[dict[str, Any]]:
-        """One record per law: success with its Wilson interval, settling, excursion, effort, peak force, causes."""
+        """Return one record per law: success with Wilson interval, settling, excursion, effort, peak force, causes."""
         return [{"law": name, **summary(ensemble)} for name, ensemble in self.ensembles.items()]
 
     def to_xarray(self) -> xarray.Dataset:
-        """Success, settling time and the other metrics as an `xarray.Dataset` on the dimensions `law` and `run`."""
+        """Return success, settling time and the other metrics as an `xarray.Dataset` over `law` and `run`."""
         over = ("law", "run")
         columns = [ensemble.columns for ensemble in self.ensembles.values()]
         variables = {name: variable(name, over, [some[name] for some in columns]) for name in columns[0]}
@@ -62,22 +62,22 @@ def compare(
     Parameters
     ----------
     vehicle : Vehicle
-        What flies.
+        The vehicle.
     laws : sequence of Law or Controller
-        Laws to compare; those with e₃ down fly the same physical starts in their own frame.
+        Laws to compare; e₃-down laws fly the same physical starts in their own frame.
     starts : State
-        A batch of states in the frame with e₃ up.
+        A batch of states in the e₃-up frame.
     duration, plant, workers
-        As in `simulate_ensemble`.
+        Like in `simulate_ensemble`.
     progress : callable
-        Told `(name of the law, done, total)`.
+        Called with `(name of the law, done, total)`.
     """
     flights = flights_of(vehicle, laws, starts, duration)
     return compared(flights, plants.plant(plant), workers=workers, progress=progress)
 
 
 def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State, duration: float) -> dict[str, Flight]:
-    """A request for each of `laws`, by a name of its own; `starts`, with e₃ up, are turned into the frame of each."""
+    """Return a request for each of `laws`, by unique name; `starts` (e₃ up) are converted to the frame of each law."""
     if not isinstance(starts, State) or len(starts.batch_shape) != 1:
         raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
     flights: dict[str, Flight] = {}
@@ -91,7 +91,7 @@ def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State
 def compared(
     flights: Mapping[str, Flight], plant: AnyPlant, *, workers: int | None = None, progress: Progress = lambda *_: None
 ) -> Comparison:
-    """The `flights` of `flights_of`, each through `plant`; `workers` and `progress` as in `compare`."""
+    """Fly the `flights` of `flights_of` on `plant`; `workers` and `progress` are like in `compare`."""
     return Comparison(
         {
             name: fly_many(flight.through(plant), workers=workers, progress=partial(progress, name))
@@ -101,7 +101,7 @@ def compared(
 
 
 def summary(ensemble: Ensemble) -> dict[str, Any]:
-    """The numbers of one ensemble that tables show."""
+    """Return the statistics of one ensemble for tables."""
     low, high = ensemble.interval
     failed = ensemble.cause[ensemble.cause != ""]
     return {

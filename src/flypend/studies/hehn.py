@@ -16,16 +16,16 @@ from flypend.laws.named import FACTORIES, follows
 from flypend.model import State, vehicle
 from flypend.plants import MOTION_CAPTURE, sampled_plant
 
-# The rates of their circles are not known here; a period of four seconds is chosen.
+# Chosen: a period of four seconds; the rates of their circles are not known here.
 RATE = 2 * np.pi / 4
 CASES: Mapping[str, Callable[[Any], Any]] = {
     "hover": references.hover(),
     "circle R = 0.1 m": references.circle(0.1, RATE),
     "circle R = 0.5 m": references.circle(0.5, RATE),
 }
-# What they report of their experiment, m: the offset of hover and the position error on the small circle, about.
+# Approximate values from their experiment, m: the offset in hover and the position error on the small circle.
 PUBLISHED: Mapping[str, str] = {"hover": "offset about 0.05", "circle R = 0.1 m": "error about 0.1"}
-# The latency that every law plans for here, s: theirs, as identified; their controller knew it too.
+# The latency that every law compensates here, s: the value they identified and used in their controller.
 LATENCY = 0.03
 PLANT = sampled_plant("hehn2011").replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
 DURATION, JUDGED = 20.0, 10.0
@@ -33,9 +33,9 @@ DURATION, JUDGED = 20.0, 10.0
 
 @dataclass(frozen=True)
 class Tracking:
-    """One law on one case: whether it stood, mean offset and RMS error of the pivot over the last ten seconds, m.
+    """One law on one case: whether the rod stood, and mean offset and RMS error of the pivot, m, both over the last 10 s.
 
-    Offset and error of a run that diverged are NaN.
+    Offset and error are NaN if the run is not completed.
     """
 
     law: str
@@ -47,19 +47,19 @@ class Tracking:
 
 
 def hehn2011(laws: tuple[str, ...] = ("inverted", "lqr"), seed: int = 1) -> list[Tracking]:
-    """Fly hover and circles of the vehicle hehn2011 on `PLANT` (noise of a motion capture, 2 % of model error).
+    """Fly hover and circles with the vehicle hehn2011 on `PLANT` (motion-capture noise, 2 % model error).
 
     Parameters
     ----------
     laws : tuple of str
-        Names of laws of the package that follow a reference.
+        Names of shipped laws that follow a reference.
     seed : int
         Seed of the noise.
 
     Raises
     ------
     InputError
-        For a law that is unknown or does not follow a reference.
+        If a law is unknown or does not follow a reference.
     """
     return [_fly(name, case, reference, seed) for case, reference in CASES.items() for name in laws]
 

@@ -1,4 +1,4 @@
-"""The reality ladder: the same starts and laws on plants that come closer to the machine, rung by rung."""
+"""The reality ladder: the same starts and laws on plants that each add a departure from the ideal."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
 from flypend.studies.compare import Comparison, compared, flights_of
 
-# Ideal wrench; then limits alone; lag on top of limits; and every other departure on top of the plant "rotors" (limits,
-# the vehicle's lag, 500 Hz), one at a time, so that the rung that breaks a law is the departure that it names.
+# The ideal wrench, then limits alone, then lag on top of limits. Every other rung adds one departure to the plant
+# "rotors" (limits, the vehicle's lag, 500 Hz), so that the rung that breaks a law names the reason.
 RUNGS: Mapping[str, AnyPlant] = {
     "ideal wrench": PRESETS["ideal"],
     "limits": Sampled(lag=0.0),
@@ -33,18 +33,18 @@ RUNGS: Mapping[str, AnyPlant] = {
 
 @dataclass(frozen=True)
 class Ladder:
-    """Laws compared on one plant after another, from the same starts.
+    """Laws compared from the same starts, on one plant per rung.
 
     Parameters
     ----------
     rungs : dict of Comparison
-        By the name of the rung.
+        By name of the rung.
     """
 
     rungs: dict[str, Comparison]
 
     def broken(self, law: str, below: float = 0.9) -> list[str]:
-        """Rungs on which `law` succeeds in less than the share `below` of its runs."""
+        """Return the rungs on which the success rate of `law` is less than `below`."""
         return [rung for rung, comparison in self.rungs.items() if comparison.ensembles[law].rate < below]
 
 
@@ -63,13 +63,13 @@ def ladder(
     Parameters
     ----------
     vehicle, laws, starts, duration, workers
-        As in `compare`.
+        Like in `compare`.
     rungs : dict
-        Plants by the name of the rung.
+        Plants by name of the rung.
     progress : callable
-        Told `(rung and law, done, total)`.
+        Called with `(rung and law, done, total)`.
     """
-    worlds = {rung: plants.plant(plant) for rung, plant in rungs.items()}  # says so if one is not installed
+    worlds = {rung: plants.plant(plant) for rung, plant in rungs.items()}  # raises if an extra is not installed
     flights = flights_of(vehicle, laws, starts, duration)
     return Ladder(
         {

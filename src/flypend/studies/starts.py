@@ -1,4 +1,4 @@
-"""Batches of starts, in the frame with e₃ up."""
+"""Batches of starts in the e₃-up frame."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from flypend.paper import experiment, experiment_names
 
 
 def random_starts(runs: int, seed: int) -> State:
-    """`runs` random states from `seed`: y on S², R on SO(3), |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0."""
+    """Return `runs` random states: y on S², R on SO(3), |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0."""
     return State.random(np.random.default_rng(seed), runs)
 
 
 def paper_starts() -> State:
-    """The five starts of the paper, their numbers read with e₃ up, moved to x = 0."""
+    """Return the paper's five starts, their numbers read in the e₃-up frame, moved to x = 0."""
     states = [experiment(name).start for name in experiment_names() if "-" not in name]
     fields = {name: np.stack([getattr(state, name) for state in states]) for name in SHAPES}
     return State(**(fields | {"x": np.zeros((len(states), 3))}))

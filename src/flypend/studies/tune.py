@@ -1,4 +1,4 @@
-"""Better gains for a study, by CMA-ES on many flights at a time; what is reported is flown on starts of its own."""
+"""Gains tuned on a study by CMA-ES, with many flights per generation; the report uses held-out starts."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
 
 KEYS = ("gains", "objective", "runs", "generations", "population", "seed", "step")
-# Of a run that fails, the settling time counts as this many durations, and the excursion as at most that of `FAR`, m.
+# The settling time of a failed run counts as LATE durations; excursion (m) and effort are capped at FAR.
 LATE, FAR = 2.0, 100.0
 MOST_REPORTED = 20_000
 
 
 @dataclass(frozen=True, kw_only=True)
 class Objective:
-    """What tuning makes small: a weighted sum of means over the runs.
+    """The objective that tuning minimises: a weighted sum of means over the runs.
 
     Parameters
     ----------
     failure : float
-        Weight of the share of runs that fail.
+        Weight of the failure rate.
     settling : float
-        Weight of the settling time over the duration; a failure counts as twice the duration.
+        Weight of the settling time over the duration; a failed run counts as 2.
     excursion : float
-        Weight of the largest distance from the reference, m; more than 100 m count as 100.
+        Weight of the largest distance from the reference, m, capped at 100 m.
     effort : float
-        Weight of the effort.
+        Weight of the effort, capped at 100.
     """
 
     failure: float = 1.0
@@ -53,7 +53,7 @@ class Objective:
             errors.number(f"tune.objective.{entry.name}", getattr(self, entry.name), at_least=0)
 
     def cost(self, columns: Mapping[str, Any], duration: float) -> Any:
-        """The cost of each run (n,), from the fields of `Metrics` in `columns`, over `duration` s."""
+        """Return the cost of each run (n,) of `duration` s, from the fields of `Metrics` in `columns`."""
         success = columns["success"]
         settling = np.where(success, columns["settling"], LATE * duration) / duration
         excursion = np.minimum(np.nan_to_num(columns["excursion"], nan=FAR, posinf=FAR), FAR)
@@ -64,19 +64,19 @@ class Objective:
 
 @dataclass(frozen=True, eq=False)
 class Tuned:
-    """What tuning found.
+    """The result of tuning.
 
     Parameters
     ----------
     study : Study
-        What was tuned.
+        The study.
     gains : dict
         The best gains.
     before, after : dict
-        Cost, success rate with its interval, settling time and excursion of the old and the new gains, on the starts
-        of the study (at most 20 000), none of which was tuned on.
+        Cost, success rate with its interval, settling time and excursion of the initial and the tuned gains, on the
+        starts of the study (at most 20 000), which are held out from tuning.
     history : list of dict
-        By generation: runs flown so far, best and median cost on the starts tuned on, and the centre of the search.
+        By generation: runs flown so far, best and median cost on the tuning starts, and the centre of the search.
     """
 
     study: Study
@@ -86,7 +86,7 @@ class Tuned:
     history: list[dict[str, Any]]
 
     def settings(self) -> dict[str, Any]:
-        """The content of a TOML file for `flypend run`: the law with the new gains."""
+        """Return the content of a run file with the tuned gains, for `flypend run`."""
         from_study = self.study.settings
         law = dict(from_study["law"])
         law["gains"] = {**law.get("gains", {}), **self.gains}
@@ -102,25 +102,25 @@ def tune(
     workers: int | None = None,
     progress: Callable[[int, int], Any] = lambda *_: None,
 ) -> Tuned:
-    """Improve gains on a study's own objective, with CMA-ES in the logarithm of the gains.
+    """Tune gains on the objective of a study, by CMA-ES in the logarithm of the gains.
 
-    The table `tune` of the study says what: `gains`, a table of [least, largest]; `objective`, the weights of
-    `Objective`; `runs` for each set of gains (default 200), `generations` (30), `population` (default by CMA-ES),
-    `step` (0.2, first standard deviation over the range) and `seed` (1). Every set of gains flies the same starts.
+    The table `tune` of the study has the keys `gains`, a table of [low, high]; `objective`, the weights of `Objective`;
+    `runs` per gain vector (default 200); `generations` (30); `population` (default that of CMA-ES); `step` (0.2, the
+    initial standard deviation over the range); and `seed` (1). Every gain vector flies the same starts.
 
     Parameters
     ----------
     study : Study, path or dict
-        As for `sweep`. Its own runs only report.
+        Like in `sweep`. Its runs serve for the report only.
     workers : int, optional
         Threads; default one per core.
     progress : callable
-        Told `(generation, generations)`.
+        Called with `(generation, generations)`.
 
     Raises
     ------
     InputError
-        For a study that makes no sense or varies what is tuned.
+        If the study is invalid, or if it varies gains or a grid.
     """
     errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
@@ -147,7 +147,7 @@ def tune(
 
 @dataclass(frozen=True, eq=False)
 class _Task:
-    """A study and what is to be tuned of it; points of the unit cube stand for gains."""
+    """A tuning problem. A point of the unit cube maps to gains, evenly in the logarithm."""
 
     study: Study
     names: tuple[str, ...]
@@ -162,23 +162,23 @@ class _Task:
 
     @property
     def start(self) -> Any:
-        """The study's own gains as a point."""
+        """The initial gains as a point."""
         own = np.array([self.study.law.numbers[name] for name in self.names])
         return np.clip(np.log(own / self.low) / np.log(self.high / self.low), 0.0, 1.0)
 
     def gains(self, point: Any) -> dict[str, float]:
-        """The gains that a point stands for, to six digits."""
+        """Return the gains at a point, rounded to six significant digits."""
         values = self.low * (self.high / self.low) ** np.asarray(point)
         return {name: float(f"{value:.6g}") for name, value in zip(self.names, values, strict=True)}
 
     def costs(self, points: Any, workers: int | None) -> Any:
-        """Mean cost of each of `points`, all flown by one call from the starts that are tuned on."""
+        """Return the mean cost of each of `points`, all flown in one call from the tuning starts."""
         values = np.array([list(self.gains(point).values()) for point in points])
         columns = self._flown(values, self.runs, cube.TUNED, workers)
         return self.objective.cost(columns, self.study.flight.duration).reshape(len(points), self.runs).mean(axis=1)
 
     def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
-        """What these gains do on the starts of the study, the first `MOST_REPORTED` of them."""
+        """Return the statistics of `gains` on the first `MOST_REPORTED` starts of the study."""
         runs = min(self.study.samples, MOST_REPORTED)
         columns = self._flown(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
         success = columns["success"]
@@ -196,12 +196,12 @@ class _Task:
         }
 
     def _flown(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
-        """Metrics of `runs` runs under each row of gains `values`, one after the other."""
+        """Metrics of `runs` runs under each row of gains `values`, concatenated."""
         study = self.study
         packed = np.tile(design(study, 0, runs, stream).packed, (len(values), 1))
         columns = dict(zip(self.names, np.repeat(values, runs, axis=0).T, strict=True))
         flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
-        if stream == cube.TUNED:  # noise of its own, too
+        if stream == cube.TUNED:  # its own noise, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
         return fly_many(flight, study.engine, workers=workers).columns
 
@@ -247,7 +247,7 @@ def _task(made: Study) -> _Task:
 
 def _search(task: _Task) -> Any:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the package looks for optional companions
+        warnings.simplefilter("ignore")  # cma warns about missing optional packages
         import cma
     options = {"bounds": [0.0, 1.0], "seed": task.seed, "verbose": -9, "verb_log": 0}
     if task.population is not None:

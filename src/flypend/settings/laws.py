@@ -74,7 +74,7 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
 
 
 def absolute(value: Any, folder: Path) -> Any:
-    """Return `value`, a law like in `law_from`, with its file path made absolute from `folder`, to save with results."""
+    """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
     if isinstance(value, Mapping):
         return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
     file, colon, attribute = value.rpartition(":") if isinstance(value, str) else ("", "", "")
@@ -99,7 +99,7 @@ def law_table(value: Any, key: str = "law") -> dict[str, Any]:
 
 
 def table_of(name: str) -> dict[str, Any]:
-    """Return the TOML table that specifies the law `name`, a name like in `law_named`."""
+    """Return the TOML table that specifies the law `name`, as in `law_named`."""
     return {"function": name} if ":" in name else {"name": name}
 
 

@@ -68,7 +68,7 @@ def compare(
     starts : State
         A batch of states in the e₃-up frame.
     duration, plant, workers
-        Like in `simulate_ensemble`.
+        As in `simulate_ensemble`.
     progress : callable
         Called with `(name of the law, done, total)`.
     """
@@ -91,7 +91,7 @@ def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State
 def compared(
     flights: Mapping[str, Flight], plant: AnyPlant, *, workers: int | None = None, progress: Progress = lambda *_: None
 ) -> Comparison:
-    """Fly the `flights` of `flights_of` on `plant`; `workers` and `progress` are like in `compare`."""
+    """Fly the `flights` of `flights_of` on `plant`; `workers` and `progress` as in `compare`."""
     return Comparison(
         {
             name: fly_many(flight.through(plant), workers=workers, progress=partial(progress, name))

@@ -33,7 +33,7 @@ DURATION, JUDGED = 20.0, 10.0
 
 @dataclass(frozen=True)
 class Tracking:
-    """One law on one case: whether the rod stood, and mean offset and RMS error of the pivot, m, both over the last 10 s.
+    """One law on one case, over the last 10 s: whether the rod stood, mean offset and RMS error of the pivot, m.
 
     Offset and error are NaN if the run is not completed.
     """

@@ -63,7 +63,7 @@ def ladder(
     Parameters
     ----------
     vehicle, laws, starts, duration, workers
-        Like in `compare`.
+        As in `compare`.
     rungs : dict
         Plants by name of the rung.
     progress : callable

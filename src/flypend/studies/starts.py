@@ -10,7 +10,7 @@ from flypend.paper import experiment, experiment_names
 
 
 def random_starts(runs: int, seed: int) -> State:
-    """Return `runs` random states: y on S², R on SO(3), |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0."""
+    """Return `runs` random states from `seed`: y, R uniform, |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0."""
     return State.random(np.random.default_rng(seed), runs)
 
 

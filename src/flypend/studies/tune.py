@@ -111,7 +111,7 @@ def tune(
     Parameters
     ----------
     study : Study, path or dict
-        Like in `sweep`. Its runs serve for the report only.
+        As in `sweep`. Its runs serve for the report only.
     workers : int, optional
         Threads; default one per core.
     progress : callable

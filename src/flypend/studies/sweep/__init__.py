@@ -1,4 +1,4 @@
-"""Studies of up to 10⁷ flights: a TOML file in, a Zarr store out, chunk by chunk, to be stopped and continued."""
+"""Studies of up to 10⁷ flights, from a TOML file to a Zarr store, chunk by chunk; interrupted sweeps resume."""
 
 from flypend.studies.sweep.run import sweep
 from flypend.studies.sweep.study import Study, study

@@ -1,4 +1,4 @@
-"""What varies in a study, as data: a range that is drawn from, a list that is gone through, or a uniform law."""
+"""The axes of a study: each quantity that varies, as a range or uniform distribution to sample, or as a grid."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
 
-# Unit vectors and rotations are uniform; vectors uniform in a ball, rates of the rod in a disc; numbers have ranges.
+# Dimensions of the sample: y uniform on S², R on SO(3), vectors in balls, y_dot in a tangent disc. Scalars have ranges.
 UNIFORM = {"y": 2, "R": 3}
 BALLS = {"x": ("ball", 3), "x_dot": ("ball", 3), "omega": ("ball", 3), "y_dot": ("disc", 2)}
-# The rod by angles, with e₃ up: tilt from inverted, azimuth, size of its rate, and heading of it (0: the tilt grows).
+# The rod by angles, e₃ up: tilt from inverted, azimuth, magnitude of its rate, and heading of the rate (0: tilt grows).
 ANGLES = ("tilt", "azimuth", "rate", "heading")
 MOST_POINTS = 100_000
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One thing that varies.
+    """One quantity that varies.
 
     Parameters
     ----------
     group : "start", "gains" or "plant"
         What it belongs to.
     name : str
-        A field of the start or an angle, a gain, or a number of the plant ("mismatch.mass").
+        A field of the start or an angle, a gain, or a plant parameter ("mismatch.mass").
     dimensions : int
-        Numbers that are drawn for it; 0 on a grid.
+        Dimensions of the sample that it uses; 0 on a grid.
     low, high : float
-        A range; of a ball or a disc, 0 and its radius.
+        The range; for a ball or a disc, 0 and the radius.
     log : bool
-        Whether the range is divided evenly in the logarithm.
+        Whether the range is logarithmic.
     values : tuple of float
-        Points of a grid.
+        Grid points; empty if sampled.
     """
 
     group: str
@@ -49,16 +49,16 @@ class Axis:
     values: tuple[float, ...] = ()
 
     def at(self, u: Any) -> Any:
-        """Numbers of the range at shares u (n,) of it."""
+        """Return the values at the fractions u (n,) of the range."""
         if self.log:
             return self.low * (self.high / self.low) ** u
         return self.low + (self.high - self.low) * u
 
 
 def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> tuple[Axis, ...]:
-    """What the table `vary` of a study says, for a `law`, under a sampled `plant` or the ideal one.
+    """Return the axes in the table `vary` of a study under `law`; `plant` states whether the plant is sampled.
 
-    Raises InputError for what is unknown or out of range.
+    Raises InputError if anything is unknown or out of range.
     """
     errors.only_known("vary", table, ("start", "gains", "plant"))
     found = []
@@ -75,7 +75,7 @@ def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> t
         if one in start and set(two) & set(start):
             raise InputError("vary.start", f"{one}, or " + " and ".join(two), "both")
     if set(ANGLES[2:]) & set(start) and "y" in start:
-        raise InputError("vary.start", "rate and heading with tilt and azimuth", "them with y")
+        raise InputError("vary.start", "rate and heading with tilt and azimuth", "rate or heading with y")
     found += [_start_axis(name, value) for name, value in start.items()]
     return tuple(found)
 
@@ -108,7 +108,7 @@ def _start_axis(name: str, value: Any) -> Axis:
 
 
 def _plant_axes(name: str, value: Any, sampled: bool) -> list[Axis]:
-    """Numbers of the plant, and those in its tables; each on a grid, since runs of one plant are flown together."""
+    """Axes of plant parameters, nested tables included; all on grids, since runs on one plant fly together."""
     if not sampled:
         raise InputError("vary.plant", "a plant with numbers, such as 'rotors'", "the ideal plant")
     if isinstance(value, Mapping) and not set(value) & {"from", "to", "points", "values", "scale"}:
@@ -122,7 +122,7 @@ def _plant_axes(name: str, value: Any, sampled: bool) -> list[Axis]:
 
 
 def _range(group: str, name: str, value: Any) -> Axis:
-    """{from, to} to be drawn from, with {points} or {values} a grid; scale = "log" for ratios."""
+    """Parse a range: {from, to} is sampled, {points} or {values} makes a grid; scale = "log" is logarithmic."""
     field = f"vary.{group}.{name}"
     if not isinstance(value, Mapping):
         raise InputError(field, "{ from, to }, { from, to, points } or { values }", repr(value))
@@ -140,7 +140,7 @@ def _range(group: str, name: str, value: Any) -> Axis:
     low = errors.number(f"{field}.from", value["from"], above=0 if log else None)
     high = errors.number(f"{field}.to", value["to"], above=low)
     if not np.isfinite(high - low):
-        raise InputError(field, "a range whose length is a number", f"{low:g} to {high:g}")
+        raise InputError(field, "a range of finite length", f"{low:g} to {high:g}")
     if "points" not in value:
         return Axis(group, name, 1, low, high, log)
     points = integer(f"{field}.points", value["points"], 2)
@@ -155,7 +155,7 @@ def _check_points(field: str, points: int, least: int) -> None:
 
 
 def integer(field: str, value: Any, least: int) -> int:
-    """`value` as an integer of at least `least`. Raises InputError."""
+    """Return `value`. Raises InputError unless it is an integer of at least `least`."""
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise InputError(field, f"an integer >= {least}", repr(value))
     return value

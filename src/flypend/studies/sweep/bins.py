@@ -1,4 +1,4 @@
-"""Runs of a store gathered into cells, chunk by chunk, so that memory does not grow with the number of runs."""
+"""Runs of a store binned into cells, chunk by chunk, so that memory does not grow with the number of runs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.store import existing
 from flypend.studies.sweep.study import Study, study
 
-# Runs that a cell should hold, and bounds of the number of cells along a side.
+# Target number of runs per cell, and bounds on the number of cells per side.
 PER_CELL, LEAST, MOST = 400, 8, 64
 # Radius of a hemisphere in Lambert's projection.
 EDGE = float(np.sqrt(2))
@@ -27,16 +27,16 @@ EDGE = float(np.sqrt(2))
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """What happened in each of n cells.
+    """Statistics of the runs in each of n cells.
 
     Parameters
     ----------
     runs, successes : (n,)
-        Numbers of runs.
+        Counts of runs.
     settling, excursion : (n,)
-        Means, over the successes (s) and over all runs (m); NaN for none.
+        Mean settling time over the successes (s) and mean excursion over all runs (m); NaN if there are none.
     causes : (k, n)
-        Numbers of runs by cause, in the order of `flypend.studies.sweep.chunk.CAUSES`.
+        Counts of runs by cause, in the order of `flypend.studies.sweep.chunk.CAUSES`.
     """
 
     runs: Any
@@ -52,23 +52,23 @@ class Cells:
 
     @cached_property
     def width(self) -> Any:
-        """Width (n,) of the Wilson interval of the success rate, 95 %."""
+        """Width (n,) of the 95 % Wilson interval of the success rate."""
         low, high = wilson_bounds(self.successes, self.runs)
         return high - low
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells and the way from the columns of a chunk to them.
+    """A grid of cells, and the map from the columns of a chunk to cells.
 
     Parameters
     ----------
     shape : tuple of int
-        Of the cells.
+        Shape of the grid.
     columns : tuple of str
         Columns that `place` needs.
     place : callable
-        Columns to the number of the cell of each run (n,).
+        Returns, from the columns, the flat index of each run's cell (n,).
     """
 
     shape: tuple[int, ...]
@@ -77,7 +77,7 @@ class Grid:
 
 
 class Runs:
-    """The store at `path`, as what a map needs of it."""
+    """The runs in the store at `path`, for maps. Raises InputError if there are none."""
 
     def __init__(self, path: str | Path) -> None:
         self._store = existing(path)
@@ -89,13 +89,13 @@ class Runs:
 
     @property
     def number(self) -> int:
-        """Runs that were flown."""
+        """Number of runs flown."""
         size, last = self.study.chunk, self.study.chunks - 1
         short = self.study.runs - size * last if last in self._numbers else size
         return size * (len(self._numbers) - 1) + short
 
     def gather(self, grids: Sequence[Grid]) -> list[Cells]:
-        """What happened in the cells of each of `grids`, in one pass over the store."""
+        """Return the statistics of the cells of each of `grids`, in one pass over the store."""
         sums = [np.zeros((3 + len(CAUSES), int(np.prod(grid.shape)))) for grid in grids]
         needed = {"settling", "excursion", "cause"}.union(*(grid.columns for grid in grids))
         for number in self._numbers:
@@ -106,7 +106,7 @@ class Runs:
 
 
 def _counted(chunk: dict[str, Any], place: Any, cells: int) -> Any:
-    """Rows of sums over the runs of each cell: runs, settling, excursion, and each cause."""
+    """Sums over the runs of each cell, one per row: count, settling, excursion, and the count of each cause."""
     cause = chunk["cause"]
     rows = [
         np.bincount(place, minlength=cells),
@@ -127,7 +127,7 @@ def _over(sums: Any, numbers: Any) -> Any:
 
 
 def side(runs: int, panels: int = 1) -> int:
-    """Cells along a side, so that a cell of `panels` squares holds enough runs."""
+    """Return the number of cells per side such that each cell of `panels` square panels holds enough runs."""
     return int(np.clip(np.sqrt(runs / (PER_CELL * panels)), LEAST, MOST))
 
 
@@ -135,7 +135,10 @@ def side(runs: int, panels: int = 1) -> int:
 
 
 def sphere(study: Study, cells: int) -> Grid:
-    """Squares of equal area on both hemispheres of initial rods, (2, cells, cells): upper and lower, rows upwards."""
+    """Return the grid of initial rods: equal-area cells on both hemispheres, (2, cells, cells).
+
+    The first axis is upper, lower; rows run upwards.
+    """
 
     def place(chunk: dict[str, Any]) -> Any:
         y = upright(chunk["y"], study)
@@ -147,22 +150,23 @@ def sphere(study: Study, cells: int) -> Grid:
 
 
 def lambert(y: Any) -> tuple[Any, Any]:
-    """Lambert's equal-area projection of unit vectors (n, 3), e₃ up: whether upper, and the point (n, 2) of its disc.
+    """Lambert's equal-area projection of unit vectors (n, 3), e₃ up: whether upper, and the point (n, 2) in the disc.
 
-    Each hemisphere about its own pole: length 2 sin(θ/2) at the angle θ from the pole; the horizon is at √2.
+    Each hemisphere is projected about its own pole: the radius is 2 sin(θ/2) at angle θ from the pole, √2 at the
+    horizon.
     """
     flat = y[:, :2] * np.sqrt(2 / (1 + np.abs(y[:, 2])))[:, None]
     return y[:, 2] >= 0, flat
 
 
 def upright(v: Any, study: Study) -> Any:
-    """Vectors (n, 3) of a store in the frame with e₃ up."""
+    """Convert vectors (n, 3) of a store to the e₃-up frame."""
     return v if study.law.e3 == "up" else v * np.array([1.0, -1.0, -1.0])
 
 
 # Planes ---------------------------------------------------------------------------------------------------------------
 
-# Quantity: the column it comes from and what it is, for the axis of a picture.
+# Quantity: the column it comes from, and its axis label.
 QUANTITIES = {
     "tilt": ("y", "tilt of the rod from inverted (°)"),
     "rate": ("y_dot", "rate of the rod (1/s)"),
@@ -173,7 +177,7 @@ QUANTITIES = {
 
 
 def quantities(runs: Runs) -> list[str]:
-    """Names of what a plane can be drawn against."""
+    """Return the names of the quantities that can be an axis of a plane."""
     by_vector = [name for name, (column, _) in QUANTITIES.items() if column in runs.names and name not in runs.names]
     angles = [name for name in ANGLES if name in runs.names]
     others = [f"{axis.group}.{axis.name}" for axis in runs.study.axes if axis.group != "start"]
@@ -181,14 +185,14 @@ def quantities(runs: Runs) -> list[str]:
 
 
 def label(name: str) -> str:
-    """What a quantity is called on an axis."""
+    """Return the axis label of a quantity."""
     return QUANTITIES[name][1] if name in QUANTITIES else {"azimuth": "azimuth (rad)", "heading": "heading (rad)"}.get(
         name, name.removeprefix("gains.").replace("plant.", "plant: ")
     )  # fmt: skip
 
 
 def plane(runs: Runs, names: tuple[str, str], cells: int) -> tuple[Grid, tuple[Any, Any]]:
-    """Cells of the plane of two quantities, and the edges along both; a grid of the study keeps its own cells."""
+    """Return the grid over two quantities and the edges of its cells; a grid of the study keeps its own points."""
     for name in names:
         one_of("plane", name, quantities(runs))
     edges = tuple(_edges(runs.study, name, cells) for name in names)
@@ -206,7 +210,7 @@ def plane(runs: Runs, names: tuple[str, str], cells: int) -> tuple[Grid, tuple[A
 
 
 def _values(chunk: dict[str, Any], name: str, study: Study) -> Any:
-    """A quantity of the runs of a chunk (n,), in the unit of its axis."""
+    """Values (n,) of a quantity over the runs of a chunk, in the unit of its axis."""
     if name == "tilt":
         return np.degrees(
             chunk["tilt"] if "tilt" in chunk else np.arccos(np.clip(upright(chunk["y"], study)[:, 2], -1, 1))
@@ -217,7 +221,7 @@ def _values(chunk: dict[str, Any], name: str, study: Study) -> Any:
 
 
 def _edges(study: Study, name: str, cells: int) -> Any:
-    """Edges of the cells along a quantity, in the unit of its axis."""
+    """Edges of the cells along the axis of a quantity, in its unit."""
     group, _, key = name.partition(".") if name.startswith(("gains.", "plant.")) else ("start", "", name)
     varied = {axis.name: axis for axis in study.axes if axis.group == group}
     if key == "body_tilt" or (key == "tilt" and key not in varied):
@@ -238,7 +242,7 @@ def _between(values: Any) -> Any:
 
 
 def default_plane(runs: Runs) -> tuple[str, str] | None:
-    """Tilt against rate if both vary, else the first two quantities; None for fewer."""
+    """Return tilt and rate if both vary, else the first two quantities; None if there are fewer than two."""
     known = quantities(runs)
     if {"tilt", "rate"} <= set(known):
         return ("tilt", "rate")

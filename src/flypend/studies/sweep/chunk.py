@@ -1,4 +1,4 @@
-"""One chunk of a study: drawn, flown, judged and given back as the columns of its store."""
+"""One chunk of a study: sample it, fly it, evaluate the criterion, and return the columns for the store."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import Design, design
 from flypend.studies.sweep.study import Study, study
 
-# What a stored number of a cause means.
+# The meaning of the stored cause codes, by index.
 CAUSES = ("success", *PARTS, "diverged", "singular")
 FLOATS = ("settling", "excursion", "effort", "peak_force", "end")
 
 
 @lru_cache(maxsize=4)
 def study_of(text: str) -> Study:
-    """The study that a TOML text says."""
+    """Return the study in the TOML string `text`."""
     import tomllib
 
     return study(tomllib.loads(text))
@@ -41,9 +41,9 @@ def _program_of(text: str) -> str:
 
 
 def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
-    """The columns of chunk `number` of the study that `text` says, on one core.
+    """Return the columns of chunk `number` of the study in the TOML string `text`, flown on one core.
 
-    Raises InputError where that study is not the `program` (a digest) that it is for the caller.
+    Raises InputError if the study compiles to a program other than the caller's (`program`, a digest).
     """
     if _program_of(text) != program:
         raise InputError("scheduler", "workers with the flypend of this process", "one with other equations")
@@ -53,7 +53,7 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 
 
 def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
-    """The columns of runs `first` to `last` (not included) of `study`, of the sample `stream`, on one core."""
+    """Return the columns of runs `first` to `last` (exclusive) of `study`, from sample `stream`, flown on one core."""
     drawn = design(study, first, last, stream)
     parts = [fly_many(flight, study.engine, workers=1) for flight in flights(study, drawn, first)]
     judged = [flown.columns for flown in parts]
@@ -68,14 +68,14 @@ def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) 
 
 
 def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:
-    """The runs `drawn` as requests, one for each stretch that shares a plant; `first` is the number of their first."""
+    """Return the runs `drawn` as requests, one per stretch of runs on one plant; `first` is the first run's index."""
     return [_flight(study, drawn, part, first) for part in _by_plant(study, drawn)]
 
 
 def program_digest(study: Study) -> str:
-    """Digest of what is flown, down to the last operation: law, vehicle, plants and criterion as compiled.
+    """Return a digest of the compiled program, down to the last operation: law, vehicle, plants and criterion.
 
-    Of a law that is not compiled it is the text of its file.
+    A callable law, which is not compiled, enters by the text of its file.
     """
     digest = hashlib.sha256()
     cells = int(np.prod(study.shape, dtype=object))
@@ -93,13 +93,13 @@ def program_digest(study: Study) -> str:
 
 
 def _plant_cells(study: Study, cells: int) -> range:
-    """One cell of the grid for each plant."""
+    """The first cell of each plant in the grid."""
     plants = int(np.prod([len(axis.values) for axis in study.grid if axis.group == "plant"], dtype=object))
     return range(0, cells, cells // plants)
 
 
 def _by_plant(study: Study, drawn: Design) -> list[slice]:
-    """Stretches of runs that share a plant, which are consecutive since plants are outermost in the grid."""
+    """Stretches of runs on one plant; they are consecutive because plants are outermost in the grid."""
     cells = int(np.prod(study.shape, dtype=object))
     plant = drawn.cells // _plant_cells(study, cells).step
     ends = [0, *(np.flatnonzero(np.diff(plant)) + 1).tolist(), len(plant)]
@@ -113,5 +113,5 @@ def _flight(study: Study, drawn: Design, part: slice, first: int) -> Flight:
         starts=State.trusted(drawn.packed[part]),
         gains={name: value[part] for name, value in drawn.gains.items()},
         plant=plant,
-        seed=seed + first + part.start,  # noise of a run is its own, whatever the chunk
+        seed=seed + first + part.start,  # the noise of a run does not depend on the chunk
     )

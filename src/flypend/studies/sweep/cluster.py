@@ -1,4 +1,4 @@
-"""Chunks on Dask: a cluster in this process, one of processes on this machine, or one that is there already."""
+"""Chunks on Dask: on threads of this process, on local worker processes, or on an existing cluster."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from flypend.errors import InputError
 from flypend.studies.sweep.chunk import fly_chunk
 
-# Chunks under way per core: one that is flown, and one that waits.
+# Chunks submitted per core: one runs, one waits.
 AHEAD = 2
 CONNECT = 10.0
 
@@ -24,23 +24,23 @@ def flown_chunks(
     workers: int | None,
     processes: bool,
 ) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Chunks `numbers` of the study that `text` says, with their columns, as they come in.
+    """Fly chunks `numbers` of a study, and yield each with its columns as it completes.
 
     Parameters
     ----------
     text, program, numbers
-        The study as TOML; the digest of what it flies; which of its chunks.
+        The study as TOML; the digest of its program; the indices of the chunks.
     scheduler : str, optional
-        Address of a Dask scheduler; default a cluster of this machine.
+        Address of a Dask scheduler; default a local cluster.
     workers : int, optional
-        Threads or processes of that cluster; default one per core.
+        Threads or processes of the local cluster; default one per core.
     processes : bool
-        Whether it has a process per core, or a thread.
+        Whether the local cluster uses processes instead of threads.
 
     Raises
     ------
     InputError
-        For a scheduler that does not answer or is lost, and workers that die again and again or know other equations.
+        If the scheduler does not answer or is lost, or if workers die repeatedly or compile other equations.
     """
     import distributed
 
@@ -65,7 +65,7 @@ def flown_chunks(
 
 
 def _result(future: Any) -> dict[str, Any]:
-    """What came of a chunk. Raises InputError if its cluster is lost, or its workers die."""
+    """The columns of a chunk. Raises InputError if the cluster is lost or workers die."""
     from concurrent.futures import CancelledError
 
     import distributed
@@ -74,7 +74,7 @@ def _result(future: Any) -> dict[str, Any]:
         columns: dict[str, Any] = future.result()
     except (CancelledError, OSError, distributed.KilledWorker) as error:
         told = str(error).split(". ")[0] or type(error).__name__
-        raise InputError("scheduler", "a cluster that stays (the same command goes on)", told) from None
+        raise InputError("scheduler", "a cluster that stays up (rerun the same command to resume)", told) from None
     return columns
 
 

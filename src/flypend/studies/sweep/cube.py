@@ -1,6 +1,7 @@
-"""Points of the unit cube, member by member, and the uniform laws on spheres, rotations and balls that they stand for.
+"""Samples of the unit cube, and their maps to uniform distributions on spheres, rotations, balls and discs.
 
-Member j of a sample is a function of seed and j alone, so that any chunk of it can be drawn on its own.
+Member j of a sample depends on the sample (kind, seed, stream, size, dimensions) and on j only, so that any chunk of it
+can be drawn on its own.
 """
 
 from __future__ import annotations
@@ -14,34 +15,34 @@ from flypend.errors import InputError, require
 from flypend.geometry import cross, rotation_from_quat_xyzw, scale, unit
 
 SAMPLINGS = ("uniform", "sobol", "latin")
-# Streams of one seed that share no number: what a sweep reports, and what gains are tuned on.
+# Independent streams of one seed: the runs that a study reports, and the runs for tuning.
 REPORTED, TUNED = 0, 1
-# A Latin hypercube is drawn as a whole; this many numbers are 160 MB.
+# A Latin hypercube is drawn in one piece; this many numbers occupy 160 MB.
 MOST_LATIN = 20_000_000
-# Philox gives four numbers per step of its counter.
+# Philox produces four numbers per step of its counter.
 BLOCK = 4
-# Further than this a Sobol sequence of 30 bits repeats itself.
+# The period of a 30-bit Sobol sequence.
 MOST_SOBOL = 2**30
 
 
 def members(sampling: str, seed: int, stream: int, size: int, dimensions: int, first: int, last: int) -> Any:
-    """Members `first` to `last` (not included) of a sample: points (last − first, dimensions) of [0, 1)ⁿ.
+    """Return members `first` to `last` (exclusive) of a sample: points (last − first, dimensions) in [0, 1)ⁿ.
 
     Parameters
     ----------
     sampling : "uniform", "sobol" or "latin"
         Independent points; a scrambled Sobol sequence; a Latin hypercube.
     seed, stream : int
-        Which sample: streams of one seed are independent.
+        The sample; streams of one seed are independent.
     size, dimensions : int
-        Of the whole sample.
+        Size and dimensions of the whole sample.
     first, last : int
         Range of members.
 
     Raises
     ------
     InputError
-        For a sample too large for its kind.
+        If the sample is too large for its kind.
     """
     if dimensions == 0:
         return np.zeros((last - first, 0))
@@ -57,7 +58,7 @@ def members(sampling: str, seed: int, stream: int, size: int, dimensions: int, f
 
 
 def check_size(sampling: str, size: int, dimensions: int) -> None:
-    """Raise InputError for a sample of `size` points that `sampling` cannot give, or gives with an extra only."""
+    """Raise InputError if `sampling` cannot draw `size` points, or needs an extra that is not installed."""
     if sampling != "uniform":
         require("scipy", extra="studies", for_="sampling")
     if sampling == "latin" and size * dimensions > MOST_LATIN:
@@ -68,12 +69,12 @@ def check_size(sampling: str, size: int, dimensions: int) -> None:
 
 
 def _sobol(seed: int, stream: int, dimensions: int, first: int, last: int) -> Any:
-    from scipy.stats.qmc import Sobol  # of an extra: `check_size` asks for it
+    from scipy.stats.qmc import Sobol  # an extra, which `check_size` requires
 
     source = Sobol(dimensions, rng=np.random.default_rng([seed, stream]))
     if first:
         return source.fast_forward(first).random(last - first)
-    # One point and then the rest: a number of points that is no power of two is meant.
+    # Draw one point, then the rest: SciPy warns if the first draw is not a power of two, which is intended here.
     return np.concatenate([source.random(1), source.random(last - 1)]) if last > 1 else source.random(last)
 
 
@@ -85,31 +86,31 @@ def _latin(seed: int, stream: int, size: int, dimensions: int) -> Any:
 
 
 def on_sphere(u: Any) -> Any:
-    """Unit vectors (n, 3), uniform on S² for u (n, 2) uniform in the square: height and azimuth (Archimedes)."""
+    """Map u (n, 2), uniform in the square, to unit vectors (n, 3), uniform on S²: height and azimuth (Archimedes)."""
     height, angle = 2 * u[:, 0] - 1, 2 * np.pi * u[:, 1]
     radius = np.sqrt(np.maximum(1 - height**2, 0))
     return unit(np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1))
 
 
 def as_quat_xyzw(u: Any) -> Any:
-    """Quaternions (n, 4), their rotations uniform on SO(3) for u (n, 3) uniform in the cube (Shoemake 1992)."""
+    """Map u (n, 3), uniform in the cube, to quaternions (n, 4), uniform rotations on SO(3) (Shoemake 1992)."""
     one, two = np.sqrt(1 - u[:, 0]), np.sqrt(u[:, 0])
     a, b = 2 * np.pi * u[:, 1], 2 * np.pi * u[:, 2]
     return np.stack([one * np.sin(a), one * np.cos(a), two * np.sin(b), two * np.cos(b)], axis=1)
 
 
 def rotations(quat_xyzw: Any) -> Any:
-    """Rotation matrices (n, 3, 3) of quaternions (n, 4)."""
+    """Return the rotation matrices (n, 3, 3) of quaternions (n, 4)."""
     return rotation_from_quat_xyzw(quat_xyzw)
 
 
 def in_ball(u: Any, radius: float) -> Any:
-    """Vectors (n, 3), uniform in a ball for u (n, 3) uniform in the cube."""
+    """Map u (n, 3), uniform in the cube, to vectors (n, 3), uniform in a ball."""
     return scale(radius * np.cbrt(u[:, 0]), on_sphere(u[:, 1:]))
 
 
 def in_disc(u: Any, y: Any, radius: float) -> Any:
-    """Tangent vectors (n, 3) at unit vectors y (n, 3), uniform in a disc for u (n, 2) uniform in the square."""
+    """Map u (n, 2), uniform in the square, to tangent vectors (n, 3) at unit vectors y (n, 3), uniform in a disc."""
     far = np.where(np.abs(y[:, :1]) < 0.6, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])  # not along y
     one = unit(cross(y, far))
     length, angle = radius * np.sqrt(u[:, 0]), 2 * np.pi * u[:, 1]
@@ -117,9 +118,9 @@ def in_disc(u: Any, y: Any, radius: float) -> Any:
 
 
 def tilted(tilt: Any, azimuth: Any, rate: Any, heading: Any) -> tuple[Any, Any]:
-    """Rods y and their rates y_dot (n, 3), e₃ up, at `tilt` from inverted towards `azimuth`, moving with `rate`.
+    """Return y and y_dot (n, 3), e₃ up, of rods at `tilt` from inverted towards `azimuth`, with |y_dot| = `rate`.
 
-    Angles in rad; a rate (1/s) with `heading` 0 increases the tilt, with π/2 the azimuth.
+    Angles are in rad, rates in 1/s. The rate increases the tilt if `heading` is 0, the azimuth if it is π/2.
     """
     level = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)], axis=1)
     across = np.stack([-np.sin(azimuth), np.cos(azimuth), np.zeros_like(azimuth)], axis=1)

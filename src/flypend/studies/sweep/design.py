@@ -1,4 +1,4 @@
-"""Starts, gains and plants of the runs of a study: run i is a function of the study and i alone."""
+"""Starts, gains and plants of the runs of a study: run i depends on the study and on i only."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Design:
     packed : (n, 24)
         Starts in the frame of the law.
     gains : dict
-        Those that vary, name to (n,).
+        The gains that vary, name to (n,).
     cells : (n,)
-        Cell of the grid.
+        Index of the cell of the grid.
     columns : dict
-        What varies, as it is stored: name to (n,) or (n, k).
+        The varied quantities as stored, name to (n,) or (n, k).
     """
 
     packed: Any
@@ -36,7 +36,7 @@ class Design:
 
 
 def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> Design:
-    """Runs `first` to `last` (not included) of `study`; `stream` says which of its samples."""
+    """Return runs `first` to `last` (exclusive) of `study`, from its sample `stream`."""
     index = np.arange(first, last)
     cells, drawn = index // study.samples, _drawn(study, index % study.samples, stream)
     numbers: dict[tuple[str, str], Any] = {}
@@ -58,7 +58,7 @@ def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> 
 
 
 def _drawn(study: Study, members: Any, stream: int) -> Any:
-    """The points of the cube of these members, which are consecutive but where a cell ends."""
+    """The points of these members in the unit cube; members are consecutive within a cell."""
     how = (study.sampling, study.seed, stream, study.samples, study.dimensions)
     ends = np.flatnonzero(np.diff(members) < 0) + 1
     if len(ends) > 1:  # whole cells
@@ -68,7 +68,7 @@ def _drawn(study: Study, members: Any, stream: int) -> Any:
 
 
 def _starts(study: Study, numbers: dict[tuple[str, str], Any], runs: int) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The fields of the starts that vary, in the frame of the law, and the same and angles as they are stored."""
+    """The varied fields of the starts, in the frame of the law, and the columns to store (fields and angles)."""
     given = {axis.name: (axis, numbers["start", axis.name]) for axis in study.axes if axis.group == "start"}
     fields: dict[str, Any] = {}
     columns: dict[str, Any] = {}

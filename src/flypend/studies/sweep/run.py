@@ -1,4 +1,4 @@
-"""A study, flown into its store; stopped in any way, it goes on where it was."""
+"""Flies a study into its store, and resumes after an interruption."""
 
 from __future__ import annotations
 
@@ -30,33 +30,33 @@ def sweep(
     force: bool = False,
     progress: Progress = lambda *_: None,
 ) -> xarray.Dataset:
-    """Fly a study into a Zarr store, and give the store as an `xarray.Dataset` that is read when it is asked.
+    """Fly a study into a Zarr store, and return the store as a lazily loaded `xarray.Dataset`.
 
-    Stopped in any way, the same call goes on where it was, and the result is equal, to the last bit, to that of a call
-    that was not stopped. A store that is finished is left as it is.
+    After any interruption, the same call resumes the sweep; the result is bit-identical to an uninterrupted one. A
+    complete store is left unchanged.
 
     Parameters
     ----------
     study : Study, path or dict
-        What to fly: a TOML file or its content; docs/studies/studies.md lists the keys.
+        The study, or its TOML file or content; docs/studies/studies.md lists the keys.
     store : path
-        Ends in .zarr.
+        The store; its name ends in .zarr.
     scheduler : str, optional
-        Address of a Dask scheduler, such as tcp://host:8786; default a cluster of this machine.
+        Address of a Dask scheduler, such as tcp://host:8786; default a local cluster.
     workers : int, optional
         Cores of this machine to use; default all.
     processes : bool
-        Whether this machine's cluster is made of processes. Threads are as fast, start sooner, and end with the caller.
+        Whether the local cluster uses processes. Threads are as fast, start sooner, and end with the caller.
     force : bool
-        Whether to begin anew, whatever a sweep has left at `store`.
+        Whether to start over, discarding the store of an earlier sweep.
     progress : callable
-        Told `(done, total)` runs.
+        Called with `(done, total)` runs.
 
     Raises
     ------
     InputError
-        For a study that makes no sense, a store of another study (with the difference), one that cannot be written or
-        that another sweep is writing, and a scheduler that does not answer.
+        If the study is invalid; if the store belongs to another study (naming the first difference), is not writable or
+        is in use by another sweep; or if the scheduler does not answer.
     """
     for module in ("zarr", "xarray", "distributed", "scipy"):
         errors.require(module, extra="studies", for_="sweep")
@@ -86,7 +86,7 @@ def _length(study: Study, number: int) -> int:
 
 
 def dataset(path: str | Path) -> xarray.Dataset:
-    """The store at `path` as an `xarray.Dataset`, its numbers read when they are asked for."""
+    """Return the store at `path` as a lazily loaded `xarray.Dataset`."""
     errors.require("xarray", extra="studies", for_="store")
     import xarray
 
@@ -95,5 +95,5 @@ def dataset(path: str | Path) -> xarray.Dataset:
 
 
 def versions() -> dict[str, str]:
-    """Versions of everything that the numbers of a run depend on."""
+    """Return the versions of the packages on which the results of a run depend."""
     return {name: metadata.version(name) for name in ("flypend", "casadi", "llvmlite", "numpy", "scipy")}

@@ -1,7 +1,7 @@
-"""The Zarr store of a study: one chunk of every column per task, and a mark that it is whole.
+"""The Zarr store of a study: per task, one chunk of every column, and a mark that the chunk is complete.
 
-A mark is a digest of the numbers of a chunk, written after them. A chunk without a mark, or whose numbers do not give
-its mark (a file cut off by a power cut, a disk that lies), counts as not flown.
+A mark is a digest of the data of a chunk, written after the data. A chunk without a mark, or whose data do not match
+it (a file truncated by a power cut, a faulty disk), counts as not flown.
 """
 
 from __future__ import annotations
@@ -37,20 +37,20 @@ UNITS = {
     "y_dot": "1/s", "tilt": "rad", "azimuth": "rad", "heading": "rad", "rate": "1/s",
 }  # fmt: skip
 NOTES = {
-    "settling": "since when the criterion holds to the end; NaN for a failure",
+    "settling": "time from which the criterion holds to the end; NaN for a failure",
     "excursion": "largest distance of the pivot from its reference",
     "effort": "root mean square of the rotor forces over their share of the weight",
-    "peak_force": "largest force of a rotor",
-    "end": "when the run ended",
-    "tilt": "of the rod from inverted",
+    "peak_force": "largest force of any rotor",
+    "end": "time at which the run ended",
+    "tilt": "tilt of the rod from inverted",
     "quat_xyzw": "rotation from body to world, order x, y, z, w",
-    "final": "packed final state: x, x_dot, R by rows, omega, y, y_dot",
-    MARKS: "digest of a chunk of runs that is whole; 0 for one that is not",
+    "final": "packed final state: x, x_dot, R (row-major), omega, y, y_dot",
+    MARKS: "digest of a complete chunk of runs; 0 for an incomplete one",
 }
 
 
 class Store:
-    """The store at a path: which chunks are whole, and the writing and reading of chunks."""
+    """The store at `path`: reads, writes and verifies chunks."""
 
     def __init__(self, path: Path) -> None:
         import zarr
@@ -83,19 +83,19 @@ class Store:
         self._marks[number] = _digest({name: np.asarray(columns[name]) for name in self.columns})
 
     def read(self, number: int, names: list[str] | None = None) -> dict[str, Any]:
-        """Columns `names` (default all) of chunk `number`."""
+        """Return the columns `names` (default all) of chunk `number`."""
         return {name: self._arrays[name][self._rows(number)] for name in names or self.columns}
 
     def unmark(self, number: int) -> None:
-        """Say that chunk `number` is not whole."""
+        """Mark chunk `number` as incomplete."""
         self._marks[number] = 0
 
     def whole(self, number: int, *, verify: bool = False) -> bool:
-        """Whether chunk `number` has its mark; with `verify`, whether its numbers give it, too."""
+        """Whether chunk `number` has a mark; with `verify`, also whether its data match the mark."""
         try:
             mark = int(self._marks[number])
             return mark != 0 and (not verify or mark == _digest(self.read(number)))
-        except Exception:  # a file that cannot be decoded: Zarr and its codecs raise what they like
+        except Exception:  # undecodable data: Zarr and its codecs raise exceptions of many types
             return False
 
     def _rows(self, number: int) -> slice:
@@ -103,7 +103,7 @@ class Store:
 
 
 def _digest(columns: Mapping[str, Any]) -> int:
-    """Sixty-four bits of the SHA-256 of numbers and names, never 0."""
+    """Sixty-four bits of the SHA-256 of column names and data, never 0."""
     digest = hashlib.sha256()
     for name in sorted(columns):
         digest.update(name.encode())
@@ -112,23 +112,23 @@ def _digest(columns: Mapping[str, Any]) -> int:
 
 
 def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, str], like: Mapping[str, Any]) -> Store:
-    """The store of `study` at `path`, made if there is none.
+    """Return the store of `study` at `path`, creating it if there is none.
 
     Parameters
     ----------
     path, study
-        Where, ending in .zarr; and what for.
+        The path, which ends in .zarr; the study.
     program : str
-        Digest of what is flown.
+        Digest of the program, from `program_digest`.
     versions : dict
-        Of this package and those that the numbers depend on.
+        Versions of this package and of those on which the results depend.
     like : dict
-        Columns of a few runs: their names, types and shapes.
+        Columns of a few runs, for their names, types and shapes.
 
     Raises
     ------
     InputError
-        For what cannot be written, and for a store of another study, the difference named.
+        If the path is not writable, or if the store belongs to another study (naming the first difference).
     """
     path = checked_path(path)
     attributes = {
@@ -148,7 +148,7 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
 
 
 def checked_path(path: str | Path) -> Path:
-    """`path` as the name of a store. Raises InputError for one that does not end in .zarr."""
+    """Return `path` as a `Path`. Raises InputError unless it ends in .zarr."""
     path = Path(path)
     if path.suffix != ".zarr":
         raise InputError("store", "a name ending in .zarr", str(path))
@@ -156,12 +156,12 @@ def checked_path(path: str | Path) -> Path:
 
 
 def existing(path: str | Path) -> Store:
-    """The store at `path`. Raises InputError if there is none that a sweep has written."""
+    """Open the store at `path`. Raises InputError unless a sweep has written it."""
     path = checked_path(path)
     require("zarr", extra="studies", for_="store")
     try:
         store = Store(path) if path.is_dir() else None
-    except Exception as error:  # not Zarr, or metadata that cannot be read
+    except Exception as error:  # not Zarr, or unreadable metadata
         raise InputError(str(path), "a store that a sweep has written", error) from None
     if store is None or store.attributes.get("flypend") != "sweep":
         raise InputError(str(path), "a store that a sweep has written", "nothing" if store is None else "another")
@@ -169,17 +169,17 @@ def existing(path: str | Path) -> Store:
 
 
 def removed(path: str | Path) -> None:
-    """Remove the store at `path`, if a sweep has written one there. Raises InputError for anything else."""
+    """Remove the store at `path`, if any. Raises InputError if something other than a sweep's store is there."""
     path = checked_path(path)
     if path.exists():
         existing(path)
-        aside = path.with_name(f".{uuid4().hex}.removed")  # whole or gone, also if this stops half-way
+        aside = path.with_name(f".{uuid4().hex}.removed")  # atomic: present or gone, even if interrupted
         path.rename(aside)
         shutil.rmtree(aside)
 
 
 def _create(path: Path, study: Study, attributes: dict[str, Any], like: Mapping[str, Any]) -> None:
-    """Make an empty store beside `path` and move it there."""
+    """Create an empty store next to `path` and rename it to `path`."""
     import zarr
     from zarr.codecs import BloscCodec, BloscShuffle
 
@@ -221,7 +221,7 @@ def _notes(name: str) -> dict[str, Any]:
 
 
 def _check_same(path: Path, found: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
-    """Raise InputError that names the first difference between the study of a store and the one at hand."""
+    """Raise InputError, naming the first difference, unless the store belongs to this study."""
     there, here = (
         _flat({"study": tomllib.loads(each["study"]), "versions": each["versions"]}) for each in (found, wanted)
     )
@@ -241,13 +241,13 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def lock_of(path: Path) -> Path:
-    """The file beside a store at `path` that a sweep holds."""
+    """Return the path of the lock file of the store at `path`."""
     return path.with_name(f".{path.name}.lock")
 
 
 @contextmanager
 def alone(store: Store) -> Iterator[None]:
-    """Hold the store against a second sweep. The system lets go of it when the process ends, in whatever way."""
+    """Lock the store against a second sweep. The system releases the lock however the process ends."""
     place = lock_of(store.path)
     lock = FileLock(place, timeout=0)
     try:
@@ -259,7 +259,7 @@ def alone(store: Store) -> Iterator[None]:
     try:
         yield
     finally:
-        # While it is held: whoever has opened the file before sees that its name is gone, and opens a new one.
-        with suppress(OSError):  # a system that does not remove what is open; releasing removes it there
+        # Unlink while holding the lock: a process that has the old file open notices and opens a new one.
+        with suppress(OSError):  # some systems cannot unlink an open file; there, releasing the lock removes it
             place.unlink()
         lock.release()

@@ -1,4 +1,4 @@
-"""A study as data: what flies, from where, what varies, and when a run counts as a success."""
+"""A study as data: the flight, what varies, the sample, and the success criterion."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ KEYS = (
     "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "engine", "runs",
     "sampling", "seed", "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
-# Runs per chunk, in the ideal plant, in a sampled flight, in MuJoCo, and step by step: some seconds of one core.
+# Runs per chunk (ideal plant, sampled plant, MuJoCo, callable law): each takes a few seconds on one core.
 CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
-# A run takes some hundreds of steps; one that takes this many is chattering.
+# A run usually takes a few hundred integrator steps; one that takes this many is chattering.
 STEPS = 20_000
 MOST_CHUNK = 1_000_000
 MOST_RUNS = 10**9
@@ -40,30 +40,30 @@ ENGINES = ("kernel", "jax")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Study:
-    """Many runs to make.
+    """A study of many runs.
 
     Parameters
     ----------
     flight : Flight
-        A run of it, but for what varies.
+        The request that all runs share, except for what varies.
     engine : "kernel" or "jax"
-        What flies it: machine code, or JAX in the ideal plant.
+        The engine: compiled kernels, or JAX on the ideal plant.
     axes : tuple of Axis
-        What varies.
+        The quantities that vary.
     samples : int
         Runs in each cell of the grid; every cell flies the same sample.
     sampling : "uniform", "sobol" or "latin"
         How the sample is drawn.
     seed : int
-        Of the sample.
+        Seed of the sample.
     chunk : int
-        Runs that are flown and stored together.
+        Number of runs that are flown and stored together.
     final : bool
         Whether final states are stored.
     settings : dict
-        All of it as the content of a TOML file, every default spelt out.
+        The study as the content of a TOML file, every default spelt out.
     tune : dict
-        What `tune` is told: see `flypend.studies.tune`.
+        The table `tune`: see `flypend.studies.tune`.
     """
 
     flight: Flight
@@ -79,17 +79,17 @@ class Study:
 
     @property
     def grid(self) -> tuple[Axis, ...]:
-        """The axes that are gone through, those of the plant first."""
+        """The axes on a grid, those of the plant first."""
         return tuple(axis for axis in self.axes if axis.values)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Points of each axis of the grid."""
+        """Number of points of each axis of the grid."""
         return tuple(len(axis.values) for axis in self.grid)
 
     @property
     def dimensions(self) -> int:
-        """Numbers that are drawn for a run."""
+        """Dimensions of the sample."""
         return sum(axis.dimensions for axis in self.axes)
 
     @property
@@ -109,15 +109,15 @@ class Study:
 
     @property
     def law(self) -> BoundLaw | Controller:
-        """The law that flies it."""
+        """The law of the study."""
         return self.flight.law
 
     def text(self) -> str:
-        """The study as TOML, every default spelt out; without what `tune` is told."""
+        """Return the study as TOML, every default spelt out, without the table `tune`."""
         return toml_text(self.settings)
 
     def plant_at(self, cell: int) -> AnyPlant:
-        """The plant of cell `cell` of the grid."""
+        """Return the plant of cell `cell` of the grid."""
         axes_ = [axis for axis in self.grid if axis.group == "plant"]
         if not axes_:
             return self.flight.plant
@@ -133,11 +133,11 @@ class Study:
 
 
 def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study:
-    """The study of a TOML file, or of its content as a dict `what`; docs/studies/studies.md lists the keys.
+    """Return the study in `what`, a TOML file or its content as a dict; docs/studies/studies.md lists the keys.
 
-    `law`, as on the command line, takes the place of the law there.
+    `law`, in the form used on the command line, replaces the law.
 
-    Raises InputError for anything unknown (with the nearest known name), missing, or out of range.
+    Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
     settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
     if "law" in settings and not isinstance(what, Mapping):
@@ -147,7 +147,7 @@ def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study
     try:
         for key, value in settings.items():
             check_plain(key, value)
-        with np.errstate(all="ignore"):  # numbers near the largest float overflow in the checks, and so fail them
+        with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
             return _build(settings)
     except RecursionError:
         raise InputError("study", "settings nested a few levels deep", "hundreds of levels") from None
@@ -162,7 +162,7 @@ def _build(given: dict[str, Any]) -> Study:
     flight = _flight(given, start, vary)
     plant = flight.plant
     found = axes(vary, flight.law, isinstance(plant, Sampled))
-    # Not in the order of the file: what is drawn depends on what is said, not on where.
+    # Sorted, so that the sample does not depend on the order of the keys in the file.
     order = {"plant": 0, "gains": 1, "start": 2}
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
     made = Study(
@@ -193,7 +193,7 @@ def _build(given: dict[str, Any]) -> Study:
 
 
 def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) -> Flight:
-    """A run of the study, but for what varies."""
+    """The request that all runs share, except for what varies."""
     exact = Tolerances(
         rtol=errors.number("rtol", given.get("rtol", 1e-6), above=0),
         precision=given.get("precision", "double"),
@@ -221,7 +221,7 @@ def _chunk(flight: Flight) -> int:
 
 
 def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The tables of what the starts have in common and of what varies; nothing stands in both."""
+    """The tables `start` and `vary`; no quantity may be in both."""
     start, vary = table_at(given, "start"), table_at(given, "vary")
     varied = set(table_at(vary, "start", "vary.start"))
     for name in start:
@@ -233,7 +233,7 @@ def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 def _fixed(start: dict[str, Any], vary: dict[str, Any]) -> State:
-    """The start but for what varies; a rod that varies stands in it as e₃."""
+    """The start that all runs share; y is e₃ if the rod varies."""
     varied = table_at(vary, "start")
     return start_of({"y": [0.0, 0.0, 1.0], **start} if {"y", "tilt", "azimuth"} & set(varied) else start)
 
@@ -255,7 +255,7 @@ def _plant_table(value: Any) -> Any:
 
 
 def _check(made: Study) -> None:
-    """Refuse what is too large, or makes no sense together."""
+    """Reject what is too large or inconsistent."""
     if made.runs > MOST_RUNS:
         raise InputError("runs", f"at most {MOST_RUNS} over all cells of the grid", made.runs)
     if made.chunk > MOST_CHUNK:
@@ -268,12 +268,12 @@ def _check(made: Study) -> None:
 
 
 def _random(plant: AnyPlant) -> bool:
-    """Whether `plant` may draw numbers."""
+    """Whether `plant` is random."""
     return isinstance(plant, Sampled) and (plant.noise is not None or plant.wind is not None)
 
 
 def _check_plants(made: Study) -> None:
-    """Refuse a plant of the grid that cannot be, and more of them than are worth compiling."""
+    """Reject an invalid plant in the grid, and more plants than are worth compiling."""
     axes_ = [axis for axis in made.grid if axis.group == "plant"]
     plants = int(np.prod([len(axis.values) for axis in axes_], dtype=object))
     if plants > MOST_PLANTS:
@@ -284,9 +284,10 @@ def _check_plants(made: Study) -> None:
 
 
 def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, duration: float | None) -> dict[str, Any]:
-    """The study of a law from the starts of `State.random`: y on S², R on SO(3), rates and velocities in balls.
+    """Return the standard study of a law: y uniform on S², R on SO(3), rates and velocities in balls.
 
-    A law of the paper's is to bring the rod to its e₃, anywhere, in 6.5 s; others invert it at their reference in 10 s.
+    By default the paper's laws have 6.5 s to bring the rod to their e₃, at any position, and all others have 10 s to
+    invert it at their reference.
     """
     papers = law in ("printed", "corrected")
     return {

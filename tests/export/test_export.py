@@ -194,7 +194,7 @@ def level_wrench(state):
     """The wrench that levels hehn2011 at 500 Hz, written down once more."""
     R, omega, I = state[6:15].reshape(3, 3), state[15:18], VEHICLE.inertia
     z = R[:, 2]
-    d = 1 / 3 / (VEHICLE.rotor_lag + INVERTED.computer.latency + 2e-3)
+    d = 1 / 2 / (VEHICLE.rotor_lag + INVERTED.computer.latency + 2e-3)
     alpha = R.T @ np.cross(z, [0, 0, 1]) * (d / 2) ** 2 / np.sqrt((1 + z[2]) / 2 + 1e-3) - d * omega
     return np.append(VEHICLE.weight * max(z[2], 0), I @ alpha + np.cross(omega, I @ omega))
 

@@ -94,7 +94,9 @@ def test_export_takes_what_is_symbolic_and_refuses_the_rest(call, tmp_path):
     assert "stiffness" in (tmp_path / "c" / "flypend_law.h").read_text(encoding="ascii")
     code, _, told = call("export-c", "--law", "mine.py:stepped", "--out", "d")
     assert (code, len(told.splitlines()), (tmp_path / "d").exists()) == (2, 1, False)
-    assert told.startswith("flypend: --law: expected a law written in symbols, got mine.py:stepped, which is not (an if")
+    assert told.startswith(
+        "flypend: --law: expected a law written in symbols, got mine.py:stepped, which is not (an if"
+    )
     assert "mine.py:11" in told
 
 
@@ -116,7 +118,10 @@ def test_a_file_stands_where_the_run_file_stands(call, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("law", "words"),
     [
-        ("mine.py:misspelt", "mine.py:16: AttributeError: 'State' object has no attribute 'omga' (in the law misspelt)"),
+        (
+            "mine.py:misspelt",
+            "mine.py:16: AttributeError: 'State' object has no attribute 'omga' (in the law misspelt)",
+        ),
         ("mine.py:balanse", "got 'balanse' (did you mean 'balance'?)"),
         ("bad.py:f", "bad.py:1: SyntaxError: invalid syntax"),
         ("none.py:f", "expected a file that is there, got "),

@@ -10,7 +10,7 @@ from joblib.externals.loky import get_reusable_executor
 
 import flypend as fp
 from flypend import Plant
-from flypend.flight import ensemble
+from flypend.flight import members
 from flypend.flight.ensemble import Ensemble, simulate_ensemble
 from flypend.flight.metrics import Metrics, metrics, wilson
 from flypend.laws import Controller, corrected, inverted, printed
@@ -129,7 +129,7 @@ def test_the_frame_is_that_of_the_law(starts):
 @pytest.fixture
 def small_tasks(monkeypatch):
     """Two runs to a task, so that few starts are several tasks."""
-    monkeypatch.setattr(ensemble, "CHUNK", 2)
+    monkeypatch.setattr(members, "CHUNK", 2)
     monkeypatch.setattr("flypend.flight.kernels.flown.LEAST_SHARE", 2)
     monkeypatch.setattr("flypend.flight.kernels.sampled.PIECE", 2)
 

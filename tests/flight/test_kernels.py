@@ -18,7 +18,8 @@ from flypend.compile.program import interpret
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import ideal_problem
-from flypend.flight.sampled import fly
+from flypend.flight.request import Flight
+from flypend.flight.sampled import fly_stepwise
 from flypend.plants import Ideal, Noise, Plant, Wind
 from flypend.plants.loop import Loop
 
@@ -327,8 +328,9 @@ def test_the_sampled_kernel_flies_as_python_does(name, law):
     ticks = np.arange(0, round(0.4 * plant.rate) + 1)
     kernel = sampled_kernel(Loop(vehicle, law, plant.replace(seed=0)), Criterion())
     flown = kernel.fly(starts.packed(), 0.4, judge_at=ticks, keep_at=ticks, first_seed=plant.seed)
+    flight = Flight(vehicle=vehicle, law=law, starts=starts, duration=0.4, plant=plant)
     for i in (0, 2):
-        samples = fly(vehicle, law, starts[i], 0.4, plant.replace(seed=plant.seed + i))
+        samples = fly_stepwise(flight.member(i))
         own = samples.packed * (1.0 if law.e3 == "up" else fp.model.state.FLIP_PACKED)
         assert samples.outcome.status == flown.status[i]
         np.testing.assert_allclose(flown.samples[i, :, :24], own, rtol=0, atol=1e-9)

@@ -6,7 +6,8 @@ import pytest
 import flypend as fp
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import sampled_kernel
-from flypend.flight.sampled import fly
+from flypend.flight.request import Flight
+from flypend.flight.sampled import fly_stepwise
 from flypend.plants import MOTION_CAPTURE, Plant, Wind
 from flypend.plants.loop import Loop
 
@@ -34,7 +35,7 @@ def flown(plant, starts, duration, **options):
 def test_it_is_the_flight_step_by_step(name):
     plant, start = PLANTS[name], fp.State.random(np.random.default_rng(5))
     ours = flown(plant, start.packed()[None], 0.6).samples[0]
-    steps = fly(VEHICLE, INVERTED, start, 0.6, plant)
+    steps = fly_stepwise(Flight(vehicle=VEHICLE, law=INVERTED, starts=start, duration=0.6, plant=plant))
     # Both call the same mj_step; sums in another order grow with the flight.
     np.testing.assert_allclose(ours[:, :24], steps.packed, rtol=0, atol=1e-8)
     np.testing.assert_allclose(ours[:, 24:], steps.rotors, rtol=0, atol=1e-8)
@@ -44,7 +45,7 @@ def test_it_is_not_the_flight_in_our_own_equations():
     """Negative control, and what the two engines differ by: rotors by RK4 in place of an exponential."""
     start = fp.State.random(np.random.default_rng(5))
     ours = flown(MUJOCO, start.packed()[None], 0.6).samples[0, -1, :24]
-    own = fly(VEHICLE, INVERTED, start, 0.6, Plant()).packed[-1]
+    own = fly_stepwise(Flight(vehicle=VEHICLE, law=INVERTED, starts=start, duration=0.6)).packed[-1]
     assert 1e-9 < np.max(np.abs(ours - own)) < 1e-4
 
 

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 import flypend as fp
 from flypend import geometry as geo
 from flypend.model import equations_of_motion, total_energy
-from flypend.model.state import SHAPES, project, split
+from flypend.model.state import SHAPES, project, seen_packed, split
 from flypend.model.vehicle import vehicle_names
 
 EPS = 1e-15
@@ -501,3 +501,16 @@ def test_the_vehicles_of_the_package_are_those_announced():
     assert {"hehn2011", "nayak2018"} <= set(vehicle_names())
     for name in vehicle_names():
         assert fp.vehicle(name).name == name
+
+
+def test_states_wrenches_and_packed_states_are_seen_in_either_frame():
+    states = fp.State.random(np.random.default_rng(5), 3)
+    wrench = fp.Wrench(np.array([1.0, 2.0, 3.0]), np.arange(9.0).reshape(3, 3))
+    assert states.seen("up") is states
+    assert wrench.seen("up") is wrench
+    np.testing.assert_array_equal(states.seen("down").packed(), states.flipped().packed())
+    np.testing.assert_allclose(seen_packed(states.packed(), "down"), states.flipped().packed(), rtol=0, atol=1e-15)
+    np.testing.assert_array_equal(seen_packed(states.packed(), "up"), states.packed())
+    np.testing.assert_allclose(states.seen("down").seen("down").packed(), states.packed(), atol=1e-15)
+    np.testing.assert_array_equal(wrench.seen("down").thrust, -wrench.thrust)
+    np.testing.assert_array_equal(wrench.seen("down").moment, wrench.flipped().moment)

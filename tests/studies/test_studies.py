@@ -110,6 +110,15 @@ def test_a_law_with_e3_down_flies_the_same_physical_starts(plant):
     np.testing.assert_allclose(single.flipped().states.packed()[-1], up.final.packed()[2], atol=1e-9)
 
 
+def test_a_comparison_as_arrays_has_laws_and_runs():
+    laws = [Controller(name=name, function=hover, rate=50.0) for name in ("a", "b")]
+    result = compare(VEHICLE, laws, random_starts(3, 1), 0.04, plant="ideal")
+    data = result.to_xarray()
+    assert dict(data.sizes) == {"law": 2, "run": 3}
+    np.testing.assert_array_equal(data["excursion"].sel(law="b"), result.ensembles["b"].excursion)
+    assert len(data.to_dataframe()) == 6
+
+
 def test_names_are_made_unique_and_progress_names_the_law():
     told = []
     laws = [Controller(name=name, function=hover, rate=50.0) for name in ("a", "b", "a", "a")]

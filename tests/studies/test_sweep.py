@@ -192,6 +192,18 @@ def test_a_sweep_flies_on_a_cluster_that_is_there(tmp_path):
     assert (told[0], told[-1]) == ((0, 100), (100, 100))
 
 
+def test_a_study_on_jax_has_the_verdicts_of_the_kernel():
+    pytest.importorskip("jax")
+    found = {
+        engine: fly_range(fp.study(GRID | {"engine": engine, "rtol": 1e-8}), 0, 24) for engine in ("kernel", "jax")
+    }
+    np.testing.assert_array_equal(found["jax"]["cause"], found["kernel"]["cause"])
+    np.testing.assert_array_equal(found["jax"]["gains.k_d"], found["kernel"]["gains.k_d"])
+    np.testing.assert_allclose(found["jax"]["excursion"], found["kernel"]["excursion"], rtol=1e-4)
+    with pytest.raises(fp.InputError, match=r"^engine: expected 'kernel' in a sampled flight, got 'jax'"):
+        fp.study(NOISY | {"engine": "jax"})
+
+
 def test_the_store_says_what_it_holds(tmp_path):
     table = SHORT | {"duration": 4.0, "runs": 200}
     data = fp.sweep(table, tmp_path / "a.zarr", workers=1)

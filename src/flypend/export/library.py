@@ -27,7 +27,6 @@ from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import FLIP_PACKED
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
 
@@ -201,11 +200,10 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
 
     def wrench(t: float, state: State) -> Wrench:
         """The bare law, without estimates of external forces."""
-        upright = state.packed() * (1.0 if bound.e3 == "up" else FLIP_PACKED)
-        numbers = records.state_numbers(upright, np.zeros(6))
+        numbers = records.state_numbers(state.seen(bound.e3).packed(), np.zeros(6))
         values, _, status = code.step(numbers, code.follow(path(t), numbers))
         found = Wrench(values[0, 0], values[0, 1:]) if not status[0] else Wrench(np.nan, np.full(3, np.nan))
-        return found if bound.e3 == "up" else found.flipped()
+        return found.seen(bound.e3)
 
     def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard:
         if loop.vehicle != vehicle:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import copyreg
-import os
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,11 +14,10 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import Flown, fly_all, has_kernel
 from flypend.flight.kernels.gpu import fly_on_jax
 from flypend.flight.labelled import dataset, described, state_variables, variable
-from flypend.flight.metrics import Metrics, judged, metrics, wilson
+from flypend.flight.members import fly_members
+from flypend.flight.metrics import Metrics, judged, wilson
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import nearest_ticks
-from flypend.flight.simulate import fly
-from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
@@ -31,12 +28,6 @@ if TYPE_CHECKING:
 
 ENGINES = ("kernel", "scipy", "jax")
 Progress = Callable[[int, int], Any]
-
-# Runs per task of the engine "scipy": a task compiles the law once, which costs a fraction of one run.
-CHUNK = 8
-
-# What another process refuses comes back as the three fields of an InputError; by itself it is pickled by its message.
-copyreg.pickle(errors.InputError, lambda error: (errors.InputError, (error.field, error.expected, str(error.got))))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -227,32 +218,9 @@ def _about(flight: Flight) -> dict[str, Any]:
     return {"e3": law.e3, "vehicle": flight.vehicle, "law": law.name, "gains": gains, "t": t}
 
 
-def _can_be_sent(law: AnyLaw) -> bool:
-    """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
-    import cloudpickle
-
-    try:
-        cloudpickle.dumps(law)
-    except Exception:  # CasADi raises no narrower one
-        return False
-    return True
-
-
-@dataclass(frozen=True, eq=False)
-class _Member:
-    """One run of an ensemble: how it is judged, how it ends, and its samples (k, 24) if any are kept."""
-
-    metrics: Metrics
-    final: NDArray[np.float64]
-    samples: NDArray[np.float64] | None
-
-
 def _one_by_one(flight: Flight, engine: str, workers: int | None, progress: Progress) -> Ensemble:
     """As `fly_many`, by single runs in one process per core."""
-    members: list[_Member] = []
-    for part in _chunks(flight, engine, workers or os.cpu_count() or 1):
-        members += part
-        progress(len(members), flight.runs)
+    members = fly_members(flight, engine, workers, progress)
     columns: dict[str, Any] = {
         entry.name: np.array([getattr(member.metrics, entry.name) for member in members]) for entry in fields(Metrics)
     }
@@ -261,45 +229,3 @@ def _one_by_one(flight: Flight, engine: str, workers: int | None, progress: Prog
         starts=flight.starts, final=State.trusted(np.array([member.final for member in members])), **columns,
         **_about(flight), samples=State.trusted(np.array([member.samples for member in members])) if kept else None,
     )  # fmt: skip
-
-
-def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[_Member]]:
-    """The members, some at a time, in the order of the starts."""
-    from joblib import Parallel, delayed  # processes, which a kernel does not wait for
-
-    def chunk(indices: range) -> list[_Member]:
-        return [_member(flight.member(i), engine) for i in indices]
-
-    chunks = [range(i, min(i + CHUNK, flight.runs)) for i in range(0, flight.runs, CHUNK)]
-    if processes == 1 or len(chunks) == 1 or not _can_be_sent(flight.law):
-        yield from (chunk(indices) for indices in chunks)
-    else:
-        yield from Parallel(n_jobs=processes, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
-
-
-def _member(flight: Flight, engine: str) -> _Member:
-    """One run: sampled where it is judged and where it is kept, and each read for itself."""
-    if flight.times is None:
-        run = fly(flight, engine)
-        return _Member(metrics(run, flight.criterion), run.packed[-1], None)
-    run = fly(flight.replace(times=np.union1d(flight.grid, flight.times)), engine)
-    judge, keep = (_rows(flight, run, wanted) for wanted in (flight.grid, flight.times))
-    ends = judge[judge >= 0] if run.outcome.status == "completed" else np.append(judge[judge >= 0], len(run.t) - 1)
-    samples = np.where(keep[:, None] >= 0, run.packed[keep], np.nan)
-    return _Member(metrics(_taken(run, np.unique(ends)), flight.criterion), run.packed[-1], samples)
-
-
-def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Where `run` has its samples at the times `wanted`; -1 for those after its end."""
-    t = run.t
-    if isinstance(flight.plant, Sampled):
-        wanted, t = nearest_ticks(wanted, flight.plant, flight.duration), np.rint(t * flight.plant.rate)
-    place = np.minimum(np.searchsorted(t, wanted), len(t) - 1)
-    return np.where(t[place] == wanted, place, -1)
-
-
-def _taken(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
-    """The samples of `run` in some of its rows."""
-    names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
-    signals = {name: value[rows] for name, value in run.signals.items()}
-    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals=signals)

@@ -18,9 +18,9 @@ from flypend.board.computer import FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
-from flypend.laws import BoundLaw, Controller
-from flypend.model import State, Vehicle
-from flypend.model.state import FLIP_PACKED, MAX_STATE
+from flypend.flight.request import Flight
+from flypend.laws import Controller
+from flypend.model.state import MAX_STATE, seen_packed
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
@@ -46,17 +46,17 @@ class Samples:
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
-def fly(
-    vehicle: Vehicle, law: BoundLaw | Controller, start: State, duration: float, plant: Plant, rotors: Any = None
-) -> Samples:
-    """Fly `vehicle`, as the law knows it, from `start` (in the law's frame) through `plant` for `duration` seconds.
+def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
+    """Fly the single start of `flight`, whose plant is a sampled one, step by step.
 
     Rotors start with the forces `rotors` (n,), N, by default their least. Every quantity is recorded at each control
     tick.
     """
-    loop = Loop(vehicle, law, plant)
+    loop = flight.loop
+    vehicle, law, plant = loop.vehicle, loop.law, loop.sampled.replace(seed=flight.seed)
+    start, duration = flight.starts, flight.duration
     engine = make_engine(plant.true_vehicle(vehicle), plant)
-    packed = start.packed() * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    packed = seen_packed(start.packed(), law.e3)
     begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)

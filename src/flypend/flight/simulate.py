@@ -12,14 +12,13 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
-from flypend.flight.sampled import Samples
-from flypend.flight.sampled import fly as step_by_step
+from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
-from flypend.model.state import FLIP_PACKED, split
+from flypend.model.state import seen_packed, split
 from flypend.plants import AnyPlant, Ideal, Sampled
 
 if TYPE_CHECKING:
@@ -153,7 +152,7 @@ def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     return Trajectory(
         t=samples.t,
-        **split(samples.packed * (1.0 if law.e3 == "up" else FLIP_PACKED)),
+        **split(seen_packed(samples.packed, law.e3)),
         thrust=wrench[:, 0],
         moment=wrench[:, 1:],
         rotor_forces=samples.rotors,
@@ -172,9 +171,7 @@ def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
         kernel = kernel_of(flight)
         assert isinstance(kernel, SampledKernel)
         return sampled_samples(kernel, flight)
-    seeded = plant.replace(seed=flight.seed)
-    flown = step_by_step(flight.vehicle, flight.law, flight.starts, flight.duration, seeded)
-    return flown.at(flight.moments * plant.rate)
+    return fly_stepwise(flight).at(flight.moments * plant.rate)
 
 
 def _reference(law: BoundLaw | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:

@@ -12,13 +12,12 @@ from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
-from flypend.flight.sampled import Samples
-from flypend.flight.sampled import fly as step_by_step
+from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
-from flypend.model.state import FLIP_PACKED, E3Direction, split
+from flypend.model.state import E3Direction, seen_packed, split
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
@@ -130,14 +129,12 @@ def _stepped_part(flight: Flight, rotors: Any) -> Part:
     """A part that is flown step by step in Python."""
     plant = flight.plant
     assert isinstance(plant, Sampled)
-    seeded = plant.replace(seed=flight.seed)
-    flown = step_by_step(flight.vehicle, flight.law, flight.starts, flight.duration, seeded, rotors)
-    return _part_from(flown.at(flight.moments * plant.rate), flight, plant)
+    return _part_from(fly_stepwise(flight, rotors).at(flight.moments * plant.rate), flight, plant)
 
 
 def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
     e3, true = flight.law.e3, plant.true_vehicle(flight.vehicle)
-    packed = samples.packed * (1.0 if e3 == "up" else FLIP_PACKED)
+    packed = seen_packed(samples.packed, e3)
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
 
 

@@ -42,7 +42,7 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
     while done < count:
         y = rods[done : done + CHUNK[kind]]
         starts = _starts(setting.start, y)
-        own = starts if machine.law.e3 == "up" else starts.flipped()
+        own = starts.seen(machine.law.e3)
         request = flight.replace(law=machine.law, starts=own, gains=tuning, criterion=machine.criterion)
         result = fly_many(request, workers=1)
         done += len(y)

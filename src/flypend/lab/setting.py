@@ -83,7 +83,7 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)
-    given["start"] = plain(start if law.e3 == "up" else start.flipped())
+    given["start"] = plain(start.seen(law.e3))
     named = given["law"]["name"]
     if named not in own:
         flight = run_of(given).flight

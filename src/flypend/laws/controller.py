@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.laws.bound import FLIP_WRENCH, Computer
+from flypend.laws.bound import Computer
 from flypend.laws.gain import Gain, check_gain, checked, is_number, table
 from flypend.laws.references import Reference
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import FLIP_PACKED, E3Direction
+from flypend.model.state import E3Direction, seen_packed
 
 Steering = Callable[[float, State], Wrench]
 
@@ -107,7 +107,5 @@ class Controller:
 
     def upright(self, t: float, packed: Any) -> NDArray[Any]:
         """Thrust and moment (4,) with e₃ up at time `t` (s), for a `packed` state (24,) with e₃ up."""
-        up = self.e3 == "up"
-        wrench = self.function(t, State.from_packed(packed if up else packed * FLIP_PACKED))
-        stacked = np.append(wrench.thrust, wrench.moment)
-        return stacked if up else stacked * FLIP_WRENCH
+        wrench = self.function(t, State.from_packed(seen_packed(packed, self.e3))).seen(self.e3)
+        return np.append(wrench.thrust, wrench.moment)

@@ -125,6 +125,10 @@ class State:
         vectors = {name: geometry.apply(FLIP, getattr(self, name)) for name in SHAPES if name != "R"}
         return State(**vectors, R=FLIP @ self.R @ FLIP)
 
+    def seen(self, e3: E3Direction) -> State:
+        """The state, given with e₃ up, in the frame of `e3`; or given in that frame, with e₃ up."""
+        return self if e3 == "up" else self.flipped()
+
     def __getitem__(self, index: Any) -> State:
         """Select members of a batch; `index` applies to the batch axes."""
         if not self.batch_shape:
@@ -217,6 +221,15 @@ class Wrench:
     def flipped(self) -> Wrench:
         """Return the same wrench in the frame rotated by π about e₁."""
         return Wrench(-self.thrust, geometry.apply(FLIP, self.moment))
+
+    def seen(self, e3: E3Direction) -> Wrench:
+        """The wrench, given with e₃ up, in the frame of `e3`; or given in that frame, with e₃ up."""
+        return self if e3 == "up" else self.flipped()
+
+
+def seen_packed(packed: Any, e3: E3Direction) -> Any:
+    """As `State.seen` for packed states (..., 24), or (24, 1) in CasADi, `e3` being "up" or "down"."""
+    return packed if e3 == "up" else packed * FLIP_PACKED
 
 
 def _batch_shape(values: dict[str, Any]) -> tuple[int, ...]:

@@ -147,7 +147,7 @@ def _title(runs: Sequence[Run]) -> str:
 
 
 def _upright(states: State, e3: E3Direction) -> State:
-    return states if e3 == "up" else states.flipped()
+    return states.seen(e3)
 
 
 def _sampled(run: Run, most: int) -> tuple[Any, State]:

@@ -85,7 +85,7 @@ def main_direction(run: Trajectory) -> Any:
 
 def upright(state: State, run: Trajectory) -> State:
     """Convert `state` from the frame of `run` to the e₃-up frame."""
-    return state if run.e3 == "up" else state.flipped()
+    return state.seen(run.e3)
 
 
 def states_at(run: Trajectory, times: Any) -> State:

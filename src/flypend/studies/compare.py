@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
+from flypend.flight.labelled import dataset, variable
 from flypend.flight.request import Flight, bound_to
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import AnyPlant
+
+if TYPE_CHECKING:
+    import xarray
 
 Progress = Callable[[str, int, int], Any]
 
@@ -33,6 +37,14 @@ class Comparison:
     def rows(self) -> list[dict[str, Any]]:
         """One record per law: success with its Wilson interval, settling, excursion, effort, peak force, causes."""
         return [{"law": name, **summary(ensemble)} for name, ensemble in self.ensembles.items()]
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Success, settling time and the other metrics as an `xarray.Dataset` on the dimensions `law` and `run`."""
+        over = ("law", "run")
+        columns = [ensemble.columns for ensemble in self.ensembles.values()]
+        variables = {name: variable(name, over, [some[name] for some in columns]) for name in columns[0]}
+        vehicle = next(iter(self.ensembles.values())).vehicle
+        return dataset({"law": variable("law", ("law",), list(self.ensembles)), **variables}, {"vehicle": vehicle.name})
 
 
 def compare(
@@ -70,7 +82,7 @@ def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State
         raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
     flights: dict[str, Flight] = {}
     for law in laws:
-        own = starts if law.e3 == "up" else starts.flipped()
+        own = starts.seen(law.e3)
         name = _free_name(law.name, flights)
         flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
     return flights

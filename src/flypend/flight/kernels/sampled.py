@@ -25,7 +25,7 @@ from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.model import State
-from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
+from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import TIMING_SIZE, rotor_step, step_timing
 from flypend.plants.loop import Loop
@@ -118,8 +118,7 @@ class SampledKernel:
             Told `(done, runs)`.
         """
         loop, vehicle = self.loop, self.loop.vehicle
-        sign = 1.0 if loop.law.e3 == "up" else FLIP_PACKED
-        packed = np.ascontiguousarray(starts, dtype=float) * sign
+        packed = seen_packed(np.ascontiguousarray(starts, dtype=float), loop.law.e3)
         runs, n = len(packed), len(vehicle.rotor_spins)
         seeds = (first_seed + np.arange(runs)).astype(np.int64)
         moments = Ticks.of(judge_at, keep_at)
@@ -269,7 +268,7 @@ def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
     law = loop.symbolic
     n = len(loop.vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))
-    own = packed[:SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    own = seen_packed(packed[:SIZE], law.e3)
     seen = observed(t, State.symbolic(own), packed[SIZE:], loop.vehicle, law.reference, criterion, law.e3)
     return ca.Function("judge", [t, packed, p], [ca.densify(seen)])
 

@@ -12,7 +12,7 @@ from flypend.flight.kernels.sampled import SampledKernel
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples, nearest_ticks
-from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE
+from flypend.model.state import MAX_STATE, SIZE, seen_packed
 
 REASONS = {
     runge_kutta.DIVERGED: f"the state left |s| < {MAX_STATE:g}",
@@ -85,5 +85,5 @@ def sampled_samples(
         outcome = Outcome("singular" if singular else "diverged", end, NOT_FINITE if singular else LEFT)
     t, samples = ticks / plant.rate, flown.samples[0]
     kept = t <= end + 1e-9
-    packed = samples[kept, :SIZE] * (1.0 if law.e3 == "up" else FLIP_PACKED)
+    packed = seen_packed(samples[kept, :SIZE], law.e3)
     return Samples(t[kept], packed, samples[kept, SIZE:], outcome)

@@ -1,0 +1,98 @@
+"""The runs of an ensemble one by one, each as a trajectory, in one process per core: what no kernel flies."""
+
+from __future__ import annotations
+
+import copyreg
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend import errors
+from flypend.flight.metrics import Metrics, metrics
+from flypend.flight.request import Flight
+from flypend.flight.sampled import nearest_ticks
+from flypend.flight.simulate import fly
+from flypend.flight.trajectory import Trajectory
+from flypend.laws import AnyLaw
+from flypend.plants import Sampled
+
+# Runs per task: a task compiles the law once, which costs a fraction of one run.
+CHUNK = 8
+
+# What another process refuses comes back as the three fields of an InputError; by itself it is pickled by its message.
+copyreg.pickle(errors.InputError, lambda error: (errors.InputError, (error.field, error.expected, str(error.got))))
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """One run of an ensemble: how it is judged, how it ends (24,), and its samples (k, 24) if any are kept."""
+
+    metrics: Metrics
+    final: NDArray[np.float64]
+    samples: NDArray[np.float64] | None
+
+
+def fly_members(flight: Flight, engine: str, workers: int | None, progress: Callable[[int, int], Any]) -> list[Member]:
+    """The runs of `flight` in the order of its starts; `engine`, `workers` and `progress` as in `fly_many`."""
+    members: list[Member] = []
+    for part in _chunks(flight, engine, workers or os.cpu_count() or 1):
+        members += part
+        progress(len(members), flight.runs)
+    return members
+
+
+def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member]]:
+    """The members, some at a time, in the order of the starts."""
+    from joblib import Parallel, delayed  # processes, which a kernel does not wait for
+
+    def chunk(indices: range) -> list[Member]:
+        return [_member(flight.member(i), engine) for i in indices]
+
+    chunks = [range(i, min(i + CHUNK, flight.runs)) for i in range(0, flight.runs, CHUNK)]
+    if processes == 1 or len(chunks) == 1 or not _can_be_sent(flight.law):
+        yield from (chunk(indices) for indices in chunks)
+    else:
+        yield from Parallel(n_jobs=processes, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
+
+
+def _member(flight: Flight, engine: str) -> Member:
+    """One run: sampled where it is judged and where it is kept, and each read for itself."""
+    if flight.times is None:
+        run = fly(flight, engine)
+        return Member(metrics(run, flight.criterion), run.packed[-1], None)
+    run = fly(flight.replace(times=np.union1d(flight.grid, flight.times)), engine)
+    judge, keep = (_rows(flight, run, wanted) for wanted in (flight.grid, flight.times))
+    ends = judge[judge >= 0] if run.outcome.status == "completed" else np.append(judge[judge >= 0], len(run.t) - 1)
+    samples = np.where(keep[:, None] >= 0, run.packed[keep], np.nan)
+    return Member(metrics(_taken(run, np.unique(ends)), flight.criterion), run.packed[-1], samples)
+
+
+def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Where `run` has its samples at the times `wanted`; -1 for those after its end."""
+    t = run.t
+    if isinstance(flight.plant, Sampled):
+        wanted, t = nearest_ticks(wanted, flight.plant, flight.duration), np.rint(t * flight.plant.rate)
+    place = np.minimum(np.searchsorted(t, wanted), len(t) - 1)
+    return np.where(t[place] == wanted, place, -1)
+
+
+def _taken(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
+    """The samples of `run` in some of its rows."""
+    names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
+    signals = {name: value[rows] for name, value in run.signals.items()}
+    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals=signals)
+
+
+def _can_be_sent(law: AnyLaw) -> bool:
+    """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
+    import cloudpickle
+
+    try:
+        cloudpickle.dumps(law)
+    except Exception:  # CasADi raises no narrower one
+        return False
+    return True

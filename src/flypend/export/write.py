@@ -81,6 +81,7 @@ def export_c(
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     errors.one_of("precision", precision, PRECISIONS)
+    errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     texts = files(interface(law, vehicle, rate), precision)
     with staged(out) as folder:
         for name, text in texts.items():

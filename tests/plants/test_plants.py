@@ -111,8 +111,8 @@ def final(run):
         (lambda: Plant(seed=0.5), "plant.seed: expected an integer >= 0, got 0.5"),
         (lambda: Plant().replace(rates=50), "plant.rates: expected one of engine, limits"),
         (lambda: Plant().replace(rate=-50), "plant.rate: expected a finite number > 0 Hz, got -50"),
-        (lambda: plant("rotor"), "plant: expected one of rotors, mujoco, hehn2011, got 'rotor' (did you mean 'rotors'"),
-        (lambda: plant(None), "plant: expected a Plant or one of rotors, mujoco, hehn2011, got None"),
+        (lambda: plant("rotor"), "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean 'rotors'"),
+        (lambda: plant(None), "plant: expected a Plant, Ideal() or one of ideal, rotors, mujoco, hehn2011, got None"),
     ],
 )
 def test_what_is_out_of_range_is_refused_in_one_line(make, message):
@@ -128,7 +128,7 @@ def test_presets_and_copies():
     assert (hehn.interface, hehn.rate, hehn.delay) == ("rates", 50.0, 0.03)
     assert plant(hehn) is hehn
     assert hehn.replace(rate=100.0) == Plant(interface="rates", rate=100.0, delay=0.03)
-    assert set(PRESETS) == {"rotors", "mujoco", "hehn2011"}
+    assert set(PRESETS) == {"ideal", "rotors", "mujoco", "hehn2011"}
 
 
 def test_a_plant_keeps_its_own_copies():

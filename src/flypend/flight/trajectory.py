@@ -43,7 +43,7 @@ class Trajectory:
     rotor_forces : (n, k)
         Forces of the k rotors, N. In the ideal plant, what the wrench would take: they may lie outside the limits.
     signals : dict of (n,)
-        What the law lets one see: Lyapunov functions, their rates, errors.
+        What the law lets one see: Lyapunov functions, their rates along the ideal closed loop, errors.
     drift : (k, 3)
         Before the projection of each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
     outcome : Outcome

@@ -101,8 +101,8 @@ def run(
     A TOML file has the keys [bold]vehicle[/bold] (a name or a table), [bold]law[/bold] (a name or a function, and
     gains), [bold]start[/bold] (x, x_dot, R, omega, y, y_dot) and [bold]duration[/bold] in seconds. Optional keys are
     [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]rtol[/bold], and [bold]experiment[/bold],
-    which supplies whatever else the file leaves out. A law that holds a position accepts a [bold]reference[/bold]
-    (a shape and its parameters). [bold]controller[/bold] = "c" flies the law as exported C, on rotors and mujoco.
+    which supplies missing values from the paper. A law that holds a position accepts a [bold]reference[/bold] (a shape
+    and its parameters). [bold]controller[/bold] = "c" flies the law as exported C, on rotors and mujoco.
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
@@ -172,8 +172,8 @@ def compare(
 ) -> None:
     """Compare laws, your own included, from the same starts: one table, one figure.
 
-    A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the vehicle stays within 0.2 m
-    of its reference.
+    A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the pivot stays within 0.2 m of
+    its reference.
     """
     from flypend.files.staging import check_writable
     from flypend.report.studies import comparison_table, write_comparison

@@ -22,7 +22,7 @@ def examples(
     out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("examples"),
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that differ from the examples.")] = False,
 ) -> None:
-    """Write the examples: run files, a study, a custom law. Existing files are not overwritten without --force."""
+    """Write the examples: a run file, a study, a custom law. Without --force, no changed file is overwritten."""
     contents = {name: source.read_bytes() for name, source in shipped().items()}
     if not force:
         _check_free(out, contents)

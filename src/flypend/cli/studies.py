@@ -83,9 +83,9 @@ def draw_map(
     workers: Workers = None,
     force: Force = False,
 ) -> None:
-    """Draw where the rod may start: success, settling time, excursion, causes of failure, on the sphere and in a plane.
+    """Map success, settling time, excursion and causes of failure over the initial rod: on the sphere and in a plane.
 
-    With a study or --law the runs are kept in a store beside the picture, so that a run that is stopped goes on.
+    With a study or --law, the runs are saved to a store next to the map, and an interrupted command resumes.
     """
     from flypend.errors import InputError, require
     from flypend.files.whole import FIGURES, save_figure

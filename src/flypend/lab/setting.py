@@ -156,7 +156,7 @@ def _pokes(given: Any) -> tuple[Poke, ...]:
         if np.max(np.abs(velocity)) > 100:
             raise InputError("pokes.velocity", "at most 100 m/s", velocity.tolist())
         if pokes and time <= pokes[-1].time:
-            raise InputError("pokes.time", "times that increase", f"{time:g} s")
+            raise InputError("pokes.time", "increasing times", f"{time:g} s")
         pokes.append(Poke(time, body, velocity))
     if pokes and pokes[-1].time > LONGEST:
         raise InputError("pokes.time", f"at most {LONGEST:g} s", f"{pokes[-1].time:g} s")

@@ -155,7 +155,7 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         f"One flight of the inverted law on {result.swing_up.vehicle.name}, from hanging at rest, with rotor limits "
         f"and lag: {text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png). One flight from one start "
         "proves nothing about others; docs/laws/inverted.md counts successes over random starts.",
-        "## Defects of the paper, re-derived by this run",
+        "## Defects of the paper, recomputed by this run",
         text.findings_markdown(result.findings),
     ]
     (folder / "report.md").write_text("\n\n".join(parts), encoding="utf-8")

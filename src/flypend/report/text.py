@@ -57,7 +57,7 @@ def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
 
 def findings_table(findings: Iterable[Finding]) -> Table:
     """Return the defects of the paper as a table for the terminal, each with the first number of its evidence."""
-    table = Table(title="Defects of the paper, re-derived by this run", title_justify="left", box=SIMPLE)
+    table = Table(title="Defects of the paper, recomputed by this run", title_justify="left", box=SIMPLE)
     table.add_column("#", justify="right")
     table.add_column("defect")
     table.add_column("evidence")

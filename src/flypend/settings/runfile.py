@@ -68,7 +68,7 @@ def run_of(settings: dict[str, Any]) -> RunFile:
 def _read(what: str) -> dict[str, Any]:
     if what in experiment_names():
         return {"experiment": what}
-    if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any name at all)
+    if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any invalid name)
         settings = read_toml(what)
         if "law" in settings:
             settings["law"] = absolute(settings["law"], Path(what).parent)
@@ -199,7 +199,7 @@ def _override(settings: dict[str, Any], text: str) -> None:
             raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
     try:
         parsed = tomllib.loads(f"value = {value}")
-    except ValueError:  # not TOML, or an integer of thousands of digits
+    except ValueError:  # not TOML, or an integer with thousands of digits
         parsed = {}
     table[keys[-1]] = parsed["value"] if parsed.keys() == {"value"} else value.strip()
 

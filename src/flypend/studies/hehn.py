@@ -1,4 +1,4 @@
-"""The set-up of Hehn and D'Andrea (2011): hover and two circles, thrust and body rates at 50 Hz, 30 ms of latency."""
+"""The set-up of Hehn and D'Andrea (2011): hover and two circles, thrust and body rates at 50 Hz, 30 ms latency."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ def ladder(
     workers: int | None = None,
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> Ladder:
-    """Fly `vehicle` under `laws` from `starts` on every one of `rungs`.
+    """Fly `vehicle` under `laws` from `starts` on each of `rungs`.
 
     Parameters
     ----------

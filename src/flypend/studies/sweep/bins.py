@@ -21,7 +21,7 @@ from flypend.studies.sweep.study import Study, study
 
 # Target number of runs per cell, and bounds on the number of cells per side.
 PER_CELL, LEAST, MOST = 400, 8, 64
-# Radius of a hemisphere in Lambert's projection.
+# Radius of the disc of a hemisphere in Lambert's projection.
 EDGE = float(np.sqrt(2))
 
 

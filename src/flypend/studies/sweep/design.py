@@ -15,7 +15,7 @@ from flypend.studies.sweep.study import Study
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """The runs of a chunk.
+    """The starts, gains and grid cells of a range of runs.
 
     Parameters
     ----------

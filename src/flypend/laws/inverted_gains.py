@@ -180,7 +180,7 @@ GAINS = table(
             "upward speed, h (m) the pivot's height above its reference",
         ),
         Gain("flip_by_rod", _speed("flip_by_rod"), "m/s", "Weight of the rod's height y₃ in flip_speed's sum"),
-        Gain("flip_by_height", _per_time("flip_by_height"), "1/s", "Weight of the pivot's height h in flip_speed's sum"),
+        Gain("flip_by_height", _per_time("flip_by_height"), "1/s", "Weight of the pivot's height in flip_speed's sum"),
         Gain("flip_width", _speed("flip_width"), "m/s", "Speed band over which flip permission ramps up", POSITIVE),
         Gain(
             "hanging_share", _number("hanging_share"), "",
@@ -210,8 +210,8 @@ GAINS = table(
         ),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain(
-            "form", "full", doc="light needs three quarters of the computation, for slow processors: it assumes that "
-            "the demand turns at a constant rate, and drops its second derivative", choices=("full", "light"),
+            "form", "full", doc="light needs three quarters of the computation, for slow processors: the demand is "
+            "assumed to turn at a constant rate, which saves its second derivative", choices=("full", "light"),
         ),
     )
 )  # fmt: skip

@@ -29,7 +29,7 @@ def regulation(phi: Any, phi_dot: Any, target: Any, k_p: Any, k_d: Any) -> Any:
 
 
 def velocity_error(phi: Any, phi_dot: Any, phi_d: Any, phi_d_dot: Any) -> Any:
-    """Return v_e = φ̇ − τ(φ, φ_d) φ̇_d, tangent to S² at `phi`; `phi_dot`, `phi_d_dot` are the rates of `phi`, `phi_d`."""
+    """Return v_e = φ̇ − τ(φ, φ_d) φ̇_d, tangent to S² at `phi`. Arguments are φ, φ̇, φ_d and φ̇_d, each (..., 3)."""
     return phi_dot - transport(phi, phi_d, phi_d_dot)
 
 

@@ -140,7 +140,7 @@ def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight
 def steering_force(
     wish: Demand, climb: Any, y: Any, y_dot: Any, height: Any, on: tuple[Any, Any], vehicle: Vehicle, k: Any
 ) -> Any:
-    """Return the force on the quadrotor (3, 1), N, that turns the rod to the demand `wish`; the bob rises at `climb` m/s.
+    """Return the force on the quadrotor (3, 1), N, that turns the rod to `wish`, with the bob rising at `climb` m/s.
 
     Other arguments as in `rod_force`.
     """

@@ -74,7 +74,7 @@ def observer_memory(loop: Loop) -> int:
 
 
 def depth(loop: Loop) -> int:
-    """Return the number of commands remembered: all that are applied, now or later, until the next command is."""
+    """Return the number of commands to remember: all that are applied from now until the next one takes effect."""
     return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop))))
 
 

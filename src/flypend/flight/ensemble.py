@@ -1,4 +1,4 @@
-"""Closed-loop runs from a batch of starts, on all cores. Each member equals the single run."""
+"""Closed-loop runs from a batch of starts, on all cores. Each member matches the corresponding single run."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member
 
 
 def _member(flight: Flight, engine: str) -> Member:
-    """Fly one run, sampled at the criterion's times and at the flight's `times`, and split the two."""
+    """Fly one run, sampled at the criterion's times and at the flight's `times`; the two do not affect each other."""
     if flight.times is None:
         run = fly(flight, engine)
         return Member(metrics(run, flight.criterion), run.packed[-1], None)

@@ -1,4 +1,4 @@
-"""The closed loop of a vehicle and a law in symbols: the source of all code that runs."""
+"""The symbolic closed loop of a vehicle and a law: the source of all code that runs."""
 
 from __future__ import annotations
 
@@ -58,10 +58,10 @@ class ClosedLoop:
 
 
 def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> SymbolicLoop:
-    """Build the closed loop of `vehicle` under `law` in symbols; the gains named in `parameters` are symbols too.
+    """Build the symbolic closed loop of `vehicle` under `law`; the gains named in `parameters` are symbols too.
 
-    Raises InputError for a parameter that is not a numeric gain of the law, or that does not appear in its equations
-    (for example, a weight from which a gain matrix was computed in advance).
+    Raises InputError if a parameter is not a numeric gain of the law, or does not appear in its equations (for example,
+    a weight from which a gain matrix was computed in advance).
     """
     bound = law.bind(vehicle)
     errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)

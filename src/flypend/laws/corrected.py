@@ -34,7 +34,7 @@ GAINS = table(
 def corrected(**gains: float | str) -> Law:
     """Build Theorem 1 with f_p = k_p e₃ − k_d ẏ, in the paper's frame, where y = e₃ hangs along gravity.
 
-    The paper's five experiments converge, and so do most random starts. The others run away: the rod spins ever faster
+    The paper's five experiments converge, and so do most random starts. Some run away: the rod spins ever faster
     (docs/paper/errata.md, defect 9).
 
     Parameters

@@ -52,13 +52,13 @@ class Gain:
     Parameters
     ----------
     name : str
-        Its one name everywhere.
+        Name, the same everywhere.
     default : float, str or callable
         Default value: a number, a string, or a function of the vehicle.
     unit : str
         Unit; empty for a dimensionless gain.
     doc : str
-        One line: what it does.
+        One line on what the gain does.
     bounds : Bounds
         Valid values of a numeric gain.
     choices : tuple of str

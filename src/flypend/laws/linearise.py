@@ -44,7 +44,7 @@ class Linearisation:
     Parameters
     ----------
     at : State
-        The equilibrium, in the frame of the law.
+        The equilibrium, in the law's frame.
     A : (n, n)
         System matrix; n = 16 unless coordinates were left out.
     coordinates : tuple of str

@@ -5,8 +5,8 @@ and the model is the linearisation on the tangent space of R³ × SO(3) × S² (
 
     ξ̇ = A ξ + B (δf, δτ),    wrench = wrench_ref − K ξ,    K = R⁻¹ Bᵀ P,    Aᵀ P + P A − P B R⁻¹ Bᵀ P + Q = 0,
 
-with Q and R the inverse squares of the largest acceptable deviations (Bryson's rule). It has no claim to work far from
-hover, which is the point of the baseline.
+with Q and R the inverse squares of the largest acceptable deviations (Bryson's rule). Nothing makes it
+work far from hover; it serves to show that.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What an exported law costs: laws × precisions.
+"""What exported code costs: laws × precisions.
 
     python benchmarks/export_cost.py [--law inverted ...]
 
@@ -8,9 +8,11 @@ callgrind and microseconds on this core (gcc -O2); for a Cortex-M4F (arm-none-ea
 (-fstack-usage) in bytes, cycles, and the share of an STM32F405 at 168 MHz that 500 calls a second take.
 
 Cycles are counted, not measured, on code compiled with -fno-inline, which is slower: every instruction of the functions
-that a call runs, in line, branches as if taken, a loop times its length, with the timings of the Cortex-M4 Technical Reference Manual: 14 for VDIV and VSQRT, 2 for a load or store, 1 + n for n words, 3 for a fused product or a
-branch, 1 for the rest. Wait states of the flash, which the STM32's accelerator hides while code runs straight, and
-stalls of a cycle on a value that was just computed are not in it. Double precision has no hardware there.
+that a call runs, in line, branches as if taken, a loop times its length, without what only an invalid input leads to,
+with the timings of the Cortex-M4 Technical Reference Manual: 14 for VDIV and VSQRT, 2 for a load or store, 1 + n for n
+words, 3 for a fused product or a branch, 1 for the rest. Wait states of the flash, which the STM32's accelerator hides
+while code runs straight, and stalls of a cycle on a value that was just computed are not in it. Double precision has no
+hardware there.
 """
 
 import argparse

@@ -8,8 +8,9 @@ import pytest
 from cbuild import build
 
 import flypend as fp
-from flypend.compile.c99 import literal, statements
+from flypend.compile.c99 import function, literal, routine_function, statements, used_inputs
 from flypend.compile.program import Operation, Program, lower
+from flypend.compile.routine import lower_calls
 
 
 def _compiled(program, folder, precision="double"):
@@ -92,3 +93,33 @@ def test_a_constant_below_zero_keeps_its_sign_behind_a_minus():
         "const flypend_real v1 = -v0;",
         "y = v1;",
     ]
+
+
+def test_a_routine_calls_its_programs_on_stretches_of_memory(tmp_path):
+    x, y, k = ca.SX.sym("x", 2), ca.SX.sym("y", 2), ca.SX.sym("k", 2)
+    turn = ca.Function("turn", [x, k], [ca.vertcat(x[0] * k[0] - x[1], x[1] + x[0])])
+    mean = ca.Function("mean", [x, y], [(x + y) / 2, ca.dot(x, y)])
+    state, unread = ca.MX.sym("state", 3), ca.MX.sym("unread", 2)
+    once = turn(state[1:], ca.DM([0.5, 2.0]))
+    middle, product = mean(turn(once, ca.DM([0.5, 2.0])), ca.vertcat(state[2], state[0]))
+    whole = ca.Function("whole", [unread, state], [ca.vertcat(product, middle, state[1], 7.0)])
+    routine = lower_calls(whole)
+    assert used_inputs(routine) == [1]
+    parts = [function(program, "double") for program in routine.programs]
+    text = "\n\n".join(["typedef double flypend_real;", *parts, routine_function(routine, "double")])
+    assert text.count("static void turn(") == 1
+    assert text.count("turn(") == 3
+    head = "void f(const double *state, double *out)"
+    (tmp_path / "f.c").write_text(f"{text}\n\n{head};\n{head}\n{{\n    whole(state, out);\n}}\n")
+    library = ctypes.CDLL(str(build(tmp_path, ("f.c",), "f.so", flags=("-shared", "-fPIC"))))
+    given, found = np.array([0.3, -1.2, 2.5]), np.empty(5)
+    library.f(given.ctypes.data_as(ctypes.c_void_p), found.ctypes.data_as(ctypes.c_void_p))
+    assert np.allclose(found, np.array(whole([0, 0], given)).ravel(), rtol=1e-15)
+
+
+def test_what_is_no_number_is_written_as_such():
+    x = ca.SX.sym("x")
+    program = lower(ca.Function("f", [x], [ca.if_else(x < np.inf, x, np.nan)]))
+    text = "\n".join(statements(program, [["x"]], [["y"]], "float"))
+    assert "INFINITY" in text
+    assert "NAN" in text

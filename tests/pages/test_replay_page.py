@@ -176,10 +176,10 @@ def test_it_plays_pauses_ends_and_plays_again(visit, up):
     page.get_by_role("button", name="Pause").click()
     until(page, "!flypend.playing()")
     stopped = page.evaluate("flypend.time()")
-    frames = page.evaluate("flypend.pictures.frames().count")
+    frames = page.evaluate("flypend.frames().count")
     time.sleep(0.3)
     assert page.evaluate("flypend.time()") == stopped < 1
-    assert page.evaluate("flypend.pictures.frames().count") <= frames + 2  # nothing is drawn while nothing moves
+    assert page.evaluate("flypend.frames().count") <= frames + 2  # nothing is drawn while nothing moves
     page.evaluate("flypend.speed(1), flypend.seek(1.9), flypend.play()")
     until(page, "!flypend.playing()")
     assert page.evaluate("flypend.time()") == 2

@@ -24,8 +24,8 @@ from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import Segment, ahead, steps_in, within_period
 
-# Longest prediction step, s: short compared with the dynamics, and at a tenth of the cost of the plant's steps.
-TWIN_STEP = 1e-2
+# Longest prediction step, s: a quarter of the rotor lag, where one step integrates the lag to (1/4)⁴/2880 = 1e-6.
+TWIN_STEP = 5e-3
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,8 @@ from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 
-# Share of the time between measurement and moment that the damping takes: 1/3 is half of what a pure lag allows.
-SHARE = 1 / 3
+# Damping times the time from measurement to moment. A loop of rates around a pure delay is unstable from π/2 on.
+SHARE = 1 / 2
 
 
 def levelling(loop: Loop) -> tuple[float, float]:

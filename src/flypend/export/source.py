@@ -71,7 +71,7 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     texts = [function(program, precision) for program in programs.values()]
     texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
     inertia = next(place for field, place in made.params.places() if field.name == "inertia")
-    places = {field.name: place.start for field, place in made.params.places()}
+    places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
     board_inputs = ("board->memory", "m", "path", "g", "p")
     law = ("s", "s + FLYPEND_STATE", "r", "g", "p")
     return {
@@ -81,6 +81,6 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
         "call_board": f"fly({', '.join([board_inputs[i] for i in used_inputs(made.board)])}, after, command);",
         "call_hold": call(programs["hold"], ("s", "p"), ["w"]),
         "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia.start, inertia.start + 3)),
-        "place": places,
         "largest": "DBL_MAX" if precision == "double" else "FLT_MAX",
+        **places,
     }

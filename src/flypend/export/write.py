@@ -81,6 +81,7 @@ def export_c(
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     errors.one_of("precision", precision, PRECISIONS)
+    errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     texts = files(interface(law, vehicle, rate), precision)
     with staged(out) as folder:
         for name, text in texts.items():
@@ -119,8 +120,7 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "gains_length": made.gains.length, "params_length": made.params.length, "memory": made.memory,
         "youngest": made.board.outputs[0].index(made.board.outputs[1][0]),
     }  # fmt: skip
-    places = {f"place_{name}": str(start) for name, start in parts.pop("place").items()}
-    values = parts | places | {name: str(length) for name, length in lengths.items()} | _optional(made)
+    values = parts | {name: str(length) for name, length in lengths.items()} | _optional(made)
     values |= {
         "law": ascii_of(law.name),
         "vehicle": ascii_of(vehicle.name),
@@ -161,7 +161,7 @@ def _optional(made: Interface) -> dict[str, str]:
     """The lines for reference and gains in the functions of the board and of the bare law: only for what is read."""
     board = {"path": (made.follows, "reference", "PATH"), "g": (made.has_gains, "&board->gains", "GAINS")}
     step = {"r": (made.follows, "reference", "REFERENCE"), "g": (made.has_gains, "gains", "GAINS")}
-    found = {}
+    found: dict[str, str] = {}
     for prefix, first, vectors_ in (("board", "m", board), ("step", "s", step)):
         used = {name: (given, length) for name, (read, given, length) in vectors_.items() if read}
         ignored = [given for read, given, _ in vectors_.values() if not read and not given.startswith("&")]
@@ -221,7 +221,7 @@ def _structs(made: Interface) -> list[str]:
 def _vectors(made: Interface, precision: Precision) -> str:
     found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
     flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision)
-    kinds = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
+    kinds: tuple[Record, ...] = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
     lines = [
         "/* Random inputs, and what flypend answers in Python. */",
         "#ifndef FLYPEND_VECTORS_H",

@@ -91,7 +91,7 @@ def observed(
     criterion: Criterion,
     e3: E3Direction,
 ) -> Any:
-    """Return the CasADi values (7, 1) that `REDUCTIONS` reduce, for `state` in the frame `e3` and rotor forces `rotors`, N.
+    """Return the CasADi values (7, 1) that `REDUCTIONS` reduce, for `state` in the frame `e3` and `rotors` (forces, N).
 
     `t` is the symbol of time, s; `reference` is the reference position of the law, None for the origin.
     """

@@ -83,8 +83,7 @@ def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArr
 def _taken(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
     """Return `run` restricted to some of its rows."""
     names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
-    signals = {name: value[rows] for name, value in run.signals.items()}
-    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals=signals)
+    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals={})  # metrics need no signals
 
 
 def _can_be_sent(law: AnyLaw) -> bool:

@@ -124,8 +124,8 @@ def wilson_bounds(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[
     share = np.asarray(successes) / n
     middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
-    none = np.asarray(runs) == 0
-    return np.where(none, 0.0, np.maximum(middle - half, 0)), np.where(none, 1.0, np.minimum(middle + half, 1))
+    none = np.asarray(runs) == 0  # ends at exactly 0 and 1, despite roundoff
+    return np.where(none | (share == 0), 0.0, middle - half), np.where(none | (share == 1), 1.0, middle + half)
 
 
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:

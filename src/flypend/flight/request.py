@@ -146,7 +146,7 @@ class Flight:
         if not self.gains:
             return MappingProxyType({})
         if self.single:
-            raise InputError("gains", "nothing for a single start: give them to the law", sorted(self.gains))
+            raise InputError("gains", "nothing for a single start: set them in the law", sorted(self.gains))
         return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
 
     def _check_together(self) -> None:

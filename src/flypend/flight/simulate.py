@@ -13,6 +13,7 @@ from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kerne
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import Samples, fly_stepwise
+from flypend.flight.signals import signals_along
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
@@ -150,12 +151,14 @@ def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     samples = _samples(flight, plant, engine)
     law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
+    packed = seen_packed(samples.packed, law.e3)
     return Trajectory(
         t=samples.t,
-        **split(seen_packed(samples.packed, law.e3)),
+        **split(packed),
         thrust=wrench[:, 0],
         moment=wrench[:, 1:],
         rotor_forces=samples.rotors,
+        signals=signals_along(vehicle, law, samples.t, packed) if isinstance(law, BoundLaw) else {},
         drift=np.zeros((0, 3)),
         outcome=samples.outcome,
         e3=law.e3,

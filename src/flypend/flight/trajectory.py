@@ -43,7 +43,7 @@ class Trajectory:
     rotor_forces : (n, k)
         Forces of the k rotors, N. In the ideal plant, those that the wrench would require; they may exceed the limits.
     signals : dict of (n,)
-        Signals of the law: Lyapunov functions, their rates, errors.
+        Signals of the law: Lyapunov functions, their rates along the ideal closed loop, errors.
     drift : (k, 3)
         Drift before projection in each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
     outcome : Outcome

@@ -49,7 +49,7 @@ def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
     extra = {}
     if "reference" in values:
         if not follows(name):
-            raise errors.InputError(f"{key}.reference", "nothing: the law follows no reference", repr(values["reference"]))
+            raise errors.InputError(f"{key}.reference", "nothing: the law has none", repr(values["reference"]))
         extra["reference"] = _reference(values["reference"], f"{key}.reference")
     return FACTORIES[name](**extra).with_gains(gains, f"{key}.gains")
 

@@ -145,7 +145,6 @@ static void stop(flypend_real *values, int count)
 flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *gains, const flypend_params *params)
 {
     flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real rotors[FLYPEND_ROTORS];
     flypend_status status;
     if ((board == NULL) || (gains == NULL)) {
         return FLYPEND_NULL;
@@ -153,6 +152,7 @@ flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *ga
     board->mark = 0;
     status = usable_params(params, p);
     if (status == FLYPEND_OK) {
+        flypend_real rotors[FLYPEND_ROTORS];
         least_forces(p, rotors);
         begin(rotors, board->memory);
         board->gains = *gains;
@@ -291,8 +291,6 @@ flypend_status flypend_follow(const flypend_path *path, const flypend_state *sta
                               flypend_reference *reference)
 {
     flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
-    flypend_real along[FLYPEND_PATH];
     flypend_real r[FLYPEND_REFERENCE];
     if (reference == NULL) {
         return FLYPEND_NULL;
@@ -306,6 +304,8 @@ flypend_status flypend_follow(const flypend_path *path, const flypend_state *sta
     }
     reference_of(r, reference);
     if (status == FLYPEND_OK) {
+        flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
+        flypend_real along[FLYPEND_PATH];
         path_numbers(path, along);
         state_numbers(state, s);
         if (!(numbers(along, FLYPEND_PATH) && numbers(s, FLYPEND_STATE + FLYPEND_FORCES))) {
@@ -363,7 +363,6 @@ flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params 
 {
     flypend_real p[FLYPEND_PARAMS_LENGTH];
     flypend_real w[4];
-    flypend_real forces[FLYPEND_ROTORS];
     if (wrench == NULL) {
         return FLYPEND_NULL;
     }
@@ -372,6 +371,7 @@ flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params 
         status = FLYPEND_NULL;
     }
     if (status == FLYPEND_OK) {
+        flypend_real forces[FLYPEND_ROTORS];
         rotors_numbers(rotors, forces);
         gather(forces, p, w);
         if (!numbers(w, 4)) {

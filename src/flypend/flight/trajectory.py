@@ -241,7 +241,7 @@ def load(path: str | Path) -> Trajectory:
 def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Trajectory:
     missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
     if missing:
-        raise ValueError(f"missing attributes {missing}")
+        raise ValueError(f"a file without the attributes {missing}")
     arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
     arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # written by xarray
     return Trajectory(

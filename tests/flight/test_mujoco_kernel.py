@@ -10,6 +10,7 @@ from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
 from flypend.plants import MOTION_CAPTURE, Plant, Wind
 from flypend.plants.loop import Loop
+from flypend.plants.mujoco import MOST_IDLE, MuJoCoWorld
 
 VEHICLE = fp.vehicle("hehn2011")
 INVERTED = fp.laws.inverted().bind(VEHICLE)
@@ -62,3 +63,16 @@ def test_a_run_that_is_lost_ends_and_the_next_begins_anew():
     found = flown(MUJOCO, np.stack([wild, calm]), 0.2, workers=1)
     assert found.status.tolist() == ["singular", "completed"]  # a prediction of such a state is no number
     np.testing.assert_array_equal(found.samples[1], flown(MUJOCO, calm[None], 0.2).samples[0])
+
+
+def test_idle_worlds_are_lent_again_and_few_are_kept():
+    start = fp.State(y=(0, 0, 1)).packed()[None]
+    MuJoCoWorld._idle.clear()
+    flown(MUJOCO, start, 0.1)
+    (_, world), *_ = MuJoCoWorld._idle
+    flown(MUJOCO, start, 0.1)
+    assert [kept for _, kept in MuJoCoWorld._idle] == [world]
+    for i in range(MOST_IDLE + 3):
+        flown(MUJOCO.replace(lag=0.03 + 1e-3 * i), start, 0.1)
+    assert len(MuJoCoWorld._idle) == MOST_IDLE
+    assert all(kept is not world for _, kept in MuJoCoWorld._idle)

@@ -1,4 +1,4 @@
-"""From a state to a command: the law, the allocation within limits, and the lead over the rotors."""
+"""From state to command: law, control allocation within limits, and rotor lead."""
 
 from __future__ import annotations
 
@@ -17,38 +17,38 @@ from flypend.plants.actuation import rotor_forces
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 
-# (t, state (24, 1), forces (6, 1), reference, gains by name, vehicle) → thrust and moment (4, 1), e₃ up, in symbols.
+# (t, state (24, 1), forces (6, 1), reference, gains by name, vehicle) → thrust and moment (4, 1), e₃ up, symbolic.
 Steering = Callable[[Any, Any, Any, Any, dict[str, Any], Any], Any]
 
 
 def steering(law: BoundLaw) -> Steering:
-    """The wrench of a bound `law` with the reference that it has."""
+    """Return the steering of a bound `law` about its own reference."""
     return lambda t, packed, forces, _, gains, vehicle: law.upright(t, packed, forces, gains, vehicle)
 
 
 def usable_lead(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> float:
-    """The lead of `law`, at most what brings a rotor of `vehicle` to its force in one period of `plant`.
+    """Return the lead of `law`, limited so that a rotor of `vehicle` reaches its force in one period of `plant`.
 
-    More would make it overshoot between two commands: with a lag of T and a period of h, 1/(1 − e^{−h/T}).
+    The limit is 1/(1 − e^{−h/T}) for a lag T and a period h; more would make the rotor overshoot between commands.
     """
     lag = max(vehicle.rotor_lag, 1e-9)
     return float(min(law.computer.lead, 1 / -np.expm1(-1 / (plant.rate * lag))))
 
 
 def command_width(loop: Loop) -> int:
-    """Numbers of a command of `loop`: a force for each rotor, or thrust and body rates."""
+    """Return the size of a command of `loop`: one force per rotor, or thrust and body rates."""
     return 4 if loop.sampled.interface == "rates" else len(loop.vehicle.rotor_spins)
 
 
 def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int = 0) -> ca.Function:
-    """The law of `loop` as (t, state, rotors, forces, reference, gains, params) → command.
+    """Return the law of `loop` as (t, state, rotors, forces, reference, gains, params) → command.
 
     Parameters
     ----------
     loop : Loop
-        Gives law, interface, limits, lead, and the gains that are inputs.
+        Source of law, interface, limits, lead, and the input gains.
     believed : Believed
-        The vehicle that the equations are written for; `params` are its symbols.
+        The nominal vehicle of the equations; `params` are its symbols.
     steer : Steering
         The wrench of the law.
     reference : int
@@ -57,9 +57,9 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     Returns
     -------
     Function
-        Of the time of the measurement (s), the state (24,) at actuation with e₃ up, modelled rotor forces (n,),
-        external forces (6,), reference, gains and params. For the interface "wrench" a command is the rotor forces
-        (n,), N, led; for "rates" the thrust and the body rates (4,) whose proportional tracking on board gives the
+        Inputs: time of the measurement (s), state (24,) at actuation, e₃ up, modelled rotor forces (n,), N, external
+        forces (6,), N, reference, gains and params. For the interface "wrench", a command is the rotor forces (n,), N,
+        with lead; for "rates", thrust and body rates (4,), which the onboard proportional rate loop turns into the
         law's moment.
     """
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
@@ -67,21 +67,21 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
     wrench = steer(t, packed, forces, path, gains, believed.vehicle)
-    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)  # when the command acts
+    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)  # time when the command is applied
     command = finished(loop, believed, wrench, packed, rotors)
     inputs = [t, packed, rotors, forces, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
 
 
 def finish(loop: Loop, believed: Believed) -> ca.Function:
-    """(wrench (4,) with e₃ up, state (24,), rotors (n,), params) → command, for a law that is not symbolic."""
+    """Return (wrench (4,) with e₃ up, state (24,), rotors (n,), params) → command, for a callable law."""
     wrench, packed, rotors = ca.SX.sym("W", 4), ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors)
     command = finished(loop, believed, wrench, packed, rotors)
     return ca.Function("finish", [wrench, packed, rotors, believed.symbols], [ca.densify(command)])
 
 
 def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: Any) -> Any:
-    """The command for a wrench (4,), e₃ up, in CasADi; NaN for a wrench that is none, which limits would hide."""
+    """Return the command for a wrench (4,), e₃ up, in CasADi; NaN for an invalid wrench, which limits would hide."""
     thrust, moment = wrench[0], wrench[1:]
     vehicle, plant = believed.vehicle, loop.sampled
     if plant.interface == "rates":
@@ -96,10 +96,10 @@ def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: A
 
 
 def led(wanted: Any, rotors: Any, lead: Any) -> Any:
-    """Commands (n,), N, that bring `rotors`, modelled forces (n,), to the `wanted` forces; `lead` as in `Computer`."""
+    """Return commands (n,), N, that drive `rotors`, modelled forces (n,), to `wanted`; `lead` as in `Computer`."""
     return rotors + lead * (wanted - rotors)
 
 
 def idle_command(loop: Loop, rotors: Any) -> Any:
-    """The command before the first one arrives: `rotors` as they are (n,), N, or no thrust and no rates."""
+    """Return the command before the first one arrives: current `rotors` (n,), N, or zero thrust and rates."""
     return np.zeros(4) if loop.sampled.interface == "rates" else rotors

@@ -1,8 +1,8 @@
 """The flight computer as one program: (memory, measurement, reference, gains, params) → (memory, command).
 
-From it come the kernel of sampled flights, flights in MuJoCo, the reference in Python, and the exported C. In one
-control period it observes external forces, predicts the state at which its command will act, evaluates the law there,
-shares the wrench among the rotors, leads them, and moves on its model of the rotors and the list of commands under way.
+It is the source of the kernel of sampled flights (MuJoCo included), the Python reference, and the exported C. In each
+control period it estimates external forces, predicts the state at which its command will be applied, evaluates the law
+there, allocates the wrench to the rotors, adds lead, and advances its rotor model and its queue of commands in transit.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import Segment, ahead, steps_in, within_period
 
-# Longest step of the prediction, s: a quarter of the rotor lag, whose change one step integrates to (1/4)⁴/2880 = 1e-6.
+# Longest prediction step, s: a quarter of the rotor lag, where one step integrates the lag to (1/4)⁴/2880 = 1e-6.
 TWIN_STEP = 5e-3
 
 
@@ -35,14 +35,14 @@ class Board:
     Parameters
     ----------
     loop : Loop
-        What it flies.
+        Vehicle, law and plant.
     believed : Believed
-        The vehicle that its equations are written for.
+        The nominal vehicle of its equations.
     reference : int
-        Length of the reference that it is given at every step.
+        Length of the reference input at every step.
     step : Function
         (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
-        `remembering`, one after the other. A measurement is time (s) and state (24,), e₃ up.
+        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up.
     """
 
     loop: Loop
@@ -52,7 +52,7 @@ class Board:
 
 
 def initial_memory(loop: Loop, rotors: Any) -> Any:
-    """The memory (k,) of the board of `loop` before its first step, for `rotors` (n,) as they are, N.
+    """Return the memory (k,) of the board of `loop` before its first step, for current rotor forces `rotors` (n,), N.
 
     Numbers or CasADi symbols.
     """
@@ -61,7 +61,7 @@ def initial_memory(loop: Loop, rotors: Any) -> Any:
 
 
 def known(plant: Plant) -> Plant:
-    """What a flight computer knows of its `plant`: rate, limits, interface and rate loop, and nothing of the world."""
+    """Return what a flight computer knows of its `plant`: rate, limits, interface, rate loop; nothing of the world."""
     return Plant(
         rate=plant.rate, limits=plant.limits, interface=plant.interface, rate_loop_rate=plant.rate_loop_rate,
         rate_loop_gain=plant.rate_loop_gain,
@@ -69,36 +69,36 @@ def known(plant: Plant) -> Plant:
 
 
 def observer_memory(loop: Loop) -> int:
-    """Numbers that the observer keeps."""
+    """Return the size of the observer's memory."""
     return observing.MEMORY if loop.law.computer.observer > 0 else 0
 
 
 def depth(loop: Loop) -> int:
-    """Number of commands that are remembered: all that still act, or will, when the next command is planned to act."""
+    """Return the number of commands to remember: all that are applied from now until the next one takes effect."""
     return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop))))
 
 
 def memory_size(loop: Loop) -> int:
-    """Numbers that the board keeps from step to step."""
+    """Return the size of the memory that the board keeps between steps."""
     return len(loop.vehicle.rotor_spins) + observer_memory(loop) + depth(loop) * command_width(loop)
 
 
 def board(
     loop: Loop, believed: Believed | None = None, command: ca.Function | None = None, reference: int = 0
 ) -> Board:
-    """The flight computer of `loop`.
+    """Build the flight computer of `loop`.
 
     Parameters
     ----------
     loop : Loop
-        Vehicle, bound law, sampled plant, and the gains that are inputs. Of the plant it uses what a flight computer
-        knows: rate, limits, interface and the gain of the rate loop.
+        Vehicle, bound law, sampled plant, and the input gains. Of the plant, only what a flight computer knows is used:
+        rate, limits, interface, and rate and gain of the rate loop.
     believed : Believed, optional
-        The vehicle that equations are written for; default the numbers of that of `loop`.
+        The nominal vehicle of the equations; default the vehicle of `loop`, as numbers.
     command : Function, optional
-        In place of `law_command`, with the same inputs; default the law with the reference of its own.
+        Replacement for `law_command`, with the same inputs; default the law about its own reference.
     reference : int
-        Length of the reference that `command` takes.
+        Length of the reference input of `command`.
     """
     believed = believed or Believed.numbers(loop.vehicle)
     predict, remember = predicting(loop, believed), remembering(loop, believed)
@@ -115,7 +115,7 @@ def board(
 
 
 class _Twin:
-    """The board's model of vehicle and rotors, as calls of functions on MX symbols."""
+    """The board's model of vehicle and rotors, as function calls on MX symbols."""
 
     def __init__(self, loop: Loop, believed: Believed, params: Any) -> None:
         self._plant, self._believed, self._params = loop.sampled, believed, params
@@ -126,7 +126,7 @@ class _Twin:
             self._loop = rate_loop(believed.vehicle, plant.limits, plant.rate_loop_gain, believed.symbols)
 
     def advance(self, state: Any, rotors: Any, command: Any, duration: float, forces: Any) -> tuple[Any, Any]:
-        """State and rotors `duration` seconds later, under a `command` that is held and external `forces`."""
+        """Return state and rotors `duration` seconds later, under a zero-order-hold `command` and external `forces`."""
         steps = steps_in(duration, self._plant, TWIN_STEP)
         step = self._of_length(duration / steps)
         for _ in range(steps):
@@ -135,8 +135,8 @@ class _Twin:
         return state, rotors
 
     def _of_length(self, duration: float) -> ca.Function:
-        """A step of `duration` s, which is a constant of it."""
-        length = round(duration, 12)  # the same step, whatever roundoff cut it out
+        """Return the step function for a constant `duration` in s."""
+        length = round(duration, 12)  # one function per length, up to roundoff
         if length not in self._steps:
             believed = self._believed
             self._steps[length] = rotor_step(
@@ -155,7 +155,7 @@ def _within(loop: Loop) -> tuple[Segment, ...]:
 
 
 def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
-    """Modelled rotors, the observer's memory, and the commands under way, the youngest first."""
+    """Return modelled rotors, observer memory, and the commands in transit, newest first."""
     n, k, width = len(loop.vehicle.rotor_spins), observer_memory(loop), command_width(loop)
     ends = [0, n, n + k, *(n + k + width * (i + 1) for i in range(depth(loop)))]
     rotors, kept, *commands = ca.vertsplit(memory, ends)
@@ -163,7 +163,7 @@ def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
 
 
 def predicting(loop: Loop, believed: Believed) -> ca.Function:
-    """(memory, measurement, params) → observer's memory, forces (6,), state (24,) and rotors (n,) at actuation."""
+    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation."""
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     params = ca.MX.sym("params", believed.symbols.numel())
     rotors, kept, commands = _parts(loop, memory)
@@ -172,7 +172,7 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
         kept, forces = observe(state, rotors, kept, params)
     twin = _Twin(loop, believed, params)
-    for age, duration in _ahead(loop):  # the command of this step is not there yet: the youngest has age 1
+    for age, duration in _ahead(loop):  # this step's command is yet to come: the newest has age 1
         state, rotors = twin.advance(state, rotors, commands[age - 1], duration, forces)
     if _ahead(loop):
         state = _projection()(state)
@@ -180,19 +180,19 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
 
 
 def _projection() -> ca.Function:
-    """A predicted state → that state on the manifold, which its few steps left by less than their error."""
+    """Return predicted state → state projected onto the manifold; its few steps drift by less than their error."""
     packed = ca.SX.sym("s", SIZE)
     return ca.Function("project", [packed], [ca.densify(project_symbolic(packed))])
 
 
 def remembering(loop: Loop, believed: Believed) -> ca.Function:
-    """(memory, observer's memory, measurement, forces, command, params) → memory."""
+    """Return (memory, observer memory, measurement, forces, command, params) → memory."""
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     kept, forces = ca.MX.sym("kept", observer_memory(loop)), ca.MX.sym("forces", 6)
     command, params = ca.MX.sym("command", command_width(loop)), ca.MX.sym("params", believed.symbols.numel())
     rotors, _, commands = _parts(loop, memory)
     under_way = [command, *commands]
-    if loop.sampled.interface == "rates":  # the rotors depend on how the body turns
+    if loop.sampled.interface == "rates":  # the rate loop's rotor commands depend on the rotation
         state, twin = measurement[1:], _Twin(loop, believed, params)
         for age, duration in _within(loop):
             state, rotors = twin.advance(state, rotors, under_way[age], duration, forces)
@@ -203,10 +203,10 @@ def remembering(loop: Loop, believed: Believed) -> ca.Function:
 
 
 def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
-    """(memory, command) → memory after a period without a measurement, under a `command` from elsewhere.
+    """Return (memory, command) → memory after a period without measurement, under an external `command`.
 
-    The observer begins anew with the estimates that it has. Only for commands that are rotor forces: how rotors that
-    a rate loop commands have moved depends on how the body turned.
+    The observer restarts from its current estimates. Only for commands that are rotor forces: under a rate loop, the
+    rotor forces depend on the body's rotation, which was not measured.
     """
     memory, command = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("command", command_width(loop))
     rotors, kept, commands = _parts(loop, memory)
@@ -219,7 +219,7 @@ def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
 
 
 def _lagged(loop: Loop, believed: Believed, rotors: Any, under_way: Sequence[Any]) -> Any:
-    """The modelled `rotors` a period later under the rotor forces that are under way."""
+    """Return the modelled `rotors` one period later, under the rotor forces in transit."""
     lag = rotor_lag(believed.rotors)
     for age, duration in _within(loop):
         rotors = lag(rotors, under_way[age], ca.MX(ca.DM(step_timing(believed.lag, duration))))

@@ -1,1 +1,1 @@
-"""Flights: what is flown, how it is flown, what comes of it."""
+"""Flights: requests, simulation and results."""

@@ -1,4 +1,4 @@
-"""When a flight counts as a success, as one formula for trajectories and for kernels."""
+"""The success criterion: one formula for trajectories and kernels."""
 
 from __future__ import annotations
 
@@ -15,31 +15,31 @@ from flypend.model import State, Vehicle
 from flypend.model.state import E3Direction
 
 PARTS = ("rod", "axis", "position")
-# What a kernel reduces, in this order: since when all is within tolerance, when each part last was not, the largest
-# distance, and mean square and maximum of the rotor forces.
+# Reductions over samples in a kernel, in order: time since which everything is within tolerance, last time out of
+# tolerance for each part, largest distance, and mean square and maximum of the rotor forces.
 REDUCTIONS = ("since", "last", "last", "last", "max", "mean", "max")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
-    """What a flight must do during its last `hold` seconds to succeed.
+    """Conditions that a flight must satisfy during its last `hold` seconds to succeed.
 
     Parameters
     ----------
     rod, axis : float
-        |y − e₃| and |z − e₃| stay below these (more by the lean that a moving reference takes).
+        Bounds on |y − e₃| and |z − e₃|, each plus the lean that a moving reference requires.
     position : float
-        The pivot stays this near to its reference, m; inf for anywhere.
+        Largest distance of the pivot from its reference, m; inf for no limit.
     hold : float
-        Seconds.
+        Length of the final interval, s.
     target : "inverted" or "e3"
-        The rod's pose: upright against gravity, or along e₃ of the law's own frame, which for the paper's laws hangs.
-        The thrust axis z = R e₃ is to be e₃ of that frame in either case.
+        Target pose of the rod: upright against gravity, or along e₃ of the law's own frame, which hangs for the
+        paper's laws. The target of the thrust axis z = R e₃ is e₃ of the law's frame in either case.
 
     Raises
     ------
     InputError
-        For a tolerance that is not positive, or an unknown target.
+        If a tolerance is not positive or the target is unknown.
     """
 
     rod: float = 0.05
@@ -55,24 +55,24 @@ class Criterion:
         errors.one_of("criterion.target", self.target, ("inverted", "e3"))
 
     def pose(self, e3: E3Direction) -> Any:
-        """The unit vector (3,) that the rod should take, in a frame with third axis `e3`."""
+        """Return the target direction (3,) of the rod, in a frame with third axis `e3`."""
         return E3 if self.target == "e3" or e3 == "up" else -E3
 
     def excess(self, y: Any, z: Any, distance: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any, Any]:
-        """By how much each of `PARTS` is out of tolerance, not positive within.
+        """Return by how much each of `PARTS` exceeds its tolerance; at most 0 within it.
 
-        `y` and `z` are rod and thrust axis in the frame `e3`, `distance` (m) that to the reference, `lean` as `lean`
-        gives it; NumPy batches or CasADi expressions.
+        `y` and `z` are rod and thrust axis in the frame `e3`, `distance` (m) is from the reference, and `lean` is the
+        value of the function `lean`. NumPy batches or CasADi expressions.
         """
         rod = norm(y - self.pose(e3)) - (self.rod + lean)
         return rod, norm(z - E3) - (self.axis + lean), distance - self.position
 
 
 def lean(acceleration: Any, g: float) -> Any:
-    """|d − e₃| of the direction d of `acceleration` + g e₃ (frame with e₃ up): how far one leans who follows it.
+    """Return |d − e₃|, d being the direction of `acceleration` + g e₃ (e₃ up): the lean needed to follow a reference.
 
-    On a circle rod and axis lean a little less, since the bob goes round on a smaller one than the pivot. No level
-    reference allows as much as √2, so a rod that hangs is never let pass.
+    On a circle, rod and axis lean slightly less, since the bob's circle is smaller than the pivot's. On a horizontal
+    reference the result stays below √2, so a hanging rod never passes.
     """
     symbolic = is_symbolic(acceleration)
     a = [acceleration[i] if symbolic else acceleration[..., i] for i in range(3)]
@@ -91,9 +91,9 @@ def observed(
     criterion: Criterion,
     e3: E3Direction,
 ) -> Any:
-    """The values (7, 1) that `REDUCTIONS` reduce, in CasADi, for a `state` in the frame `e3` with rotor forces, N.
+    """Return the CasADi values (7, 1) that `REDUCTIONS` reduce, for `state` in the frame `e3` and `rotors` (forces, N).
 
-    `t` is the symbol of time, s; `reference` the position that the law holds, None for the origin.
+    `t` is the symbol of time, s; `reference` is the reference position of the law, None for the origin.
     """
     x_ref = reference(t) if reference is not None else ca.SX.zeros(3)
     velocity = ca.jacobian(x_ref, t)

@@ -1,4 +1,4 @@
-"""Many closed-loop runs over a batch of starts, on all cores, member by member the same as single runs."""
+"""Closed-loop runs from a batch of starts, on all cores. Each member matches the corresponding single run."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ Progress = Callable[[int, int], Any]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ensemble:
-    """Results of n runs, each array with the runs along its first axis.
+    """Results of n runs; the first axis of every array runs over them.
 
     Parameters
     ----------
     starts : State
-        Initial states (n,), in the frame of the law.
+        Initial states (n,), in the law's frame.
     final : State
-        Final states (n,), in the frame of the law.
+        Final states (n,), in the law's frame.
     success, settling, excursion, effort, peak_force, end, cause : (n,)
         The fields of `Metrics`, run by run.
     e3 : "up" or "down"
-        Where the third axis of the frame points.
+        Direction of the frame's third axis.
     vehicle : Vehicle
-        What was flown.
+        Vehicle parameters.
     law, gains : str, dict
-        Name and gains of the law that flew it; a gain that differs from run to run is an array (n,).
+        Name and gains of the law; a gain that differs between runs is an array (n,).
     t : (k,), optional
-        Sample times, s, if any were asked for.
+        Sample times, s, if any were requested.
     samples : State, optional
-        States (n, k) at these times, in the frame of the law; NaN after the end of a run.
+        States (n, k) at these times, in the law's frame; NaN after the end of a run.
     """
 
     starts: State
@@ -90,15 +90,15 @@ class Ensemble:
         return wilson(int(np.sum(self.success)), len(self))
 
     def percentile(self, name: str, q: float) -> float:
-        """Percentile `q` of the field called `name`, over the runs where it is a number; NaN if there is none."""
+        """Return percentile `q` of the field `name` over the runs where it is finite; NaN if there are none."""
         values = getattr(self, name)
         values = values[np.isfinite(values)]
         return float(np.percentile(values, q)) if len(values) else float("nan")
 
     def to_xarray(self) -> xarray.Dataset:
-        """The runs as an `xarray.Dataset` on the dimension `run`, with units and, as attributes, what was flown.
+        """Return an `xarray.Dataset` on the dimension `run`, with units, and vehicle, law and frame as attributes.
 
-        Starts and final states are called start_x, final_x and so on; samples, on `run` and `t`, as in a trajectory.
+        Starts and final states are named start_x, final_x and so on; samples, on `run` and `t`, as in a trajectory.
         """
         runs = ("run",)
         variables = {entry.name: variable(entry.name, runs, getattr(self, entry.name)) for entry in fields(Metrics)}
@@ -130,39 +130,40 @@ def simulate_ensemble(
     workers: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> Ensemble:
-    """Fly `vehicle` under `law` from every one of `starts`.
+    """Fly `vehicle` under `law` from each of `starts`.
 
     Parameters
     ----------
     vehicle, law, duration, plant, rtol, atol
-        As in `simulate`. A plant with noise or gusts gives run i the seed `plant.seed + i`.
+        As in `simulate`. With noise or gusts, run i gets the seed `plant.seed + i`.
     starts : State
-        A batch of states with one leading axis, in the frame of the law.
+        A batch of states with one leading axis, in the law's frame.
     gains : dict, optional
-        Gains of the law that differ from run to run: name to (n,).
+        Gains that differ between runs: name to (n,).
     criterion : Criterion, optional
-        What counts as a success; default to stand inverted at the reference.
+        Success criterion; default: standing inverted at the reference.
     times : (t,) increasing, optional
-        Times, s, at which states are kept; a sampled flight gives the nearest control ticks. They change no verdict.
+        Times, s, at which states are kept; in a sampled flight, the nearest control ticks. They do not affect the
+        criterion.
     judge_period : float
-        Every so often a run is judged, s. The default is that of `metrics`; a longer one makes short runs cheaper.
+        Sampling period of the criterion, s. The default is that of `metrics`; a longer one makes short runs cheaper.
     method : "dop853" or "dp5", optional
-        Runge-Kutta method of the ideal plant; default by the tolerance.
+        Runge-Kutta method of the ideal plant; default chosen by tolerance.
     precision : "double" or "float"
-        Of the ideal plant; "float" is for tolerances of 1e-4 and looser.
+        Floating-point precision of the ideal plant; "float" suits tolerances of 1e-4 and looser.
     engine : "kernel", "scipy" or "jax"
-        As in `simulate`; "jax" (extra gpu) flies the ideal plant on JAX's default device, in doubles, without `times`.
+        As in `simulate`. "jax" (extra gpu) runs the ideal plant on JAX's default device, in double precision, without
+        `times`.
     workers : int, optional
-        Threads, or processes for the engine "scipy"; default one per core. A law that cannot be sent to another process
-        is flown in this one.
+        Threads, or processes for the engine "scipy"; default one per core. A law that cannot be pickled is flown in
+        this process.
     progress : callable
-        Told `(taken, total)` as runs are taken up.
+        Called with `(started, total)` as runs start.
 
     Raises
     ------
     InputError
-        For starts that are not a batch, gains that the law lacks, options that the engine lacks, and whatever
-        `simulate` refuses.
+        If the starts are not a batch, the law lacks a gain, the engine lacks an option, or `simulate` would raise it.
     """
     if not isinstance(starts, State) or len(starts.batch_shape) != 1:
         raise errors.InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
@@ -180,14 +181,14 @@ def fly_many(
 ) -> Ensemble:
     """Fly every start of `flight`; `engine`, `workers` and `progress` are those of `simulate_ensemble`.
 
-    Raises InputError for an engine that lacks what the flight asks for.
+    Raises InputError if the engine lacks what the flight requires.
     """
     errors.one_of("engine", engine, ENGINES)
     if engine == "scipy" or (engine == "kernel" and not has_kernel(flight)):
         steered = isinstance(flight.law, Controller)
         for name, value in (("gains", flight.gains and not steered), ("method", flight.tolerances.method)):
             if value:
-                raise errors.InputError(name, "an engine that is compiled, for a law in symbols", "another")
+                raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")
         return _one_by_one(flight, engine, workers, progress)
     if engine == "kernel":
         return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
@@ -197,7 +198,7 @@ def fly_many(
 
 
 def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
-    """The fields of `Metrics` as arrays (n,), of a `flight` that a kernel has `flown`."""
+    """Return the fields of `Metrics` as arrays (n,), for a `flight` that a kernel has `flown`."""
     return judged(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion)
 
 
@@ -210,7 +211,7 @@ def _gathered(flight: Flight, flown: Flown) -> Ensemble:
 
 
 def _about(flight: Flight) -> dict[str, Any]:
-    """The fields of an ensemble that say what was flown, and when it was sampled."""
+    """Return the fields of an ensemble that specify what was flown and when it was sampled."""
     law, plant, t = flight.law, flight.plant, flight.times
     if t is not None and isinstance(plant, Sampled):
         t = nearest_ticks(t, plant, flight.duration) / plant.rate
@@ -219,7 +220,7 @@ def _about(flight: Flight) -> dict[str, Any]:
 
 
 def _one_by_one(flight: Flight, engine: str, workers: int | None, progress: Progress) -> Ensemble:
-    """As `fly_many`, by single runs in one process per core."""
+    """Like `fly_many`, by single runs in one process per core."""
     members = fly_members(flight, engine, workers, progress)
     columns: dict[str, Any] = {
         entry.name: np.array([getattr(member.metrics, entry.name) for member in members]) for entry in fields(Metrics)

@@ -1,4 +1,4 @@
-"""One trajectory of a closed loop by SciPy's embedded Runge-Kutta method of order 8 (DOP853), on the manifold."""
+"""A closed-loop trajectory on the manifold by SciPy's embedded Runge-Kutta method of order 8 (DOP853)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Margin = Callable[[float, Any], float]
 
 @dataclass(frozen=True)
 class Integration:
-    """Accepted steps of one run: `knots` (n+1,), one interpolant per step, drift (n, 3) before each projection."""
+    """Accepted steps of one run: `knots` (n+1,), one interpolant per step, drift (n, 3) before projection."""
 
     knots: Any
     interpolants: tuple[Callable[[Any], Any], ...]
@@ -31,7 +31,7 @@ class Integration:
     outcome: Outcome
 
     def __call__(self, t: Any) -> Any:
-        """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""
+        """Return the states (len(t), 24) at times within the run, from the method's dense output, projected."""
         t = np.atleast_1d(np.asarray(t, dtype=float))
         if not self.interpolants:
             return np.repeat(self.start[None], len(t), axis=0)
@@ -51,10 +51,10 @@ def integrate(
     margin: Margin | None = None,
     margin_reason: str = "",
 ) -> Integration:
-    """Integrate `rates` from the packed state `start` over `duration` seconds; never raises for what a run does.
+    """Integrate `rates` from the packed state `start` over `duration` seconds; a run that fails does not raise.
 
-    After each accepted step the state is projected back onto the manifold and the drift before it is recorded. Where
-    `margin(t, state)` is no longer positive the run ends as singular, for `margin_reason`.
+    After each accepted step the state is projected onto the manifold, and the drift before projection is recorded. If
+    `margin(t, state)` stops being positive, the run ends as singular, with `margin_reason`.
     """
     if not np.all(np.isfinite(rates(0.0, start))):
         reason = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
@@ -89,9 +89,9 @@ def integrate(
 
 
 def _lost(solver: DOP853, message: str | None, steps: int) -> Outcome | None:
-    """The outcome of a run whose last step failed or left every bound; None for one that goes on."""
+    """Return the outcome of a run whose last step failed or left all bounds; None if it continues."""
     if solver.status == "failed":
-        return Outcome("diverged", solver.t, f"{message} Loosen rtol, or see what the state does before this time.")
+        return Outcome("diverged", solver.t, f"{message} Loosen rtol, or inspect the state before this time.")
     if not (np.all(np.isfinite(solver.y)) and np.max(np.abs(solver.y)) < MAX_STATE):
         return Outcome("diverged", solver.t_old, f"the state left |s| < {MAX_STATE:g}")
     if steps >= MAX_STEPS:
@@ -100,7 +100,7 @@ def _lost(solver: DOP853, message: str | None, steps: int) -> Outcome | None:
 
 
 def _crossing(margin: Margin, interpolant: Any) -> float:
-    """Time inside the step of `interpolant` at which `margin` first reaches zero, to 1e-12 s."""
+    """Return the time within the step of `interpolant` at which `margin` reaches zero, to 1e-12 s."""
     before, after = (
         margin(interpolant.t_old, interpolant(interpolant.t_old)),
         margin(interpolant.t, interpolant(interpolant.t)),

@@ -1,4 +1,4 @@
-"""Results as labelled arrays: the same names, dimensions and units, whatever flew."""
+"""Results as labelled arrays, with the same names, dimensions and units for every kind of result."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ UNITS = {
     "moment": "N m", "rotor_forces": "N", "x_ref": "m", "settling": "s", "excursion": "m", "peak_force": "N",
     "end": "s",
 }  # fmt: skip
-# Axes of the world, and of the body.
+# Axes of the world and of the body.
 AXES = {"axis": ("1", "2", "3"), "body_axis": ("1", "2", "3")}
 DIMENSIONS: Mapping[str, tuple[str, ...]] = {
     "x": ("axis",), "x_dot": ("axis",), "R": ("axis", "body_axis"), "omega": ("body_axis",), "y": ("axis",),
@@ -30,17 +30,17 @@ DIMENSIONS: Mapping[str, tuple[str, ...]] = {
 
 
 def variable(name: str, over: tuple[str, ...], values: Any) -> Variable:
-    """The array `values` of a quantity called `name`, over the dimensions `over` and its own."""
+    """Return the array `values` of the quantity `name`, on the dimensions `over` followed by its own."""
     return Variable((*over, *DIMENSIONS.get(name, ())), np.array(values), {"units": UNITS.get(name, "")})
 
 
 def state_variables(states: State, over: tuple[str, ...], prefix: str = "") -> dict[str, Variable]:
-    """The fields of a batch of `states` with the batch dimensions `over`, their names after `prefix`."""
+    """Return the fields of a batch of `states` on the batch dimensions `over`, their names prefixed by `prefix`."""
     return {prefix + name: variable(name, over, getattr(states, name)) for name in SHAPES}
 
 
 def described(vehicle: Vehicle, law: str, gains: Mapping[str, Any], e3: E3Direction) -> dict[str, Any]:
-    """What was flown, as attributes."""
+    """Return attributes that specify vehicle, law, gains and frame."""
     return {
         "e3": e3,
         "law": law,
@@ -51,7 +51,7 @@ def described(vehicle: Vehicle, law: str, gains: Mapping[str, Any], e3: E3Direct
 
 
 def dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xarray.Dataset:
-    """The `variables` with the labels of their axes as an `xarray.Dataset`; its data frame has rows if they have."""
+    """Return the `variables` and their axis labels as an `xarray.Dataset`."""
     errors.require("xarray", extra="studies", for_="to_xarray")
     import xarray
 

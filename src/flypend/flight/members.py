@@ -1,4 +1,4 @@
-"""The runs of an ensemble one by one, each as a trajectory, in one process per core: what no kernel flies."""
+"""The runs of an ensemble as single trajectories, in one process per core, for flights without a kernel."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw
 from flypend.plants import Sampled
 
-# Runs per task: a task compiles the law once, which costs a fraction of one run.
+# Runs per task. A task compiles the law once, at a fraction of the cost of a run.
 CHUNK = 8
 
-# What another process refuses comes back as the three fields of an InputError; by itself it is pickled by its message.
+# Pickle an InputError from a worker process by its three fields; by default only its message would be pickled.
 copyreg.pickle(errors.InputError, lambda error: (errors.InputError, (error.field, error.expected, str(error.got))))
 
 
 @dataclass(frozen=True, eq=False)
 class Member:
-    """One run of an ensemble: how it is judged, how it ends (24,), and its samples (k, 24) if any are kept."""
+    """One run of an ensemble: its metrics, final state (24,), and samples (k, 24) if any are kept."""
 
     metrics: Metrics
     final: NDArray[np.float64]
@@ -37,7 +37,7 @@ class Member:
 
 
 def fly_members(flight: Flight, engine: str, workers: int | None, progress: Callable[[int, int], Any]) -> list[Member]:
-    """The runs of `flight` in the order of its starts; `engine`, `workers` and `progress` as in `fly_many`."""
+    """Return the runs of `flight` in the order of its starts; `engine`, `workers` and `progress` as in `fly_many`."""
     members: list[Member] = []
     for part in _chunks(flight, engine, workers or os.cpu_count() or 1):
         members += part
@@ -46,8 +46,8 @@ def fly_members(flight: Flight, engine: str, workers: int | None, progress: Call
 
 
 def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member]]:
-    """The members, some at a time, in the order of the starts."""
-    from joblib import Parallel, delayed  # processes, which a kernel does not wait for
+    """Yield chunks of members, in the order of the starts."""
+    from joblib import Parallel, delayed  # slow to import, and not needed by kernels
 
     def chunk(indices: range) -> list[Member]:
         return [_member(flight.member(i), engine) for i in indices]
@@ -60,7 +60,7 @@ def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member
 
 
 def _member(flight: Flight, engine: str) -> Member:
-    """One run: sampled where it is judged and where it is kept, and each read for itself."""
+    """Fly one run, sampled at the criterion's times and at the flight's `times`; the two do not affect each other."""
     if flight.times is None:
         run = fly(flight, engine)
         return Member(metrics(run, flight.criterion), run.packed[-1], None)
@@ -72,7 +72,7 @@ def _member(flight: Flight, engine: str) -> Member:
 
 
 def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Where `run` has its samples at the times `wanted`; -1 for those after its end."""
+    """Return the rows of `run` at the times `wanted`; -1 for times after its end."""
     t = run.t
     if isinstance(flight.plant, Sampled):
         wanted, t = nearest_ticks(wanted, flight.plant, flight.duration), np.rint(t * flight.plant.rate)
@@ -81,17 +81,17 @@ def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArr
 
 
 def _taken(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
-    """The samples of `run` in some of its rows."""
+    """Return `run` restricted to some of its rows."""
     names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
-    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals={})  # nobody judges by signals
+    return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals={})  # metrics need no signals
 
 
 def _can_be_sent(law: AnyLaw) -> bool:
-    """Whether another process can be given `law`; one with a loaded C library or symbols of CasADi cannot."""
+    """Whether `law` can be pickled; not if it holds a loaded C library or CasADi symbols."""
     import cloudpickle
 
     try:
         cloudpickle.dumps(law)
-    except Exception:  # CasADi raises no narrower one
+    except Exception:  # CasADi raises nothing narrower
         return False
     return True

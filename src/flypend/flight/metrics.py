@@ -1,4 +1,4 @@
-"""Whether a flight succeeded, how soon and at what cost; and how sure a success rate is."""
+"""Success, settling and cost of a flight; and confidence intervals of success rates."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.model import Vehicle
 
-# Roundoff of times, s.
+# Tolerance for roundoff in times, s.
 SAME = 1e-9
 
 
 @dataclass(frozen=True)
 class Metrics:
-    """One flight, judged by what it should do: stand inverted at its reference.
+    """Metrics of one flight against its criterion, by default standing inverted at the reference.
 
     Parameters
     ----------
     success : bool
-        Rod and thrust axis within 0.05 of upright (more by the lean that a moving reference takes) and the pivot within
-        0.2 m of its reference, for the last second; or whatever else the criterion says.
+        Whether the criterion holds. By default: rod and thrust axis within 0.05 of upright (plus the lean that a moving
+        reference requires) and the pivot within 0.2 m of its reference, for the last second.
     settling : float
-        Time after which all that holds to the end, s; NaN if it does not.
+        Time from which the tolerances hold to the end, s; NaN for a failure.
     excursion : float
         Largest distance of the pivot from its reference, m.
     effort : float
-        Root mean square of the rotor forces over their share of the weight.
+        Root mean square of the rotor forces, relative to each rotor's share of the weight.
     peak_force : float
-        Largest force of a rotor, N.
+        Largest rotor force, N.
     end : float
-        When the flight ended, s.
+        End time, s.
     cause : str
-        Of a failure: "diverged" or "singular", else what was out of tolerance during the last second: the first of
-        "rod", "axis", "position". Empty for a success.
+        Cause of failure: "diverged" or "singular", else the first of "rod", "axis", "position" out of tolerance during
+        the last `Criterion.hold` seconds. Empty for a success.
     """
 
     success: bool
@@ -51,7 +51,7 @@ class Metrics:
 
 
 def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
-    """Metrics of `run` by `criterion` (default: inverted, as `Criterion` has it)."""
+    """Return the metrics of `run` by `criterion` (default `Criterion()`: inverted)."""
     criterion = criterion or Criterion()
     distance = norm(run.x - run.x_ref)
     excess = criterion.excess(run.y, run.z, distance, _lean(run), run.e3)
@@ -64,18 +64,18 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
 
 
 def judged(reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: Criterion) -> dict[str, Any]:
-    """The fields of `Metrics` as arrays (n,), from what runs were reduced to.
+    """Return the fields of `Metrics` as arrays (n,), from the reductions of n runs.
 
     Parameters
     ----------
     reductions : (n, 7)
-        As `criterion.REDUCTIONS` has it.
+        See `criterion.REDUCTIONS`.
     status : (n,)
         "completed", "diverged" or "singular".
     end : (n,)
-        When each run ended, s.
+        End time of each run, s.
     vehicle, criterion
-        What flew, and what it should do.
+        Vehicle parameters, and success criterion.
     """
     since, last, excursion, square, peak = (
         reductions[:, 0], reductions[:, 1:4], reductions[:, 4], reductions[:, 5], reductions[:, 6]
@@ -97,7 +97,7 @@ def judged(reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: 
 
 
 def _lean(run: Trajectory) -> Any:
-    """The lean that the reference of `run` takes; 0 in hover."""
+    """Return the lean that the reference of `run` requires; 0 in hover."""
     if len(run.t) < 3 or not np.any(run.x_ref != run.x_ref[0]):
         return 0.0
     velocity = np.gradient(run.x_ref, run.t, axis=0, edge_order=2)
@@ -106,29 +106,29 @@ def _lean(run: Trajectory) -> Any:
 
 
 def _last(t: Any, bad: Any) -> float:
-    """Last time at which `bad`; −1 if never."""
+    """Return the last time at which `bad` is true; −1 if never."""
     found = np.flatnonzero(bad)
     return float(t[found[-1]]) if len(found) else -1.0
 
 
 def _since(t: Any, bad: Any) -> float:
-    """First time after the last `bad` one; inf if that is the last of all."""
+    """Return the first time after the last `bad` one; inf if that is the last sample."""
     found = np.flatnonzero(bad)
     place = found[-1] + 1 if len(found) else 0
     return float(t[place]) if place < len(t) else float("inf")
 
 
 def wilson_bounds(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[Any, Any]:
-    """Wilson intervals (n,) of success rates: `successes` (n,) of `runs` (n,), at `confidence`; 0 to 1 for no runs."""
+    """Return Wilson intervals (n,) of `successes` (n,) out of `runs` (n,) at `confidence`; 0 to 1 for no runs."""
     n, z = np.maximum(runs, 1), NormalDist().inv_cdf((1 + confidence) / 2)
     share = np.asarray(successes) / n
     middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
-    none = np.asarray(runs) == 0  # exactly 0 and 1 at the ends, which roundoff would miss
+    none = np.asarray(runs) == 0  # ends at exactly 0 and 1, despite roundoff
     return np.where(none | (share == 0), 0.0, middle - half), np.where(none | (share == 1), 1.0, middle + half)
 
 
 def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, float]:
-    """Wilson interval of a success rate: `successes` out of `runs`, at `confidence`."""
+    """Return the Wilson interval of a success rate, `successes` out of `runs`, at `confidence`."""
     low, high = wilson_bounds(int(successes), int(runs), confidence)
     return float(low), float(high)

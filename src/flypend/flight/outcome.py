@@ -13,11 +13,11 @@ class Outcome:
     Parameters
     ----------
     status : "completed", "diverged" or "singular"
-        Whether the duration was reached, the state left every bound, or the law stopped being defined.
+        The run reached its duration, the state left all bounds, or the law stopped being defined.
     time : float
-        When, s.
+        End time, s.
     reason : str
-        Why, and what to do about it; empty for a completed run.
+        Cause and remedy; empty for a completed run.
     """
 
     status: Literal["completed", "diverged", "singular"]

@@ -1,4 +1,4 @@
-"""One request: what flies, from where, how long, through what, how exactly, and when that counts as a success."""
+"""A flight request: vehicle, law, starts, duration, plant, tolerances and success criterion."""
 
 from __future__ import annotations
 
@@ -22,30 +22,30 @@ from flypend.plants.loop import Loop
 SAMPLE_PERIOD = 0.01
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
 LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 Hz
-# From this tolerance on the method of order 5 is the faster one.
+# At this tolerance and looser, the method of order 5 is faster.
 LOOSE = 1e-6
 PRECISIONS = ("double", "float")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tolerances:
-    """How exactly the ideal plant is integrated; a sampled flight takes steps of 1 ms or less.
+    """Integration tolerances of the ideal plant; a sampled flight uses fixed steps of 1 ms or less.
 
     Parameters
     ----------
     rtol, atol : float
         Tolerances of the adaptive step; atol defaults to rtol, since state entries are of order one in SI units.
     method : "dop853" or "dp5", optional
-        Runge-Kutta method; default by the tolerance.
+        Runge-Kutta method; default chosen by tolerance.
     precision : "double" or "float"
-        Of all arithmetic; "float" is for tolerances of 1e-4 and looser.
+        Precision of all arithmetic; "float" suits tolerances of 1e-4 and looser.
     max_steps : int, optional
-        A run that needs more is given up as diverged; default a million.
+        A run that needs more steps ends as diverged; default a million.
 
     Raises
     ------
     InputError
-        For a tolerance that is not positive or below a hundred roundoffs, and an unknown method or precision.
+        If a tolerance is not positive, rtol is below 100 machine epsilons, or method or precision is unknown.
     """
 
     rtol: float = 1e-9
@@ -57,7 +57,7 @@ class Tolerances:
     def __post_init__(self) -> None:
         rtol = errors.number("rtol", self.rtol, above=0)
         if rtol < LEAST_RTOL:
-            raise InputError("rtol", f"at least {LEAST_RTOL:g}, a hundred roundoffs", f"{rtol:g}")
+            raise InputError("rtol", f"at least {LEAST_RTOL:g}, 100 machine epsilons", f"{rtol:g}")
         object.__setattr__(self, "rtol", rtol)
         if self.atol is not None:
             object.__setattr__(self, "atol", errors.number("atol", self.atol, above=0))
@@ -71,47 +71,47 @@ class Tolerances:
         return self.rtol if self.atol is None else self.atol
 
     def method_for(self, law: BoundLaw) -> str:
-        """The Runge-Kutta method: the one asked for, or the faster one, but DOP853 where `law` can be singular.
+        """Return the requested Runge-Kutta method; by default the faster one, but DOP853 if `law` can be singular.
 
-        The error estimate of order 5 steps over a narrow singularity that the other notices.
+        DP5's error estimate misses narrow singularities that DOP853's detects.
         """
         return self.method or ("dp5" if self.rtol >= LOOSE and law.guard is None else "dop853")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Flight:
-    """A flight, or one from each of many starts: everything that its result depends on, checked once.
+    """A flight from one start or many: everything that the result depends on, checked once.
 
     Parameters
     ----------
     vehicle : Vehicle
-        What flies.
+        Vehicle parameters.
     law : BoundLaw or Controller
-        What steers it; a Law is bound to the vehicle here.
+        Control law; a Law is bound to the vehicle on construction.
     starts : State
-        A single state, or a batch with one leading axis, in the frame of the law.
+        A single state, or a batch with one leading axis, in the law's frame.
     duration : float
-        Seconds, > 0.
+        Flight time, s, > 0.
     plant : Ideal or Sampled
-        What stands between law and world; default limits, rotor lag and sampling at 500 Hz. A Controller is sampled at
-        its own rate where the plant is ideal.
+        Plant; default: rotor limits, rotor lag and sampling at 500 Hz. In the ideal plant, a Controller is sampled at
+        its own rate.
     tolerances : Tolerances
-        Of the ideal plant.
+        Tolerances of the ideal plant.
     criterion : Criterion
-        What counts as a success.
+        Success criterion.
     gains : dict
-        Gains of the law that differ from run to run, name to (n,) or one number; for a batch.
+        For a batch: gains that differ between runs, name to (n,) or one number.
     times : (t,) increasing, optional
-        Times at which states are kept, s; a sampled flight gives the nearest control ticks.
+        Times at which states are kept, s; in a sampled flight, the nearest control ticks.
     judge_period : float
-        Every so often a run is judged, s.
+        Sampling period of the criterion, s.
     seed : int, optional
-        Seed of noise and gusts in the first run, the next having the next; default that of the plant.
+        Seed of noise and gusts in the first run, increasing by 1 per run; default that of the plant.
 
     Raises
     ------
     InputError
-        For what is of another kind or out of range.
+        If a value has the wrong type or is out of range.
     """
 
     vehicle: Vehicle
@@ -146,7 +146,7 @@ class Flight:
         if not self.gains:
             return MappingProxyType({})
         if self.single:
-            raise InputError("gains", "nothing for a single start: give them to the law", sorted(self.gains))
+            raise InputError("gains", "nothing for a single start: set them in the law", sorted(self.gains))
         return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
 
     def _check_together(self) -> None:
@@ -157,7 +157,7 @@ class Flight:
 
     @property
     def single(self) -> bool:
-        """Whether it has one start, and its result is a `Trajectory`."""
+        """Whether there is one start, so that the result is a `Trajectory`."""
         return not self.starts.batch_shape
 
     @property
@@ -167,44 +167,44 @@ class Flight:
 
     @property
     def loop(self) -> Loop:
-        """What compiled code depends on."""
+        """The part of the request that compiled code depends on."""
         plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else self.plant
         return Loop(self.vehicle, self.law, plant, tuple(self.gains))
 
     @property
     def grid(self) -> NDArray[np.float64]:
-        """Times at which a run is judged, s."""
+        """Times at which the criterion is evaluated, s."""
         return np.linspace(0.0, self.duration, max(2, round(self.duration / self.judge_period) + 1))
 
     @property
     def moments(self) -> NDArray[np.float64]:
-        """Times at which a single run is sampled, s: its own, or those at which it is judged."""
+        """Times at which a single run is sampled, s: `times`, or by default `grid`."""
         return self.grid if self.times is None else self.times
 
     @property
     def packed(self) -> NDArray[np.float64]:
-        """The starts (n, 24), packed."""
+        """The packed starts (n, 24)."""
         found: NDArray[np.float64] = np.atleast_2d(self.starts.packed())
         return found
 
     @property
     def values(self) -> NDArray[np.float64] | None:
-        """The gains (n, k) that differ from run to run; None for none."""
+        """The gains (n, k) that differ between runs; None for none."""
         return np.stack(list(self.gains.values()), axis=1) if self.gains else None
 
     def replace(self, **changes: Any) -> Flight:
-        """A copy with the given fields in `changes` replaced and everything checked again. Raises InputError."""
+        """Return a copy with `changes` applied, validated again. Raises InputError if a value is invalid."""
         errors.only_known("flight", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
 
     def through(self, plant: AnyPlant) -> Flight:
-        """The same flight through another `plant`, with that plant's seed."""
+        """Return the same flight through another `plant`, with that plant's seed."""
         return replace(self, plant=plant, seed=None)
 
     def member(self, i: int) -> Flight:
-        """Run `i` alone, with its own seed, and its own gains where it has a Controller.
+        """Return run `i` as a flight of its own, with its own seed and, under a Controller, its own gains.
 
-        A flight whose gains differ has no such members under a law in symbols.
+        Not available for a symbolic law with gains that differ between runs.
         """
         law = self.law
         if self.gains:
@@ -214,19 +214,19 @@ class Flight:
 
 
 def _setter(record: Any) -> Any:
-    """A function (name, value) that sets a field of a frozen `record` while it is made."""
+    """Return a function (name, value) that sets a field of a frozen `record` during construction."""
     return lambda name, value: object.__setattr__(record, name, value)
 
 
 def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
-    """The plant that `law` flies through: a Controller is sampled, and so never in continuous time."""
+    """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
     if isinstance(plant, Ideal) and isinstance(law, Controller):
         return Sampled(limits=False, lag=0.0, rate=law.rate)
     return plant
 
 
 def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:
-    """`law` as it flies `vehicle`. Raises InputError for what is neither."""
+    """Return `law` bound to `vehicle`. Raises InputError if either has the wrong type."""
     for name, value, kind, kinds in (
         ("vehicle", vehicle, Vehicle, "Vehicle"),
         ("law", law, AnyLaw, "Law or Controller"),
@@ -237,7 +237,7 @@ def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:
 
 
 def some_times(times: ArrayLike | None) -> NDArray[np.float64] | None:
-    """`times` (t,) as an array, if there are any. Raises InputError for anything but numbers."""
+    """Return `times` (t,) as an array, or None. Raises InputError unless they are numbers."""
     return None if times is None else errors.array("times", times, (None,))
 
 
@@ -252,7 +252,7 @@ def _increasing(times: NDArray[np.float64] | None, duration: float) -> NDArray[n
 
 
 def _column(law: BoundLaw | Controller, name: str, value: ArrayLike, runs: int) -> NDArray[np.float64]:
-    """The values (n,) of one gain of `law`, within its bounds, from (n,) or one number for all."""
+    """Return the checked values (n,) of one gain of `law`, from (n,) or one number for all runs."""
     given = law.check_gain(name, value)
     if given.shape not in ((), (runs,)):
         raise InputError(f"gains.{name}", f"a number, or {runs} of them", f"shape {given.shape}")

@@ -1,6 +1,6 @@
-"""One sampled flight, step by step in Python: measure, command, hold, with whatever the plant puts in between.
+"""A sampled flight, step by step in Python: measure, command, hold, with the plant's imperfections in between.
 
-It flies what no kernel can: MuJoCo, and laws that are plain callables. For the rest it is the reference of the kernel.
+It flies callable laws, for which there is no kernel, and serves as the reference for the kernel.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ LEFT = f"the state left |s| < {MAX_STATE:g}"
 
 @dataclass(frozen=True)
 class Samples:
-    """A sampled flight at its control ticks: `t` (n,), `packed` (n, 24) and `rotors` (n, k) with e₃ up, `outcome`."""
+    """A sampled flight at its control ticks: `t` (n,), s; `packed` (n, 24), e₃ up; `rotors` (n, k), N; `outcome`."""
 
     t: Any
     packed: Any
@@ -41,16 +41,15 @@ class Samples:
     outcome: Outcome
 
     def at(self, ticks: Any) -> Samples:
-        """The samples at the control ticks nearest to `ticks` (real numbers), each once."""
+        """Return the samples at the control ticks nearest to `ticks` (real numbers), without duplicates."""
         kept = np.unique(np.clip(np.rint(ticks).astype(int), 0, len(self.t) - 1))
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
 def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
-    """Fly the single start of `flight`, whose plant is a sampled one, step by step.
+    """Fly the single start of `flight`, whose plant is sampled, step by step.
 
-    Rotors start with the forces `rotors` (n,), N, by default their least. Every quantity is recorded at each control
-    tick.
+    `rotors` (n,) are the initial rotor forces, N; default their minimum. Every control tick is recorded.
     """
     loop = flight.loop
     vehicle, law, plant = loop.vehicle, loop.law, loop.sampled.replace(seed=flight.seed)
@@ -87,23 +86,23 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
 
 
 class Commands:
-    """The commands of a flight by age, 0 for the last one; `idle` before the first."""
+    """The commands of a flight by age in ticks, 0 for the latest; `idle` before the first."""
 
     def __init__(self, idle: Any) -> None:
         self._idle = idle
         self._given: list[Any] = []
 
     def add(self, command: Any) -> None:
-        """Take in the command of this tick."""
+        """Add the command of this tick."""
         self._given.append(command)
 
     def __getitem__(self, age: int) -> Any:
-        """The command given `age` ticks before the last."""
+        """Return the command `age` ticks before the latest."""
         return self._given[-1 - age] if age < len(self._given) else self._idle
 
 
 def flight_computer(loop: Loop, rotors: Any) -> FlightComputer:
-    """The flight computer of `loop`, for rotors that begin with the forces `rotors` (n,), N."""
+    """Return the flight computer of `loop`, for initial rotor forces `rotors` (n,), N."""
     if isinstance(loop.law, Controller) and loop.law.flight_computer is not None:
         made: FlightComputer = loop.law.flight_computer(loop, rotors)
         return made
@@ -111,17 +110,17 @@ def flight_computer(loop: Loop, rotors: Any) -> FlightComputer:
 
 
 def number_of_ticks(duration: float, plant: Plant) -> int:
-    """Control ticks of a flight of `duration` seconds."""
+    """Return the number of control ticks in a flight of `duration` seconds."""
     return max(1, round(duration * plant.rate))
 
 
 def nearest_ticks(times: Any, plant: Plant, duration: float) -> Any:
-    """The control ticks (k,) of a flight of `duration` seconds nearest to `times` (s), each once."""
+    """Return the control ticks (k,) nearest to `times` (s) in a flight of `duration` seconds, without duplicates."""
     return np.unique(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
 
 
 def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:
-    """(tick, state) → the state as measured, and tick → force of the wind on vehicle and bob (6,)."""
+    """Return (tick, state) → measured state, and tick → wind forces on vehicle and bob (6,), N."""
     drawn = normals(plant.seed, ticks) if is_random(plant) else None
     measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
     if plant.noise is not None and drawn is not None:

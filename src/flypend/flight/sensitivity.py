@@ -1,4 +1,4 @@
-"""How the end of a flight depends on its start and on gains: exact derivatives, from the tangent of the closed loop."""
+"""Sensitivity of a flight's final state to start and gains: exact derivatives, from the variational equations."""
 
 from __future__ import annotations
 
@@ -32,22 +32,22 @@ class Sensitivity:
     Parameters
     ----------
     final : State
-        Where the flight ends, in the frame of the law.
+        Final state, in the law's frame.
     by_start : (24, 16)
-        Of the packed final state by the coordinates of the start: `laws.linearise.COORDINATES`.
+        Derivatives of the packed final state with respect to the start's coordinates, `laws.linearise.COORDINATES`.
     by_gains : (24, k)
-        Of the packed final state by the gains.
+        Derivatives of the packed final state with respect to the gains.
     outcome : Outcome
         completed, diverged or singular, with its time; unless completed, all derivatives are NaN. A derivative that
         grows beyond a million counts as diverged.
     e3 : "up" or "down"
-        Where the third axis of the frame points.
+        Direction of the frame's third axis.
     vehicle : Vehicle
-        What was flown.
+        Vehicle parameters.
     law : str
-        Name of the law that flew it.
+        Name of the law.
     gains : dict
-        The gains that it was differentiated by, with their values, in the order of `by_gains`.
+        The gains of the derivatives, with their values, in the order of `by_gains`.
     """
 
     final: State
@@ -61,12 +61,12 @@ class Sensitivity:
 
     @property
     def on_manifold(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Both in coordinates of the final state: (16, 16) and (16, k)."""
+        """`by_start` and `by_gains` in coordinates of the final state: (16, 16) and (16, k)."""
         coordinates = np.linalg.pinv(tangent_basis(self.final))
         return coordinates @ self.by_start, coordinates @ self.by_gains
 
     def to_xarray(self) -> xarray.Dataset:
-        """The derivatives as an `xarray.Dataset`: by_start on final and start coordinates, by_gains on the gains."""
+        """Return an `xarray.Dataset`: by_start on final and start coordinates, by_gains on final ones and gains."""
         onto, by_gains = self.on_manifold
         ends, starts, names = ("coordinate",), ("start",), ("gain",)
         variables = {
@@ -90,21 +90,21 @@ def sensitivity(
     gains: Sequence[str] = (),
     rtol: float = 1e-9,
 ) -> Sensitivity:
-    """Fly `vehicle` under `law` in the ideal plant, and differentiate where it ends by its start and by gains.
+    """Fly `vehicle` under `law` in the ideal plant and differentiate its final state with respect to start and gains.
 
     Parameters
     ----------
     vehicle, law, duration, rtol
-        As in `simulate`; the tolerance is that of the derivatives, too.
+        As in `simulate`; the tolerance applies to the derivatives, too.
     start : State
-        A single state, in the frame of the law.
+        A single state, in the law's frame.
     gains : sequence of str
-        Names of gains of the law to differentiate by.
+        Names of the gains to differentiate with respect to.
 
     Raises
     ------
     InputError
-        For a law that is not symbolic, a start that is a batch, and gains that the law lacks.
+        If the law is not symbolic, the start is a batch, or the law lacks a gain.
     """
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)

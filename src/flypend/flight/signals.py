@@ -1,4 +1,4 @@
-"""The signals of a law along a sampled flight, evaluated when somebody asks for them."""
+"""The signals of a law along a sampled flight, evaluated on demand."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from flypend.model import Vehicle
 
 
 class Signals(Mapping[str, NDArray[np.float64]]):
-    """Signals (n,) by name, computed on first access: writing the closed loop in symbols takes longer than a flight.
+    """Signals (n,) by name, computed on first access: building the symbolic closed loop takes longer than a flight.
 
     Parameters
     ----------
@@ -40,15 +40,15 @@ class Signals(Mapping[str, NDArray[np.float64]]):
         return len(self._values)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """As a plain dict: CasADi's symbols cannot be pickled."""
+        """Pickle as a plain dict: CasADi symbols cannot be pickled."""
         return dict, (dict(self),)
 
 
 def signals_along(vehicle: Vehicle, law: BoundLaw, t: NDArray[np.float64], packed: NDArray[np.float64]) -> Signals:
-    """The signals of `law` at times `t` (n,), s, and `packed` states (n, 24) in the frame of the law.
+    """Return the signals of `law` at times `t` (n,), s, and `packed` states (n, 24) in the law's frame.
 
-    Each is a function of time and state alone. A rate such as V_rate is the one along the ideal closed loop of
-    `vehicle`, whose wrench acts as commanded; what V does under the plant that was flown, V itself shows.
+    Each is a function of time and state alone. Rates such as V_rate are along the ideal closed loop of `vehicle`, where
+    the wrench acts as commanded. Under the plant that was flown, V may change at a different rate.
     """
 
     def compute() -> dict[str, NDArray[np.float64]]:

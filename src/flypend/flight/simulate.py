@@ -1,4 +1,4 @@
-"""One closed-loop run: vehicle, law and start in, `Trajectory` out."""
+"""A single closed-loop run: vehicle, law and start in, `Trajectory` out."""
 
 from __future__ import annotations
 
@@ -45,38 +45,38 @@ def simulate(
     Parameters
     ----------
     vehicle : Vehicle
-        What flies.
+        Vehicle parameters.
     law : Law or Controller
-        What steers it. Its `e3` is the frame of `start` and of the result.
+        Control law. Its `e3` is the frame of `start` and of the result.
     start : State
         A single state.
     duration : float
-        Seconds, > 0.
+        Flight time, s, > 0.
     plant : str, Ideal or Plant
-        "rotors" (limits, lag and sampling, integrated by the package's equations), "ideal" (continuous time, the wrench
-        acts as commanded; a Controller is sampled at its rate), "mujoco" (as "rotors", integrated by MuJoCo),
-        "hehn2011" (thrust and body rates at 50 Hz), or a `Plant`.
+        "rotors" (limits, lag and sampling, with the built-in equations), "ideal" (continuous time, the wrench acts as
+        commanded; a Controller is sampled at its rate), "mujoco" (like "rotors", but integrated by MuJoCo), "hehn2011"
+        (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
-        Tolerances of the adaptive step (DOP853; from 1e-6 on DP5, which is faster there); atol defaults to rtol, since
-        state entries are of order one in SI units.
-        Used by the ideal plant; a sampled flight takes steps of 1 ms or less.
+        Tolerances of the adaptive step in the ideal plant (DOP853; at 1e-6 and looser DP5, which is faster there). atol
+        defaults to rtol, since state entries are of order one in SI units. A sampled flight uses fixed steps of 1 ms or
+        less.
     times : (n,) increasing, optional
-        Times to sample, s; default every 0.01 s. A sampled flight gives the nearest control ticks. A run that ends
-        early is sampled up to its end.
+        Sample times, s; default every 0.01 s. In a sampled flight, the nearest control ticks. A run that ends early is
+        sampled up to its end.
     engine : "kernel" or "scipy"
-        Machine code made for vehicle, law and plant, or the independent reference: SciPy's DOP853 for the ideal plant,
-        a sampled flight step by step in Python. What has no kernel (a Controller, MuJoCo) takes the latter anyway.
+        Machine code compiled for vehicle, law and plant; or the independent reference: SciPy's DOP853 for the ideal
+        plant, step by step in Python for a sampled one. A Controller has no kernel and always uses the latter.
 
     Returns
     -------
     Trajectory
-        Also for a run that diverges or meets a singularity of the law: see `Trajectory.outcome`.
+        Also if the run diverges or reaches a singularity of the law: see `Trajectory.outcome`.
 
     Raises
     ------
     InputError
-        For a batch of states, a duration or tolerance that is not positive, times outside the run, or an unknown
-        engine.
+        If `start` is a batch, a duration or tolerance is not positive, times lie outside the run, or the engine is
+        unknown.
     """
     if isinstance(start, State) and start.batch_shape:
         raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
@@ -89,13 +89,13 @@ def simulate(
 
 
 def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
-    """Fly a request with a single start by `engine`, "kernel" or "scipy" as in `simulate`; it raises nothing else."""
+    """Fly a request with a single start by `engine`, "kernel" or "scipy", as in `simulate`."""
     errors.one_of("engine", engine, ENGINES)
     return _ideal(flight, engine) if isinstance(flight.plant, Ideal) else _sampled(flight, flight.plant, engine)
 
 
 def _ideal(flight: Flight, engine: str) -> Trajectory:
-    """The closed loop in continuous time, the wrench acting as commanded."""
+    """Fly the closed loop in continuous time; the wrench acts as commanded."""
     loop = close_loop(flight.vehicle, flight.loop.symbolic)
     outputs = as_numpy(loop.outputs)
     solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop, outputs)
@@ -129,7 +129,7 @@ def _by_kernel(flight: Flight) -> Solution:
 
 def _by_scipy(flight: Flight, loop: ClosedLoop, outputs: Any) -> Integration:
     errors.require("scipy", extra="studies", for_="engine")
-    from flypend.flight.integrate import integrate  # brings SciPy's integrators, which a kernel does not wait for
+    from flypend.flight.integrate import integrate  # SciPy's integrators are slow to import, and not needed by kernels
 
     guard, margin, reason = loop.law.guard, None, ""
     if guard is not None:
@@ -147,7 +147,7 @@ def _by_scipy(flight: Flight, loop: ClosedLoop, outputs: Any) -> Integration:
 
 
 def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
-    """A sampled flight; it is recorded at control ticks, of which those nearest to its times are kept."""
+    """Fly a sampled flight; it is recorded at the control ticks nearest to the sample times."""
     samples = _samples(flight, plant, engine)
     law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T

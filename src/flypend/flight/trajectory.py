@@ -1,4 +1,4 @@
-"""A run: times, states, wrench and signals, with what was flown and how it ended; to xarray, to a file and back."""
+"""A run: times, states, wrench, signals, vehicle, law and outcome; conversion to xarray, and saving and loading."""
 
 from __future__ import annotations
 
@@ -39,25 +39,25 @@ class Trajectory:
     R : (n, 3, 3)
         Rotation from body to world.
     thrust, moment : (n,), (n, 3)
-        Wrench that acted; thrust is along z = R e₃, so it is negative where e₃ points down.
+        Applied wrench; thrust acts along z = R e₃, so it is negative if e₃ points down.
     rotor_forces : (n, k)
-        Forces of the k rotors, N. In the ideal plant, what the wrench would take: they may lie outside the limits.
+        Forces of the k rotors, N. In the ideal plant, those that the wrench would require; they may exceed the limits.
     signals : dict of (n,)
-        What the law lets one see: Lyapunov functions, their rates along the ideal closed loop, errors.
+        Signals of the law: Lyapunov functions, their rates along the ideal closed loop, errors.
     drift : (k, 3)
-        Before the projection of each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
+        Drift before projection in each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
     outcome : Outcome
-        completed, diverged or singular, with time and reason.
+        Completed, diverged or singular, with time and reason.
     e3 : "up" or "down"
-        Where the third axis of the frame points.
+        Direction of the frame's third axis.
     vehicle : Vehicle
-        What was flown.
+        Vehicle parameters.
     law, gains : str, dict
-        Name and gains of the law that flew it.
+        Name and gains of the law.
     x_ref : (n, 3), optional
-        Position that the law holds or follows, m; default the origin.
+        Reference position, m; default the origin.
     interpolant : callable, optional
-        Dense output, from times to packed states; not kept in files.
+        Dense output, from times to packed states; not saved to files.
     """
 
     t: Any
@@ -91,7 +91,7 @@ class Trajectory:
 
     @property
     def packed(self) -> Any:
-        """The sampled states (n, 24) in the order of `State.packed`, as the integrator left them."""
+        """The sampled states (n, 24) in the order of `State.packed`, exactly as integrated."""
         rows = [getattr(self, name).reshape(len(self.t), -1) for name in _STATE]
         return np.concatenate(rows, axis=1)
 
@@ -102,7 +102,7 @@ class Trajectory:
 
     @property
     def final(self) -> State:
-        """The last state, as the integrator left it."""
+        """The last state, exactly as integrated."""
         return State.trusted(self.packed[-1])
 
     @property
@@ -111,10 +111,10 @@ class Trajectory:
         return Wrench(self.thrust, self.moment)
 
     def at(self, t: Any) -> State:
-        """State(s) at any time(s) `t` inside the run, from the dense output of the integrator.
+        """Return the state(s) at any time(s) `t` within the run, from the integrator's dense output.
 
-        Raises InputError for a time outside the run, and for a sampled flight or a run read from a file, which keep
-        samples only.
+        Raises InputError if a time is outside the run, or the run holds samples only: a sampled flight, or one loaded
+        from a file.
         """
         if self.interpolant is None:
             raise errors.InputError("run.at", "a run of the ideal plant, not read from a file", "samples only")
@@ -125,7 +125,7 @@ class Trajectory:
         return states[0] if times.ndim == 0 else states
 
     def flipped(self) -> Trajectory:
-        """The same run in the frame turned by π about e₁ (e₃ up to e₃ down and back)."""
+        """Return the run in the frame rotated by π about e₁ (e₃ up to e₃ down, and back)."""
         states, wrench = self.states.flipped(), self.wrench.flipped()
         return replace(
             self,
@@ -138,16 +138,16 @@ class Trajectory:
         )
 
     def to_xarray(self) -> xarray.Dataset:
-        """The run as an `xarray.Dataset` on the dimension `t`, with units and, as attributes, what was flown.
+        """Return an `xarray.Dataset` on the dimension `t`, with units, and vehicle, law and outcome as attributes.
 
-        All but the drift, which belongs to steps and not to samples.
+        The drift is left out: it is recorded per step, not per sample.
         """
         return dataset(self._variables(), self._attributes())
 
     def save(self, path: str | Path) -> None:
-        """Write the run to the NetCDF file `path` (.nc), which xarray, MATLAB (ncread) and pandas through xarray open.
+        """Save the run to the NetCDF file `path` (.nc), for xarray, MATLAB (ncread) and, through xarray, pandas.
 
-        The file appears whole or not at all. Raises InputError if it cannot be written.
+        The file is written atomically. Raises InputError if it is not writable.
         """
         with whole_file(path, [".nc"]) as partial:
             labels = {name: Variable((name,), np.array(values)) for name, values in AXES.items()}
@@ -160,13 +160,13 @@ class Trajectory:
             write_netcdf(partial, {**labels, **self._variables(), **drift}, self._attributes())
 
     def _variables(self) -> dict[str, Variable]:
-        """Arrays on the samples, with their dimensions and units."""
+        """Return the sampled arrays with their dimensions and units."""
         over = ("t",)
         arrays = {name: getattr(self, name) for name in ("t", *_ARRAYS)} | dict(self.signals)
         return {name: variable(name, over, value) for name, value in arrays.items()}
 
     def _attributes(self) -> dict[str, Any]:
-        """What was flown and how it ended."""
+        """Return attributes that specify what was flown and how it ended."""
         return {
             **described(self.vehicle, self.law, self.gains, self.e3),
             "outcome": self.outcome.status,
@@ -184,20 +184,20 @@ class Trajectory:
         layout: str = "overlay",
         speed: float = 1.0,
     ) -> str:
-        """The replay of this run: one HTML page that opens from disk, offline, in any browser.
+        """Render a replay of this run: one HTML page that opens from disk, offline, in any browser.
 
         Parameters
         ----------
         path : str or Path, optional
-            An .html file to write the page to, whole or not at all.
+            An .html file to write the page to, atomically.
         ghost : Trajectory, or up to three of them
-            Runs to see beside this one.
+            Runs to compare with this one.
         title : str, optional
-            Default the laws and vehicles.
+            Title; default the laws and vehicles.
         layout : "overlay" or "beside"
-            The others as ghosts in one picture, or a picture for each; a button of the page changes it.
+            The other runs as ghosts in the same view, or each in its own view. A button on the page switches.
         speed : float
-            Time of the flight over time of playback at the beginning, > 0; a menu of the page changes it.
+            Initial flight time over playback time, > 0. A menu on the page changes it.
 
         Returns
         -------
@@ -207,9 +207,10 @@ class Trajectory:
         Raises
         ------
         InputError
-            For more than four runs, an unknown layout, a speed that is not positive, a file that cannot be written.
+            If there are more than four runs, the layout is unknown, the speed is not positive, or the file is not
+            writable.
         """
-        from flypend.pages import replay  # here, for the many runs that nobody looks at
+        from flypend.pages import replay  # imported here: most runs are never shown
 
         others = [ghost] if isinstance(ghost, Trajectory) else ghost
         if not (isinstance(others, Sequence) and all(isinstance(other, Trajectory) for other in others)):
@@ -221,18 +222,18 @@ class Trajectory:
         return text
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the replay, in a frame of its own."""
+        """Return the replay in an iframe, for notebooks."""
         from flypend.pages import replay
 
         return replay.frame(self.to_html())
 
 
 def load(path: str | Path) -> Trajectory:
-    """Read the run that `Trajectory.save` wrote to `path`. Raises InputError if the file cannot be read as one."""
+    """Load the run that `Trajectory.save` wrote to `path`. Raises InputError if the file is not one."""
     try:
         return _from_file(*read_netcdf(Path(path)))
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        # What a file that is no NetCDF, is cut short, or lacks a part makes of itself.
+        # Raised by a file that is not NetCDF, is truncated, or lacks a variable.
         told = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
         raise errors.InputError(str(path), "a run saved by flypend", told) from None
 
@@ -242,7 +243,7 @@ def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any])
     if missing:
         raise ValueError(f"a file without the attributes {missing}")
     arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
-    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # what xarray wrote
+    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # written by xarray
     return Trajectory(
         **arrays,
         signals={name: variables[name].values for name in json.loads(attributes["signals"])},

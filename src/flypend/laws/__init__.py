@@ -1,7 +1,7 @@
-"""Control laws: each a factory whose keyword arguments are its gains and whose result is a `Law`.
+"""Control laws. Each is a factory that accepts gains as keyword arguments and returns a `Law`.
 
-A law of one's own is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wrench`: see `from_function`. One
-that knows more of itself (a Lyapunov function, a reference, a frame) is a `Law`.
+A custom law is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wrench`: see `from_function`. To add a
+Lyapunov function, a reference or a frame, build a `Law` directly.
 """
 
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard

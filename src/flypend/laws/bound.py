@@ -1,4 +1,4 @@
-"""What flies: a law with all its gains for one vehicle, and what it answers."""
+"""A law bound to one vehicle, with a value for every gain, and its output."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED, E3Direction
 
-# Thrust and moment from the frame with e₃ down to the one with e₃ up, and back.
+# Maps (thrust, moment) between the e₃-down and the e₃-up frame, either way.
 FLIP_WRENCH = np.array([-1.0, 1.0, -1.0, -1.0])
 
 
 @dataclass(frozen=True)
 class Guard:
-    """A quantity that must not vanish: where `signal` falls below `threshold` the law is undefined for `reason`."""
+    """A quantity that must not vanish: where `signal` drops below `threshold`, the law is undefined for `reason`."""
 
     signal: str
     threshold: float
@@ -32,18 +32,18 @@ class Guard:
 
 @dataclass(frozen=True, kw_only=True)
 class Computer:
-    """What the flight computer does around a law in a sampled flight; in the ideal closed loop it has nothing to do.
+    """Settings of the flight computer around a law in a sampled flight. The ideal plant ignores them.
 
     Parameters
     ----------
     lead : float
-        Rotors are commanded f̂ + lead (f − f̂), f̂ being their modelled force: a lag of T acts like T/lead. 1 for none.
+        Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force: a lag T acts like T/lead. 1 for none.
     latency : float
-        Delay that is planned for, s: the law sees the state predicted this far ahead over the commands under way.
+        Delay to compensate, s: the law sees the state predicted this far ahead, given the commands in transit.
     observer : float
-        Bandwidth of the observer of external forces, 1/s; 0 for none. Only for a law with `uses_forces`.
+        Bandwidth of the external-force observer, 1/s; 0 for none. Only for a law with `uses_forces`.
     force_limit : float
-        Largest estimate of an external force, in weights of the machine.
+        Largest estimate of an external force, in units of the vehicle's weight.
     """
 
     lead: float = 1.0
@@ -60,14 +60,14 @@ class Computer:
 
 @dataclass(frozen=True, kw_only=True)
 class Control:
-    """What a law answers: the wrench, and what it lets one see of itself.
+    """Output of a law: the wrench, and scalars to record.
 
     Parameters
     ----------
     wrench : Wrench
-        Thrust and moment, in the frame of the law.
+        Thrust and moment, in the law's frame.
     lyapunov : dict
-        Scalar expressions whose sum is the law's Lyapunov function V; the closed loop adds V and all rates.
+        Scalar expressions whose sum is the law's Lyapunov function V. The closed loop adds V and all their rates.
     signals : dict
         Other scalar expressions to record.
     """
@@ -79,24 +79,24 @@ class Control:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BoundLaw:
-    """A law that flies: its gains have values for one vehicle. `Law.bind` makes it.
+    """A law ready to fly: every gain has a value for one vehicle. Made by `Law.bind`.
 
     Parameters
     ----------
     name, e3, control, uses_forces, reference, path
         As in `Law`.
     vehicle : Vehicle
-        The vehicle that it believes in.
+        The nominal vehicle.
     table : dict of Gain
-        The registry of its gains.
+        Registry of the gains.
     gains : dict
-        Their values by name.
+        Gain values by name.
     prepared : dict
-        What the law worked out for the vehicle beforehand; its equations see it beside the gains.
+        Quantities computed for the vehicle in advance; the equations see them along with the gains.
     guard : Guard, optional
-        Where it stops being defined.
+        Where the law stops being defined.
     computer : Computer
-        Lead, prediction and observer around it in a sampled flight.
+        Lead, prediction and observer around the law in a sampled flight.
     fixed : tuple of str
         Gains that exported code holds as constants.
     """
@@ -119,33 +119,33 @@ class BoundLaw:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
 
     def bind(self, vehicle: Vehicle) -> BoundLaw:
-        """Itself, which is bound to `vehicle` already. Raises InputError if it is bound to another one."""
+        """Return the law itself, already bound to `vehicle`. Raises InputError if it is bound to another vehicle."""
         if vehicle != self.vehicle:
             raise errors.InputError("law", f"one bound to {vehicle.name}", f"{self.name} bound to {self.vehicle.name}")
         return self
 
     @property
     def numbers(self) -> dict[str, float]:
-        """Those of its gains that are real numbers, in their order: what may vary from run to run in one program."""
+        """The real-valued gains, in order. These may vary from run to run within one program."""
         return {name: float(value) for name, value in self.gains.items() if is_number(value)}
 
     @property
     def options(self) -> dict[str, str]:
-        """Those of its gains that are words."""
+        """The gains that are strings."""
         return {name: value for name, value in self.gains.items() if isinstance(value, str)}
 
     @property
     def along(self) -> Callable[[Path], BoundLaw] | None:
-        """The same law along another path (see `laws.references.Path`); None for a law that follows none."""
+        """Return the same law on another path (see `laws.references.Path`); None for a law without a path."""
         return None if self.path is None else self._along
 
     def _along(self, path: Path) -> BoundLaw:
         return replace(self, path=path)
 
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-        """`values` of the gain called `name`, one or many, if it may take them; messages begin with `prefix`.
+        """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
 
-        Raises InputError for a name that is no number of the law, and values out of bounds.
+        Raises InputError if `name` is not a numeric gain of the law, or a value is out of bounds.
         """
         return check_gain(self.table, name, values, prefix)
 
@@ -157,10 +157,10 @@ class BoundLaw:
         forces: tuple[Any, Any] | None = None,
         gains: Mapping[str, Any] | None = None,
     ) -> Control:
-        """The control for symbols of time `t` (s) and `state`, for `vehicle` under external `forces` (default none).
+        """Return the control for CasADi symbols `t` (s) and `state`, under external `forces` (default none).
 
-        `gains` are symbols that stand for some of the law's numbers. `vehicle` is that of the law, or one whose
-        constants are symbols.
+        `gains` holds symbols that replace some numeric gains. `vehicle` is the law's own, or one whose constants are
+        symbols.
         """
         given = SimpleNamespace(**{**self.prepared, **self.gains, **(gains or {})})
         known = (forces or (ca.SX.zeros(3), ca.SX.zeros(3)),) if self.uses_forces else ()
@@ -170,7 +170,7 @@ class BoundLaw:
         except RuntimeError as error:
             if "truth value" not in str(error):
                 raise
-            raise errors.InputError("law", "cases by casadi.if_else, since it is written in symbols", "an if") from None
+            raise errors.InputError("law", "cases by casadi.if_else, because values are symbols", "an if") from None
         if not isinstance(control, Control | Wrench):
             raise errors.InputError("law", "a Control or a Wrench", type(control).__name__)
         return Control(wrench=control) if isinstance(control, Wrench) else control
@@ -183,21 +183,21 @@ class BoundLaw:
         gains: Mapping[str, Any] | None = None,
         vehicle: Vehicle | None = None,
     ) -> Any:
-        """Thrust and moment (4, 1) with e₃ up, whatever the law's own frame, for symbols.
+        """Return thrust and moment (4, 1) in the e₃-up frame, whatever the law's own frame.
 
         Parameters
         ----------
         t, packed : SX
-            Time, a symbol or an expression, and the packed state (24, 1) with e₃ up, a symbol.
+            Time, a symbol or an expression; and the packed state (24, 1), a symbol, in the e₃-up frame.
         forces : SX (6, 1), optional
             External forces on vehicle and bob, N; default none.
         gains : dict, optional
-            Symbols that stand for some of the law's numbers.
+            Symbols that replace some numeric gains.
         vehicle : Vehicle, optional
             A vehicle whose constants are symbols; default the law's own.
         """
         external = None if forces is None else (forces[:3], forces[3:])
-        time = t if isinstance(t, ca.SX) and t.is_symbolic() else ca.SX.sym("t")  # references are differentiated by it
+        time = t if isinstance(t, ca.SX) and t.is_symbolic() else ca.SX.sym("t")  # to differentiate references
         wrench = self.evaluate(time, State.symbolic(packed), vehicle or self.vehicle, external, gains).wrench
         stacked = ca.densify(ca.vertcat(wrench.thrust, wrench.moment))
         if time is not t:

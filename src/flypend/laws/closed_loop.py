@@ -1,4 +1,4 @@
-"""The closed loop of a vehicle and a law in symbols, from which everything that runs is made."""
+"""The symbolic closed loop of a vehicle and a law: the source of all code that runs."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from flypend.model.state import SIZE
 
 @dataclass(frozen=True)
 class SymbolicLoop:
-    """Closed loop in CasADi expressions.
+    """Closed loop as CasADi expressions.
 
     Parameters
     ----------
     t, s, p : SX
-        Symbols: time, packed state (24, 1), and the gains that may vary from run to run, in the order of `parameters`.
+        Symbols: time, packed state (24, 1), and the gains that may vary between runs, in the order of `parameters`.
     rates : SX (24, 1)
-        Rates of the state.
+        State derivative.
     wrench : Wrench
-        What the law commands.
+        Commanded wrench.
     signals : dict of SX
-        What the law lets one see; its Lyapunov functions are summed to V, and their rates along the loop are added.
+        Signals of the law, the sum V of its Lyapunov functions, and the rates of V and of each along the loop.
     parameters : tuple of str
         Names of the gains in `p`.
     """
@@ -46,7 +46,7 @@ class SymbolicLoop:
 class ClosedLoop:
     """Closed loop of `vehicle` under `law`.
 
-    `rates` maps (t, state (24,)) to the rates of the state; `outputs` maps the same to thrust, moment (3,) and the
+    `rates` maps (t, state (24,)) to the state derivative; `outputs` maps the same to thrust, moment (3,) and the
     scalars named in `signal_names`.
     """
 
@@ -58,10 +58,10 @@ class ClosedLoop:
 
 
 def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> SymbolicLoop:
-    """Write the closed loop of `vehicle` under `law` in symbols, the gains named in `parameters` as symbols too.
+    """Build the symbolic closed loop of `vehicle` under `law`; the gains named in `parameters` are symbols too.
 
-    Raises InputError for a parameter that is not a number of the law, or that its equations do not contain (a weight
-    from which a gain matrix was computed beforehand, say).
+    Raises InputError if a parameter is not a numeric gain of the law, or does not appear in its equations (for example,
+    a weight from which a gain matrix was computed in advance).
     """
     bound = law.bind(vehicle)
     errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)
@@ -83,7 +83,7 @@ def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[st
 
 
 def close_loop(vehicle: Vehicle, law: Law | BoundLaw) -> ClosedLoop:
-    """Write the closed loop of `vehicle` under `law` in symbols and compile it to CasADi functions."""
+    """Build the closed loop of `vehicle` under `law` as CasADi functions."""
     bound = law.bind(vehicle)
     loop = symbolic_loop(vehicle, bound)
     outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())

@@ -1,4 +1,4 @@
-"""A law that is any Python callable: not symbolic, so slower, and only ever sampled."""
+"""A law that is a plain Python callable: not symbolic, so slower, and always sampled."""
 
 from __future__ import annotations
 
@@ -22,34 +22,34 @@ Steering = Callable[[float, State], Wrench]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Controller:
-    """A state feedback that is any Python callable: not symbolic, so slower, and only ever sampled.
+    """State feedback by any Python callable: not symbolic, so slower, and always sampled.
 
     Parameters
     ----------
     name : str
         Name for tables and files.
     function : callable
-        `function(t, state) -> Wrench` with t (s) and a `State` as measured, in the frame of `e3`.
+        `function(t, state) -> Wrench`, with t (s) and the measured `State`, in the frame given by `e3`.
     e3 : "up" or "down"
-        Direction of the world's third axis that the function works in.
+        Direction of the world's third axis in the function's frame.
     rate : float
-        Control rate in the ideal plant, Hz; other plants have a rate of their own.
+        Control rate in the ideal plant, Hz; other plants have their own.
     reference : callable, optional
-        Position of the pivot that it holds or follows, as a CasADi function of time.
+        Pivot position to hold or follow, as a CasADi function of time.
     gains : dict
-        Values of its gains, by name.
+        Gain values by name.
     computer : Computer
-        Lead, prediction and observer around it in a sampled flight.
+        Lead, prediction and observer around the law in a sampled flight.
     flight_computer : callable, optional
-        `flight_computer(loop, rotors)` gives what stands for the whole flight computer in a sampled flight: its method
-        `command(t, state)` answers a measured state (24,), e₃ up, at t (s) with a command. `loop` is a
-        `plants.loop.Loop`, `rotors` (n,) are the forces that the rotors begin with, N.
+        `flight_computer(loop, rotors)` returns an object that replaces the whole flight computer in a sampled flight.
+        Its method `command(t, state)` returns the command for time t (s) and a measured state (24,), e₃ up. `loop` is
+        a `plants.loop.Loop`; `rotors` (n,) are the initial rotor forces, N.
     steering : callable, optional
-        `steering(vehicle, gains)` gives the `function` for a vehicle, for one that depends on vehicle or gains.
+        `steering(vehicle, gains)` returns the `function` for a vehicle, if it depends on vehicle or gains.
     table : dict of Gain, optional
-        The registry of its gains; default what `gains` says, without bounds.
+        Registry of the gains; default made from `gains`, without bounds.
     because : str
-        Why it is not written in symbols, in a few words.
+        Why it is not symbolic, in a few words.
     """
 
     name: str
@@ -71,41 +71,41 @@ class Controller:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
 
     def bind(self, vehicle: Vehicle) -> Controller:
-        """As it flies `vehicle`: itself, unless it depends on the vehicle or on gains."""
+        """Return the controller for `vehicle`: itself, unless it depends on vehicle or gains."""
         if self.steering is None:
             return self
         return replace(self, function=self.steering(vehicle, self.gains))
 
     @property
     def numbers(self) -> dict[str, float]:
-        """Those of its gains that are real numbers, in their order."""
+        """The real-valued gains, in order."""
         return {name: float(value) for name, value in self.gains.items() if is_number(value)}
 
     @property
     def given(self) -> dict[str, Any]:
-        """Values of those of its gains that are not the defaults."""
+        """The gains whose values differ from their defaults."""
         return {name: value for name, value in self.gains.items() if value != self.table[name].default}
 
     def proposed(self, vehicle: Vehicle) -> dict[str, Any]:
-        """The defaults of all gains for `vehicle`, by name."""
+        """Default values of all gains for `vehicle`, by name."""
         return {name: gain.value(vehicle) for name, gain in self.table.items()}
 
     def gains_for(self, _: Vehicle) -> dict[str, Any]:
-        """The values of its gains, by name, which are the same for every vehicle."""
+        """Gain values by name, the same for every vehicle."""
         return dict(self.gains)
 
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-        """`values` of the gain called `name`, one or many, if it may take them; messages begin with `prefix`.
+        """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
 
-        Raises InputError for a name that is no number of the controller, and values out of bounds.
+        Raises InputError if `name` is not a numeric gain of the controller, or a value is out of bounds.
         """
         return check_gain(self.table, name, values, prefix)
 
     def with_gains(self, given: Mapping[str, Any], prefix: str = "") -> Controller:
-        """The same with the gains `given`, checked; messages begin with `prefix`. Raises InputError."""
+        """Return a copy with the gains `given`, checked like `Law.with_gains`; messages begin with `prefix`."""
         return replace(self, gains={**self.gains, **checked(self.table, given, prefix)})
 
     def upright(self, t: float, packed: Any) -> NDArray[Any]:
-        """Thrust and moment (4,) with e₃ up at time `t` (s), for a `packed` state (24,) with e₃ up."""
+        """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
         wrench = self.function(t, State.from_packed(seen_packed(packed, self.e3))).seen(self.e3)
         return np.append(wrench.thrust, wrench.moment)

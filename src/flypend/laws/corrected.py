@@ -1,4 +1,4 @@
-"""Theorem 1 with three defects mended: damping sign, speed floor, and beta dropped or regularised. No proof is left."""
+"""Theorem 1 with three defects fixed: damping sign, speed floor, and beta (dropped or regularised). It has no proof."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ GAINS = table(
     (
         *PAPER_GAINS,
         Gain(
-            "speed_floor", 1e-2, "rad/s", "s in √(|ẏ|² + s²), which stands for |ẏ| in (kpeqn) and keeps it smooth",
+            "speed_floor", 1e-2, "rad/s", "s in √(|ẏ|² + s²), which replaces |ẏ| in (kpeqn) and keeps it smooth",
             POSITIVE,
         ),
         Gain(
-            "beta", "off", doc="Off leaves a cascade; regularized divides by |v_e|² + beta_floor², and is worse",
+            "beta", "off", doc="off leaves a cascade; regularized divides by |v_e|² + beta_floor², and is worse",
             choices=("off", "regularized"),
         ),
         Gain("beta_floor", 0.1, "1/s", "Floor of |v_e| in beta; at 0 beta is minimum-norm, and singular", NOT_NEGATIVE),
         Gain(
-            "yaw_damping", 0.0, "1/s", "Third component of I⁻¹mu, which (setmu) leaves free, per ω₃", NOT_NEGATIVE,
+            "yaw_damping", 0.0, "1/s", "Third component of I⁻¹mu over ω₃; (setmu) leaves it free", NOT_NEGATIVE,
         ),
     )
 )  # fmt: skip
@@ -32,22 +32,22 @@ GAINS = table(
 
 @documented(GAINS)
 def corrected(**gains: float | str) -> Law:
-    """Theorem 1 with f_p = k_p e₃ − k_d ẏ, in the paper's frame: y = e₃ is the pose that hangs along gravity.
+    """Build Theorem 1 with f_p = k_p e₃ − k_d ẏ, in the paper's frame, where y = e₃ hangs along gravity.
 
-    The paper's five experiments converge under it, and so do most random starts, but not all: some run away, the rod
-    spinning ever faster (docs/paper/errata.md, defect 9).
+    The paper's five experiments converge, and so do most random starts. Some run away: the rod spins ever faster
+    (docs/paper/errata.md, defect 9).
 
     Parameters
     ----------
     **gains : float or str
-        Any of the gains below, in its unit.
+        Any of the gains below, in the stated unit.
 
     {gains}
 
     Raises
     ------
     InputError
-        For an unknown gain, or one out of its bounds.
+        If a gain is unknown or out of bounds.
     """
     return Law(name="corrected", e3="down", gains=GAINS, given=gains, control=_control, guard=_guard)
 

@@ -1,4 +1,4 @@
-"""The registry of gains: what a law may be told, once; docstrings, checks, sliders and comments in C come from it."""
+"""The registry of gains: the single source of docstrings, checks, sliders and C comments."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Bounds:
-    """The interval of the values that a gain may take, [low, high]; with `open_low` low itself is not one of them."""
+    """The interval [low, high] of valid gain values; (low, high] with `open_low`."""
 
     low: float = -math.inf
     high: float = math.inf
     open_low: bool = False
 
     def limits(self) -> dict[str, float]:
-        """The interval as arguments of `errors.number`."""
+        """Return the interval as arguments of `errors.number`."""
         low = {} if math.isinf(self.low) else {"above" if self.open_low else "at_least": self.low}
         return low if math.isinf(self.high) else low | {"at_most": self.high}
 
     def hold(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Which of the `values` lie inside."""
+        """Return a mask of the `values` inside the interval."""
         above = values > self.low if self.open_low else values >= self.low
         inside: NDArray[Any] = np.isfinite(values) & above & (values <= self.high)
         return inside
@@ -52,21 +52,21 @@ class Gain:
     Parameters
     ----------
     name : str
-        What it is called everywhere.
+        Name, the same everywhere.
     default : float, str or callable
-        Its value where nobody says another: a number, a word, or a rule from the vehicle.
+        Default value: a number, a string, or a function of the vehicle.
     unit : str
-        Unit, empty for a pure number.
+        Unit; empty for a dimensionless gain.
     doc : str
-        One line: what it does.
+        One line on what the gain does.
     bounds : Bounds
-        Values that a number may take.
+        Valid values of a numeric gain.
     choices : tuple of str
-        Words that an option may be.
+        Valid values of an option.
     label : str
-        Short words for a slider; a gain without them has none.
+        Short slider label; a gain without a label has no slider.
     fixed : bool
-        Whether it decides how much there is to compute: exported code holds it as a constant.
+        Whether it determines the amount of computation; exported code then holds it as a constant.
     """
 
     name: str
@@ -80,15 +80,15 @@ class Gain:
 
     @property
     def numeric(self) -> bool:
-        """Whether it is a real number, which may vary from run to run."""
+        """Whether it is a real number, which may vary from run to run, and not an option."""
         return callable(self.default) or is_number(self.default)
 
     def value(self, vehicle: Vehicle) -> Any:
-        """Its default for `vehicle`."""
+        """Return the default for `vehicle`."""
         return float(self.default(vehicle)) if callable(self.default) else self.default
 
     def check(self, value: Any, name: str = "") -> Any:
-        """`value` if it is one that this gain may take; messages begin with `name`. Raises InputError."""
+        """Return `value`, checked; messages begin with `name`. Raises InputError if it is not valid for this gain."""
         name = name or self.name
         if self.choices:
             return errors.one_of(name, value, self.choices)
@@ -99,9 +99,9 @@ class Gain:
         return value
 
     def check_all(self, values: Any, name: str = "") -> NDArray[Any]:
-        """`values`, one number or an array of any shape, if this gain may take each of them.
+        """Return `values`, a number or an array of any shape, checked.
 
-        Messages begin with `name`. Raises InputError.
+        Messages begin with `name`. Raises InputError if any value is not valid for this gain.
         """
         name = name or self.name
         if not self.numeric:
@@ -113,42 +113,42 @@ class Gain:
         return found
 
     def told(self) -> str:
-        """What to say of it in one line: its doc and unit."""
+        """Return a one-line description: doc and unit."""
         return f"{self.doc}{', ' + self.unit if self.unit and self.doc else self.unit}"
 
 
 def is_number(value: object) -> bool:
-    """Whether `value` is a real number; True and False are none."""
+    """Whether `value` is a real number; booleans do not count."""
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def table(gains: Mapping[str, Any] | Iterable[Gain]) -> Mapping[str, Gain]:
-    """A table of gains by name, from `gains`: records, or values by name, which become defaults without bounds."""
+    """Return a table of gains by name, from records or from a dict of defaults (without bounds)."""
     if isinstance(gains, Mapping):
         gains = [value if isinstance(value, Gain) else Gain(name, value) for name, value in gains.items()]
     return MappingProxyType({gain.name: gain for gain in gains})
 
 
 def checked(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str = "") -> dict[str, Any]:
-    """The values `given` if every one is known to the table `gains` and within its bounds.
+    """Return the values `given`, checked against the table `gains`.
 
-    Messages begin with `name` and a dot. Raises InputError.
+    Messages begin with `name` and a dot. Raises InputError if a gain is unknown or out of bounds.
     """
     errors.only_known(name, given, gains)
     return {key: gains[key].check(value, f"{name}.{key}".lstrip(".")) for key, value in given.items()}
 
 
 def check_gain(gains: Mapping[str, Gain], name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-    """`values` of the gain called `name`, one or many, for runs that differ in it; messages begin with `prefix`.
+    """Return `values`, one or many, of gain `name` for runs that differ in it; messages begin with `prefix`.
 
-    Raises InputError for a name that is not in the table `gains`, an option, and values out of bounds.
+    Raises InputError if `name` is not in the table `gains` or is an option, or a value is out of bounds.
     """
     errors.only_known(prefix, [name], [gain.name for gain in gains.values() if gain.numeric])
     return gains[name].check_all(values, f"{prefix}.{name}".lstrip("."))
 
 
 def documented(gains: Mapping[str, Gain]) -> Callable[[F], F]:
-    """A decorator that puts the table `gains` in place of the line {gains} of a docstring."""
+    """Return a decorator that replaces the line {gains} of a docstring by the table `gains`."""
 
     def fill(function: F) -> F:
         lines = []

@@ -1,13 +1,13 @@
-"""The law that really inverts: throw the bob up, flip the rod under it, balance, and hold or follow a position.
+"""The inverted law: throw the bob up, flip the rod below it, balance, and hold a position or follow a reference.
 
-World with e₃ up. The bob p = x + l y is itself a thrust vehicle whose thrust axis is the rod: with F the force on the
-quadrotor, D = F_b/m − F_v/M and F_v, F_b external forces on vehicle and bob,
+The world has e₃ up. The bob p = x + l y is itself a thrust vehicle, with the rod as its thrust axis. With F the force
+on the quadrotor, F_v and F_b the external forces on vehicle and bob, and D = F_b/m − F_v/M,
 
     p̈ = −g e₃ + F_b/m + a y,          (M+m) a = F·y − M l |ẏ|² − M D·y
     ÿ + |ẏ|² y = u,                    l u = P_y (D − F/M),             P_y v = −y × (y × v)
 
-so u and a can be chosen freely by F = −M l u + ((M+m) a + M l |ẏ|²) y + M D. The part along y is the one that the
-paper's law lacks. A cascade follows: position → desired rod direction d → F → desired thrust axis z_d → moment.
+so F = −M l u + ((M+m) a + M l |ẏ|²) y + M D gives any desired u and a. The paper's law lacks the component along y.
+The result is a cascade: position → desired rod direction d → F → desired thrust axis z_d → moment.
 
 docs/laws/inverted.md derives it line by line.
 """
@@ -39,30 +39,30 @@ from flypend.laws.throw import (
 )
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
-# ε in the axis's target F + ε (M+m) g e₃: where the force asked for vanishes, in free fall, its direction is e₃'s.
+# ε in the thrust axis's target F + ε (M+m) g e₃, which points along e₃ where the desired force F vanishes (free fall).
 AXIS_LIFT = 0.028
-# Its length counts as √(|·|² + s²), s in weights: where even that sum vanishes, the target stays smooth. Both are
-# small beside hover, where |F| is one weight, and were found with the other numbers on hehn2011.
+# s, in weights, of the target's smoothed length √(|·|² + s²): the target stays smooth even where that sum vanishes.
+# Both are small compared with hover, where |F| is one weight; both were tuned with the other parameters on hehn2011.
 AXIS_FLOOR = 0.006
 
 
 @documented(GAINS)
 def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
-    """The inverted law, about a `reference` of the pivot, with the gains that the vehicle suggests unless given.
+    """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle.
 
     Parameters
     ----------
     reference : callable, optional
-        Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
+        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
     **gains : float or str
-        Any of the gains below, in its unit; the law proposes the others for the vehicle that flies.
+        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
 
     {gains}
 
     Raises
     ------
     InputError
-        For an unknown gain, or one out of its bounds; `bind` raises it for bandwidths that are not separated.
+        If a gain is unknown or out of bounds; and from `bind`, if the bandwidths are not separated.
     """
     followed = reference or hover()
     return Law(
@@ -88,10 +88,9 @@ def inverted_control(
     *,
     path: Path,
 ) -> Control:
-    """The law for symbols of `t` (s) and `state`.
+    """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `inverted`.
 
-    `vehicle` and gains `k` as in `inverted`; `forces` are the estimated external forces on vehicle and bob, each
-    (3, 1), N; `path` is what pivot and bob follow.
+    `forces` are the estimated external forces on vehicle and bob, each (3, 1), N; `path` is the path of pivot and bob.
     """
     z, z_dot = state.z, apply(state.R, cross(state.omega, E3))
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
@@ -104,8 +103,8 @@ def inverted_control(
     def force(y: Any, y_dot: Any) -> Any:
         return rod_force(*errors_at(y, y_dot), a_ref, jerk_ref, y, y_dot, height, forces, vehicle, k)
 
-    # The axis is for the rod after coasting over the time that turning takes; the thrust after a share of it, the
-    # whole of which makes both forces one.
+    # The thrust axis serves the rod after it has coasted for the time that the axis takes to turn; the thrust, after a
+    # share of that time. With a share of 1 the two forces coincide.
     ahead = coasted(state.y, state.y_dot, k.coast_time)
     present = force(*coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time))
     f = ca.fmin(ca.fmax(dot(present, z), 0), largest_thrust(vehicle))
@@ -116,7 +115,7 @@ def inverted_control(
         return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * E3
 
     if k.form == "light":
-        # The demand is held while the rest is differentiated, and its direction turns steadily: ω̇_d = 0.
+        # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
         e, v = errors_at(*ahead)
         wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
@@ -128,16 +127,16 @@ def inverted_control(
         wanted = axis(force(*ahead))
         wanted_dot = lie_derivative(wanted, state, rates, t)
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
-    # ż_d up to a part along z_d, which the transport of Lemma 2 does not see.
+    # ż_d up to a component along z_d, which the transport map of Lemma 2 annihilates.
     z_d, z_d_dot = scale(per_length, wanted), scale(per_length, wanted_dot)
     v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
-    # 2 sin(θ/2) of the angle θ between z and z_d; it goes to 0 only at θ = π.
+    # Length 2 sin(θ/2), with θ the angle between z and z_d, up to near the antipode θ = π, where it drops to 0.
     spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + ANTIPODE_FLOOR), tangent_part(z, z_d))
     stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
-    # No faster than the vehicle can stop: the spring alone would turn it at stiffness / damping per radian.
+    # Limit the turn rate to what the vehicle can stop: the bare spring would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
 
-    # z̈ = −|ż|² z + u_z with R ω̇ = z × u_z across z, the paper's (setmu) solved for ω̇; the yaw rate is damped.
+    # z̈ = −|ż|² z + u_z: the paper's (setmu) solved for the ω̇ normal to z. The yaw rate is damped.
     turn = apply(state.R.T, cross(z, u_z) + state.omega[2] * z_dot)
     alpha = ca.vertcat(turn[0], turn[1], -k.yaw_damping * state.omega[2])
     moment = apply(vehicle.I, alpha) + cross(state.omega, apply(vehicle.I, state.omega))

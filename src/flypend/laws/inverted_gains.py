@@ -1,4 +1,4 @@
-"""Gains of the inverted law: bandwidths, damping ratios, speeds and times; and what a vehicle suggests for them."""
+"""Gains of the inverted law (bandwidths, damping ratios, speeds, times) and their defaults for a vehicle."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, SHARE, Bou
 from flypend.model import Vehicle
 
 SEPARATION, LEAST_RATIO = 1.5, 2.0
-# The attitude loop stays this share below the cut-off of the rotors, 1/lag; a lag below the second counts as none, s.
+# Attitude bandwidth over the rotors' cut-off 1/lag, at most; and the shortest lag, s, that this limit assumes.
 LAG_SHARE, LEAST_LAG = 0.9, 1e-3
-# The law plans for no more delay than sensors, computer and rotors of the vehicles here have, s.
+# Upper limit of the default latency, s: the delay of sensors, computer and rotors of the vehicles here.
 LONGEST_LATENCY = 0.024
 
-# Pure numbers, found by CMA-ES on success and excursion of random starts of hehn2011 (see docs/laws/inverted.md).
-# Times are in √(l/g), speeds in √(g l), lengths in l, the attitude bandwidth in the root of the angular acceleration
-# that the rotors can give, as is the rate of turning.
+# Dimensionless, tuned by CMA-ES for success and excursion from random starts of hehn2011 (see docs/laws/inverted.md).
+# Units: √(l/g) for times, √(g l) for speeds, l for lengths, and √α for attitude bandwidth and turn rate, where α is the
+# largest angular acceleration that the rotors can produce.
 AGILE: Mapping[str, float] = MappingProxyType(
     {
         "position_bandwidth": 0.56, "position_damping": 1.0, "height_bandwidth": 0.74, "height_damping": 0.82,
@@ -34,7 +34,7 @@ AGILE: Mapping[str, float] = MappingProxyType(
         "level": 6.0, "tilt_limit": 3.1, "pump_share": 0.0, "pump_rate": 1.0,
     }
 )  # fmt: skip
-# For a vehicle that turns too slowly to flip its rod, found in the same way on nayak2018: level, pump, catch.
+# For a vehicle that turns too slowly to flip its rod, tuned likewise on nayak2018: it levels, pumps and catches.
 SLOW: Mapping[str, float] = MappingProxyType(
     {
         **AGILE,
@@ -45,14 +45,14 @@ SLOW: Mapping[str, float] = MappingProxyType(
         "tilt_limit": 0.80, "pump_share": 1.0, "pump_rate": 2.0,
     }
 )  # fmt: skip
-# α l/g, α being that acceleration, from which on a vehicle is agile.
+# A vehicle is agile if α l/g reaches this.
 LEAST_AGILITY = 3.0
 
 
 class Scales(NamedTuple):
-    """What the gains of a vehicle are measured in.
+    """Natural units of a vehicle's gains.
 
-    √(l/g) in s, √(g l) in m/s, root of its angular authority in rad/s, and whether it is agile.
+    √(l/g) in s, √(g l) in m/s, the square root of the angular authority in rad/s, and whether the vehicle is agile.
     """
 
     time: float
@@ -62,13 +62,13 @@ class Scales(NamedTuple):
 
     @property
     def numbers(self) -> Mapping[str, float]:
-        """The pure numbers for a vehicle of this kind."""
+        """Dimensionless gains for a vehicle of this class."""
         return AGILE if self.agile else SLOW
 
 
 @lru_cache(maxsize=256)
 def scales(vehicle: Vehicle) -> Scales:
-    """The scales of `vehicle`, from its rod, its inertia and its rotor limits."""
+    """Return the scales of `vehicle`, from its rod, inertia and rotor limits."""
     authority = angular_authority(vehicle)
     return Scales(
         time=np.sqrt(vehicle.l / vehicle.g),
@@ -79,14 +79,14 @@ def scales(vehicle: Vehicle) -> Scales:
 
 
 def angular_authority(vehicle: Vehicle) -> float:
-    """Largest angular acceleration, rad/s², of roll or pitch, whichever is less, about hover: arm · range / inertia."""
+    """Return the largest angular acceleration, rad/s², arm · range / inertia: the lesser of roll and pitch."""
     low, high = vehicle.rotor_limits
     lever = np.abs(vehicle.mixing()[1:3]).sum(axis=1) / 2
     return float(np.min(lever * (high - low) / np.diag(vehicle.inertia)[:2]))
 
 
 def _attitude_bandwidth(vehicle: Vehicle) -> float:
-    """What the rotors can give; at least what balancing takes, where small moments do; at most what they can follow."""
+    """Return what the authority allows; at least what balancing needs (small moments), at most what the lag allows."""
     s = scales(vehicle)
     wanted = max(s.numbers["attitude_bandwidth"] * s.turn, LEAST_RATIO * s.numbers["rod_bandwidth"] / s.time)
     return float(min(wanted, LAG_SHARE / max(vehicle.rotor_lag, LEAST_LAG)))
@@ -111,31 +111,31 @@ GAINS = table(
     (
         Gain(
             "position_bandwidth", _per_time("position_bandwidth"), "rad/s",
-            "Natural frequency of the horizontal loop of the bob", POSITIVE, label="position",
+            "Natural frequency of the bob's horizontal position loop", POSITIVE, label="position",
         ),
         Gain(
-            "position_damping", _number("position_damping"), "", "Damping ratio of the horizontal loop of the bob",
+            "position_damping", _number("position_damping"), "", "Damping ratio of the bob's horizontal position loop",
             POSITIVE,
         ),
         Gain(
             "height_bandwidth", _per_time("height_bandwidth"), "rad/s",
-            "Natural frequency of the vertical loop of the bob", POSITIVE, label="height",
+            "Natural frequency of the bob's height loop", POSITIVE, label="height",
         ),
         Gain(
-            "height_damping", _number("height_damping"), "", "Damping ratio of the vertical loop of the bob", POSITIVE,
+            "height_damping", _number("height_damping"), "", "Damping ratio of the bob's height loop", POSITIVE,
         ),
         Gain(
             "position_reach", lambda v: scales(v).numbers["position_reach"] * v.l, "m",
-            "Position errors are softly limited to this length", POSITIVE,
+            "Soft limit on the position error", POSITIVE,
         ),
         Gain(
             "descent_limit", lambda v: scales(v).numbers["descent"] * v.g, "m/s²",
-            "Largest downward acceleration asked of the bob; below g, so that it alone cannot turn the target over",
+            "Largest downward acceleration demanded of the bob; below g, it alone cannot flip the rod's target",
             POSITIVE,
         ),
         Gain(
             "level_limit", lambda v: scales(v).numbers["level"] * v.g, "m/s²",
-            "Largest horizontal acceleration asked of the bob", POSITIVE,
+            "Largest horizontal acceleration demanded of the bob", POSITIVE,
         ),
         Gain(
             "rod_bandwidth", _per_time("rod_bandwidth"), "rad/s", "Natural frequency of the rod on S²", POSITIVE,
@@ -152,73 +152,73 @@ GAINS = table(
         ),
         Gain(
             "turn_rate", lambda v: scales(v).numbers["turn_rate"] * scales(v).turn, "rad/s",
-            "The thrust axis is turned towards its target no faster than this", POSITIVE,
+            "Largest rate at which the thrust axis turns towards its target", POSITIVE,
         ),
         Gain(
             "tilt_limit", _number("tilt_limit"), "rad",
-            "The thrust axis is never asked to lean further than this from e₃; near π for no limit", ANGLE,
+            "Largest commanded tilt of the thrust axis from e₃; near π for no limit", ANGLE,
         ),
         Gain(
             "rate_feedforward", _number("rate_feedforward"), "",
-            "Share of the rate of the desired thrust axis that is fed forward", SHARE,
+            "Share of the desired thrust axis's rate that is fed forward", SHARE,
         ),
         Gain(
             "coast_time", lambda v: scales(v).numbers["coast"] / _attitude_bandwidth(v), "s",
-            "The desired thrust axis is that for the rod this much later", POSITIVE, label="look ahead",
+            "The desired thrust axis is computed for the rod predicted this far ahead", POSITIVE, label="look ahead",
         ),
         Gain(
             "thrust_coast_share", _number("thrust_coast"), "",
-            "The thrust is that for the rod after this share of coast_time", SHARE, fixed=True,
+            "The thrust is computed for the rod predicted this share of coast_time ahead", SHARE, fixed=True,
         ),
         Gain(
-            "throw_speed", _speed("throw_speed"), "m/s", "Upward speed of the bob asked for while the rod hangs",
+            "throw_speed", _speed("throw_speed"), "m/s", "Upward speed demanded of the bob while the rod hangs",
             NOT_NEGATIVE, label="throw speed",
         ),
         Gain(
             "flip_speed", _speed("flip_speed"), "m/s",
-            "The rod may flip once v + flip_by_height · h + flip_by_rod · y₃ passes this, with v (m/s) the upward "
-            "speed of the bob and h (m) the height of the pivot above its reference",
+            "The rod may flip once v + flip_by_height · h + flip_by_rod · y₃ exceeds this; v (m/s) is the bob's "
+            "upward speed, h (m) the pivot's height above its reference",
         ),
-        Gain("flip_by_rod", _speed("flip_by_rod"), "m/s", "What the rod's height y₃ counts towards flip_speed"),
-        Gain("flip_by_height", _per_time("flip_by_height"), "1/s", "What the pivot's height counts towards flip_speed"),
-        Gain("flip_width", _speed("flip_width"), "m/s", "Band of speed over which the permission comes", POSITIVE),
+        Gain("flip_by_rod", _speed("flip_by_rod"), "m/s", "Weight of the rod's height y₃ in flip_speed's sum"),
+        Gain("flip_by_height", _per_time("flip_by_height"), "1/s", "Weight of the pivot's height in flip_speed's sum"),
+        Gain("flip_width", _speed("flip_width"), "m/s", "Speed band over which flip permission ramps up", POSITIVE),
         Gain(
             "hanging_share", _number("hanging_share"), "",
-            "Until it may flip, the rod is held hanging with this share of its stiffness", SHARE,
+            "Share of the rod stiffness that holds the rod hanging until it may flip", SHARE,
         ),
         Gain(
             "pump_share", _number("pump_share"), "",
-            "Share of a swing-up by the energy of the rod while it is low, for a vehicle too slow to throw and flip",
+            "Share of energy-based swing-up while the rod is low; for a vehicle too slow to throw and flip",
             SHARE, fixed=True,
         ),
         Gain(
-            "pump_rate", _per_time("pump_rate"), "1/s", "How fast that energy is brought to its value upright",
+            "pump_rate", _per_time("pump_rate"), "1/s", "Rate at which the rod's energy is driven to its upright value",
             NOT_NEGATIVE,
         ),
-        Gain("low_below", _number("low_below"), "", "y₃ below which a rod is low", HEIGHT),
-        Gain("high_above", _number("high_above"), "", "y₃ above which it is not low at all", HEIGHT),
+        Gain("low_below", _number("low_below"), "", "y₃ below which the rod counts as low", HEIGHT),
+        Gain("high_above", _number("high_above"), "", "y₃ above which the rod no longer counts as low", HEIGHT),
         Gain("yaw_damping", 5.0, "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
-        # Below 1, so that a rotor at its limit still has something left to steer with.
-        Gain("thrust_share", 0.993, "", "Share of the largest thrust that is used", POSITIVE_SHARE),
+        # Below 1, so that the rotors keep some authority for moments at full thrust.
+        Gain("thrust_share", 0.993, "", "Usable share of the largest thrust", POSITIVE_SHARE),
         Gain(
             "lead", lambda v: scales(v).numbers["lead"] if v.rotor_lag > 0 else 1.0, "",
-            "Rotors are commanded f̂ + lead (f − f̂), f̂ being their modelled force", Bounds(low=1.0),
+            "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0),
         ),
         Gain(
             "latency", lambda v: min(LONGEST_LATENCY, scales(v).numbers["latency"] / _attitude_bandwidth(v)), "s",
-            "Delay that the flight computer plans for", NOT_NEGATIVE,
+            "Delay that the flight computer compensates by prediction", NOT_NEGATIVE,
         ),
-        Gain("observer", 1.5, "1/s", "Bandwidth of the observer of external forces; 0 for none", NOT_NEGATIVE),
+        Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain(
-            "form", "full", doc="light does three quarters of the work, for processors that are short of time: the "
-            "direction of the demand turns steadily, without the demand's second derivative", choices=("full", "light"),
+            "form", "full", doc="light needs three quarters of the computation, for slow processors: the demand is "
+            "assumed to turn at a constant rate, which saves its second derivative", choices=("full", "light"),
         ),
     )
 )  # fmt: skip
 
 
 def go_together(gains: Mapping[str, Any]) -> None:
-    """Raise InputError unless the bandwidths of `gains` are separated and its heights in order."""
+    """Raise InputError unless the bandwidths in `gains` are separated and low_below < high_above < 1."""
     slow, middle, fast = (gains[f"{loop}_bandwidth"] for loop in ("position", "rod", "attitude"))
     if not (SEPARATION * slow <= middle and SEPARATION * middle <= fast):
         raise InputError(
@@ -232,5 +232,5 @@ def go_together(gains: Mapping[str, Any]) -> None:
 
 
 def computer_of(gains: Mapping[str, Any]) -> Computer:
-    """The flight computer around the law with these `gains`."""
+    """Return the flight computer settings for these `gains`."""
     return Computer(lead=gains["lead"], latency=gains["latency"], observer=gains["observer"])

@@ -1,4 +1,4 @@
-"""What one writes down: a law with its gains open. `bind` makes it fly a vehicle."""
+"""A law with open gains; `bind` fixes them for a vehicle."""
 
 from __future__ import annotations
 
@@ -21,38 +21,38 @@ Values = Mapping[str, Any]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Law:
-    """A state feedback in symbols, its gains open.
+    """A symbolic state feedback with open gains.
 
     Parameters
     ----------
     name : str
         Name for tables and files.
     e3 : "up" or "down"
-        Direction of the world's third axis in which the law is written; states given to a run are in this frame.
+        Direction of the world's third axis in the law's frame; the states passed to a run are in this frame.
     control : callable
         `control(t, state, vehicle, gains) -> Control` (or a bare `Wrench`) in CasADi expressions; `gains.k` is gain k.
-        With `uses_forces` it takes a fifth argument, the estimated external forces (on vehicle, on bob), each (3, 1);
-        with a `path` the keyword argument `path`.
+        With `uses_forces` it accepts a fifth argument, the estimated external forces (on vehicle, on bob), each (3, 1);
+        with a `path`, the keyword argument `path`.
     gains : dict, or list of Gain
-        Its registry of gains: records, or defaults by name. It is kept as a dict of `Gain` by name.
+        Registry of the gains: records, or defaults by name. Stored as a dict of `Gain` by name.
     given : dict
-        Values that replace defaults.
+        Values that override the defaults.
     guard : Guard or callable, optional
-        Where the law stops being defined, or a rule for that from the values of the gains.
+        Where the law stops being defined, or a function of the gain values that returns it.
     computer : Computer or callable
-        Lead, prediction and observer around the law in a sampled flight, or a rule for them from the gains.
+        Lead, prediction and observer around the law in a sampled flight, or a function of the gains that returns them.
     uses_forces : bool
         Whether the law compensates external forces.
     reference : callable, optional
-        Position (3, 1) of the pivot that the law holds or follows, as a CasADi function of time; None for none.
+        Pivot position (3, 1) to hold or follow, as a CasADi function of time; None for none.
     path : callable, optional
-        What the law follows (see `laws.references.Path`); None for none.
+        Path to follow (see `laws.references.Path`); None for none.
     prepare : callable, optional
-        `prepare(vehicle, gains)` gives what can be worked out beforehand, by name; `control` sees it among the gains.
+        `prepare(vehicle, gains)` returns quantities computed in advance, by name; `control` sees them among the gains.
     check : callable, optional
-        `check(gains)` raises InputError for values that do not go together.
+        `check(gains)` raises InputError if gain values are inconsistent.
     fixed : tuple of str
-        Gains that decide how much there is to compute: exported code holds them as constants.
+        Gains that determine the amount of computation; exported code holds them as constants.
     """
 
     name: str
@@ -81,7 +81,7 @@ class Law:
 
     @property
     def values(self) -> dict[str, Any]:
-        """Values of those gains that need no vehicle to have one, by name."""
+        """Values by name of the gains that do not depend on the vehicle."""
         return {
             name: self.given.get(name, gain.default)
             for name, gain in self.gains.items()
@@ -89,33 +89,33 @@ class Law:
         }
 
     def with_gains(self, given: Values, prefix: str = "") -> Law:
-        """The same law with the gains `given`, checked; messages begin with `prefix`.
+        """Return the law with the gains `given`, checked; messages begin with `prefix`.
 
-        Raises InputError for an unknown gain, with the nearest known name, and for a value out of bounds.
+        Raises InputError if a gain is unknown (naming the closest match) or a value is out of bounds.
         """
         return replace(self, given={**self.given, **checked(self.gains, given, prefix)})
 
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-        """`values` of the gain called `name`, one or many, if it may take them; messages begin with `prefix`.
+        """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
 
-        Raises InputError for a name that is no number of the law, and values out of bounds.
+        Raises InputError if `name` is not a numeric gain of the law, or a value is out of bounds.
         """
         return check_gain(self.gains, name, values, prefix)
 
     @property
     def table(self) -> Mapping[str, Gain]:
-        """Its registry of gains."""
+        """Registry of the gains."""
         found: Mapping[str, Gain] = self.gains
         return found
 
     def proposed(self, vehicle: Vehicle) -> dict[str, Any]:
-        """The defaults of all gains for `vehicle`, by name, whatever is given."""
+        """Default values of all gains for `vehicle`, by name, whatever is given."""
         return {name: gain.value(vehicle) for name, gain in self.table.items()}
 
     def gains_for(self, vehicle: Vehicle) -> dict[str, Any]:
-        """Values of all gains by name: those given, and for the others the defaults for `vehicle`.
+        """Return the values of all gains by name: as given, else the default for `vehicle`.
 
-        Raises InputError for values that do not go together.
+        Raises InputError if values are inconsistent.
         """
         values = {
             name: self.given[name] if name in self.given else gain.value(vehicle) for name, gain in self.gains.items()
@@ -125,9 +125,9 @@ class Law:
         return values
 
     def bind(self, vehicle: Vehicle) -> BoundLaw:
-        """The law as it flies `vehicle`; the same object every time for equal vehicles.
+        """Return the law bound to `vehicle`; equal vehicles share one object.
 
-        Raises InputError for gains that do not go together.
+        Raises InputError if gains are inconsistent.
         """
         if vehicle not in self._bound:
             self._bound[vehicle] = self._bind(vehicle)

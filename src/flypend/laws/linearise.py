@@ -1,12 +1,12 @@
-"""Linearisation on the tangent space of R³ × SO(3) × S² at an equilibrium, from the symbols of the closed loop.
+"""Linearisation about an equilibrium on the tangent space of R³ × SO(3) × S², from the symbolic closed loop.
 
 Coordinates ξ ∈ R¹⁶ of a state about (x₀, ẋ₀, R₀, ω₀ = 0, y₀, ẏ₀ = 0), with b₁, b₂, y₀ orthonormal and right-handed:
 
     x = x₀ + ξ_x,  ẋ = ẋ₀ + ξ_ẋ,  R = R₀ exp(ξ̂_θ),  ω = ξ_ω,  bᵀy = ξ_y,  bᵀẏ = ξ_ẏ
 
-(for y₀ = ±e₃, b₁ = e₁ and b₂ = ±e₂). With E = ∂s/∂ξ and the rates ṡ = F(s) of the packed state, which keep it on the
-manifold, the matrix is A = E⁺ (∂F/∂s) E. No curvature of the charts enters: R, ω, y and ẏ rest at the equilibrium, and
-the other coordinates are linear.
+(for y₀ = ±e₃: b₁ = e₁, b₂ = ±e₂). With E = ∂s/∂ξ, and ṡ = F(s) the dynamics of the packed state, which stay on the
+manifold, A = E⁺ (∂F/∂s) E. The curvature of the charts does not enter: R, ω, y and ẏ are at rest at the equilibrium,
+and the other coordinates are linear.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ COORDINATES = (
     "omega_1", "omega_2", "omega_3", "y_1", "y_2", "y_dot_1", "y_dot_2",
 )  # fmt: skip
 
-# Turning the vehicle about its thrust axis changes nothing for a law that knows the heading by its rate alone.
+# For a law that depends on the heading only through its rate, rotation about the thrust axis is a symmetry.
 SYMMETRIES = ("theta_3",)
 
-# Rates below this share of the largest entry of A are those of an equilibrium in double precision.
+# Rates below this fraction of the largest entry of A count as zero: roundoff in double precision.
 _ROUNDOFF = 1e-11
 _NEWTON_STEPS = 20
 
@@ -44,13 +44,13 @@ class Linearisation:
     Parameters
     ----------
     at : State
-        The equilibrium, in the frame of the law.
+        The equilibrium, in the law's frame.
     A : (n, n)
-        Matrix, n = 16 unless coordinates were left out.
+        System matrix; n = 16 unless coordinates were left out.
     coordinates : tuple of str
         Names of the coordinates ξ, in the order of the rows.
     acceleration : (3,)
-        Acceleration of the pivot at `at`, m/s²: 0 for a law that holds a position; one that does not may drift.
+        Acceleration of the pivot at `at`, m/s²: 0 if the law controls position, else possibly a drift.
     """
 
     at: State
@@ -60,34 +60,34 @@ class Linearisation:
 
     @property
     def eigenvalues(self) -> Any:
-        """All eigenvalues of A, 1/s, by falling real part."""
+        """Eigenvalues of A, 1/s, in descending order of real part."""
         values = np.linalg.eigvals(self.A).astype(complex)
         return values[np.lexsort((values.imag, -values.real))]
 
     @property
     def symmetries(self) -> tuple[str, ...]:
-        """Coordinates among `SYMMETRIES` that no rate depends on: each brings one eigenvalue 0, as it should."""
+        """Coordinates among `SYMMETRIES` that no rate depends on; each contributes an eigenvalue 0 by construction."""
         return tuple(name for name in SYMMETRIES if name in self.coordinates and self._is_free((name,)))
 
     @property
     def spectral_abscissa(self) -> float:
-        """Largest real part of an eigenvalue, 1/s, those of `symmetries` left out."""
+        """Largest real part of the eigenvalues, 1/s, without those of `symmetries`."""
         return float(self.without(*self.symmetries).eigenvalues[0].real)
 
     @property
     def stable(self) -> bool:
-        """Whether all eigenvalues but those of `symmetries` have a negative real part."""
+        """Whether all eigenvalues except those of `symmetries` have negative real parts."""
         return self.spectral_abscissa < 0
 
     def without(self, *names: str) -> Linearisation:
-        """The rest of the coordinates on their own, once those called `names` are left out.
+        """Return the linearisation without the coordinates `names`.
 
-        A name may stand for a vector: "x" for x_1, x_2, x_3. The eigenvalues of the rest are eigenvalues of the whole.
+        A name may stand for a vector: "x" for x_1, x_2, x_3. The remaining eigenvalues are eigenvalues of the full A.
 
         Raises
         ------
         InputError
-            For an unknown name, and if the rest depends on what is left out.
+            If a name is unknown, or the remaining coordinates depend on those left out.
         """
         left_out = tuple(one for name in names for one in self._members(name))
         if not self._is_free(left_out):
@@ -113,16 +113,16 @@ class Linearisation:
 
 
 def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) -> Linearisation:
-    """Linearise the closed loop of `vehicle` under `law` about the equilibrium next to `at`, at time 0.
+    """Linearise the closed loop of `vehicle` under `law` about the equilibrium near `at`, at time 0.
 
     Parameters
     ----------
     law, vehicle
-        What steers and what flies, without rotors in between: the wrench acts as commanded.
+        Law and vehicle. There are no rotor dynamics: the wrench acts as commanded.
     at : State, optional
-        An equilibrium in the frame of the law, or a guess of one, from which Newton's method in the coordinates leads
-        to it. Default y = z = e₃, at rest at the law's reference. A law that does not govern the pivot is linearised
-        about a state in which attitude and rod rest; see `Linearisation.acceleration`.
+        An equilibrium in the law's frame, or an initial guess, refined by Newton's method in the coordinates ξ.
+        Default y = z = e₃, at rest at the law's reference. If the law does not control the pivot, only attitude and
+        rod need be at rest; see `Linearisation.acceleration`.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) ->
         velocity, A = _on_tangent_space(rates, state)
         step = np.linalg.lstsq(A, -velocity, rcond=1e-10)[0]
         if not 1e-12 < np.linalg.norm(step) < 1:
-            break  # arrived, or led away
+            break  # converged, or diverging
         state = retract(state, step)
     velocity, A = _on_tangent_space(rates, state)
     _check_rest(velocity, A)
@@ -146,12 +146,12 @@ def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) ->
 
 
 def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> tuple[Any, Any]:
-    """A (16, 16) and B (16, 4) of ξ̇ = A ξ + B (δf, δτ) about the equilibrium `at` of `vehicle` under `wrench`.
+    """Return A (16, 16) and B (16, 4) of ξ̇ = A ξ + B (δf, δτ) about the equilibrium `at` of `vehicle` under `wrench`.
 
     Parameters
     ----------
     vehicle, wrench
-        What flies, and the wrench that holds it.
+        Vehicle parameters, and the wrench that holds the equilibrium.
     e3 : "up" or "down"
         Direction of the world's third axis.
     at : State
@@ -160,7 +160,7 @@ def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> t
     Raises
     ------
     InputError
-        If `at` does not rest under `wrench`.
+        If attitude and rod are not at rest at `at` under `wrench`.
     """
     packed, input_ = ca.SX.sym("s", SIZE), ca.SX.sym("u", 4)
     motion = equations_of_motion(State.symbolic(packed), Wrench(input_[0], input_[1:]), vehicle, e3).packed()
@@ -176,9 +176,9 @@ def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> t
 
 
 def tangent_basis(at: State) -> Any:
-    """E = ∂s/∂ξ (24, 16): the columns span the tangent space at `at`, a single state.
+    """Return E = ∂s/∂ξ (24, 16), whose columns span the tangent space at the single state `at`.
 
-    Where the rod moves, its ẏ turns with y: b moves y, and −(b·ẏ) y keeps ẏ tangent.
+    If the rod moves, ẏ changes with y: b moves y, and −(b·ẏ) y keeps ẏ tangent.
     """
     b = _plane(at.y)
     E = np.zeros((SIZE, len(COORDINATES)))
@@ -191,7 +191,7 @@ def tangent_basis(at: State) -> Any:
 
 
 def retract(at: State, xi: Any) -> State:
-    """The state with coordinates `xi` (16,) about `at`, a single state with ω = 0 and ẏ = 0; |ξ_y| < 1."""
+    """Return the state with coordinates `xi` (16,), |ξ_y| < 1, about a single state `at` with ω = 0 and ẏ = 0."""
     b, xi = _plane(at.y), np.asarray(xi, dtype=float)
     height = np.sqrt(1 - xi[12:14] @ xi[12:14])
     return State(
@@ -205,13 +205,13 @@ def retract(at: State, xi: Any) -> State:
 
 
 def _plane(y: Any) -> Any:
-    """b₁ and b₂ (2, 3): b₁ along the part across `y` of the axis that is least along it, roundings left aside."""
+    """Return b₁ and b₂ (2, 3). b₁ is the axis least aligned with `y` (up to roundoff), projected normal to `y`."""
     b_1 = unit(project_tangent(y, np.eye(3)[np.argmin(np.abs(y).round(9))]))
     return np.stack([b_1, cross(y, b_1)])
 
 
 def _closed_loop(law: BoundLaw, vehicle: Vehicle) -> ca.Function:
-    """Packed state (24,) → rates, their derivatives by the state and by time, at time 0."""
+    """Return packed state (24,) → rates and their derivatives with respect to state and time, at time 0."""
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     state = State.symbolic(packed)
     motion = equations_of_motion(state, law.evaluate(t, state, vehicle).wrench, vehicle, law.e3).packed()
@@ -221,7 +221,7 @@ def _closed_loop(law: BoundLaw, vehicle: Vehicle) -> ca.Function:
 
 
 def _on_tangent_space(rates: ca.Function, state: State) -> tuple[Any, Any]:
-    """Velocity ξ̇ (16,) and A at `state`, whose R, ω, y and ẏ are taken to rest."""
+    """Return velocity ξ̇ (16,) and A at `state`, with R, ω, y and ẏ assumed at rest."""
     F, F_s, F_t = (np.array(value) for value in rates(state.packed()))
     if not all(np.all(np.isfinite(value)) for value in (F, F_s, F_t)):
         raise InputError("law", "one that is differentiable at its equilibrium", "NaN or infinity")
@@ -233,7 +233,7 @@ def _on_tangent_space(rates: ca.Function, state: State) -> tuple[Any, Any]:
 
 
 def _check_rest(velocity: Any, A: Any) -> None:
-    """Attitude and rod must rest; the pivot may move on as a law without position control lets it."""
+    """Check that attitude and rod are at rest; without position control, the pivot may still move."""
     moving = np.max(np.abs(velocity[6:]))
     if moving > _ROUNDOFF * np.max(np.abs(A)):
         raise InputError("at", "a state next to an equilibrium", f"rates of attitude or rod of {moving:.3g} rad/s, /s²")
@@ -248,5 +248,5 @@ def _single(at: State) -> State:
     if at.batch_shape:
         raise InputError("at", "a single state", f"a batch of shape {at.batch_shape}")
     if np.any(at.omega) or np.any(at.y_dot):
-        raise InputError("at", "a state at rest: omega = 0 and y_dot = 0", "one that turns")
+        raise InputError("at", "a state at rest: omega = 0 and y_dot = 0", "nonzero omega or y_dot")
     return at

@@ -1,12 +1,12 @@
-"""The linear-quadratic regulator about inverted hover: the baseline, after Hehn and D'Andrea (2011), on the full model.
+"""The linear-quadratic regulator about inverted hover: a baseline after Hehn and D'Andrea (2011), on the full model.
 
-Hehn and D'Andrea regulate position, rod and body rates of a linear model about hover; here the wrench is the input and
-the model is the linearisation on the tangent space of R³ × SO(3) × S² (`flypend.laws.linearise`),
+Hehn and D'Andrea regulate position, rod and body rates of a linear model about hover. Here the wrench is the input,
+and the model is the linearisation on the tangent space of R³ × SO(3) × S² (`flypend.laws.linearise`),
 
     ξ̇ = A ξ + B (δf, δτ),    wrench = wrench_ref − K ξ,    K = R⁻¹ Bᵀ P,    Aᵀ P + P A − P B R⁻¹ Bᵀ P + Q = 0,
 
-with Q and R the inverse squares of the largest acceptable deviations (Bryson's rule). Nothing makes it work far from
-hover: that is what it is here to show.
+with Q and R the inverse squares of the largest acceptable deviations (Bryson's rule). Nothing makes it
+work far from hover; it serves to show that.
 """
 
 from __future__ import annotations
@@ -59,23 +59,23 @@ GAINS = table(
 
 @documented(GAINS)
 def lqr(reference: Reference | None = None, **gains: float) -> Law:
-    """The linear-quadratic regulator whose weights are the inverse squares of these largest acceptable deviations.
+    """Build the linear-quadratic regulator; its weights are the inverse squares of the largest acceptable deviations.
 
-    Only their ratios matter. The errors ξ of a state far from hover are those of `errors_of`.
+    Only their ratios matter. For the errors ξ of a state far from hover, see `errors_of`.
 
     Parameters
     ----------
     reference : callable, optional
-        Position (3,) of the pivot as a CasADi function of time, m; default hover at the origin. See `laws.references`.
+        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
     **gains : float
-        Any of the gains below, in its unit.
+        Any of the gains below, in the stated unit.
 
     {gains}
 
     Raises
     ------
     InputError
-        For an unknown gain, or a deviation that is not positive.
+        If a gain is unknown or not positive.
     """
     followed = reference or hover()
     return Law(
@@ -95,9 +95,9 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> C
 
 
 def by_matrix(K: Any) -> Law:
-    """The regulator about hover at the origin with the gain matrix `K` (4, 16), whose entries K_i_j are its gains.
+    """Build the regulator about hover at the origin with gain matrix `K` (4, 16); its gains are the entries K_i_j.
 
-    They may vary from run to run. The column of the heading, which is zero, is none of them.
+    They may vary from run to run. The column of the heading is zero and not among the gains.
     """
     followed = hover()
 
@@ -112,12 +112,12 @@ def by_matrix(K: Any) -> Law:
 
 
 def entries(K: Any) -> dict[str, float]:
-    """The entries of `K` (4, 16) by name."""
+    """Return the entries of `K` (4, 16) by name, without the column of the heading."""
     return {name: float(K[i, j]) for name, i, j in ENTRIES}
 
 
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
-    """K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its column of the heading is zero."""
+    """Return K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its heading column is zero."""
     A, B = _about_hover(vehicle)
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
@@ -129,10 +129,10 @@ def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
 
 
 def solve_riccati(A: Matrix, B: Matrix, Q: Matrix, R: Matrix) -> Matrix:
-    """The stabilising solution P (n, n) of AᵀP + P A − P B R⁻¹Bᵀ P + Q = 0, for A (n, n), B (n, k), Q (n, n), R (k, k).
+    """Return the stabilising P (n, n) of AᵀP + P A − P B R⁻¹Bᵀ P + Q = 0, for A (n, n), B (n, k), Q (n, n), R (k, k).
 
-    From the stable invariant subspace of the Hamiltonian matrix; two of Kleinman's steps, each a Lyapunov equation,
-    bring it from the accuracy of eigenvectors to that of the numbers.
+    P comes from the stable invariant subspace of the Hamiltonian matrix. Two Kleinman iterations, each a Lyapunov
+    equation, refine it from the accuracy of the eigenvectors to roundoff.
     """
     n, G = len(A), B @ np.linalg.solve(R, B.T)
     values, vectors = np.linalg.eig(np.block([[A, -G], [-Q, -A.T]]))
@@ -151,7 +151,7 @@ def _about_hover(vehicle: Vehicle) -> tuple[Any, Any]:
 
 
 def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
-    """Q (16, 16) and R (4, 4) of `vehicle` for the `deviations` of `lqr`, by Bryson's rule."""
+    """Return Q (16, 16) and R (4, 4) of `vehicle` for the `deviations` of `lqr`, by Bryson's rule."""
     d = deviations
     state = [
         *[d["position_error"]] * 3, *[d["velocity_error"]] * 3, *[d["attitude_error"]] * 3, *[d["rate_error"]] * 3,
@@ -164,9 +164,9 @@ def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
 
 
 def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, path: Path) -> Control:
-    """The law with the gain matrix `K` (4, 16), for symbols of `t` (s) and `state` of `vehicle`, along `path`.
+    """Evaluate the law with gain matrix `K` (4, 16) for symbols `t` (s) and `state` of `vehicle`, along `path`.
 
-    The reference wrench is the one that carries rod and vehicle along the path; for hover it is the weight.
+    The reference wrench is the one that moves rod and vehicle along the path; in hover it is the weight.
     """
     I = vehicle.I
     x_ref, v_ref, y_ref, z_ref, f_ref = flat_reference(t, path, vehicle)
@@ -185,17 +185,17 @@ def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, path: Path) -> C
 
 
 def errors_of(state: State, x_ref: Any, v_ref: Any, z_ref: Any, omega_ref: Any, y_ref: Any, y_ref_dot: Any) -> Any:
-    """ξ (16, 1) of a `state` anywhere, about a reference near inverted hover; smooth, and blind to the heading.
+    """Return ξ (16, 1) of any `state` about a reference near inverted hover; smooth, and independent of the heading.
 
-    With h(e) the first two components of Rᵀ(e₁, e₂, 0), the part of e in the plane as the body sees it,
+    With h(e) the first two components of Rᵀ(e₁, e₂, 0), the horizontal part of e in the body frame,
 
         ξ_x = (h(e), e₃) of e = x − x_ref,     ξ_y = √((1 + ε)/((1 + y·y_ref)/2 + ε)) h(y − y_ref),
         ξ_ẋ = (h(e), e₃) of e = ẋ − ẋ_ref,     ξ_ẏ = h(ẏ − ẏ_ref),
         ξ_θ = Rᵀz_ref × e₃,                    ξ_ω = ω − ω_ref,
 
-    to first order, at heading 0, the coordinates of `flypend.laws.linearise`. |ξ_y| is 2 sin(θ/2) of the angle θ
-    nearly up to the antipode, where, having no direction, it goes to zero; |ξ_θ| is sin θ. Of the four ways to give
-    these two forms to rod and thrust axis, this one recovers most of random starts.
+    which at heading 0 agree to first order with the coordinates of `flypend.laws.linearise`. For an error angle θ,
+    |ξ_y| = 2 sin(θ/2) almost up to the antipode, where the error has no direction and drops to zero; |ξ_θ| = sin θ.
+    Of the four ways to assign these two forms to rod and thrust axis, this one recovers from the most random starts.
 
     The references are (3, 1) each: `x_ref`, `v_ref` of the pivot, `z_ref` of the thrust axis, its angular velocity
     `omega_ref` in the body frame, `y_ref` of the rod and its rate `y_ref_dot`.
@@ -214,9 +214,9 @@ def errors_of(state: State, x_ref: Any, v_ref: Any, z_ref: Any, omega_ref: Any, 
 
 
 def flat_reference(t: Any, path: Path, vehicle: Vehicle) -> tuple[Any, Any, Any, Any, Any]:
-    """Position and velocity of the pivot, rod, thrust axis and thrust with which `vehicle` follows `path` at `t`.
+    """Return pivot position and velocity, rod, thrust axis and thrust with which `vehicle` follows `path` at `t`.
 
-    The force on both bodies together is F = M (ẍ + g e₃) + m (p̈ + g e₃) with p = x + l y the bob.
+    The thrust vector is F = M (ẍ + g e₃) + m (p̈ + g e₃), with p = x + l y the bob.
     """
     x_ref, p_ref, y_ref = path(t, vehicle, ca.SX.zeros(3))
     v_ref, a_ref = derivatives(x_ref, t, 2)

@@ -1,4 +1,4 @@
-"""The laws of the package by name, and as tables of a TOML file."""
+"""The built-in laws by name, and laws from TOML tables."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ SHAPES: Mapping[str, Callable[..., Reference]] = {
 
 
 def law_names() -> list[str]:
-    """Names of the laws that come with the package."""
+    """Return the names of the built-in laws."""
     return list(FACTORIES)
 
 
 def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
-    """The law of a TOML table `values`, {name, gains = {...}, reference = {...}}; messages begin with `key`.
+    """Build a law from a TOML table `values`, {name, gains = {...}, reference = {...}}; messages begin with `key`.
 
     A reference has a `shape` (hover, line, circle, lemniscate) and the arguments of that function in `laws.references`.
 
-    Raises InputError for an unknown law or gain (with the nearest known name) and for gains out of range.
+    Raises InputError if a law or gain is unknown (naming the closest match) or a gain is out of bounds.
     """
     errors.only_known(key, values, ("name", "gains", "reference"))
     name = errors.one_of(f"{key}.name", values.get("name"), FACTORIES)
@@ -55,7 +55,7 @@ def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
 
 
 def follows(name: str) -> bool:
-    """Whether the law of the package called `name` follows a reference."""
+    """Whether the built-in law `name` follows a reference."""
     return "reference" in inspect.signature(FACTORIES[name]).parameters
 
 

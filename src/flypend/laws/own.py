@@ -1,8 +1,8 @@
-"""A law of one's own: a Python function becomes a `Law` where it is written in symbols, and a `Controller` where not.
+"""Custom laws: a Python function becomes a `Law` if it works on symbols, otherwise a `Controller`.
 
     def balance(t, state, vehicle, *, k_p=4.0): ...
 
-Its arguments go by their names: `t`, `state`, `vehicle`, and gains, which have defaults.
+Arguments are recognised by name: `t`, `state`, `vehicle`, and gains, which have defaults.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.model.state import SIZE, E3Direction
 
-# What the arguments of a law of one's own may be called; 0.1 had a fourth one, gains.
+# Argument names recognised in a custom law. The fourth role, gains, dates from version 0.1.
 ROLES: Mapping[str, tuple[str, ...]] = {
     "t": ("t", "time"),
     "state": ("state", "s"),
@@ -38,18 +38,18 @@ ROLES: Mapping[str, tuple[str, ...]] = {
     "gains": ("gains", "k"),
 }
 FORMS = (("t", "state"), ("t", "state", "vehicle"), ("t", "state", "vehicle", "gains"))
-# NumPy's functions on symbols: what comes of them is compared with numbers here; CasADi need not warn of them.
+# CasADi warns of NumPy functions on symbols. Here their results are checked against numbers, so no warning is needed.
 warnings.filterwarnings("ignore", message=r"\s*casadi: a numpy function", category=FutureWarning)
 EXPECTED = "a function of (t, state, vehicle, *, gain=default, ...)"
-# A function is tried on a known vehicle in two states: symbols and numbers must then answer the same.
+# Each function is tried on a known vehicle in two states, where symbolic and numeric results must agree to this.
 _TRIED, _AGREEMENT = 2, 1e-9
 _SHAPE = "its wrench is not one thrust and three moments"
 
 
 class LawError(InputError):
-    """A mistake inside a law of one's own, in one line that names its file and line.
+    """A mistake in a custom law, reported on one line with file and line number.
 
-    `where` is file:line, `name` the law if there is one yet, `said` what went wrong.
+    `where` is file:line, `name` that of the law (may be empty), `said` what went wrong.
     """
 
     def __init__(self, where: str, name: str, said: str) -> None:
@@ -58,19 +58,19 @@ class LawError(InputError):
         self.args = (f"{where}: {self.said}" + (f" (in the law {name})" if name else ""),)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Another process is told the same."""
+        """Pickle the three fields, so that the error survives the trip between processes."""
         return (LawError, (self.where, self.name, self.said))
 
 
 @dataclass(frozen=True, eq=False)
 class Located:
-    """A `function` of the law `name` whose errors name file and line in one line."""
+    """A `function` of the law `name` whose errors are reported with file and line, on one line."""
 
     function: Callable[..., Any]
     name: str
 
     def __call__(self, *arguments: Any, **gains: Any) -> Any:
-        """What the function answers. Raises LawError for whatever it raises."""
+        """Call the function. Raises LawError for any exception but InputError."""
         try:
             return self.function(*arguments, **gains)
         except InputError:
@@ -80,7 +80,7 @@ class Located:
 
 
 def law_error(error: BaseException, function: Any, name: str) -> LawError:
-    """The `LawError` for an `error` that the `function` of the law `name` raised."""
+    """Return the `LawError` for an `error` raised by the `function` of the law `name`."""
     file = _file(function)
     frames = traceback.extract_tb(error.__traceback__)
     frame = next((f for f in reversed(frames) if f.filename == file), frames[-1])
@@ -91,7 +91,7 @@ def law_error(error: BaseException, function: Any, name: str) -> LawError:
 
 
 def shown(file: str) -> str:
-    """A `file` as people call it: from the current folder if it is below that."""
+    """Return the path of `file`, relative to the current folder if it lies below it."""
     path = Path(file)
     return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
 
@@ -104,29 +104,29 @@ def from_function(
     gains: Iterable[Gain] = (),
     rate: float = 500.0,
 ) -> Law | Controller:
-    """The law that a Python function states.
+    """Build a law from a Python function.
 
     Parameters
     ----------
     function : callable
-        `function(t, state, vehicle, *, k_p=4.0, ...) -> Wrench` or `Control`. Its gains are its arguments with
-        defaults, numbers or words. Written in CasADi expressions it becomes a `Law`, which flies fast and can be
-        exported. One that needs numbers (NumPy, an `if` on values) becomes a `Controller`, which flies step by step.
-        `function(t, state)` is a `Controller` in any case.
+        `function(t, state, vehicle, *, k_p=4.0, ...) -> Wrench` or `Control`. Arguments with defaults, numbers or
+        strings, are its gains. A function of CasADi expressions becomes a `Law`, which is compiled and can be exported.
+        One that needs numbers (NumPy, an `if` on values) becomes a `Controller`, which flies step by step.
+        `function(t, state)` always becomes a `Controller`.
     name : str, optional
         Name for tables and files; default that of the function.
     e3 : "up" or "down"
-        Direction of the world's third axis in which it is written.
+        Direction of the world's third axis in the function's frame.
     gains : list of Gain, optional
-        Records with unit, bounds and words for those gains that have them.
+        Records with unit, bounds and label for any of the gains.
     rate : float
         Control rate of a `Controller` in the ideal plant, Hz.
 
     Raises
     ------
     InputError
-        For arguments of other names, a gain without a default, and a function that fails when it is tried; the message
-        names its file and line.
+        If an argument has another name, a gain has no default, or the function fails when tried; the message then gives
+        file and line.
     """
     name = name or str(getattr(function, "__name__", type(function).__name__))
     form, table = _read(function, name, {gain.name: gain for gain in gains})
@@ -148,7 +148,7 @@ def from_function(
 
 
 def fingerprint(controller: Controller) -> bytes:
-    """What tells a `controller` from another: its name, gains and frame, and the text of the file that it is in."""
+    """Return a digest of a `controller`: its name, settings and gains, and the text of its source file."""
     function: Any = controller.steering or controller.function
     while isinstance(function, Located | _Steer | _Steering):
         function = function.function
@@ -159,7 +159,7 @@ def fingerprint(controller: Controller) -> bytes:
 
 
 def is_factory(function: Callable[..., Any]) -> bool:
-    """Whether a `function` can be called without arguments, and so may make a law."""
+    """Whether a `function` can be called without arguments, and so may be a factory of laws."""
     return not _needed(function)
 
 
@@ -187,7 +187,7 @@ class _Steer:
 
 @dataclass(frozen=True, eq=False)
 class _Steering:
-    """A function of time and state with everything else in place; its answer is checked."""
+    """A function of time and state, all other arguments fixed; its output is checked."""
 
     function: Located
     vehicle: Vehicle | None
@@ -202,7 +202,7 @@ class _Steering:
 def _read(
     function: Callable[..., Any], name: str, records: Mapping[str, Gain]
 ) -> tuple[tuple[str, ...], dict[str, Gain]]:
-    """The form of a function, one of `FORMS`, and its gains."""
+    """Return the form of a function, one of `FORMS`, and its gains."""
     needed = _needed(function)
     form = tuple(_role(parameter.name, place) for place, parameter in enumerate(needed))
     bare = [p.name for p in needed if p.kind is p.KEYWORD_ONLY]
@@ -222,7 +222,7 @@ def _read(
 
 
 def _role(name: str, place: int) -> str:
-    """What an argument is for, by its name; one called _ is what stands at its place."""
+    """Return the role of an argument from its name; if it is called _, from its position."""
     bare = name.strip("_").lower()
     if not bare:
         return (*ROLES, *[name] * (place + 1))[place]
@@ -230,7 +230,7 @@ def _role(name: str, place: int) -> str:
 
 
 def _needed(function: Callable[..., Any]) -> list[inspect.Parameter]:
-    """Arguments that a function cannot be called without."""
+    """Return the required arguments of a function."""
     return [p for p in _parameters(function) if p.default is p.empty]
 
 
@@ -241,15 +241,15 @@ def _defaulted(function: Callable[..., Any]) -> list[inspect.Parameter]:
 def _parameters(function: Callable[..., Any]) -> list[inspect.Parameter]:
     try:
         found = inspect.signature(function).parameters.values()
-    except (TypeError, ValueError):  # some that are written in C
+    except (TypeError, ValueError):  # some functions written in C
         raise InputError("law", EXPECTED, f"{function!r}, which does not name its arguments") from None
     return [p for p in found if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
 
 
 def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
-    """Why a function cannot be written in symbols, "" if it can; found by trying it on both.
+    """Return why a function is not symbolic, "" if it is, by trying it on symbols and on numbers.
 
-    Raises LawError for one that fails on both.
+    Raises LawError if it fails on both.
     """
     machine, states = _example()
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
@@ -262,13 +262,13 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
         answers = [np.array(symbolic(0.0, state.packed())).ravel() for state in states]
     except LawError as error:
         failure = error
-    except Exception as error:  # what came is no expression
+    except Exception as error:  # the result is not an expression
         failure = LawError(_start(call.function), call.name, f"its wrench is not made of symbols: {error}")
     try:
         numbers = [_numbers(call(0.0, state, machine, **gains), call) for state in states]
     except InputError as error:
         if failure is None:
-            return ""  # written with functions of CasADi that numbers do not go through
+            return ""  # uses CasADi functions that accept symbols only
         told = error if "SX" in failure.said or "an if on" in failure.said else failure
         raise told from told.__cause__
     if failure is not None:
@@ -291,7 +291,7 @@ def _wrench(answer: Any, call: Located) -> Wrench:
 
 
 def _stacked(wrench: Wrench, call: Located) -> Any:
-    """Thrust and moment (4, 1) in symbols."""
+    """Return thrust and moment (4, 1) as an expression."""
     stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
     if stacked.shape != (4, 1):
         raise LawError(_start(call.function), call.name, _SHAPE)
@@ -299,7 +299,7 @@ def _stacked(wrench: Wrench, call: Located) -> Any:
 
 
 def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:
-    """Thrust and moment (4,) of what a function answered for numbers."""
+    """Return thrust and moment (4,) from a function's numeric output."""
     wrench = _wrench(answer, call)
     try:
         parts = [np.asarray(np.array(part), dtype=float).ravel() for part in (wrench.thrust, wrench.moment)]
@@ -316,6 +316,6 @@ def _file(function: Any) -> str:
 
 
 def _start(function: Any) -> str:
-    """file:line where a function begins."""
+    """Return file:line where a function begins."""
     code = getattr(inspect.unwrap(function), "__code__", None)
     return f"{shown(code.co_filename)}:{code.co_firstlineno}" if code else repr(function)

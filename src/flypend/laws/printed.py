@@ -14,11 +14,11 @@ from flypend.model import State, Vehicle
 GAINS = table(
     (
         *PAPER_GAINS,
-        # To the letter it is 0, and the law undefined at ẏ = 0, where experiment 4 starts. The default tells what
-        # happens from there, and no result depends on its value.
-        Gain("speed_floor", 1e-6, "rad/s", "s in √(|ẏ|² + s²), which stands for |ẏ| in (kpeqn)", NOT_NEGATIVE),
+        # As printed it is 0, and the law is undefined at ẏ = 0, where experiment 4 starts. The default lets that run
+        # start; no result depends on its value.
+        Gain("speed_floor", 1e-6, "rad/s", "s in √(|ẏ|² + s²), which replaces |ẏ| in (kpeqn)", NOT_NEGATIVE),
         Gain(
-            "beta", "minimum-norm", doc="beta by the minimum-norm A, as printed, or off to see the damping sign alone",
+            "beta", "minimum-norm", doc="minimum-norm A, as printed; off isolates the effect of the damping sign",
             choices=("minimum-norm", "off"),
         ),
     )
@@ -27,19 +27,19 @@ GAINS = table(
 
 @documented(GAINS)
 def printed(**gains: float | str) -> Law:
-    """Theorem 1 with the printed damping sign and the minimum-norm beta, in the paper's frame (e₃ along gravity).
+    """Build Theorem 1 with the printed damping sign and the minimum-norm beta, in the paper's frame (e₃ along gravity).
 
     Parameters
     ----------
     **gains : float or str
-        Any of the gains below, in its unit.
+        Any of the gains below, in the stated unit.
 
     {gains}
 
     Raises
     ------
     InputError
-        For an unknown gain, or one out of its bounds.
+        If a gain is unknown or out of bounds.
     """
     return Law(name="printed", e3="down", gains=GAINS, given=gains, control=_control, guard=_guard)
 

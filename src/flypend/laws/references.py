@@ -1,4 +1,4 @@
-"""Reference trajectories of the pivot as symbolic functions of time; their derivatives come from the symbols."""
+"""Reference trajectories of the pivot as symbolic functions of time; their derivatives are exact."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ import numpy as np
 from flypend import errors
 
 Reference = Callable[[Any], Any]
-# What a law follows once the rod is in it: (t, vehicle, external force on the bob) → positions of pivot and bob, and
-# direction of the rod, each (3, 1) and a function of time.
+# A path of the whole system: (t, vehicle, external force on the bob) → positions of pivot and bob, and rod direction,
+# each (3, 1) and a function of time.
 Path = Callable[[Any, Any, Any], tuple[Any, Any, Any]]
 
 
 def hover(x: Any = (0.0, 0.0, 0.0)) -> Reference:
-    """Stay at the position `x` (3,), m. Raises InputError if it is not three finite numbers."""
+    """Stay at the position `x` (3,), m. Raises InputError unless `x` is three finite numbers."""
     position = errors.array("reference.x", x, (3,))
     return lambda t: ca.SX(ca.DM(position)) + 0 * t
 
 
 def line(start: Any = (0.0, 0.0, 0.0), velocity: Any = (1.0, 0.0, 0.0)) -> Reference:
-    """Move from `start` (3,), m, with constant `velocity` (3,), m/s. Raises InputError for numbers not finite."""
+    """Move from `start` (3,), m, at constant `velocity` (3,), m/s. Raises InputError unless all are finite."""
     origin, rate = errors.array("reference.start", start, (3,)), errors.array("reference.velocity", velocity, (3,))
     return lambda t: ca.DM(origin) + ca.DM(rate) * t
 
 
 def circle(radius: float = 0.5, rate: float = 1.0, center: Any = (0.0, 0.0, 0.0)) -> Reference:
-    """A horizontal circle of `radius` (m) about `center` (3,), m, at angular `rate` (rad/s).
+    """Follow a horizontal circle of `radius` (m) about `center` (3,), m, at angular `rate` (rad/s).
 
-    Raises InputError for a radius that is not positive or numbers that are not finite.
+    Raises InputError unless the radius is positive and all numbers are finite.
     """
     r, w = errors.number("reference.radius", radius, above=0, unit="m"), errors.number("reference.rate", rate)
     middle = errors.array("reference.center", center, (3,))
@@ -39,9 +39,9 @@ def circle(radius: float = 0.5, rate: float = 1.0, center: Any = (0.0, 0.0, 0.0)
 
 
 def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.0)) -> Reference:
-    """A horizontal figure of eight (Gerono), `size` m from `center` (3,) to either end, at angular `rate` (rad/s).
+    """Follow a horizontal figure eight (Gerono) of half-length `size` (m) about `center` (3,), m, at `rate` (rad/s).
 
-    Raises InputError for a size that is not positive or numbers that are not finite.
+    Raises InputError unless the size is positive and all numbers are finite.
     """
     a, w = errors.number("reference.size", size, above=0, unit="m"), errors.number("reference.rate", rate)
     middle = errors.array("reference.center", center, (3,))
@@ -49,7 +49,7 @@ def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.
 
 
 def sampled(reference: Reference, t: Any) -> Any:
-    """Positions (n, 3) of `reference` at times `t` (n,), s."""
+    """Return the positions (n, 3), m, of `reference` at times `t` (n,), s."""
     time = ca.SX.sym("t")
     function = ca.Function("reference", [time], [ca.densify(reference(time))])
     return np.array(function(np.asarray(t, dtype=float)[None, :])).T.copy()

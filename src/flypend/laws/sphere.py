@@ -1,7 +1,7 @@
 """Feedback for a simple mechanical system on S²: ∇_φ̇ φ̇ = φ̈ + |φ̇|² φ = −φ̂² u (Lemmas 1 and 2, corrected).
 
-All terms of u are tangent to S², where −φ̂² is the identity, so each function returns the force that acts. Lemma 1 is
-right as printed; Lemma 2 prints e₃ where φ_d is meant and φ̈ where φ̈_d is meant, corrected at the line.
+Every term of u is tangent to S², where −φ̂² is the identity, so each function returns the force itself. Lemma 1 is
+correct as printed. Lemma 2 has e₃ in place of φ_d and φ̈ in place of φ̈_d; each is corrected where it occurs.
 """
 
 from __future__ import annotations
@@ -10,18 +10,18 @@ from typing import Any
 
 from flypend.geometry import dot, hat_squared, scale, transport, transport_derivative
 
-# (1 + cos θ)/2 in the size of an error between two directions never counts as less: 2 sin(θ/2) is kept up to 14° from
-# the antipode, where an error has no direction, and goes to zero there.
+# Added to (1 + cos θ)/2 in the length of a direction error. The length stays near 2 sin(θ/2) up to 14° from the
+# antipode, where the error has no direction, and drops to zero there.
 ANTIPODE_FLOOR = 0.014
 
 
 def acceleration(phi: Any, phi_dot: Any, u: Any) -> Any:
-    """φ̈ of the system (SMSS2) at `phi` (..., 3), `phi_dot` under the tangent force `u`: φ̈ = u − |φ̇|² φ."""
+    """Return φ̈ = u − |φ̇|² φ of the system (SMSS2) at `phi` (..., 3), `phi_dot` under the tangent force `u`."""
     return u - scale(dot(phi_dot, phi_dot), phi)
 
 
 def regulation(phi: Any, phi_dot: Any, target: Any, k_p: Any, k_d: Any) -> Any:
-    """Lemma 1: tangent force −k_p φ̂² target − k_d φ̇ that makes the unit vector `target` asymptotically stable.
+    """Lemma 1: tangent force −k_p φ̂² target − k_d φ̇, which makes the unit vector `target` asymptotically stable.
 
     `phi`, `phi_dot`, `target`: (..., 3); `k_p` (1/s²) and `k_d` (1/s) positive.
     """
@@ -29,12 +29,12 @@ def regulation(phi: Any, phi_dot: Any, target: Any, k_p: Any, k_d: Any) -> Any:
 
 
 def velocity_error(phi: Any, phi_dot: Any, phi_d: Any, phi_d_dot: Any) -> Any:
-    """v_e = φ̇ − τ(φ, φ_d) φ̇_d, tangent to S² at `phi`; `phi_dot` and `phi_d_dot` are the rates of `phi`, `phi_d`."""
+    """Return v_e = φ̇ − τ(φ, φ_d) φ̇_d, tangent to S² at `phi`. Arguments are φ, φ̇, φ_d and φ̇_d, each (..., 3)."""
     return phi_dot - transport(phi, phi_d, phi_d_dot)
 
 
 def tracking(phi: Any, phi_dot: Any, phi_d: Any, phi_d_dot: Any, phi_d_ddot: Any, k_p: Any, k_d: Any) -> Any:
-    """Lemma 2: tangent force −k_p φ̂² φ_d − k_d v_e + ∇_φ̇(τ φ̇_d) under which φ(t) tracks φ_d(t).
+    """Lemma 2: tangent force −k_p φ̂² φ_d − k_d v_e + ∇_φ̇(τ φ̇_d), under which φ(t) tracks φ_d(t).
 
     `phi`, `phi_dot`: (..., 3); `phi_d`, `phi_d_dot`, `phi_d_ddot`: the reference and its derivatives; `k_p` (1/s²) and
     `k_d` (1/s) positive.

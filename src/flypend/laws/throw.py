@@ -1,4 +1,4 @@
-"""The outer loops of the inverted law: what the bob should do, what the rod should do, and the force for both."""
+"""The outer loops of the inverted law: the demands on bob and rod, and the force that meets both."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from flypend.geometry import E1, E3, cross, dot, norm, scale, tangent_part, unit
 from flypend.laws.references import Path, Reference
 from flypend.model import Vehicle
 
-# A continuous pull on S² vanishes somewhere; here it does opposite to its aim. That point is moved aside by this angle,
-# rad, off the rod that hangs at rest under its reference, where people start.
+# A continuous attracting field on S² vanishes at some other point; here, opposite its target. This angle, rad, shifts
+# that point away from the rod that hangs at rest below its reference, a common start.
 ANTIPODE_SHIFT = 0.03
 
 
 def carrying(reference: Reference) -> Path:
-    """The path of a bob carried so that the pivot is at `reference`(t).
+    """Return the path of the balanced bob with the pivot at `reference`(t).
 
-    The rod leans along g e₃ − F_b/m + p̈ with p = x_ref + l y, which is solved by two fixed-point steps; each shrinks
-    the error by (rate of the reference)² l/g.
+    The rod points along g e₃ − F_b/m + p̈ with p = x_ref + l y. Two fixed-point iterations solve for it; each reduces
+    the error by a factor (rate of the reference)² l/g.
     """
 
     def path(t: Any, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any]:
@@ -35,7 +35,7 @@ def carrying(reference: Reference) -> Path:
 
 
 def bob_reference(t: Any, reference: Reference, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any, Any, Any]:
-    """Position of the bob, its first three derivatives, and rod direction, for the pivot to be at `reference`(`t`).
+    """Return the bob's position, its first three derivatives, and the rod, with the pivot at `reference`(`t`).
 
     `on_bob` is the external force F_b on the bob of `vehicle`, N. See `carrying`.
     """
@@ -44,7 +44,7 @@ def bob_reference(t: Any, reference: Reference, vehicle: Vehicle, on_bob: Any) -
 
 
 def derivatives(value: Any, t: Any, count: int) -> list[Any]:
-    """The first `count` derivatives of the expression `value` with respect to the symbol `t`."""
+    """Return the first `count` derivatives of the expression `value` with respect to the symbol `t`."""
     out = []
     for _ in range(count):
         value = ca.jacobian(value, t)
@@ -53,9 +53,10 @@ def derivatives(value: Any, t: Any, count: int) -> list[Any]:
 
 
 def bob_acceleration(e: Any, v: Any, y: Any, k: Any) -> Any:
-    """Acceleration asked of the bob at position error `e` (m), velocity error `v` (m/s) and rod `y`, less gravity.
+    """Return the bob's desired acceleration at position error `e` (m), velocity error `v` (m/s) and rod `y`.
 
-    A position loop with softly limited error, and a throw: an upward speed asked for while the rod is low.
+    A position loop with a soft limit on the error, plus a throw: an upward speed demand while the rod is low. Gravity
+    is not included.
     """
     limited = soft(e, k.position_reach)
     throw = k.throw_speed * low_rod(y, k)
@@ -66,15 +67,15 @@ def bob_acceleration(e: Any, v: Any, y: Any, k: Any) -> Any:
 
 
 def flip_permission(y: Any, height: Any, climb: Any, k: Any) -> Any:
-    """1 where the bob climbs fast enough (`climb`, m/s), is high enough (`height` of the pivot, m) to flip, else 0.
+    """Return 1 where the bob's `climb` (m/s) and the pivot's `height` (m) suffice for a flip, else 0.
 
-    Flipping takes thrust away from the bob for a while; the permission comes when it can afford that.
+    A flip takes thrust away from the bob for a while; permission is granted once that is affordable.
     """
     return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / k.flip_width)
 
 
 def low_rod(y: Any, k: Any) -> Any:
-    """1 while the rod `y` is low, exactly 0 near upright, so that the throw leaves the equilibrium alone."""
+    """Return 1 while the rod `y` is low, and exactly 0 near upright, to leave the equilibrium unaffected."""
     return smooth_step((k.high_above - y[2]) / (k.high_above - k.low_below))
 
 
@@ -90,29 +91,29 @@ def rod_force(
     vehicle: Vehicle,
     k: Any,
 ) -> Any:
-    """Force on the quadrotor (3, 1), N, that steers rod and bob.
+    """Return the force on the quadrotor (3, 1), N, that controls rod and bob.
 
     Parameters
     ----------
     e, v : SX (3, 1)
         Position and velocity error of the bob, m, m/s.
     a_ref, jerk_ref : SX (3, 1)
-        Acceleration of the bob's reference and its rate.
+        Acceleration of the bob's reference, m/s², and its rate, m/s³.
     y, y_dot : SX (3, 1)
-        Rod and its rate.
+        Rod direction and its rate.
     height : SX
         Height of the pivot above its reference, m.
     on : (SX, SX)
         External forces on vehicle and bob, N.
     vehicle, k
-        The vehicle and the gains.
+        Vehicle and gains.
     """  # fmt: skip
     wish = demand(e, v, a_ref, jerk_ref, y, y_dot, vehicle.g * E3 - on[1] / vehicle.m, k)
     return steering_force(wish, v[2], y, y_dot, height, on, vehicle, k)
 
 
 class Demand(NamedTuple):
-    """What the bob asks of the rod, each (3, 1): A, its direction d = A/|A|, Ȧ, and ω_d = d × ḋ."""
+    """The bob's demand on the rod, each (3, 1): A, its direction d = A/|A|, Ȧ, and ω_d = d × ḋ."""
 
     A: Any
     d: Any
@@ -121,10 +122,10 @@ class Demand(NamedTuple):
 
 
 def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Any) -> Demand:
-    """A, d = A/|A|, Ȧ by a Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ω_d = d × Ȧ/|A|.
+    """Return A, d = A/|A|, Ȧ, the Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ω_d = d × Ȧ/|A|.
 
-    The law is a function of errors that are expressions themselves, so the derivative is taken on symbols of its own.
-    Arguments as in `rod_force`.
+    The errors are expressions themselves, so the derivative is taken with respect to fresh symbols. Other arguments
+    as in `rod_force`; `weight` is g e₃ − F_b/m, m/s².
     """
     at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
     asked = weight + at[2] + bob_acceleration(at[0], at[1], at[3], k)
@@ -139,7 +140,7 @@ def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight
 def steering_force(
     wish: Demand, climb: Any, y: Any, y_dot: Any, height: Any, on: tuple[Any, Any], vehicle: Vehicle, k: Any
 ) -> Any:
-    """Force on the quadrotor (3, 1), N, that turns the rod to the demand `wish` of a bob rising at `climb` m/s.
+    """Return the force on the quadrotor (3, 1), N, that turns the rod to `wish`, with the bob rising at `climb` m/s.
 
     Other arguments as in `rod_force`.
     """
@@ -147,7 +148,8 @@ def steering_force(
     on_vehicle, on_bob = on
     A, d, _, omega_d = wish
 
-    # Rod on S²: Lemma 2 towards d without the acceleration of d, its stiffness turned round until the flip is allowed.
+    # Rod on S²: Lemma 2 towards d without the acceleration of d; the stiffness has the opposite sign until a flip is
+    # permitted.
     v_e = y_dot - cross(omega_d, y)  # τ(y, d) ḋ = ω_d × y
     low = low_rod(y, k)
     share = 1 - low * (1 - flip_permission(y, height, climb, k)) * (1 + k.hanging_share)
@@ -163,53 +165,53 @@ def steering_force(
 
 
 def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Any) -> Any:
-    """Force on the quadrotor (3, 1), N, that carries everything as `A` asks and swings the rod up by its energy.
+    """Return the force on the quadrotor (3, 1), N, that meets the demand `A` and pumps the rod's energy.
 
     Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy
     E = |ẏ|²/2 + w² y₃ and E = w² upright at rest. The rest of F, M l κ (E/w² − 1) ẏ, makes Ė = −κ (E/w² − 1) |ẏ|².
-    E is all that it steers: circling on a cone of the same energy, the rod is left alone.
+    Only E is controlled: a rod circling on a cone at that energy stays there.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     w_squared = vehicle.weight / (M * l)
     missing = 1 - (dot(y_dot, y_dot) / 2 / w_squared + y[2])
-    push = y_dot + ANTIPODE_SHIFT * ca.sqrt(w_squared) * E1  # off the rest that hangs, where people start
+    push = y_dot + ANTIPODE_SHIFT * ca.sqrt(w_squared) * E1  # moves it off the hanging rest, a common start
     return (M + m) * A - scale(M * l * k.pump_rate * missing, push)
 
 
 def largest_thrust(vehicle: Vehicle) -> Any:
-    """Sum of the largest rotor forces, N."""
+    """Return the sum of the largest rotor forces, N."""
     return vehicle.rotor_limits[1] * len(vehicle.rotor_spins)
 
 
 def limited_force(F: Any, limit: Any) -> Any:
-    """F/(1 + (|F|/limit)⁸)^(1/8): a saturation of high order, because a soft one would shift hover."""
+    """Return F/(1 + (|F|/limit)⁸)^(1/8): a high-order saturation, since a softer one would shift hover."""
     ratio = dot(F, F) / limit**2
     return F / ca.sqrt(ca.sqrt(ca.sqrt(1 + ratio**4)))
 
 
 def lifted(F: Any, tilt: Any) -> Any:
-    """F with its vertical part raised until it is no further than `tilt` (rad, below π) from e₃; 0 stays 0."""
+    """Return F with its vertical part raised until F is at most `tilt` (rad, below π) from e₃; 0 stays 0."""
     level = ca.sqrt(F[0] ** 2 + F[1] ** 2 + 1e-12)
     return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
 
 
 def soft(value: Any, limit: Any) -> Any:
-    """Value/√(1 + |value|²/limit²): `value` for small ones, never longer than `limit`."""
+    """Return value/√(1 + |value|²/limit²): close to `value` if short, never longer than `limit`."""
     return value / ca.sqrt(1 + ca.dot(value, value) / limit**2)
 
 
 def smooth_step(q: Any) -> Any:
-    """0 below q = 0, 1 above q = 1, exactly, and twice differentiable, so that none jumps in ż_d."""
+    """Return exactly 0 below q = 0 and exactly 1 above q = 1; twice differentiable, so that ż_d has no jump."""
     q = ca.fmin(ca.fmax(q, 0), 1)
     return q * q * q * (10 - q * (15 - 6 * q))
 
 
 def coasted(y: Any, y_dot: Any, time: Any) -> tuple[Any, Any]:
-    """Rod direction and rate after coasting for `time` s: y + time ẏ drawn back to the sphere, and its velocity."""
+    """Return rod direction and rate after coasting for `time` s: y + time ẏ projected onto S², and its velocity."""
     factor = 1 / norm_of_sum(y_dot, time)
     return scale(factor, y + time * y_dot), scale(factor, y_dot - scale(time * dot(y_dot, y_dot), y))
 
 
 def norm_of_sum(y_dot: Any, time: Any) -> Any:
-    """|y + time ẏ| for tangent ẏ."""
+    """Return |y + time ẏ| for tangent ẏ."""
     return ca.sqrt(1 + time**2 * dot(y_dot, y_dot))

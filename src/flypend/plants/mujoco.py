@@ -22,6 +22,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache, partial
 from pathlib import Path
+from threading import Lock
 from typing import Any, ClassVar
 
 import casadi as ca
@@ -321,6 +322,10 @@ def substeps(duration: float) -> int:
     return max(1, int(np.ceil(duration / FLIGHT_STEP - 1e-9)))
 
 
+# Idle worlds that are kept: one a thread, for the few plants that a study goes through.
+MOST_IDLE = 16
+
+
 class MuJoCoWorld:
     """MuJoCo models and data for flights of one loop, passed to compiled code by address; for one thread at a time.
 
@@ -336,7 +341,8 @@ class MuJoCoWorld:
         Integrator step in each segment of a control period, s.
     """
 
-    _idle: ClassVar[dict[Any, list[MuJoCoWorld]]] = {}
+    _idle: ClassVar[list[tuple[Any, MuJoCoWorld]]] = []  # the one returned last stands last
+    _lock: ClassVar[Lock] = Lock()
 
     def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...], timesteps: tuple[float, ...]) -> None:
         mujoco = _import_mujoco()
@@ -366,12 +372,16 @@ class MuJoCoWorld:
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
         timesteps = tuple(length / substeps(length) for length in lengths)
         key = (plant.true_vehicle(loop.vehicle), tuple(plant.pivot_offset), timesteps)
-        idle = cls._idle.setdefault(key, [])
-        world = idle.pop() if idle else cls(*key)
+        with cls._lock:
+            place = next((i for i, (known, _) in enumerate(cls._idle) if known == key), None)
+            kept = None if place is None else cls._idle.pop(place)[1]
+        world = kept or cls(*key)
         try:
             yield world
         finally:
-            idle.append(world)
+            with cls._lock:
+                cls._idle.append((key, world))
+                del cls._idle[:-MOST_IDLE]
 
     def addresses(self, starts: Any) -> tuple[int, ...]:
         """Addresses for the compiled code, and the coordinates of packed `starts` (n, 24 or more), e₃-up frame."""

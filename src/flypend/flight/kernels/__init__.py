@@ -1,4 +1,4 @@
-"""Compiled kernels for a vehicle, a law and a plant: thousands of closed-loop runs a second on every core."""
+"""Compiled kernels for a vehicle, a law and a plant: thousands of closed-loop runs per second on each core."""
 
 from flypend.flight.kernels.flown import STATUS, Flown
 from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel

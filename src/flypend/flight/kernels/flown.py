@@ -1,4 +1,4 @@
-"""What a kernel gives, and the flying of many runs on all cores: from a queue or in pieces, while Python goes on."""
+"""Kernel results, and scheduling of many runs on all cores, from a queue or in pieces. Calls release the GIL."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from flypend.plants.loop import Loop
 
 Progress = Callable[[int, int], Any]
 
-# Runs that are worth a thread.
+# Fewest runs worth a thread.
 LEAST_SHARE = 64
 
-# Words of `Trajectory.outcome` for the codes of `flypend.compile.llvm.runge_kutta`.
+# Status strings of `Outcome` for the codes of `flypend.compile.llvm.runge_kutta`.
 STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
 
 
@@ -33,15 +33,15 @@ class Flown:
     final : (n, 24)
         Packed final states.
     end : (n,)
-        When each run ended, s.
+        End time of each run, s.
     code : (n,)
-        How: see `flypend.compile.llvm.runge_kutta`; `STATUS` has the words.
+        How it ended: see `flypend.compile.llvm.runge_kutta`. `STATUS` maps codes to strings.
     reductions : (n, 7), optional
-        As `criterion.REDUCTIONS` has it.
+        See `criterion.REDUCTIONS`.
     samples : (n, times, 24 or more), optional
-        States at the sample times, followed by the rotor forces in a sampled flight; NaN after the end.
+        States at the sample times, followed by rotor forces in a sampled flight; NaN after the end.
     steps : (n,), optional
-        Steps tried, in the ideal plant.
+        Attempted steps, in the ideal plant.
     """
 
     final: Any
@@ -53,7 +53,7 @@ class Flown:
 
     @classmethod
     def of_size(cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: bool) -> Flown:
-        """Memory for `runs` runs of states of `size`, to be written; `samples` (times, length) if they are kept."""
+        """Allocate results for `runs` runs with states of `size`; `samples` is (times, length) if they are kept."""
         return cls(
             final=np.empty((runs, size)),
             end=np.empty(runs),
@@ -64,7 +64,7 @@ class Flown:
         )
 
     def part(self, runs: slice) -> Flown:
-        """The results of `runs`, in the same memory."""
+        """Return views of the results of `runs`."""
         columns = {entry.name: getattr(self, entry.name) for entry in fields(self)}
         return Flown(**{name: None if column is None else column[runs] for name, column in columns.items()})
 
@@ -74,12 +74,12 @@ class Flown:
 
     @property
     def status(self) -> Any:
-        """How each run ended, in words (n,)."""
+        """Status string of each run (n,)."""
         return STATUS[self.code]
 
 
 def _aligned(shape: tuple[int, ...]) -> Any:
-    """New memory for an array of doubles, from the beginning of a cache line: rows of eight then share none."""
+    """Allocate an array of doubles at the start of a cache line, so that rows of eight share no line."""
     room = np.empty(int(np.prod(shape)) + 7)
     first = -room.ctypes.data // room.itemsize % 8
     return room[first : first + room.size - 7].reshape(shape)
@@ -92,9 +92,9 @@ def in_pieces(
     workers: int | None,
     progress: Progress = lambda *_: None,
 ) -> Flown:
-    """`out`, after `fly` wrote into its parts from `workers` threads, `piece` runs or fewer at a time.
+    """Call `fly` on pieces of at most `piece` runs in `workers` threads, and return `out`, which they fill.
 
-    `progress` is told (done, runs) after each piece. A run gives the same result in any piece and on any thread.
+    `progress` is called with (done, runs) after each piece. Results do not depend on piece size or thread.
     """
     runs, threads = len(out), workers or os.cpu_count() or 1
     slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
@@ -117,10 +117,10 @@ def in_pieces(
 def from_queue(
     fly: Callable[[Any], None], runs: int, workers: int | None, progress: Progress = lambda *_: None
 ) -> None:
-    """Let `fly` take `runs` runs from a queue (1,), the number of the next one, in `workers` threads at a time.
+    """Call `fly` in `workers` threads; all take their runs from one queue (1,), the index of the next run.
 
-    `progress` is told (taken, runs) ten times a second. An interruption leaves the queue empty and is raised once the
-    runs under way have ended.
+    `progress` is called with (started, runs) ten times a second. An interrupt empties the queue and is raised once the
+    runs in progress have ended.
     """
     queue = np.zeros(1, dtype=np.int64)
     threads = min(workers or os.cpu_count() or 1, runs // LEAST_SHARE)
@@ -141,7 +141,7 @@ def from_queue(
 
 
 def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:
-    """The inputs (runs, k) of a kernel of `loop`: `given`, or for None the gains of its law."""
+    """Return the inputs (runs, k) of a kernel of `loop`: `given`, or by default the gains of its law."""
     names = loop.parameters
     if given is None:
         given = np.broadcast_to([loop.symbolic.numbers[name] for name in names], (runs, len(names)))
@@ -152,5 +152,5 @@ def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:
 
 
 def address(array: Any) -> int | None:
-    """Where the numbers of a contiguous `array` are, for a kernel; None for none."""
+    """Return the address of a contiguous `array`'s data, to pass to a kernel; None for None."""
     return None if array is None else array.ctypes.data

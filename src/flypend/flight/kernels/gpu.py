@@ -1,4 +1,4 @@
-"""The ideal plant through JAX, for a GPU: the same programs on rows of one array. It also runs on a CPU."""
+"""The ideal plant in JAX, for a GPU: the same programs on rows of one array. It also runs on a CPU."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from flypend.flight.request import Flight
 from flypend.plants import Ideal
 from flypend.plants.loop import Loop
 
-# Runs that are under way together: what fits a cache, or what fills a GPU.
+# Runs integrated together: as many as fit the cache, or fill a GPU.
 LANES = {"cpu": 256}
 LANES_OF_GPU = 32768
 
@@ -32,7 +32,7 @@ class ArrayKernel:
     Parameters
     ----------
     loop : Loop
-        What flies, what steers it, and which gains may differ from run to run.
+        Vehicle, law, and the gains that may differ between runs.
     function : callable
         The integrator of `flypend.compile.jax.array_steps`.
     """
@@ -48,14 +48,14 @@ class ArrayKernel:
         parameters: NDArray[np.float64] | None = None,
         judge_at: ArrayLike = (),
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the frame of the law, on JAX's default device.
+        """Fly all `starts` (n, 24), in the law's frame, on JAX's default device.
 
         Parameters
         ----------
         starts
             Packed states.
         setting : tuple
-            Duration (s), rtol, atol, and the most steps: a run with more ends as diverged.
+            Duration (s), rtol, atol, and step limit: a run that exceeds it ends as diverged.
         parameters, judge_at
             As in `IdealKernel.fly`.
 
@@ -81,9 +81,9 @@ class ArrayKernel:
 
 
 def fly_on_jax(flight: Flight) -> Flown:
-    """Fly every start of `flight` by JAX, judged on its grid.
+    """Fly every start of `flight` in JAX, with the criterion evaluated on its grid.
 
-    Raises InputError for what it lacks: sampled plants, floats, states kept on the way; and without JAX.
+    Raises InputError for what this engine lacks (sampled plants, single precision, sample times), or if JAX is missing.
     """
     law = flight.loop.symbolic
     if not isinstance(flight.plant, Ideal):
@@ -98,7 +98,7 @@ def fly_on_jax(flight: Flight) -> Flown:
 
 @lru_cache(maxsize=16)
 def array_kernel(loop: Loop, criterion: Criterion | None = None, *, method: str = "dp5") -> ArrayKernel:
-    """The closed `loop` in JAX (extra "gpu"), compiled when it first flies.
+    """Build the closed `loop` in JAX (extra "gpu"); it is compiled on its first flight.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def array_kernel(loop: Loop, criterion: Criterion | None = None, *, method: str 
     Raises
     ------
     InputError
-        Without JAX, for an unknown method or gain, and for a law with operations that cannot be compiled.
+        If JAX is missing, the method or a gain is unknown, or the law has operations that cannot be compiled.
     """
     errors.require("jax", extra="gpu", for_="engine")
     from jax import default_backend
@@ -121,13 +121,13 @@ def array_kernel(loop: Loop, criterion: Criterion | None = None, *, method: str 
 
 
 def _rows(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """`values` (n, k) as rows (k, m), n filled up to a power of two: JAX compiles for every m."""
+    """Return `values` (n, k) as rows (k, m), n padded to a power of two m, since JAX recompiles for every m."""
     n = len(values)
     return np.pad(values, ((0, (1 << (n - 1).bit_length()) - n), (0, 0)), mode="edge").T.copy()
 
 
 def _doubles() -> AbstractContextManager[Any]:
-    """JAX with doubles inside, and as it was outside."""
+    """Enable double precision in JAX within the context."""
     import jax
 
     holder = jax if hasattr(jax, "enable_x64") else import_module("jax.experimental")

@@ -1,4 +1,4 @@
-"""The kernel of the ideal plant: continuous time, the wrench acts as commanded."""
+"""The kernel of the ideal plant: continuous time; the wrench acts as commanded."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from flypend.model import State
 from flypend.model.state import MAX_STATE, SIZE, project_symbolic
 from flypend.plants.loop import Loop
 
-# Bytes of a vector. A long program is a long chain of dependent operations: two registers side by side keep the
-# processor busy while it waits. A short one is better off with all registers for one.
+# Bytes of a SIMD vector. A long program is a long chain of dependent operations: two registers side by side hide its
+# latency. A short program runs faster with one register per vector.
 SHORT, LONG = 64, 128
 OPERATIONS_OF_LONG = 800
 BYTES = {"double": 8, "float": 4}
@@ -38,9 +38,10 @@ MAX_STEPS = 1_000_000
 
 
 class Moments(NamedTuple):
-    """Times of a run as a kernel takes them: s, increasing, infinity at the end; which are judged, and which kept.
+    """Sample times of a run in a kernel's format.
 
-    `judged` is 1 or 0 for each. `rows` is the number of samples kept before each, and in all.
+    `times` (s) increase and end with infinity. `judged` is 1 where the criterion is evaluated, else 0. `rows` holds the
+    number of samples kept before each time, and finally the total.
     """
 
     times: NDArray[np.float64]
@@ -49,7 +50,7 @@ class Moments(NamedTuple):
 
     @classmethod
     def of(cls, judge_at: ArrayLike = (), keep_at: ArrayLike | None = None) -> Moments:
-        """The moments of a run that is judged at some times, and whose states are kept at others."""
+        """Merge the times at which the criterion is evaluated and those at which states are kept."""
         judge, keep = (np.asarray(() if some is None else some, dtype=float) for some in (judge_at, keep_at))
         times = np.append(np.union1d(judge, keep), np.inf)
         before = np.append(0, np.cumsum(np.isin(times[:-1], keep)))
@@ -68,13 +69,13 @@ class IdealKernel:
     Parameters
     ----------
     loop : Loop
-        What flies, what steers it, and which gains may differ from run to run.
+        Vehicle, law, and the gains that may differ between runs.
     criterion : Criterion
-        What counts as a success.
+        Success criterion.
     function : callable
         The compiled kernel.
     key : str
-        What determines the kernel, processor and versions apart.
+        Cache key: everything that determines the kernel, except processor and versions.
     """
 
     loop: Loop
@@ -97,28 +98,28 @@ class IdealKernel:
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds.
+        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds.
 
         Parameters
         ----------
         starts, duration
-            Packed states; how long, s.
+            Packed states; flight time, s.
         rtol, atol : float
-            Tolerances of a step; atol defaults to rtol.
+            Tolerances per step; atol defaults to rtol.
         parameters : (n, k), optional
-            Values of the gains that vary; default those of the law.
+            Values of the varying gains; default those of the law.
         judge_at : (j,)
-            Increasing times, s, at which a run is judged.
+            Increasing times, s, at which the criterion is evaluated.
         keep_at : (t,), optional
-            Increasing times, s, at which its state is kept. They change nothing of how it is judged.
+            Increasing times, s, at which states are kept. They do not affect the criterion.
         judge : bool
-            Whether the runs are judged; without it `Flown.reductions` is None.
+            Whether to evaluate the criterion; if not, `Flown.reductions` is None.
         max_steps : int
-            A run that needs more is given up as diverged; default a million.
+            A run that needs more steps ends as diverged; default a million.
         workers : int, optional
             Threads; default one per core.
         progress : callable
-            Told `(taken, runs)`.
+            Called with `(started, runs)`.
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = inputs_of(self.loop, parameters, len(starts))
@@ -136,13 +137,13 @@ class IdealKernel:
 
 
 def lane_count(problem: Problem, precision: str) -> int:
-    """Lanes of the kernel of `problem`: the width at which it is fastest."""
+    """Return the number of SIMD lanes with which the kernel of `problem` is fastest."""
     size = LONG if sum(problem.rates.counts().values()) > OPERATIONS_OF_LONG else SHORT
     return size // BYTES[precision]
 
 
 def setting_of(flight: Flight) -> tuple[float, float, float, int]:
-    """Duration (s), rtol, atol and the most steps of the runs of `flight`."""
+    """Return duration (s), rtol, atol and step limit of `flight`."""
     exact = flight.tolerances
     return flight.duration, exact.rtol, exact.absolute, exact.max_steps or MAX_STEPS
 
@@ -155,10 +156,10 @@ def integrate(
     times: ArrayLike,
     knots: NDArray[np.float64] | None = None,
 ) -> Flown:
-    """One run by a compiled ideal kernel from `start` (24,), its states at increasing `times` kept.
+    """Fly one run by a compiled ideal kernel from `start` (24,), keeping the states at increasing `times`.
 
-    `values` (1, k) are those of its parameters, `setting` as in `call`. `knots` receives the number of accepted steps
-    and four numbers for each: its time, and the drift from the manifold.
+    `values` (1, k) are the parameter values, `setting` as in `call`. `knots` receives the number of accepted steps
+    and four numbers for each: its time, and the drift (3,) before projection.
     """
     moments = Moments.of(keep_at=times)
     out = Flown.of_size(1, SIZE, samples=(moments.kept, SIZE), steps=True, judged=False)
@@ -178,8 +179,8 @@ def call(
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
-    `setting` is duration (s), rtol, atol and the most steps; `out` is written, and `knots` as in `integrate`. Calls in
-    several threads share one `queue` (1,), the number of the next run, and with it the runs.
+    `setting` is duration (s), rtol, atol and step limit. `out` is filled, and `knots` as in `integrate`. Calls in
+    several threads share the runs through one `queue` (1,), the index of the next run.
     """
     queue = np.zeros(1, dtype=np.int64) if queue is None else queue
     function(
@@ -194,23 +195,23 @@ def call(
 def ideal_kernel(
     loop: Loop, criterion: Criterion | None = None, *, method: str = "dop853", precision: str = "double"
 ) -> IdealKernel:
-    """The kernel of a `loop` in continuous time, compiled or from the cache; its plant does not matter.
+    """Return the kernel of a `loop` in continuous time, compiled or from the cache. The loop's plant is ignored.
 
     Parameters
     ----------
     loop : Loop
-        What flies and what steers it. Its parameters are inputs, its other gains constants of the machine code.
+        Vehicle and law. The loop's parameters are inputs; all other gains are constants of the machine code.
     criterion : Criterion, optional
-        What counts as a success (default: inverted).
+        Success criterion (default: inverted).
     method : "dop853" or "dp5"
-        Order 8 for tight tolerances, order 5 for 1e-6 and looser.
+        Order 8 for tight tolerances; order 5 for 1e-6 and looser.
     precision : "double" or "float"
-        Of all arithmetic.
+        Precision of all arithmetic.
 
     Raises
     ------
     InputError
-        For an unknown method, precision or gain, and for a law with operations that cannot be compiled.
+        If the method, precision or a gain is unknown, or the law has operations that cannot be compiled.
     """
     criterion = criterion or Criterion()
     one_of("precision", precision, BYTES)
@@ -221,7 +222,7 @@ def ideal_kernel(
 
 
 def compiled(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
-    """The kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
+    """Return the kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
     width = lane_count(problem, precision)
 
     def module() -> ir.Module:
@@ -237,7 +238,7 @@ def compiled(key: str, problem: Problem, method: str, precision: str = "double")
 
 
 def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
-    """The closed `loop` as programs, judged by `criterion`, with its parameters as inputs."""
+    """Return the closed `loop` and `criterion` as programs, with the loop's parameters as inputs."""
     vehicle, law = loop.vehicle, loop.symbolic
     symbols = symbolic_loop(vehicle, law, loop.parameters)
     inputs = [symbols.t, symbols.s, symbols.p]
@@ -262,7 +263,7 @@ def _margin(symbols: SymbolicLoop, law: BoundLaw, inputs: list[Any]) -> Program 
 
 
 def _projection() -> ca.Function:
-    """A packed state → that state on the manifold, and the drift (3,) before."""
+    """Return packed state → state projected onto the manifold, and drift (3,) before projection."""
     packed = ca.SX.sym("s", 24)
     s = State.symbolic(packed)
     defect = s.R.T @ s.R - ca.SX.eye(3)

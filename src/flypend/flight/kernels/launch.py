@@ -1,4 +1,4 @@
-"""From a request to the kernel that flies it."""
+"""From a request to its kernel."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from flypend.plants.loop import Loop
 
 
 def has_kernel(flight: Flight) -> bool:
-    """Whether `flight` can be compiled: whether its law is one in symbols."""
+    """Whether `flight` can be compiled, that is, has a symbolic law."""
     return isinstance(flight.law, BoundLaw)
 
 
 def kernel_of(flight: Flight) -> IdealKernel | SampledKernel:
-    """The kernel of `flight`, compiled or from the cache. Raises InputError where none can be made."""
+    """Return the kernel of `flight`, compiled or from the cache. Raises InputError if it cannot be compiled."""
     return kernel_for(flight.loop, flight.criterion, flight.tolerances)
 
 
 def kernel_for(loop: Loop, criterion: Criterion, exact: Tolerances) -> IdealKernel | SampledKernel:
-    """The kernel of `loop`, judged by `criterion` and, in the ideal plant, as `exact` as that."""
+    """Return the kernel of `loop` for `criterion`; in the ideal plant, with the method and precision of `exact`."""
     if isinstance(loop.plant, Sampled):
         return sampled_kernel(loop, criterion)
     return ideal_kernel(loop, criterion, method=exact.method_for(loop.symbolic), precision=exact.precision)
 
 
 def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = lambda *_: None) -> Flown:
-    """Fly every start of `flight` once, judged on its grid, states kept at its times if it has any.
+    """Fly every start of `flight`, with the criterion evaluated on its grid and states kept at its times, if any.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = 
     workers : int, optional
         Threads; default one per core.
     progress : callable
-        Told `(taken, runs)`.
+        Called with `(started, runs)`; `(done, runs)` in a sampled plant.
     """
     kernel, exact, times = kernel_of(flight), flight.tolerances, flight.times
     if isinstance(kernel, IdealKernel):

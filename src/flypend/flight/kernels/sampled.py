@@ -1,4 +1,4 @@
-"""The kernel of sampled flights: the board and a world around it, compiled for many flights at a time."""
+"""The kernel of sampled flights: the board and the world around it, compiled for many flights at a time."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ from flypend.plants.plant import Noise, Plant, Wind
 from flypend.plants.schedule import steps_in, within_period
 
 WIDTH = 8
-# Runs that a thread takes at a time; MuJoCo flies one after the other, each some tens of milliseconds.
+# Runs per piece of work; MuJoCo flies them one by one, some tens of milliseconds each.
 PIECE, PIECE_MUJOCO = 4 * WIDTH, 1
 
 
 class Ticks(NamedTuple):
-    """Control ticks as the kernel takes them, increasing: which are judged (1 or 0), and samples kept before each."""
+    """Increasing control ticks in a kernel's format: `judged` (1 or 0), and `rows`, the samples kept before each."""
 
     ticks: NDArray[np.int64]
     judged: NDArray[np.int64]
@@ -48,7 +48,7 @@ class Ticks(NamedTuple):
 
     @classmethod
     def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
-        """The ticks of a run that is judged at some, and whose states are kept at others; `rows` ends with all."""
+        """Merge the ticks at which the criterion is evaluated and those kept; `rows` ends with the total."""
         judge, keep = (np.asarray(() if some is None else some, dtype=np.int64) for some in (judge_at, keep_at))
         ticks = np.union1d(judge, keep)
         rows = np.append(0, np.cumsum(np.isin(ticks, keep)))
@@ -57,18 +57,18 @@ class Ticks(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SampledKernel:
-    """A compiled sampled flight. Lag, noise and wind of the plant are inputs: see `structure`.
+    """A compiled sampled flight. The plant's lag, noise and wind are inputs: see `structure`.
 
     Parameters
     ----------
     loop : Loop
-        What flies, what steers it, through what; its `parameters` are the gains that may differ from run to run.
+        Vehicle, law and plant; its `parameters` are the gains that may differ between runs.
     criterion : Criterion
-        What counts as a success.
+        Success criterion.
     function : callable
         The compiled kernel.
     key : str
-        What determines the kernel, processor and versions apart.
+        Cache key: everything that determines the kernel, except processor and versions.
     """
 
     loop: Loop
@@ -77,7 +77,7 @@ class SampledKernel:
     key: str
 
     def through(self, plant: Plant) -> SampledKernel:
-        """The same machine code for another `plant` of the same `structure`. Raises ValueError for one of another."""
+        """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
         if structure(plant) != structure(self.loop.sampled):
             raise ValueError("a plant of the same structure is needed")
         return replace(self, loop=replace(self.loop, plant=plant))
@@ -95,27 +95,27 @@ class SampledKernel:
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the frame of the law, for `duration` seconds.
+        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds.
 
         Parameters
         ----------
         starts, duration
-            Packed states; how long, s.
+            Packed states; flight time, s.
         judge_at : (j,) of int
-            Increasing control ticks at which a run is judged.
+            Increasing control ticks at which the criterion is evaluated.
         keep_at : (t,) of int, optional
-            Increasing control ticks at which state and rotor forces are kept, in the frame of the law. They change
-            nothing of how a run is judged.
+            Increasing control ticks at which state (in the law's frame) and rotor forces are kept. They do not affect
+            the criterion.
         first_seed : int
-            Seed of the first run; the next has the next.
+            Seed of the first run, increasing by 1 per run.
         parameters : (n, k), optional
-            Values of the gains that vary; default those of the law.
+            Values of the varying gains; default those of the law.
         rotors : (n, rotors), optional
-            Forces with which the rotors begin, N; default the least.
+            Initial rotor forces, N; default their minimum.
         workers : int, optional
             Threads; default one per core.
         progress : callable
-            Told `(done, runs)`.
+            Called with `(done, runs)`.
         """
         loop, vehicle = self.loop, self.loop.vehicle
         packed = seen_packed(np.ascontiguousarray(starts, dtype=float), loop.law.e3)
@@ -157,9 +157,9 @@ class SampledKernel:
 
 
 def structure(plant: Plant) -> Plant:
-    """`plant` without the numbers that the machine code takes as inputs: lag, noise and wind, and without its seed.
+    """Return `plant` without its seed and the machine code's inputs: lag, noise and wind.
 
-    Whether there is noise, wind, and anything to be drawn remains.
+    It keeps whether there is noise, wind, or anything random.
     """
     gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))))
     return plant.replace(
@@ -172,7 +172,7 @@ def _without_lag(plant: Plant) -> dict[str, float]:
 
 
 def plant_numbers(loop: Loop) -> Any:
-    """The numbers of the plant of `loop` that the machine code takes, as `SampledProblem.inputs` counts them."""
+    """Return the plant parameters that the machine code inputs, in the order of `SampledProblem.inputs`."""
     plant = loop.sampled
     period, lag = 1 / plant.rate, plant.true_vehicle(loop.vehicle).rotor_lag
     if plant.engine == "equations":
@@ -185,30 +185,30 @@ def plant_numbers(loop: Loop) -> Any:
 
 
 def _flown(plant: Plant) -> list[tuple[int, float, int]]:
-    """What the world goes through in a control period: age of the command, seconds, steps."""
+    """Return the segments of a control period: age of the command, duration (s), steps."""
     segments = within_period(plant.delay, 1 / plant.rate)
     return [(age, while_, steps_in(while_, plant)) for age, while_ in segments]
 
 
 def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
-    """The kernel of flights of `loop`, judged by `criterion`, compiled or from the cache.
+    """Return the kernel of `loop` for `criterion`, compiled or from the cache.
 
     Parameters
     ----------
     loop : Loop
-        Vehicle, bound law, sampled plant, and the gains that may differ from run to run; lead, latency and observer of
-        the flight computer may not.
+        Vehicle, bound law, sampled plant, and the gains that may differ between runs; the flight computer's lead,
+        latency and observer may not.
     criterion : Criterion
-        What counts as a success.
+        Success criterion.
 
     Raises
     ------
     InputError
-        For an unknown gain, and for a law with operations that cannot be compiled.
+        If a gain is unknown, or the law has operations that cannot be compiled.
     """
     compiled = structure(loop.sampled)
     if loop.sampled.engine == "mujoco" and loop.sampled.true_vehicle(loop.vehicle).rotor_lag == 0:
-        compiled = compiled.replace(lag=0.0)  # rotors without lag are no filters
+        compiled = compiled.replace(lag=0.0)  # rotors without lag need no filter
     return _structured(replace(loop, plant=compiled), criterion).through(loop.sampled)
 
 
@@ -228,7 +228,7 @@ def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
 
 
 def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
-    """The flights of `loop` as programs, judged by `criterion`."""
+    """Return the flights of `loop` and `criterion` as programs."""
     vehicle, plant = loop.vehicle, loop.sampled
     true = plant.true_vehicle(vehicle)
     flight_computer = board(loop)
@@ -257,14 +257,14 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
 
 
 def _begin(loop: Loop) -> Program:
-    """(rotors) → (memory of the board, command before the first)."""
+    """Return (rotors) → (memory of the board, idle command)."""
     rotors = ca.SX.sym("r", len(loop.vehicle.rotor_spins))
     outputs = [ca.densify(initial_memory(loop, rotors)), ca.densify(ca.SX(idle_command(loop, rotors)))]
     return lower(ca.Function("begin", [rotors], outputs))
 
 
 def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
-    """(t, state and rotor forces with e₃ up, gains) → what `criterion.REDUCTIONS` reduce."""
+    """Return (t, state and rotor forces with e₃ up, gains) → values that `criterion.REDUCTIONS` reduce."""
     law = loop.symbolic
     n = len(loop.vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))

@@ -1,4 +1,4 @@
-"""Single runs by kernel, with what a trajectory wants to know of them."""
+"""Single runs by kernel, with the details that a trajectory needs."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from flypend.model.state import MAX_STATE, SIZE, seen_packed
 REASONS = {
     runge_kutta.DIVERGED: f"the state left |s| < {MAX_STATE:g}",
     runge_kutta.UNDEFINED: "the law is not defined at the start (0/0 in a rate); move the start or add a floor",
-    runge_kutta.TOO_SMALL: "The step became too small. Loosen rtol, or see what the state does before this time.",
+    runge_kutta.TOO_SMALL: "The step became too small. Loosen rtol, or inspect the state before this time.",
     runge_kutta.TOO_MANY: f"{MAX_STEPS} steps were not enough",
 }
 
 
 class Solution:
-    """A run of the ideal plant by `kernel`, from the single start of `flight`: its `outcome`, its states at any times.
+    """A run of the ideal plant by `kernel` from the single start of `flight`: its `outcome` and its states at any time.
 
-    `knots` (k+1,) are the times of its k accepted steps, `drift` (k, 3) says how far off the manifold each step ended.
-    The same steps are taken whichever times are asked for, so that every answer belongs to one solution. `parameters`
-    (k,) are values of the gains that the kernel takes as inputs; default those of its law.
+    `knots` (k+1,) are the start time and the ends of the k accepted steps, `drift` (k, 3) is the drift before
+    projection. The steps do not depend on the requested times, so all states belong to one solution. `parameters` are
+    the values of the kernel's input gains; default those of its law.
     """
 
     def __init__(self, kernel: IdealKernel, flight: Flight, parameters: NDArray[np.float64] | None = None) -> None:
@@ -47,7 +47,7 @@ class Solution:
         return integrate(self._function, self._start, self._values, self._setting, times, room)
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
-        """States (len(t), 24) at times inside the run, from the dense output of the method, projected."""
+        """Return the states (len(t), 24) at times within the run, from the method's dense output, projected."""
         times, place = np.unique(np.atleast_1d(np.asarray(t, dtype=float)), return_inverse=True)
         samples: NDArray[np.float64] = self._fly(times).samples[0]
         samples[times <= 0] = self._start
@@ -67,9 +67,9 @@ def sampled_samples(
     parameters: NDArray[np.float64] | None = None,
     rotors: NDArray[np.float64] | None = None,
 ) -> Samples:
-    """The samples, at the control ticks nearest to its times, of a `flight` from a single start by `kernel`.
+    """Fly a `flight` with a single start by `kernel`, and return samples at the control ticks nearest to its times.
 
-    `parameters` (k,) are gains that the kernel takes as inputs, `rotors` the forces (n,) that the rotors begin with.
+    `parameters` (k,) are the kernel's input gains, `rotors` (n,) the initial rotor forces, N.
     """
     law, plant = kernel.loop.law, kernel.loop.sampled
     ticks = nearest_ticks(flight.moments, plant, flight.duration)

@@ -1,6 +1,6 @@
-"""The kernel of the ideal plant with its tangent: a state, and a direction in which start and gains change.
+"""The kernel of the ideal plant with its variational equation.
 
-One run carries one direction v of the state and q of the gains: ṡ = F(t, s, p), v̇ = F_s v + F_p q, by forward
+Each run propagates one direction, v of the state and q of the gains: ṡ = F(t, s, p), v̇ = F_s v + F_p q, by forward
 derivatives of the same program.
 """
 
@@ -25,14 +25,14 @@ from flypend.plants.loop import Loop
 
 
 def fly_tangents(flight: Flight, gains: tuple[str, ...], directions: Any, rates: Any) -> Flown:
-    """Fly the one start of `flight` in many `directions`; final states (n, 48) are states and their derivatives.
+    """Fly the single start of `flight` along many `directions`; final states (n, 48) hold state and derivative.
 
     Parameters
     ----------
     flight : Flight
         A request with a single start, in the ideal plant.
     gains : tuple of str
-        Which may change, k of them.
+        The k gains that vary.
     directions : (n, 24)
         Directions of the start, tangent to the manifold.
     rates : (n, k)
@@ -54,7 +54,7 @@ def _kernel(loop: Loop) -> jit.Native:
 
 
 def tangent_problem(closed: Loop) -> Problem:
-    """State and direction (48) with parameters and their direction (2 k), of the `closed` loop."""
+    """Return the `closed` loop as programs on (state, direction) (48,) and (parameters, their direction) (2 k,)."""
     law, k = closed.symbolic, len(closed.parameters)
     loop = symbolic_loop(closed.vehicle, law, closed.parameters)
     both, parameters = ca.SX.sym("sv", 2 * SIZE), ca.SX.sym("pq", 2 * k)
@@ -71,13 +71,13 @@ def tangent_problem(closed: Loop) -> Problem:
     return Problem(
         rates=lower(ca.Function("rates", inputs, rates)),
         project=lower(_projection(both)),
-        observe=lower(ca.Function("observe", inputs, [ca.SX(0, 1)])),  # nothing is judged
+        observe=lower(ca.Function("observe", inputs, [ca.SX(0, 1)])),  # there is no criterion
         reductions=(),
         margin=margin,
     )
 
 
 def _projection(both: Any) -> ca.Function:
-    """The state is drawn back onto the manifold; its derivative changes by no more than a step's error."""
+    """Project the state onto the manifold; this would change the derivative by no more than a step's error."""
     out = ca.vertcat(project_symbolic(both[:SIZE]), both[SIZE:])
     return ca.Function("project", [both], [ca.densify(out), ca.DM.zeros(3)])

@@ -13,7 +13,7 @@ from flypend.model.state import SHAPES
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 
 OWN = "from flypend.settings.laws import law_from\n"
-POKED = "# The flight without the pokes of the laboratory.\n"
+POKED = "# The pokes of the laboratory are left out.\n"
 
 
 def toml(setting: Setting) -> str:

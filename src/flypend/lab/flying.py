@@ -140,7 +140,7 @@ def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
 
 
 def _moved(part: Part, begin: float, *, last: bool) -> Part:
-    """Shift `part` to flight time and drop its last sample, which the next part repeats."""
+    """Shift `part` to flight time; unless the flight ends, drop its last sample, which the next part repeats."""
     keep = slice(None) if last or part.outcome.status != "completed" else slice(0, -1)
     outcome = Outcome(part.outcome.status, begin + part.outcome.time, part.outcome.reason)
     return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)

@@ -461,3 +461,9 @@ def test_lines_and_words_of_a_page_stand_out_from_its_background(theme, ground):
     # Graphics; green and pink of Okabe and Ito are a little paler on white than the 3 of WCAG.
     assert min(contrast(role) for role in ("rod", "trail", "thrust", "reference", "ghost", "rotor1", "rotor2")) > 3
     assert min(contrast(role) for role in ("rotor3", "rotor4")) > 2.5
+
+
+def test_the_title_names_only_options_that_are_not_the_usual_ones():
+    vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
+    full, light = (fp.simulate(vehicle, fp.laws.inverted(form=form), start, 0.1) for form in ("full", "light"))
+    assert (canvas.title(full), canvas.title(light)) == ("inverted law", "inverted law, form light")

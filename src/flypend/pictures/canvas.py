@@ -7,6 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from flypend.flight.trajectory import Trajectory
+from flypend.laws.named import FACTORIES
 
 LABEL, SMALL = 8.0, 7.0  # font sizes, pt
 
@@ -19,8 +20,10 @@ def new_figure(width: float, height: float, dpi: float = 200) -> Figure:
 
 
 def title(run: Trajectory, between: str = ", ") -> str:
-    """The name of the law, its options and its gains, joined by `between`."""
-    options = [f"{name} {value}" for name, value in run.gains.items() if isinstance(value, str)]
+    """The name of the law, those of its options that are not the usual ones, and its gains, joined by `between`."""
+    usual = FACTORIES[run.law]().values if run.law in FACTORIES else {}
+    chosen = {name: value for name, value in run.gains.items() if isinstance(value, str) and value != usual.get(name)}
+    options = [f"{name} {value}" for name, value in chosen.items()]
     gains = [f"${name}$ = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
     return between.join(filter(None, [", ".join([f"{run.law} law", *options]), ", ".join(gains)]))
 

@@ -17,6 +17,10 @@ class InputError(ValueError):
         self.field, self.expected, self.got = field, expected, got
         super().__init__(f"{field}: expected {expected}, got {' '.join(str(got).split())}")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the three fields, so that the error survives the trip between processes."""
+        return (InputError, (self.field, self.expected, str(self.got)))
+
 
 def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool = False) -> Any:
     """Convert `value` to a finite float array of `shape` (None: any length); `batch` allows leading batch axes.

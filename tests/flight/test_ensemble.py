@@ -301,3 +301,17 @@ def test_states_that_are_kept_change_no_verdict(starts):
     )
     for name in FIELDS:
         np.testing.assert_array_equal(getattr(plain, name), getattr(kept, name), err_msg=name)
+
+
+@pytest.mark.parametrize("plant", ["rotors", "ideal", "mujoco"])
+@pytest.mark.parametrize(("law", "gain"), [("inverted", "lead"), ("inverted", "observer"), ("lqr", "position_error")])
+def test_gains_per_run_that_change_nothing_are_refused(plant, law, gain):
+    starts, vehicle = fp.random_starts(2, 1), fp.vehicle("hehn2011")
+    with pytest.raises(fp.InputError, match=rf"^law\.gains\.{gain}: "):
+        simulate_ensemble(vehicle, getattr(fp.laws, law)(), starts, 0.1, plant=plant, gains={gain: [1.5, 2.0]})
+
+
+def test_gains_of_a_callable_that_does_not_take_them_are_refused():
+    law = fp.Controller(name="push", function=lambda t, state: fp.Wrench(1.0, np.zeros(3)), gains={"k": 1.0})
+    with pytest.raises(fp.InputError, match=r"^gains: "):
+        simulate_ensemble(fp.vehicle("hehn2011"), law, fp.random_starts(2, 1), 0.1, gains={"k": [1.0, 2.0]})

@@ -42,6 +42,16 @@ def test_it_is_the_flight_step_by_step(name):
     np.testing.assert_allclose(ours[:, 24:], steps.rotors, rtol=0, atol=1e-8)
 
 
+@pytest.mark.parametrize("own", [0.0, 0.02])
+@pytest.mark.parametrize("lag", [None, 0.0, 0.03])
+def test_the_lag_of_vehicle_and_plant_in_any_combination(own, lag):
+    vehicle, plant = VEHICLE.replace(rotor_lag=own), MUJOCO.replace(lag=lag)
+    start = fp.State.random(np.random.default_rng(8))
+    runs = [fp.simulate(vehicle, fp.laws.inverted(), start, 0.4, plant=plant, engine=e) for e in ("kernel", "scipy")]
+    np.testing.assert_allclose(runs[0].packed, runs[1].packed, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(runs[0].rotor_forces, runs[1].rotor_forces, rtol=0, atol=1e-8)
+
+
 def test_it_is_not_the_flight_in_our_own_equations():
     """Negative control, and what the two engines differ by: rotors by RK4 in place of an exponential."""
     start = fp.State.random(np.random.default_rng(5))

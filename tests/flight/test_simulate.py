@@ -308,3 +308,18 @@ def test_the_wrong_kind_of_thing_is_refused():
         with pytest.raises(fp.InputError, match=line) as caught:
             fp.simulate(*arguments, 1.0, plant="ideal")
         assert "\n" not in str(caught.value)
+
+
+def test_a_sampled_run_that_ends_early_is_sampled_up_to_its_end():
+    vehicle = fp.vehicle("hehn2011")
+    law = fp.Law(
+        name="breaks", e3="up", control=lambda t, s, v, k: fp.Wrench(v.weight / ca.sqrt(0.3 - t), -0.1 * s.omega)
+    )
+    for times in (None, [0.1, 0.5], [0.9]):
+        kernel, steps = (
+            fp.simulate(vehicle, law, fp.State(y=(0, 0, 1)), 1.0, times=times, engine=e) for e in ("kernel", "scipy")
+        )
+        assert kernel.outcome.status == "singular"
+        assert kernel.t[-1] == pytest.approx(kernel.outcome.time, abs=1e-12)
+        np.testing.assert_allclose(kernel.t, steps.t, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(kernel.packed, steps.packed, rtol=0, atol=1e-9)

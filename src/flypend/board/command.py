@@ -11,6 +11,7 @@ import numpy as np
 from flypend.board.believed import Believed
 from flypend.geometry import apply, cross
 from flypend.laws import BoundLaw, Controller
+from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
@@ -67,6 +68,7 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
     wrench = steer(t, packed, forces, path, gains, believed.vehicle)
+    check_parameters(loop.law.name, wrench, loop.parameters, p)
     wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)  # time when the command is applied
     command = finished(loop, believed, wrench, packed, rotors)
     inputs = [t, packed, rotors, forces, path, p, believed.symbols]

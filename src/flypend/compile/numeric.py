@@ -3,25 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from threading import Lock, local
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
+_lock = Lock()  # CasADi hands out the memory of a function
+
 
 def as_numpy(function: ca.Function) -> Callable[..., Any]:
     """Wrap a CasADi `function` with dense scalar or vector inputs and outputs as a callable on numbers and arrays.
 
-    A single output is returned as an array (n,), several as a tuple of arrays. The callable is not thread-safe.
+    A single output is returned as an array (n,), several as a tuple of arrays. Every thread that calls it has buffers
+    of its own.
 
     Raises ValueError if an output is sparse.
     """
-    buffer, trigger = function.buffer()
-    inputs = [np.zeros(function.nnz_in(i)) for i in range(function.n_in())]
-    outputs = [np.zeros(function.nnz_out(i)) for i in range(function.n_out())]
     for i in range(function.n_out()):
         if function.nnz_out(i) != function.numel_out(i):
             raise ValueError(f"output {i} of {function.name()} is sparse; densify it")
+    own = local()
+
+    def call(*values: Any) -> Any:
+        if not hasattr(own, "call"):
+            with _lock:
+                own.call = _buffered(function)
+        return own.call(*values)
+
+    return call
+
+
+def _buffered(function: ca.Function) -> Callable[..., Any]:
+    """The same with one set of buffers, for one thread."""
+    buffer, trigger = function.buffer()
+    inputs = [np.zeros(function.nnz_in(i)) for i in range(function.n_in())]
+    outputs = [np.zeros(function.nnz_out(i)) for i in range(function.n_out())]
     for i, array in enumerate(inputs):
         buffer.set_arg(i, memoryview(array))  # type: ignore[arg-type]
     for i, array in enumerate(outputs):

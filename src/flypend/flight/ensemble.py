@@ -186,7 +186,12 @@ def fly_many(
     errors.one_of("engine", engine, ENGINES)
     if engine == "scipy" or (engine == "kernel" and not has_kernel(flight)):
         steered = isinstance(flight.law, Controller)
-        for name, value in (("gains", flight.gains and not steered), ("method", flight.tolerances.method)):
+        exact = flight.tolerances
+        asked = {
+            "gains": flight.gains and not steered, "method": exact.method, "precision": exact.precision != "double",
+            "max_steps": exact.max_steps,
+        }  # fmt: skip
+        for name, value in asked.items():
             if value:
                 raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")
         return _one_by_one(flight, engine, workers, progress)

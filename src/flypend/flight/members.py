@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copyreg
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -11,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend import errors
 from flypend.flight.metrics import Metrics, metrics
 from flypend.flight.request import Flight
 from flypend.flight.sampled import nearest_ticks
@@ -22,9 +20,6 @@ from flypend.plants import Sampled
 
 # Runs per task. A task compiles the law once, at a fraction of the cost of a run.
 CHUNK = 8
-
-# Pickle an InputError from a worker process by its three fields; by default only its message would be pickled.
-copyreg.pickle(errors.InputError, lambda error: (errors.InputError, (error.field, error.expected, str(error.got))))
 
 
 @dataclass(frozen=True, eq=False)

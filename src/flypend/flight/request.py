@@ -147,6 +147,8 @@ class Flight:
             return MappingProxyType({})
         if self.single:
             raise InputError("gains", "nothing for a single start: set them in the law", sorted(self.gains))
+        if isinstance(self.law, Controller) and self.law.steering is None:
+            raise InputError("gains", "a law that depends on its gains", f"{self.law.name}, which does not")
         return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
 
     def _check_together(self) -> None:

@@ -16,6 +16,7 @@ from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
+from flypend.laws.references import sampled
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import E3Direction, seen_packed, split
 from flypend.plants import Sampled
@@ -163,4 +164,5 @@ def _trajectory(setting: Setting, machine: Tuned | Stepped, parts: list[Part]) -
         vehicle=machine.vehicle,
         law=law.name,
         gains=law.gains_for(machine.vehicle),
+        x_ref=None if law.reference is None else sampled(law.reference, t),
     )

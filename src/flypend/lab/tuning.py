@@ -87,7 +87,8 @@ def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
     fixed = {name: value for name, value in law.given.items() if not law.gains[name].label}
     kept = repr(structure(flight.plant)) if isinstance(flight.plant, Sampled) else "ideal"
     key = json.dumps(
-        [flight.vehicle.to_dict(), law.name, setting.stamp, fixed, kept, flight.tolerances.rtol], sort_keys=True
+        [flight.vehicle.to_dict(), law.name, setting.where, setting.stamp, fixed, kept, flight.tolerances.rtol],
+        sort_keys=True,
     )
     with SYMBOLS:
         if key not in _made:

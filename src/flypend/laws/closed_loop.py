@@ -69,10 +69,7 @@ def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[st
     state = State.symbolic(s)
     control = bound.evaluate(t, state, vehicle, gains={name: p[i] for i, name in enumerate(parameters)})
     rates = equations_of_motion(state, control.wrench, vehicle, bound.e3)
-    for i, name in enumerate(parameters):
-        wrench = ca.vertcat(control.wrench.thrust, control.wrench.moment)
-        if not ca.depends_on(wrench, p[i]):
-            raise errors.InputError(f"law.gains.{name}", f"a gain in the equations of {law.name}", "one outside them")
+    check_parameters(law.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
 
     lyapunov = dict(control.lyapunov)
     if lyapunov:
@@ -80,6 +77,17 @@ def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[st
     lyapunov |= {f"{name}_rate": lie_derivative(value, state, rates, t) for name, value in lyapunov.items()}
     signals = {**lyapunov, **control.signals}
     return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, tuple(parameters))
+
+
+def check_parameters(law: str, wrench: Any, parameters: Sequence[str], symbols: Any) -> None:
+    """Raise InputError for one of the `parameters` whose symbol the `wrench` of the `law` does not contain.
+
+    A run would not depend on it: a weight from which a gain matrix was computed beforehand, or a number of the flight
+    computer.
+    """
+    for i, name in enumerate(parameters):
+        if not ca.depends_on(wrench, symbols[i]):
+            raise errors.InputError(f"law.gains.{name}", f"a gain in the equations of {law}", "one outside them")
 
 
 def close_loop(vehicle: Vehicle, law: Law | BoundLaw) -> ClosedLoop:

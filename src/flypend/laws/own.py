@@ -64,19 +64,24 @@ class LawError(InputError):
 
 @dataclass(frozen=True, eq=False)
 class Located:
-    """A `function` of the law `name` whose errors are reported with file and line, on one line."""
+    """A `function` of the law `name` whose errors are reported with file and line, on one line.
+
+    With `inner` it returns another function of the law, which is treated alike.
+    """
 
     function: Callable[..., Any]
     name: str
+    inner: bool = False
 
     def __call__(self, *arguments: Any, **gains: Any) -> Any:
         """Call the function. Raises LawError for any exception but InputError."""
         try:
-            return self.function(*arguments, **gains)
+            result = self.function(*arguments, **gains)
         except InputError:
             raise
         except Exception as error:
             raise law_error(error, self.function, self.name) from error
+        return Located(result, self.name) if self.inner and not isinstance(result, Located) else result
 
 
 def law_error(error: BaseException, function: Any, name: str) -> LawError:

@@ -8,6 +8,7 @@ import traceback
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from threading import RLock
 from types import ModuleType
 from typing import Any
 
@@ -18,6 +19,7 @@ from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
+_loading = RLock()  # threads of a sweep load one file at once, and a law may load another
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
 
@@ -135,7 +137,8 @@ def _as_law(found: Any, name: str, key: str, e3: Any) -> Law | Controller:
     if isinstance(found, Law):
         return replace(found, control=Located(found.control, found.name))
     if isinstance(found, Controller):
-        return replace(found, function=Located(found.function, found.name))
+        steering = found.steering and Located(found.steering, found.name, inner=True)
+        return replace(found, function=Located(found.function, found.name), steering=steering)
     raise InputError(key, EXPECTED, f"{name!r}, which is none of these")
 
 
@@ -165,13 +168,14 @@ def _file(name: str, folder: Path, key: str) -> ModuleType:
     title = f"flypend_law_{path.stem}"
     module = ModuleType(title)
     module.__file__ = str(path)
-    sys.modules[title] = module  # the dataclass decorator looks its module up here
-    try:  # reread every time: Python's bytecode cache would miss a second edit within one second
-        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # noqa: S102 (a law of the user's own)
-    except Exception as error:
-        raise _load_error(error, str(path)) from error
-    finally:
-        del sys.modules[title]
+    with _loading:
+        sys.modules[title] = module  # the dataclass decorator looks its module up here
+        try:  # reread every time: Python's bytecode cache would miss a second edit within one second
+            exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # noqa: S102 (a law of the user's own)
+        except Exception as error:
+            raise _load_error(error, str(path)) from error
+        finally:
+            del sys.modules[title]
     return module
 
 

@@ -78,9 +78,10 @@ class SampledKernel:
 
     def through(self, plant: Plant) -> SampledKernel:
         """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
-        if structure(plant) != structure(self.loop.sampled):
+        other = replace(self.loop, plant=plant)
+        if structure(plant) != structure(self.loop.sampled) or _mujoco_filters(other) != _mujoco_filters(self.loop):
             raise ValueError("a plant of the same structure is needed")
-        return replace(self, loop=replace(self.loop, plant=plant))
+        return replace(self, loop=other)
 
     def fly(
         self,
@@ -207,9 +208,19 @@ def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
         If a gain is unknown, or the law has operations that cannot be compiled.
     """
     compiled = structure(loop.sampled)
-    if loop.sampled.engine == "mujoco" and loop.sampled.true_vehicle(loop.vehicle).rotor_lag == 0:
-        compiled = compiled.replace(lag=0.0)  # rotors without lag need no filter
+    if loop.sampled.engine == "mujoco":
+        # Rotors with a lag, whatever it is, are MuJoCo's filters; those without are not.
+        compiled = compiled.replace(lag=float(_is_filtered(loop)))
     return _structured(replace(loop, plant=compiled), criterion).through(loop.sampled)
+
+
+def _is_filtered(loop: Loop) -> bool:
+    return loop.sampled.true_vehicle(loop.vehicle).rotor_lag > 0
+
+
+def _mujoco_filters(loop: Loop) -> bool:
+    """Whether the rotors are filters of MuJoCo, which is part of its model; in our equations the lag is a number."""
+    return loop.sampled.engine == "mujoco" and _is_filtered(loop)
 
 
 @lru_cache(maxsize=64)
@@ -238,7 +249,7 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
         world = EquationsProblem(lower(rotor_step(true, plant.pivot_offset, name="world")))
     else:
         seen = lower(seen_by_mujoco(len(vehicle.rotor_spins)))
-        world = MujocoProblem(seen, filtered=true.rotor_lag > 0, largest=MAX_FORCE)
+        world = MujocoProblem(seen, filtered=_is_filtered(loop), largest=MAX_FORCE)
     on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
     return SampledProblem(
         board=lower_calls(flight_computer.step),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -72,13 +74,18 @@ def sampled_samples(
     `parameters` (k,) are the kernel's input gains, `rotors` (n,) the initial rotor forces, N.
     """
     law, plant = kernel.loop.law, kernel.loop.sampled
-    ticks = nearest_ticks(flight.moments, plant, flight.duration)
-    flown = kernel.fly(
-        flight.packed, flight.duration, judge_at=(), keep_at=ticks, first_seed=flight.seed or 0,
+    fly = partial(
+        kernel.fly, flight.packed, flight.duration, judge_at=(), first_seed=flight.seed or 0,
         parameters=None if parameters is None else np.asarray(parameters)[None],
         rotors=None if rotors is None else np.asarray(rotors)[None],
     )  # fmt: skip
+    ticks = nearest_ticks(flight.moments, plant, flight.duration)
+    flown = fly(keep_at=ticks)
     code, end = int(flown.code[0]), float(flown.end[0])
+    if code != runge_kutta.COMPLETED:  # the end of a run is known once it has been flown
+        last = round(end * plant.rate)
+        ticks = np.append(ticks[ticks < last], last)
+        flown = fly(keep_at=ticks)
     outcome = Outcome("completed", end)
     if code != runge_kutta.COMPLETED:
         singular = code == runge_kutta.UNDEFINED

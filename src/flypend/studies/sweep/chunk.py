@@ -28,16 +28,17 @@ FLOATS = ("settling", "excursion", "effort", "peak_force", "end")
 
 
 @lru_cache(maxsize=4)
-def study_of(text: str) -> Study:
-    """Return the study in the TOML string `text`."""
+def _study_of(text: str, program: str) -> Study:
+    """Return the study in the TOML string `text`, which must compile to `program`: the file of its law may change.
+
+    Raises InputError if it compiles to another.
+    """
     import tomllib
 
-    return study(tomllib.loads(text))
-
-
-@lru_cache(maxsize=4)
-def _program_of(text: str) -> str:
-    return program_digest(study_of(text))
+    made = study(tomllib.loads(text))
+    if program_digest(made) != program:
+        raise InputError("scheduler", "workers with the flypend and the law of this process", "other equations")
+    return made
 
 
 def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
@@ -45,9 +46,7 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 
     Raises InputError if the study compiles to a program other than the caller's (`program`, a digest).
     """
-    if _program_of(text) != program:
-        raise InputError("scheduler", "workers with the flypend of this process", "one with other equations")
-    made = study_of(text)
+    made = _study_of(text, program)
     first = number * made.chunk
     return fly_range(made, first, min(first + made.chunk, made.runs))
 

@@ -188,9 +188,10 @@ def fly_many(
         steered = isinstance(flight.law, Controller)
         exact = flight.tolerances
         asked = {
-            "gains": flight.gains and not steered, "method": exact.method, "precision": exact.precision != "double",
-            "max_steps": exact.max_steps,
-        }  # fmt: skip
+            "gains": flight.gains and not steered,
+            "method": exact.method,
+            "precision": exact.precision != "double",
+        }
         for name, value in asked.items():
             if value:
                 raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")

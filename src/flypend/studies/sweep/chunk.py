@@ -37,7 +37,7 @@ def _study_of(text: str, program: str) -> Study:
 
     made = study(tomllib.loads(text))
     if program_digest(made) != program:
-        raise InputError("scheduler", "workers with the flypend and the law of this process", "other equations")
+        raise InputError("scheduler", "workers with the flypend of this process, and its law", "other equations")
     return made
 
 

@@ -1,6 +1,6 @@
 // The laboratory: a viewer beside controls; what they say goes to the server, what comes back is shown at once.
 //
-// window.flypend is that of the viewer (docs/replay.md) and: setting(), verdict(), number() of the last question, shown() of
+// window.flypend is that of the viewer (docs/pages/replay.md) and: setting(), verdict(), number() of the last question, shown() of
 // the last flight that is shown, timings() in ms of the last ones, map() with the points so far.
 
 import css from "./replay.css";

@@ -250,3 +250,33 @@ def test_an_ensemble_as_arrays_has_every_run_with_its_gains():
     assert data["settling"].attrs["units"] == "s"
     assert data["final_x"].attrs["units"] == "m"
     assert len(data[["success", "cause", "excursion"]].to_dataframe()) == 5
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("seed", -3), ("seed", 1.5), ("seed", "a"), ("criterion", 3), ("tolerances", 1e-6), ("gains", 3),
+        ("judge_period", 1e-9),
+    ],
+)  # fmt: skip
+def test_a_request_is_checked_whole(field, value):
+    given = {
+        "vehicle": fp.vehicle("hehn2011"),
+        "law": fp.laws.inverted(),
+        "starts": fp.State(y=(0, 0, 1)),
+        "duration": 1.0,
+    }
+    with pytest.raises(fp.InputError, match=rf"^{field}: "):
+        Flight(**given, **{field: value})
+
+
+@pytest.mark.parametrize(("runs", "seed"), [(-1, 1), (2.5, 1), ("3", 1), (10**15, 1), (3, -1), (3, 1.5), (3, None)])
+def test_random_starts_take_whole_numbers(runs, seed):
+    with pytest.raises(fp.InputError, match=r"^(runs|seed): "):
+        fp.random_starts(runs, seed)
+
+
+@pytest.mark.parametrize("law", ["inverted", "lqr"])
+def test_without_gravity_there_is_no_inverted_pose(law):
+    with pytest.raises(fp.InputError, match=r"^vehicle\.gravity: "):
+        getattr(fp.laws, law)().bind(fp.vehicle("hehn2011").replace(gravity=0.0))

@@ -608,3 +608,27 @@ def test_the_computer_around_a_law_is_checked():
     for name, value in (("lead", 0.9), ("latency", -0.01), ("observer", np.nan), ("force_limit", -1)):
         with pytest.raises(fp.InputError, match=f"^{name}: expected a finite number >= "):
             Computer(**{name: value})
+
+
+@pytest.mark.parametrize("lag", [7e-4, 3e-3])
+def test_mujoco_follows_a_short_lag(lag):
+    # The longest step of a flight is 2 ms; RK4 would be unstable in a filter of less than 0.72 ms.
+    first, second = (fly(VEHICLE, law(push), TUMBLING, 0.3, Plant(engine=e, lag=lag)) for e in ("equations", "mujoco"))
+    np.testing.assert_allclose(final(first), final(second), rtol=0, atol=2e-4)
+
+
+def test_a_lag_too_short_for_mujoco_is_none():
+    first, second = (fly(VEHICLE, law(push), TUMBLING, 0.3, Plant(engine="mujoco", lag=lag)) for lag in (0.0, 1e-9))
+    np.testing.assert_array_equal(final(first), final(second))
+
+
+@pytest.mark.parametrize(
+    ("fields", "name"),
+    [
+        ({"delay": 30.0}, "delay"), ({"rate": 1e4, "delay": 0.2}, "delay"), ({"rate": 1e-9}, "rate"),
+        ({"rate_loop_rate": 1e12}, "rate_loop_rate"), ({"seed": 2**70}, "seed"), ({"seed": True}, "seed"),
+    ],
+)  # fmt: skip
+def test_what_would_take_for_ever_is_refused(fields, name):
+    with pytest.raises(fp.InputError, match=rf"^plant\.{name}: "):
+        Plant(**fields)

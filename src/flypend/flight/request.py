@@ -18,9 +18,11 @@ from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 from flypend.plants.loop import Loop
+from flypend.plants.plant import check_seed
 
 SAMPLE_PERIOD = 0.01
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
+MOST_JUDGED = 1e7
 LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 Hz
 # At this tolerance and looser, the method of order 5 is faster.
 LOOSE = 1e-6
@@ -134,7 +136,14 @@ class Flight:
         put = _setter(self)
         put("law", bound_to(self.vehicle, self.law))
         put("duration", errors.number("duration", self.duration, above=0, at_most=LONGEST, unit="s"))
+        for name, kind in (("criterion", Criterion), ("tolerances", Tolerances), ("gains", Mapping)):
+            if not isinstance(getattr(self, name), kind):
+                raise InputError(name, f"a {kind.__name__}", repr(getattr(self, name))[:80])
         put("judge_period", errors.number("judge_period", self.judge_period, above=0, unit="s"))
+        if self.duration / self.judge_period > MOST_JUDGED:
+            raise InputError("judge_period", f"at most {MOST_JUDGED:g} of them in a run", f"{self.judge_period:g} s")
+        if self.seed is not None:
+            check_seed("seed", self.seed)
         put("plant", _plant_for(self.law, plants.plant(self.plant)))
         if self.seed is None:
             put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)

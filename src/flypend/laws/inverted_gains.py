@@ -69,6 +69,8 @@ class Scales(NamedTuple):
 @lru_cache(maxsize=256)
 def scales(vehicle: Vehicle) -> Scales:
     """Return the scales of `vehicle`, from its rod, inertia and rotor limits."""
+    if vehicle.gravity == 0:
+        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
     authority = angular_authority(vehicle)
     return Scales(
         time=np.sqrt(vehicle.l / vehicle.g),

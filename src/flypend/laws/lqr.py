@@ -18,6 +18,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend.errors import InputError
 from flypend.geometry import E3, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
 from flypend.laws.gain import POSITIVE, Gain, documented, table
@@ -118,6 +119,8 @@ def entries(K: Any) -> dict[str, float]:
 
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     """Return K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its heading column is zero."""
+    if vehicle.gravity == 0:
+        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
     A, B = _about_hover(vehicle)
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]

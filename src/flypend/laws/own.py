@@ -79,7 +79,7 @@ class Located:
             result = self.function(*arguments, **gains)
         except InputError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:  # a law must not end the program
             raise law_error(error, self.function, self.name) from error
         return Located(result, self.name) if self.inner and not isinstance(result, Located) else result
 
@@ -307,7 +307,10 @@ def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:
     """Return thrust and moment (4,) from a function's numeric output."""
     wrench = _wrench(answer, call)
     try:
-        parts = [np.asarray(np.array(part), dtype=float).ravel() for part in (wrench.thrust, wrench.moment)]
+        given = [np.array(part) for part in (wrench.thrust, wrench.moment)]
+        if any(map(np.iscomplexobj, given)):
+            raise LawError(_start(call.function), call.name, "its wrench is not made of real numbers")
+        parts = [np.asarray(part, dtype=float).ravel() for part in given]
     except (TypeError, ValueError, RuntimeError):
         raise LawError(_start(call.function), call.name, "its wrench is not made of numbers") from None
     if [part.size for part in parts] != [1, 3]:

@@ -49,9 +49,10 @@ class Mujoco:
     """
 
     def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> None:
-        from flypend.plants.mujoco import MujocoEngine
+        from flypend.plants.mujoco import MujocoEngine, filter_lag
 
-        self._engine = MujocoEngine(vehicle, pivot_offset=pivot_offset, lag=vehicle.rotor_lag)
+        self._lag = filter_lag(vehicle)
+        self._engine = MujocoEngine(vehicle, pivot_offset=pivot_offset, lag=self._lag)
         self._lost = False
 
     @property
@@ -73,7 +74,7 @@ class Mujoco:
         """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,), N."""
         from flypend.plants.mujoco import substeps
 
-        steps = substeps(duration)
+        steps = substeps(duration, self._lag)
         self._engine.model.opt.timestep = duration / steps
         for _ in range(steps):
             try:

@@ -85,6 +85,8 @@ _FILTER = ' dyntype="filter" dynprm="{lag!r}"'
 # Maximum step in a flight, s. With RK4 the state error is 1e-7 after a second of tumbling. The rotor lag, a MuJoCo
 # actuator filter, is integrated with the same steps.
 FLIGHT_STEP = 2e-3
+# A shorter lag than this, s, is none: it moves the vehicle by less than a sample can tell.
+LEAST_LAG = 1e-4
 
 
 def model_xml(
@@ -317,9 +319,18 @@ def _compiled_view(rotors: int) -> Any:
     return as_numpy(seen_by_mujoco(rotors))
 
 
-def substeps(duration: float) -> int:
-    """Number of MuJoCo steps in `duration` (s) of a flight, none longer than `FLIGHT_STEP`."""
-    return max(1, int(np.ceil(duration / FLIGHT_STEP - 1e-9)))
+def filter_lag(vehicle: Vehicle) -> float:
+    """Return the time constant, s, of MuJoCo's filters for the rotors of `vehicle`; 0 for rotors without filters."""
+    return vehicle.rotor_lag if vehicle.rotor_lag >= LEAST_LAG else 0.0
+
+
+def substeps(duration: float, lag: float) -> int:
+    """Return the number of MuJoCo's steps in `duration` (s) of a flight with filters of time constant `lag` (s).
+
+    None is longer than `FLIGHT_STEP`, nor than a quarter of the lag: RK4 is stable up to 2.8 lags only.
+    """
+    longest = min(FLIGHT_STEP, lag / 4) if lag > 0 else FLIGHT_STEP
+    return max(1, int(np.ceil(duration / longest - 1e-9)))
 
 
 # Idle worlds that are kept: one a thread, for the few plants that a study goes through.
@@ -349,13 +360,14 @@ class MuJoCoWorld:
         library = _library()
         self._models = [
             mujoco.MjModel.from_xml_string(
-                model_xml(vehicle, timestep=h, pivot_offset=pivot_offset, lag=vehicle.rotor_lag, energy=False)
+                model_xml(vehicle, timestep=h, pivot_offset=pivot_offset, lag=filter_lag(vehicle), energy=False)
             )
             for h in timesteps
         ]
         self._data = data = mujoco.MjData(self._models[0])
         self._models_at = np.array([model._address for model in self._models], dtype=np.uint64)
-        arrays = (data.qpos, data.qvel, data.act if vehicle.rotor_lag > 0 else data.ctrl, data.ctrl, data.xfrc_applied)
+        rotors = data.act if filter_lag(vehicle) > 0 else data.ctrl
+        arrays = (data.qpos, data.qvel, rotors, data.ctrl, data.xfrc_applied)
         functions = (library.mj_step, library.mj_resetData)
         self._fixed = (
             data._address, *(array.ctypes.data for array in arrays),
@@ -370,8 +382,9 @@ class MuJoCoWorld:
         plant = loop.sampled
         stretches = within_period(plant.delay, 1 / plant.rate)
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
-        timesteps = tuple(length / substeps(length) for length in lengths)
-        key = (plant.true_vehicle(loop.vehicle), tuple(plant.pivot_offset), timesteps)
+        true = plant.true_vehicle(loop.vehicle)
+        timesteps = tuple(length / substeps(length, filter_lag(true)) for length in lengths)
+        key = (true, tuple(plant.pivot_offset), timesteps)
         with cls._lock:
             place = next((i for i, (known, _) in enumerate(cls._idle) if known == key), None)
             kept = None if place is None else cls._idle.pop(place)[1]

@@ -17,6 +17,17 @@ Interface = Literal["wrench", "rates"]
 MISMATCHED = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_lag")
 
 
+# Every command in transit is kept, and the prediction goes through them all: a delay in ms given as s would never end.
+LONGEST_DELAY, MOST_IN_TRANSIT = 0.5, 1000  # s, commands
+LEAST_RATE = 0.01  # Hz; a period is flown in steps of 1 ms
+
+
+def check_seed(field: str, seed: object) -> None:
+    """Raise InputError unless `seed` is an integer from 0 to 2⁶²; messages begin with `field`."""
+    if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) <= 2**62:
+        raise InputError(field, "an integer >= 0", repr(seed))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Noise:
     """Standard deviations of white measurement noise, drawn independently at every control tick.
@@ -145,17 +156,22 @@ class Sampled:
     def __post_init__(self) -> None:
         errors.one_of("plant.engine", self.engine, ("equations", "mujoco"))
         errors.one_of("plant.interface", self.interface, ("wrench", "rates"))
-        errors.number("plant.rate", self.rate, above=0, at_most=1e4, unit="Hz")  # a prediction spans 100 ticks or more
-        errors.number("plant.delay", self.delay, at_least=0, unit="s")
-        errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, unit="Hz")
+        errors.number(
+            "plant.rate", self.rate, at_least=1.0, at_most=1e4, unit="Hz"
+        )  # a prediction takes 100 ticks or more
+        longest = min(LONGEST_DELAY, MOST_IN_TRANSIT / self.rate)
+        errors.number("plant.delay", self.delay, at_least=0, at_most=longest, unit="s")
+        errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, at_most=1e5, unit="Hz")
+        for name in ("rate", "rate_loop_rate"):
+            if getattr(self, name) < LEAST_RATE:
+                raise InputError(f"plant.{name}", f"at least {LEAST_RATE:g} Hz", f"{getattr(self, name):g}")
         errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
         if self.lag is not None:
             errors.number("plant.lag", self.lag, at_least=0, unit="s")
         for name, kind, expected in _KINDS:
             if not isinstance(value := getattr(self, name), kind):
                 raise InputError(f"plant.{name}", expected, repr(value))
-        if not isinstance(self.seed, Integral) or self.seed < 0:
-            raise InputError("plant.seed", "an integer >= 0", repr(self.seed))
+        check_seed("plant.seed", self.seed)
         offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
         object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))
         errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)

@@ -154,7 +154,7 @@ def _module(name: str, key: str) -> ModuleType:
         if error.name and (name == error.name or name.startswith(f"{error.name}.")):
             raise InputError(key, expected, repr(name)) from None
         raise _load_error(error, name) from error
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise _load_error(error, name) from error
 
 
@@ -172,14 +172,14 @@ def _file(name: str, folder: Path, key: str) -> ModuleType:
         sys.modules[title] = module  # the dataclass decorator looks its module up here
         try:  # reread every time: Python's bytecode cache would miss a second edit within one second
             exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # noqa: S102 (a law of the user's own)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise _load_error(error, str(path)) from error
         finally:
             del sys.modules[title]
     return module
 
 
-def _load_error(error: Exception, name: str) -> LawError:
+def _load_error(error: BaseException, name: str) -> LawError:
     """The one-line error for a file or module `name` that fails to load."""
     if isinstance(error, SyntaxError):
         line = f":{error.lineno}" if error.lineno else ""

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+from numbers import Integral
+
 import numpy as np
 
+from flypend.errors import InputError
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
+from flypend.plants.plant import check_seed
+
+MOST_RUNS = 10**8  # 20 GB of states
 
 
 def random_starts(runs: int, seed: int) -> State:
-    """Return `runs` random states from `seed`: y, R uniform, |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0."""
+    """Return `runs` random states from `seed`: y, R uniform, |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0.
+
+    Raises InputError for a number of runs or a seed that is none.
+    """
+    if not isinstance(runs, Integral) or isinstance(runs, bool) or not 1 <= int(runs) <= MOST_RUNS:
+        raise InputError("runs", f"an integer from 1 to {MOST_RUNS}", repr(runs))
+    check_seed("seed", seed)
     return State.random(np.random.default_rng(seed), runs)
 
 

@@ -30,7 +30,7 @@ from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import TIMING_SIZE, rotor_step, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
-from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, seen_by_mujoco, substeps
+from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, seen_by_mujoco, substeps
 from flypend.plants.plant import Noise, Plant, Wind
 from flypend.plants.schedule import steps_in, within_period
 
@@ -175,11 +175,12 @@ def _without_lag(plant: Plant) -> dict[str, float]:
 def plant_numbers(loop: Loop) -> Any:
     """Return the plant parameters that the machine code inputs, in the order of `SampledProblem.inputs`."""
     plant = loop.sampled
-    period, lag = 1 / plant.rate, plant.true_vehicle(loop.vehicle).rotor_lag
+    true = plant.true_vehicle(loop.vehicle)
+    period, lag = 1 / plant.rate, true.rotor_lag
     if plant.engine == "equations":
         timings = [step_timing(lag, while_ / steps) for _, while_, steps in _flown(plant)]
     else:
-        timings = [np.array([float(substeps(while_ / steps))]) for _, while_, steps in _flown(plant)]
+        timings = [np.array([float(substeps(while_ / steps, filter_lag(true)))]) for _, while_, steps in _flown(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
     wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
     return np.concatenate([*timings, *noise, *wind])
@@ -215,7 +216,7 @@ def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
 
 
 def _is_filtered(loop: Loop) -> bool:
-    return loop.sampled.true_vehicle(loop.vehicle).rotor_lag > 0
+    return filter_lag(loop.sampled.true_vehicle(loop.vehicle)) > 0
 
 
 def _mujoco_filters(loop: Loop) -> bool:

@@ -156,9 +156,8 @@ class Sampled:
     def __post_init__(self) -> None:
         errors.one_of("plant.engine", self.engine, ("equations", "mujoco"))
         errors.one_of("plant.interface", self.interface, ("wrench", "rates"))
-        errors.number(
-            "plant.rate", self.rate, at_least=1.0, at_most=1e4, unit="Hz"
-        )  # a prediction takes 100 ticks or more
+        # A prediction takes 100 ticks or more at the highest rate.
+        errors.number("plant.rate", self.rate, above=0, at_most=1e4, unit="Hz")
         longest = min(LONGEST_DELAY, MOST_IN_TRANSIT / self.rate)
         errors.number("plant.delay", self.delay, at_least=0, at_most=longest, unit="s")
         errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, at_most=1e5, unit="Hz")

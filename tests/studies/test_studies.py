@@ -119,6 +119,16 @@ def test_a_comparison_as_arrays_has_laws_and_runs():
     assert len(data.to_dataframe()) == 6
 
 
+def test_a_ladder_as_arrays_has_rungs_laws_and_runs():
+    laws = [Controller(name=name, function=hover, rate=50.0) for name in ("a", "b")]
+    result = ladder(VEHICLE, laws, random_starts(3, 1), 0.04, rungs={"rotors": "rotors", "ideal wrench": "ideal"})
+    data = result.to_xarray()
+    assert dict(data.sizes) == {"rung": 2, "law": 2, "run": 3}
+    expected = result.rungs["ideal wrench"].ensembles["b"].excursion
+    np.testing.assert_array_equal(data["excursion"].sel(rung="ideal wrench", law="b"), expected)
+    assert len(data.to_dataframe()) == 12
+
+
 def test_names_are_made_unique_and_progress_names_the_law():
     told = []
     laws = [Controller(name=name, function=hover, rate=50.0) for name in ("a", "b", "a", "a")]

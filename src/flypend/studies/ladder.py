@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from flypend import plants
+from flypend import errors, plants
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
 from flypend.studies.compare import Comparison, compared, flights_of
+
+if TYPE_CHECKING:
+    import xarray
 
 # The ideal wrench, then limits alone, then lag on top of limits. Every other rung adds one departure to the plant
 # "rotors" (limits, the vehicle's lag, 500 Hz), so that the rung that breaks a law names the reason.
@@ -46,6 +49,14 @@ class Ladder:
     def broken(self, law: str, below: float = 0.9) -> list[str]:
         """Return the rungs on which the success rate of `law` is less than `below`."""
         return [rung for rung, comparison in self.rungs.items() if comparison.ensembles[law].rate < below]
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return the metrics as an `xarray.Dataset` over `rung`, `law` and `run`."""
+        errors.require("xarray", extra="studies", for_="to_xarray")
+        import xarray
+
+        found = [comparison.to_xarray() for comparison in self.rungs.values()]
+        return xarray.concat(found, dim=xarray.Variable("rung", list(self.rungs)), combine_attrs="override")
 
 
 def ladder(

@@ -21,7 +21,7 @@ from flypend.compile.problem import Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
-from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
+from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of, merged
 from flypend.flight.request import Flight
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
@@ -51,10 +51,8 @@ class Moments(NamedTuple):
     @classmethod
     def of(cls, judge_at: ArrayLike = (), keep_at: ArrayLike | None = None) -> Moments:
         """Merge the times at which the criterion is evaluated and those at which states are kept."""
-        judge, keep = (np.asarray(() if some is None else some, dtype=float) for some in (judge_at, keep_at))
-        times = np.append(np.union1d(judge, keep), np.inf)
-        before = np.append(0, np.cumsum(np.isin(times[:-1], keep)))
-        return cls(times, np.isin(times, judge).astype(float), before.astype(np.int64))
+        times, judged, rows = merged(judge_at, keep_at, np.float64)
+        return cls(np.append(times, np.inf), np.append(judged, 0.0), rows)
 
     @property
     def kept(self) -> int:

@@ -22,7 +22,7 @@ from flypend.compile.routine import lower_calls
 from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
-from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
+from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of, merged
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
@@ -49,10 +49,7 @@ class Ticks(NamedTuple):
     @classmethod
     def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
         """Merge the ticks at which the criterion is evaluated and those kept; `rows` ends with the total."""
-        judge, keep = (np.asarray(() if some is None else some, dtype=np.int64) for some in (judge_at, keep_at))
-        ticks = np.union1d(judge, keep)
-        rows = np.append(0, np.cumsum(np.isin(ticks, keep)))
-        return cls(ticks, np.isin(ticks, judge).astype(np.int64), rows.astype(np.int64))
+        return cls(*merged(judge_at, keep_at, np.int64))
 
 
 @dataclass(frozen=True, eq=False)

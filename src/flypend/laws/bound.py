@@ -30,7 +30,7 @@ class Guard:
     reason: str
 
 
-LONGEST_LATENCY = 0.5  # s; the flight computer predicts over it, command by command
+MAX_LATENCY = 0.5  # s; the flight computer predicts over it, command by command
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +56,7 @@ class Computer:
 
     def __post_init__(self) -> None:
         errors.number("lead", self.lead, at_least=1)
-        errors.number("latency", self.latency, at_least=0, at_most=LONGEST_LATENCY, unit="s")
+        errors.number("latency", self.latency, at_least=0, at_most=MAX_LATENCY, unit="s")
         errors.number("observer", self.observer, at_least=0, unit="1/s")
         errors.number("force_limit", self.force_limit, at_least=0)
 

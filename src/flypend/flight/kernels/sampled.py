@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from flypend.board.command import idle_command
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, arguments, write_kernel
+from flypend.compile.llvm.sampled import INTEGERS, arguments, write_kernel
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
@@ -280,6 +280,3 @@ def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
     own = seen_packed(packed[:SIZE], law.e3)
     seen = observed(t, State.symbolic(own), packed[SIZE:], loop.vehicle, law.reference, criterion, law.e3)
     return ca.Function("judge", [t, packed, p], [ca.densify(seen)])
-
-
-__all__ = ["ARGUMENTS", "SampledKernel", "plant_numbers", "sampled_kernel", "sampled_problem", "structure"]

@@ -15,7 +15,9 @@ from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
 from flypend.files.whole import whole_file
 from flypend.flight.labelled import AXES, dataset, described, variable
 from flypend.flight.outcome import Outcome
-from flypend.model import State, Vehicle, Wrench
+from flypend.geometry import cross, dot, norm
+from flypend.model import State, Vehicle, Wrench, rod_tension
+from flypend.model.mount import margins
 from flypend.model.state import FLIP, SHAPES, E3Direction
 
 if TYPE_CHECKING:
@@ -109,6 +111,28 @@ class Trajectory:
     def wrench(self) -> Wrench:
         """The sampled wrenches as one batch."""
         return Wrench(self.thrust, self.moment)
+
+    @property
+    def cone(self) -> Any:
+        """Angle (n,) between the rod and the upward thrust axis, rad: 0 with the rod straight above the vehicle."""
+        up = 1.0 if self.e3 == "up" else -1.0
+        return np.arctan2(norm(cross(self.y, self.z)), up * dot(self.y, self.z))
+
+    @property
+    def tension(self) -> Any:
+        """Rod tension (n,), N, of the nominal model: negative where the vehicle pushes the rod."""
+        return rod_tension(self.states, self.wrench, self.vehicle)
+
+    @property
+    def clearance(self) -> Any:
+        """Signed distance (n,) of the rod to what its mount lets it touch, m; infinite on a gimbal.
+
+        On a hub, from the rod's surface to the nearest rotor disc or arm; in a cup, from the bob to the cup's cone.
+        """
+        found = margins(self.states, self.wrench, self.vehicle, self.e3)
+        if self.vehicle.mount == "cup":
+            found = found[:, :1]  # a force is no distance
+        return np.min(found, axis=-1, initial=np.inf)
 
     def at(self, t: Any) -> State:
         """Return the state(s) at any time(s) `t` within the run, from the integrator's dense output.

@@ -12,6 +12,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.model.body import MOUNTS, Body, MountKind, body_from
 from flypend.model.state import FLIP, E3Direction
 
 
@@ -39,12 +40,17 @@ class Vehicle:
         Minimum and maximum force of one rotor; N.
     rotor_lag : float
         Time constant of the first-order lag of the rotor forces; s.
+    mount : "gimbal", "hub" or "cup"
+        What carries the rod; see `flypend.model.body`.
+    body : Body or dict, optional
+        Radii of the parts that the rod can touch; required for a hub or a cup.
 
     Raises
     ------
     InputError
         If a number is not finite or out of range, the inertia is not symmetric positive definite or violates the
-        triangle inequality, a spin is not ±1, or the rotors cannot produce every wrench.
+        triangle inequality, a spin is not ±1, the rotors cannot produce every wrench, the mount is unknown, or a hub or
+        cup has no body.
     """
 
     name: str = "unnamed"
@@ -58,6 +64,8 @@ class Vehicle:
     drag_ratio: float
     rotor_limits: Any
     rotor_lag: float = 0.0
+    mount: MountKind = "gimbal"
+    body: Any = None
 
     def __post_init__(self) -> None:
         def put(name: str, value: Any) -> None:
@@ -77,6 +85,10 @@ class Vehicle:
             raise InputError("rotor_spins", "each +1 or -1", self.rotor_spins.tolist())
         if not 0 <= self.rotor_limits[0] < self.rotor_limits[1]:
             raise InputError("rotor_limits", "0 <= least < largest force in N", self.rotor_limits.tolist())
+        errors.one_of("mount", self.mount, MOUNTS)
+        put("body", body_from(self.body))
+        if self.mount != "gimbal" and self.body is None:
+            raise InputError("body", f"the radii of the machine's parts, for the mount {self.mount!r}", "nothing")
         rank = np.linalg.matrix_rank(self.mixing())
         if rank < 4:
             raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
@@ -141,10 +153,9 @@ class Vehicle:
         return replace(self, **changes)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the fields as plain numbers and lists, as in a vehicle TOML file."""
-        return {
-            name: value.tolist() if isinstance(value := getattr(self, name), np.ndarray) else value for name in _FIELDS
-        }
+        """Return the fields as plain numbers, lists and dicts, as in a vehicle TOML file."""
+        values = {name: _plain(getattr(self, name)) for name in _FIELDS}
+        return {name: value for name, value in values.items() if value is not None}
 
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
@@ -168,6 +179,12 @@ _FIELDS = tuple(field.name for field in fields(Vehicle))
 _REQUIRED = (
     "mass", "bob_mass", "rod_length", "inertia", "rotor_positions", "rotor_spins", "drag_ratio", "rotor_limits"
 )  # fmt: skip
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return value.to_dict() if isinstance(value, Body) else value
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:

@@ -1,0 +1,157 @@
+"""How far the rod is from leaving its mount: clearance of the rod to discs and arms, room in a cup."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.geometry import apply, dot, is_symbolic
+from flypend.model.body import Body
+from flypend.model.dynamics import rod_tension
+from flypend.model.state import FLIP, E3Direction, State, Wrench
+from flypend.model.vehicle import Vehicle
+
+# Iterations for the point of the rod nearest to a disc: Newton steps within a bracket.
+ITERATIONS = 8
+
+
+def margins(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Any:
+    """Return what keeps the rod on its mount, (..., k) in the order of `part_names`; a flight ends where one is < 0.
+
+    On a hub, `clearances`; in a cup, the bob's signed distance to the cup's cone (m) and the force of the rod on its
+    cup (N); nothing on a gimbal. `state` and `wrench` are NumPy batches or CasADi expressions in the frame `e3`.
+    """
+    symbolic = is_symbolic(state.y)
+    if vehicle.mount == "hub":
+        turned = state.R.T if symbolic else np.swapaxes(state.R, -1, -2)
+        rod = apply(turned, state.y)  # the body frame's e₃ is down along with the world's
+        rod = rod if e3 == "up" else apply(FLIP, rod)
+        return clearances(rod, vehicle.rotor_positions, vehicle.l, vehicle.body)
+    if vehicle.mount == "cup":
+        up = 1.0 if e3 == "up" else -1.0
+        push = -rod_tension(state, wrench, vehicle)
+        room = _to_cone(up * dot(state.y, state.z), vehicle)
+        return ca.vertcat(room, push) if symbolic else np.stack([room, push], axis=-1)
+    return ca.SX(0, 1) if symbolic else np.zeros((*state.y.shape[:-1], 0))
+
+
+def part_names(vehicle: Vehicle) -> list[str]:
+    """Return the names of the parts of `margins`."""
+    count = range(1, 1 + len(vehicle.rotor_spins))
+    if vehicle.mount == "hub":
+        return [f"disc {i}" for i in count] + [f"arm {i}" for i in count]
+    return ["cone", "cup"] if vehicle.mount == "cup" else []
+
+
+def _to_cone(cosine: Any, vehicle: Vehicle) -> Any:
+    """Signed distance of the bob to the cone of the cup, l sin(angle − cone angle), m."""
+    sine = _sqrt(_most(1 - cosine**2, 0.0))
+    angle = vehicle.body.cup_angle
+    inside = vehicle.l * (np.sin(angle) * cosine - np.cos(angle) * sine)
+    return _where(cosine > -np.sin(angle), inside, -vehicle.l)  # nearest to the apex beyond
+
+
+def clearances(rod: Any, centres: Any, length: float, body: Body) -> Any:
+    """Return the signed distances (..., 2n) from the rod to the n rotor discs, then to the n arms, m.
+
+    Negative values are depths: of the rod's surface inside a disc's rim or an arm.
+
+    Parameters
+    ----------
+    rod : (..., 3)
+        Unit vectors from the pivot along the rod, in the e₃-up body frame; NumPy, or a CasADi vector (3, 1).
+    centres : (n, 3)
+        Centres of the rotor discs relative to the pivot, body frame, m.
+    length : float
+        Length of the rod, m.
+    body : Body
+        The radii.
+    """
+    discs = [_to_disc(rod, centre, length, body) for centre in centres]
+    arms = [_to_arm(rod, centre, body) for centre in centres]
+    return ca.vertcat(*discs, *arms) if is_symbolic(rod) else np.stack([*discs, *arms], axis=-1)
+
+
+def _to_arm(rod: Any, centre: Any, body: Body) -> Any:
+    """Two rays from one point are closest where they begin, here at the hub's rim: 2 r sin(θ/2) apart."""
+    along = _inner(rod, np.asarray(centre) / np.linalg.norm(centre))
+    chord = _sqrt(_most(2 * (1 - along), 0.0))  # 2 sin(θ/2)
+    return body.hub_radius * chord - (body.arm_radius + body.rod_radius)
+
+
+def _to_disc(rod: Any, centre: Any, length: float, body: Body) -> Any:
+    """Signed distance from the rod to a flat disc about `centre`, normal to the body's e₃.
+
+    The distance to a convex body is convex along a line. Within the cylinder over the disc it is |height|, linear on
+    either side of the disc; where the rod leaves the cylinder its derivative tells on which side the minimum lies.
+    """
+    u = [rod[i] if is_symbolic(rod) else rod[..., i] for i in range(3)]
+    c = [float(value) for value in centre]
+    first, last = body.hub_radius, length
+    entry, leaving, meets = _cylinder(u, c, body.disc_radius)
+    before = (entry * u[2] - c[2]) * u[2] >= 0  # the distance rises where the rod enters the cylinder
+    after = (leaving * u[2] - c[2]) * u[2] <= 0
+    low = _where(meets, _where(before, first, _where(after, leaving, entry)), first)
+    high = _where(meets, _where(before, entry, _where(after, last, leaving)), last)
+    low, high = _clipped(low, first, last), _clipped(high, first, last)
+    flat = _both(u[2] < 1e-12, u[2] > -1e-12)
+    crossing = _clipped(_where(flat, entry, c[2] / _where(flat, 1.0, u[2])), first, last)
+    s = _where(meets, _where(before, high, _where(after, low, crossing)), _clipped(_inner(rod, c), first, last))
+    for _ in range(ITERATIONS):
+        slope, curvature = _slope(s, u, c, body.disc_radius)
+        low, high = _where(slope < 0, s, low), _where(slope < 0, high, s)
+        s = _clipped(s - slope / _most(curvature, 1e-12), low, high)
+    from_axis = _sqrt((s * u[0] - c[0]) ** 2 + (s * u[1] - c[1]) ** 2)
+    beyond, above = from_axis - body.disc_radius, s * u[2] - c[2]
+    distance = _sqrt(_most(beyond, 0.0) ** 2 + above**2)
+    return _where(distance > 0, distance, _least(beyond, 0.0)) - body.rod_radius
+
+
+def _cylinder(u: Any, c: Any, radius: float) -> tuple[Any, Any, Any]:
+    """Where the line s u enters and leaves the cylinder over the disc, and whether it meets it."""
+    level = _most(u[0] ** 2 + u[1] ** 2, 1e-18)
+    middle = (u[0] * c[0] + u[1] * c[1]) / level
+    half = middle**2 - (c[0] ** 2 + c[1] ** 2 - radius**2) / level
+    root = _sqrt(_most(half, 0.0))
+    return middle - root, middle + root, half > 0
+
+
+def _slope(s: Any, u: Any, c: Any, radius: float) -> tuple[Any, Any]:
+    """First and second derivative of half the squared distance from the point s u to the disc."""
+    p = [s * u[i] - c[i] for i in range(3)]
+    from_axis = _sqrt(p[0] ** 2 + p[1] ** 2 + 1e-18)
+    beyond = _most(from_axis - radius, 0.0)
+    outward = (p[0] * u[0] + p[1] * u[1]) / from_axis
+    level = u[0] ** 2 + u[1] ** 2
+    bent = _where(beyond > 0, outward**2 + beyond * (level - outward**2) / from_axis, 0.0)
+    return beyond * outward + p[2] * u[2], bent + u[2] ** 2
+
+
+def _inner(rod: Any, fixed: Any) -> Any:
+    return sum((rod[i] if is_symbolic(rod) else rod[..., i]) * float(fixed[i]) for i in range(3))
+
+
+def _clipped(value: Any, low: Any, high: Any) -> Any:
+    return _least(_most(value, low), high)
+
+
+def _most(a: Any, b: Any) -> Any:
+    return ca.fmax(a, b) if is_symbolic(a) or is_symbolic(b) else np.maximum(a, b)
+
+
+def _least(a: Any, b: Any) -> Any:
+    return ca.fmin(a, b) if is_symbolic(a) or is_symbolic(b) else np.minimum(a, b)
+
+
+def _sqrt(a: Any) -> Any:
+    return ca.sqrt(a) if is_symbolic(a) else np.sqrt(a)
+
+
+def _where(condition: Any, yes: Any, no: Any) -> Any:
+    return ca.if_else(condition, yes, no) if is_symbolic(condition) else np.where(condition, yes, no)
+
+
+def _both(a: Any, b: Any) -> Any:
+    return ca.logic_and(a, b) if is_symbolic(a) else a & b

@@ -123,7 +123,6 @@ def test_a_run_knows_clearance_cone_and_tension():
     [
         ({"mount": "socket"}, "mount"),
         ({"mount": "hub", "body": None}, "body"),
-        ({"body": {"disc_radius": 0.1}}, "body.arm_radius"),
         ({"body": {**BODY.to_dict(), "rod_radius": 0}}, "body.rod_radius"),
         ({"body": {**BODY.to_dict(), "cup_angle": 2}}, "body.cup_angle"),
         ({"body": {**BODY.to_dict(), "colour": 1}}, "body.colour"),
@@ -134,6 +133,16 @@ def test_an_impossible_mount_is_refused(changes, field):
     with pytest.raises(InputError) as refused:
         fp.vehicle("hehn2011").replace(**changes)
     assert refused.value.field == field
+
+
+def test_a_body_needs_its_radii_and_takes_changes_of_some():
+    vehicle = fp.vehicle("hehn2011")
+    with pytest.raises(InputError) as refused:
+        fp.Vehicle(**{**vehicle.to_dict(), "body": {"disc_radius": 0.1}})
+    assert refused.value.field == "body.arm_radius"
+    changed = vehicle.replace(body={"disc_radius": 0.1}).body
+    assert changed.disc_radius == 0.1
+    assert changed.arm_radius == vehicle.body.arm_radius
 
 
 def test_a_vehicle_with_a_mount_survives_its_toml():

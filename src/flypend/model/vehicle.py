@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from importlib import resources
 from pathlib import Path
@@ -148,8 +149,13 @@ class Vehicle:
         return hash(self._content())
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
+        """Return a copy with the fields in `changes` replaced, validated again. Raises InputError.
+
+        A dict as `body` replaces those of its radii alone.
+        """
         errors.only_known("vehicle", changes, _FIELDS)
+        if self.body is not None and isinstance(changes.get("body"), Mapping):
+            changes["body"] = self.body.to_dict() | changes["body"]
         return replace(self, **changes)
 
     def to_dict(self) -> dict[str, Any]:

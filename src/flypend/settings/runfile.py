@@ -125,7 +125,10 @@ def vehicle_table(value: Any) -> dict[str, Any]:
     """Return all fields of a vehicle, given by name or as a table on top of `base`. Raises InputError."""
     chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
     if "base" in chosen:
-        chosen = vehicle(chosen.pop("base")).to_dict() | chosen
+        base = vehicle(chosen.pop("base"))
+        if "body" in chosen and base.body is not None:
+            chosen["body"] = base.body.to_dict() | table_at(chosen, "body", "vehicle.body")
+        chosen = base.to_dict() | chosen
     return chosen
 
 

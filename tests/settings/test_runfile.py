@@ -99,14 +99,18 @@ def test_a_file_of_ones_own(tmp_path):
         'vehicle = "hehn2011"',
         'vehicle = { base = "hehn2011" }',
         'vehicle = { base = "hehn2011", mount = "gimbal", body = { arm_radius = 0.006 } }',
-        'vehicle = { base = "nayak2018", NAME, mass = 0.5, bob_mass = 0.05, rod_length = 0.565, INERTIA, ROTORS, BODY }',
-        "vehicle = { NAME, mass = 0.5, bob_mass = 0.05, rod_length = 0.565, INERTIA, ROTORS, rotor_lag = 0.02, BODY }",
+        'vehicle = { base = "nayak2018", NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, BODY }',
+        "vehicle = { NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, rotor_lag = 0.02, BODY }",
     ],
 )
 def test_a_vehicle_by_name_by_table_and_by_changes_of_another_is_the_same(tmp_path, text):
     data = fp.vehicle("hehn2011").to_dict()
     rotors = ("rotor_positions", "rotor_spins", "drag_ratio", "rotor_limits")
-    text = text.replace("NAME", 'name = "hehn2011"').replace("INERTIA", f"inertia = {data['inertia']}")
+    text = (
+        text.replace("NAME", 'name = "hehn2011"')
+        .replace("MASSES", "mass = 0.5, bob_mass = 0.05")
+        .replace("INERTIA", f"inertia = {data['inertia']}")
+    )
     body = ", ".join(f"{name} = {value}" for name, value in data["body"].items())
     text = text.replace("BODY", f"body = {{ {body} }}")
     text = text.replace("ROTORS", ", ".join(f"{name} = {data[name]}" for name in rotors))

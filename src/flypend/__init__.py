@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from flypend.flight.trajectory import Trajectory, load
     from flypend.laws import BoundLaw, Controller, Gain, Law
     from flypend.laws.linearise import linearise
+    from flypend.model.body import Body
+    from flypend.model.rod import rod_with_bob, uniform_rod
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle, vehicle
     from flypend.plants import Ideal, Noise, Plant, Wind
@@ -49,6 +51,8 @@ _WHERE = {
     "laws": ("BoundLaw", "Controller", "Gain", "Law"),
     "laws.linearise": ("linearise",),
     "model": ("State", "Vehicle", "Wrench", "vehicle"),
+    "model.body": ("Body",),
+    "model.rod": ("rod_with_bob", "uniform_rod"),
     "plants": ("Ideal", "Noise", "Plant", "Wind"),
     "studies.compare": ("Comparison", "compare"),
     "studies.starts": ("random_starts",),
@@ -58,6 +62,7 @@ _WHERE = {
 _MODULES = {name: f"flypend.{module}" for module, names in _WHERE.items() for name in names}
 
 __all__ = [
+    "Body",
     "BoundLaw",
     "Comparison",
     "Controller",
@@ -89,12 +94,14 @@ __all__ = [
     "load",
     "metrics",
     "random_starts",
+    "rod_with_bob",
     "sensitivity",
     "simulate",
     "simulate_ensemble",
     "study",
     "sweep",
     "tune",
+    "uniform_rod",
     "vehicle",
 ]
 

@@ -37,6 +37,7 @@ def _vehicle(seed, e3):
         mass=rng.uniform(0.3, 2),
         bob_mass=rng.uniform(0.05, 1),
         rod_length=rng.uniform(0.3, 1.5),
+        rod_inertia=rng.choice([0.0, rng.uniform(0.01, 1)]),
         inertia=Q @ np.diag(rng.uniform(1, 1.9, 3)) @ Q.T,
         gravity=rng.uniform(1, 12),
     )
@@ -62,7 +63,7 @@ def _residual_function(vehicle, e3):
     along_gravity = ca.DM([0, 0, 1 if e3 == "down" else -1])
 
     L_Q = M * ca.dot(v, v) / 2 + ca.dot(ca.mtimes(ca.DM(vehicle.inertia), w), w) / 2
-    L_p = m * ca.dot(v + l * u, v + l * u) / 2
+    L_p = (m * ca.dot(v + l * u, v + l * u) + vehicle.rod_inertia * ca.dot(u, u)) / 2
     V = -M * g * ca.dot(x, along_gravity) - m * g * ca.dot(x + l * y, along_gravity)
     L = L_Q + L_p - V
 

@@ -18,6 +18,8 @@ from flypend.plants import mujoco as plant
 from flypend.plants.mujoco import MujocoEngine, model_xml
 
 VEHICLES = ["nayak2018", "hehn2011"]
+UNIFORM = "uniform rod"
+WITH_ROD = [*VEHICLES, UNIFORM]
 OFFSET = np.array([0.03, -0.05, 0.08])  # m; a third of the arm
 NOTHING = {"force_on_vehicle": np.zeros(3), "force_on_bob": np.zeros(3), "pivot_offset": np.zeros(3)}
 
@@ -25,9 +27,17 @@ NOTHING = {"force_on_vehicle": np.zeros(3), "force_on_bob": np.zeros(3), "pivot_
 ROUNDOFF = 1e-11
 
 
+def _named(name):
+    """A vehicle of the package, or hehn2011 with a uniform rod of length 2 l and the bob's mass."""
+    if name != UNIFORM:
+        return fp.vehicle(name)
+    vehicle = fp.vehicle("hehn2011")
+    return vehicle.replace(rod_inertia=vehicle.bob_mass * vehicle.rod_length**2 / 3)
+
+
 def _tilted(name):
     """The vehicle with principal axes that are not those of the body."""
-    vehicle = fp.vehicle(name)
+    vehicle = _named(name)
     Q = geo.random_rotation(np.random.default_rng(0))
     return vehicle.replace(inertia=Q @ vehicle.I @ Q.T)
 
@@ -112,6 +122,48 @@ def test_disturbed_motion_solves_the_equations_of_newton_and_euler(name):
         wanted = _solved(state, wrench, vehicle, disturbances)
         for field in ("x_ddot", "omega_dot", "y_ddot"):
             assert _error(getattr(rates, field), wanted[field]) < ROUNDOFF, field
+
+
+def _solved_with_rod(state, wrench, vehicle, disturbances):
+    """As `_solved`, for a rigid rod with an inertia of its own: the joint's force P has three components."""
+    M, m, l, g = vehicle.mass, vehicle.bob_mass, vehicle.rod_length, np.array([0, 0, -vehicle.gravity])
+    R, w, y, o = state.R, state.omega, state.y, disturbances["pivot_offset"]
+    eye, zero, turn = np.eye(3), np.zeros((3, 3)), geo.hat(y)
+    system = np.block(
+        [  # c̈, ω̇, ÿ, P on the rod, ẍ
+            [M * eye, zero, zero, eye, zero],
+            [zero, vehicle.inertia, zero, geo.hat(o) @ R.T, zero],
+            [zero, zero, m * l * eye, -eye, m * eye],
+            [-eye, R @ geo.hat(o), zero, zero, eye],
+            [zero, zero, vehicle.rod_inertia * turn + np.outer(y, y), l * turn, zero],
+        ]
+    )
+    right = [
+        M * g + wrench.thrust * R[:, 2] + disturbances["force_on_vehicle"],
+        wrench.moment - np.cross(w, vehicle.inertia @ w),
+        m * g + disturbances["force_on_bob"],
+        R @ np.cross(w, np.cross(w, o)),
+        -(state.y_dot @ state.y_dot) * y,
+    ]
+    solution = np.linalg.solve(system, np.concatenate(right))
+    return {"x_ddot": solution[12:15], "omega_dot": solution[3:6], "y_ddot": solution[6:9]}
+
+
+@pytest.mark.parametrize("name", VEHICLES)
+def test_an_extended_rod_moves_as_a_point_bob_and_a_mass_at_the_pivot(name):
+    """A uniform rod of length 2 l, and a body nearly all of whose inertia is its own."""
+    rng, vehicle = np.random.default_rng(7), _tilted(name)
+    point = vehicle.bob_mass * vehicle.rod_length**2
+    for inertia in (point / 3, 20 * point):
+        rod = vehicle.replace(rod_inertia=inertia)
+        for state in fp.State.random(rng, 50):
+            wrench, disturbances = _wrench(rng, rod), _disturbances(rng)
+            rates = disturbed_motion(state, wrench, rod, "up", **disturbances)
+            wanted = _solved_with_rod(state, wrench, rod, disturbances)
+            for field in ("x_ddot", "omega_dot", "y_ddot"):
+                assert _error(getattr(rates, field), wanted[field]) < ROUNDOFF, field
+            free = disturbed_motion(state, wrench, vehicle, "up", **disturbances)
+            assert _error(free.y_ddot, rates.y_ddot) > 1e-3
 
 
 @pytest.mark.parametrize("e3", ["up", "down"])
@@ -237,7 +289,7 @@ def _accelerations(engine):
     }
 
 
-@pytest.mark.parametrize("name", VEHICLES)
+@pytest.mark.parametrize("name", WITH_ROD)
 def test_accelerations_agree_for_any_rotor_forces(name):
     rng, vehicle = np.random.default_rng(7), _tilted(name)
     for state in fp.State.random(rng, 50):
@@ -263,7 +315,7 @@ def test_accelerations_agree_for_any_rotor_forces(name):
 
 def _errors(name, rng, timesteps, motion, disturbed):
     """Largest difference of the states after 1 s, one row per start, one column per timestep."""
-    vehicle, rows = _tilted(name) if disturbed else fp.vehicle(name), []
+    vehicle, rows = _tilted(name) if disturbed else _named(name), []
     for start in fp.State.random(rng, 20):
         wrench, disturbances = _wrench(rng, vehicle), _disturbances(rng) if disturbed else NOTHING
         forces, symbolic = _forces(vehicle, wrench), fp.Wrench(wrench.thrust, ca.DM(wrench.moment))
@@ -272,7 +324,7 @@ def _errors(name, rng, timesteps, motion, disturbed):
     return np.array(rows)
 
 
-@pytest.mark.parametrize("name", VEHICLES)
+@pytest.mark.parametrize("name", WITH_ROD)
 def test_under_a_constant_wrench_mujoco_moves_as_the_equations_of_motion(name):
     def ideal(state, wrench, vehicle, _):
         return equations_of_motion(state, wrench, vehicle, "up")
@@ -283,7 +335,7 @@ def test_under_a_constant_wrench_mujoco_moves_as_the_equations_of_motion(name):
     assert np.max(fine) < 1e-9  # RK4 leaves 1e-10, the bob's own inertia 3e-10
 
 
-@pytest.mark.parametrize("name", VEHICLES)
+@pytest.mark.parametrize("name", WITH_ROD)
 def test_under_disturbances_mujoco_moves_as_disturbed_motion(name):
     def disturbed(state, wrench, vehicle, disturbances):
         return disturbed_motion(state, wrench, vehicle, "up", **disturbances)

@@ -146,7 +146,7 @@ def params_of(vehicle: Vehicle) -> Any:
     inertia = np.diag(I) if _diagonal(vehicle) else [*np.diag(I), I[0, 1], I[0, 2], I[1, 2]]
     return np.concatenate(
         [
-            [vehicle.mass, vehicle.bob_mass, vehicle.rod_length, vehicle.gravity],
+            [vehicle.M, vehicle.m, vehicle.l, vehicle.gravity],
             inertia,
             vehicle.rotor_limits,
             tilting[:, 0],

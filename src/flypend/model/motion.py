@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from flypend.geometry import apply, cross, dot, hat, hat_squared, is_symbolic, scale
+from flypend.geometry import E3, apply, cross, dot, hat, hat_squared, is_symbolic, scale
 from flypend.model.dynamics import Rates, gravity_vector
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
@@ -53,6 +53,11 @@ def disturbed_motion(
     The part of (5) tangent to S² yields ÿ, and M (4) + (1) + (2) yields ẍ. For F_v = F_b = o = 0 these reduce to the
     paper's (ddty), (xeqn_txt) and (Rfin).
 
+    An extended rod is a point bob m at l and a mass M − M₀ at the pivot (see `Vehicle`), M₀ being the vehicle's own. So
+    c, o, I and τ above are those of the rigid body of vehicle and pivot mass; thrust and F_v act at the vehicle's own
+    centre of mass, −s o from c, s = (M − M₀)/M. F_b acts at the centre of mass of the rod, λ l from the pivot: its
+    share λ counts at the bob, the rest at the pivot.
+
     Parameters
     ----------
     state : State
@@ -64,9 +69,9 @@ def disturbed_motion(
     e3 : "up" or "down"
         Direction of the third axis of the world frame, for all arguments and results.
     force_on_vehicle, force_on_bob : (..., 3)
-        F_v at the centre of mass and F_b at the bob, world frame, N.
+        F_v at the vehicle's centre of mass and F_b at that of rod and bob, world frame, N.
     pivot_offset : (..., 3)
-        o, from the centre of mass to the pivot, body frame, m.
+        From the vehicle's centre of mass to the pivot, body frame, m.
 
     Returns
     -------
@@ -74,15 +79,17 @@ def disturbed_motion(
         Rates of the state; `x_ddot` is the acceleration of the pivot.
     """
     vehicle = vehicle.seen(e3)
-    M, m, l, I = vehicle.M, vehicle.m, vehicle.l, vehicle.I
-    R, omega, y, o = state.R, state.omega, state.y, pivot_offset
-    F_b = scale(1.0, force_on_bob)
-    f, z, F_v = wrench.thrust, state.z, scale(1.0, force_on_vehicle)
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    R, omega, y = state.R, state.omega, state.y
+    f, z = wrench.thrust, state.z
     speed_squared = dot(state.y_dot, state.y_dot)
+    o, I, I_inv, moment, F_v, F_b = _of_rigid_body(
+        vehicle, state, wrench, pivot_offset, scale(1.0, force_on_vehicle), scale(1.0, force_on_bob)
+    )
 
     arm = cross(o, apply(_transposed(R), y))  # moment per unit tension, body frame
-    a = apply(vehicle.I_inv, arm)  # (3)
-    alpha = apply(vehicle.I_inv, wrench.moment - cross(omega, apply(I, omega)))
+    a = apply(I_inv, arm)  # (3)
+    alpha = apply(I_inv, moment - cross(omega, apply(I, omega)))
     s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
     h_0 = F_v / M - F_b / m + s_0
     T = (l * speed_squared - f / M * dot(y, z) - dot(y, h_0)) / (1 / m + 1 / M + dot(arm, a))  # (6)
@@ -93,6 +100,22 @@ def disturbed_motion(
     x_ddot = gravity_vector(vehicle, e3) + scale(f / (M + m), z) - m * l / (M + m) * y_ddot  # (xeqn_txt)
     x_ddot = x_ddot + (F_v + F_b + M * (s_0 + s_T)) / (M + m)
     return Rates(state.x_dot, x_ddot, R @ hat(omega), alpha + scale(T, a), state.y_dot, y_ddot)
+
+
+def _of_rigid_body(
+    vehicle: Vehicle, state: State, wrench: Wrench, offset: Any, on_vehicle: Any, on_rod: Any
+) -> tuple[Any, ...]:
+    """Return o, I, I⁻¹, the moment, F_v and F_b of the rigid body of vehicle and pivot mass, and the point bob."""
+    if vehicle.M is vehicle.mass or vehicle.rod_inertia == 0:
+        return offset, vehicle.I, vehicle.I_inv, wrench.moment, on_vehicle, on_rod
+    own, M, o = vehicle.mass, vehicle.M, np.asarray(offset, dtype=float)
+    share, bob = 1 - own / M, vehicle.m / vehicle.bob_mass
+    I = vehicle.I + own * share * (o @ o * np.eye(3) - np.outer(o, o))  # parallel axes, reduced mass
+    at_pivot = (1 - bob) * on_rod
+    back = _transposed(state.R)
+    pushed = apply(back, on_vehicle) + scale(wrench.thrust, E3)
+    moment = wrench.moment - cross(share * o, pushed) + cross((1 - share) * o, apply(back, at_pivot))
+    return (1 - share) * o, I, np.linalg.inv(I), moment, on_vehicle + at_pivot, bob * on_rod
 
 
 def _transposed(R: Any) -> Any:

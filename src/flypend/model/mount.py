@@ -20,15 +20,16 @@ ITERATIONS = 8
 def margins(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Any:
     """Return what keeps the rod on its mount, (..., k) in the order of `part_names`; a flight ends where one is < 0.
 
-    On a hub, `clearances`; in a cup, the bob's signed distance to the cup's cone (m) and the force of the rod on its
-    cup (N); nothing on a gimbal. `state` and `wrench` are NumPy batches or CasADi expressions in the frame `e3`.
+    On a hub, `clearances`; in a cup, the signed distance of the rod's end to the cup's cone (m) and the force of
+    the rod on its cup (N); nothing on a gimbal. `state` and `wrench` are NumPy batches or CasADi expressions
+    in the frame `e3`.
     """
     symbolic = is_symbolic(state.y)
     if vehicle.mount == "hub":
         turned = state.R.T if symbolic else np.swapaxes(state.R, -1, -2)
         rod = apply(turned, state.y)  # the body frame's e₃ is down along with the world's
         rod = rod if e3 == "up" else apply(FLIP, rod)
-        return clearances(rod, vehicle.rotor_positions, vehicle.l, vehicle.body)
+        return clearances(rod, vehicle.rotor_positions, vehicle.reach, vehicle.body)
     if vehicle.mount == "cup":
         up = 1.0 if e3 == "up" else -1.0
         push = -rod_tension(state, wrench, vehicle)
@@ -46,11 +47,11 @@ def part_names(vehicle: Vehicle) -> list[str]:
 
 
 def _to_cone(cosine: Any, vehicle: Vehicle) -> Any:
-    """Signed distance of the bob to the cone of the cup, l sin(angle − cone angle), m."""
+    """Signed distance of the rod's far end to the cone of the cup, m."""
     sine = _sqrt(_most(1 - cosine**2, 0.0))
     angle = vehicle.body.cup_angle
-    inside = vehicle.l * (np.sin(angle) * cosine - np.cos(angle) * sine)
-    return _where(cosine > -np.sin(angle), inside, -vehicle.l)  # nearest to the apex beyond
+    inside = vehicle.reach * (np.sin(angle) * cosine - np.cos(angle) * sine)
+    return _where(cosine > -np.sin(angle), inside, -vehicle.reach)  # nearest to the apex beyond
 
 
 def clearances(rod: Any, centres: Any, length: float, body: Body) -> Any:

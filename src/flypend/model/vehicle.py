@@ -21,12 +21,24 @@ from flypend.model.state import FLIP, E3Direction
 class Vehicle:
     """A multirotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
 
+    A rod of inertia J across moves like a point bob with a second mass at the pivot: both have together its mass, its
+    first and its second moment. The paper's letters are those of that bob, and so exact for every rod whose pivot is
+    the centre of mass: m = λ bob_mass, l = rod_length/λ, M = mass + (1 − λ) bob_mass, λ = 1/(1 + J/(bob_mass
+    rod_length²)).
+
     Parameters
     ----------
     name : str
         Name for tables and files.
-    mass, bob_mass, rod_length : float
-        M (kg), m (kg), l (m).
+    mass : float
+        Mass without the rod, kg.
+    bob_mass, rod_length : float
+        Mass of the rod with its bob, kg, and distance from the pivot to their centre of mass, m.
+    rod_end : float, optional
+        Distance from the pivot to the far end of the rod, m; default `rod_length`.
+    rod_inertia : float
+        Moment of inertia of the rod with its bob about their centre of mass, across the rod; 0 for a point mass, kg m².
+        See `flypend.model.rod`.
     inertia : (3,) or (3, 3)
         Principal moments or inertia matrix about the centre of mass, body frame; kg m².
     gravity : float
@@ -58,6 +70,8 @@ class Vehicle:
     mass: float
     bob_mass: float
     rod_length: float
+    rod_end: float | None = None
+    rod_inertia: float = 0.0
     inertia: Any
     gravity: float = 9.81
     rotor_positions: Any
@@ -76,6 +90,9 @@ class Vehicle:
 
         for name, unit in (("mass", "kg"), ("bob_mass", "kg"), ("rod_length", "m"), ("drag_ratio", "m")):
             put(name, errors.number(name, getattr(self, name), above=0, unit=unit))
+        put("rod_inertia", errors.number("rod_inertia", self.rod_inertia, at_least=0, unit="kg m²"))
+        if self.rod_end is not None:
+            put("rod_end", errors.number("rod_end", self.rod_end, at_least=self.rod_length, unit="m"))
         put("gravity", errors.number("gravity", self.gravity, at_least=0, unit="m/s²"))
         put("rotor_lag", errors.number("rotor_lag", self.rotor_lag, at_least=0, unit="s"))
         put("inertia", _inertia(self.inertia))
@@ -94,12 +111,23 @@ class Vehicle:
         if rank < 4:
             raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
 
-    M = property(lambda self: self.mass, doc="Mass of the quadrotor, kg.")
-    m = property(lambda self: self.bob_mass, doc="Mass of the bob, kg.")
-    l = property(lambda self: self.rod_length, doc="Length of the rod, m.")
+    M = property(lambda self: self.mass + (1 - self._share) * self.bob_mass, doc="Mass that moves with the pivot, kg.")
+    m = property(lambda self: self._share * self.bob_mass, doc="Mass of the equivalent point bob, kg.")
+    l = property(lambda self: self.rod_length / self._share, doc="Distance from the pivot to the equivalent bob, m.")
     g = property(lambda self: self.gravity, doc="Gravitational acceleration, m/s².")
     I = property(lambda self: self.inertia, doc="Inertia matrix, body frame, kg m².")
     I_inv = property(lambda self: np.linalg.inv(self.inertia), doc="Inverse of the inertia matrix.")
+
+    @property
+    def reach(self) -> float:
+        """Distance from the pivot to the far end of the rod, m."""
+        return self.rod_length if self.rod_end is None else self.rod_end
+
+    @property
+    def _share(self) -> float:
+        """Share of the rod's mass in the equivalent point bob, m l²/(m l² + J): 1 for a point mass."""
+        point = self.bob_mass * self.rod_length**2
+        return float(point / (point + self.rod_inertia))
 
     def seen(self, e3: E3Direction) -> Vehicle:
         """Return the vehicle with its inertia in the body frame of `e3` ("up" or "down")."""

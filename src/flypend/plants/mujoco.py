@@ -64,7 +64,7 @@ _TEMPLATE = """\
 {rotors}
       <body name="bob">
         <joint name="pivot" type="ball"/>
-        <inertial pos="0 0 {length!r}" mass="{bob_mass!r}" diaginertia="{i!r} {i!r} {i!r}"/>
+        <inertial pos="0 0 {length!r}" mass="{bob_mass!r}" diaginertia="{across!r} {across!r} {i!r}"/>
         <geom name="rod" fromto="0 0 0 0 0 {length!r}" size="{thin!r}" rgba="0.45 0.45 0.45 1"/>
         <geom name="bob" type="sphere" pos="0 0 {length!r}" size="{thick!r}" rgba="0.84 0.37 0 1"/>
       </body>
@@ -127,6 +127,7 @@ def model_xml(
     moments, axes = np.linalg.eigh(vehicle.inertia)
     moments[2] = min(moments[2], moments[0] + moments[1])  # planar body: MuJoCo tolerates no roundoff here
     thin = 0.02 * float(np.max(np.abs(vehicle.rotor_positions)))
+    along = max(BOB_INERTIA * vehicle.bob_mass * vehicle.rod_length**2, LEAST_BOB_INERTIA)
     center = _numbers(0.0 - offset)
     rotors = []
     for k, place in enumerate(places):
@@ -138,12 +139,13 @@ def model_xml(
         timestep=timestep,
         gravity=-vehicle.g,
         center=center,
-        mass=vehicle.M,
+        mass=vehicle.mass,
         moments=_numbers(moments),
         axes=_numbers(axes[:, :2].T),
-        length=vehicle.l,
-        bob_mass=vehicle.m,
-        i=max(BOB_INERTIA * vehicle.m * vehicle.l**2, LEAST_BOB_INERTIA),
+        length=vehicle.rod_length,
+        bob_mass=vehicle.bob_mass,
+        i=along,
+        across=vehicle.rod_inertia + along,
         thin=thin,
         thick=4 * thin,
         energy="enable" if energy else "disable",

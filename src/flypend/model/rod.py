@@ -1,0 +1,30 @@
+"""Rods as fields of a vehicle: mass, centre of mass and moment of inertia of what stands on the pivot."""
+
+from __future__ import annotations
+
+from flypend import errors
+
+
+def uniform_rod(mass: float, length: float) -> dict[str, float]:
+    """Return the fields of a `Vehicle` for a uniform rod of `mass` (kg) and `length` (m), held at one end.
+
+    `vehicle.replace(**uniform_rod(0.05, 1.0))` is the vehicle with that rod. Raises InputError.
+    """
+    return rod_with_bob(mass, length, bob_mass=0.0)
+
+
+def rod_with_bob(mass: float, length: float, bob_mass: float) -> dict[str, float]:
+    """Return the fields of a `Vehicle` for a uniform rod that carries a point mass `bob_mass` (kg) at its far end.
+
+    `mass` (kg) and `length` (m) are those of the rod alone. Raises InputError.
+    """
+    m = errors.number("mass", mass, at_least=0, unit="kg")
+    L = errors.number("length", length, above=0, unit="m")
+    b = errors.number("bob_mass", bob_mass, at_least=0, unit="kg")
+    total = errors.number("mass", m + b, above=0, unit="kg")
+    return {
+        "bob_mass": total,
+        "rod_length": L * ((m / 2 + b) / total),
+        "rod_inertia": m * L**2 / 12 + m * b / total * (L / 2) ** 2,  # parallel axes
+        "rod_end": L,
+    }

@@ -7,7 +7,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import apply, dot, is_symbolic
+from flypend.geometry import apply, cross, is_symbolic
 from flypend.model.body import Body
 from flypend.model.dynamics import rod_tension
 from flypend.model.state import FLIP, E3Direction, State, Wrench
@@ -20,22 +20,34 @@ ITERATIONS = 8
 def margins(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Any:
     """Return what keeps the rod on its mount, (..., k) in the order of `part_names`; a flight ends where one is < 0.
 
-    On a hub, `clearances`; in a cup, the signed distance of the rod's end to the cup's cone (m) and the force of
-    the rod on its cup (N); nothing on a gimbal. `state` and `wrench` are NumPy batches or CasADi expressions
-    in the frame `e3`.
+    On a hub, `clearances`; in a cup, the signed distance of the rod's end to the cup's cone (m) and the force of the
+    rod on its cup (N); nothing on a gimbal. `state` and `wrench` are NumPy batches or CasADi expressions in the frame
+    `e3`.
     """
-    symbolic = is_symbolic(state.y)
+    push = -rod_tension(state, wrench, vehicle)
+    return margins_of(rod_in_body(state, e3)[0], push, vehicle)
+
+
+def margins_of(rod: Any, push: Any, vehicle: Vehicle) -> Any:
+    """Return `margins` for the `rod` (..., 3) in the e₃-up body frame and its `push` (...,) on the vehicle, N."""
+    symbolic = is_symbolic(rod)
     if vehicle.mount == "hub":
-        turned = state.R.T if symbolic else np.swapaxes(state.R, -1, -2)
-        rod = apply(turned, state.y)  # the body frame's e₃ is down along with the world's
-        rod = rod if e3 == "up" else apply(FLIP, rod)
         return clearances(rod, vehicle.rotor_positions, vehicle.reach, vehicle.body)
     if vehicle.mount == "cup":
-        up = 1.0 if e3 == "up" else -1.0
-        push = -rod_tension(state, wrench, vehicle)
-        room = _to_cone(up * dot(state.y, state.z), vehicle)
+        room = _to_cone(rod[2] if symbolic else rod[..., 2], vehicle)
         return ca.vertcat(room, push) if symbolic else np.stack([room, push], axis=-1)
-    return ca.SX(0, 1) if symbolic else np.zeros((*state.y.shape[:-1], 0))
+    return ca.SX(0, 1) if symbolic else np.zeros((*rod.shape[:-1], 0))
+
+
+def rod_in_body(state: State, e3: E3Direction) -> tuple[Any, Any]:
+    """Return the rod Rᵀy and its rate Rᵀẏ − ω × Rᵀy (1/s), each (..., 3), in the e₃-up body frame.
+
+    `state` is in the frame `e3`, whose body frame points e₃ down along with the world's.
+    """
+    turned = state.R.T if is_symbolic(state.y) else np.swapaxes(state.R, -1, -2)
+    rod = apply(turned, state.y)
+    rate = apply(turned, state.y_dot) - cross(state.omega, rod)
+    return (rod, rate) if e3 == "up" else (apply(FLIP, rod), apply(FLIP, rate))
 
 
 def part_names(vehicle: Vehicle) -> list[str]:

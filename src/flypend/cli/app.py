@@ -15,7 +15,7 @@ import click
 from flypend import __version__
 from flypend.cli import examples, studies, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
-from flypend.cli.terminal import bold, complaints, console, counter, draw, tell_how
+from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.errors import InputError
 
 
@@ -315,8 +315,8 @@ def main() -> None:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, click.ClickException) else str(error)
-        complaints().print(" ".join(f"flypend: {message}".split()), markup=False)
+        say(" ".join(f"flypend: {message}".split()))
         sys.exit(2)
-    except click.Abort:  # Ctrl-C
+    except (KeyboardInterrupt, click.Abort):
         sys.exit(128 + signal.SIGINT)
     sys.exit(code or 0)

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import click
+from rich.console import Console
 
 from flypend.cli.options import LAW_HELP, out_option, path
-from flypend.cli.terminal import bold, complaints, console, stepped, tell_how
+from flypend.cli.terminal import bold, console, stepped, tell_how
 
 workers_option = click.option(
     "--workers", type=click.IntRange(min=1), help="Cores of this machine to use; default all."
@@ -156,7 +157,7 @@ def told(successes: int, runs: int) -> str:
 @contextmanager
 def run_counter(name: str) -> Iterator[Callable[[int, int], None]]:
     """Yield the callback `(done, total)` of a progress bar with rate and remaining time; silent off a terminal."""
-    on = complaints()
+    on = Console(stderr=True)
     if not on.is_terminal:
         yield lambda *_: None
         return

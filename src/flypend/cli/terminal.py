@@ -13,15 +13,15 @@ from rich.markup import escape
 console = Console()
 
 
-def complaints() -> Console:
-    """Return a console on stderr that neither wraps nor highlights."""
-    return Console(stderr=True, soft_wrap=True, highlight=False)
+def say(line: str) -> None:
+    """Print `line` on stderr, as it is."""
+    Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
 
 
 @contextmanager
 def counter() -> Iterator[Callable[[str, int, int], None]]:
     """Yield the callback `(name, done, total)` of a progress bar on stderr; it is silent if that is not a terminal."""
-    on = complaints()
+    on = Console(stderr=True)
     if not on.is_terminal:
         yield lambda *_: None
         return
@@ -58,4 +58,4 @@ def tell_how(law: Any) -> None:
     from flypend.settings.laws import note
 
     if said := note(law):
-        complaints().print(said, markup=False)
+        say(said)

@@ -23,12 +23,13 @@ DECADES = range(3, 8)
 
 
 class Line(NamedTuple):
-    """A figure: its `value`, what it is, and the goal with its sense ("" for none)."""
+    """A figure: its `value`, what it is, the goal with its sense ("" for none), and the `old` figure of version 0.1."""
 
     name: str
     value: float
     unit: str
     goal: str = ""
+    old: float | None = None
 
     @property
     def met(self) -> bool | None:

@@ -65,8 +65,11 @@ def markdown(rows: list[dict[str, Any]], lines: list[Line], where: dict[str, Any
             f"| {short(row['per_core'])} | {short(row['all_cores'])} | {row['tolerance']:.0e} | {error} "
             f"| {row['compile_and_first']:.2f} s | {row['cold']:.1f} s, {row['cold_again']:.1f} s |"
         )
-    text += ["", "| | | goal |", "|---|---|---|"]
-    text += [f"| {line.name} | {short(line.value)} {line.unit} | {line.goal}{_mark(line)} |" for line in lines]
+    text += ["", "| | today | 0.1 | goal |", "|---|---|---|---|"]
+    text += [
+        f"| {line.name} | {short(line.value)} {line.unit} | {short(line.old)} | {line.goal}{_mark(line)} |"
+        for line in lines
+    ]
     return "\n".join(text) + "\n"
 
 

@@ -508,3 +508,21 @@ def test_without_mujoco_there_is_one_clear_line(monkeypatch):
     with pytest.raises(fp.InputError, match=line):
         MujocoEngine(fp.vehicle("hehn2011"))
     assert model_xml(fp.vehicle("hehn2011"), timestep=1e-3).startswith("<mujoco")
+
+
+def test_a_bare_model_moves_as_one_that_can_be_seen():
+    """Bit by bit: geoms have neither mass nor contacts. It is what flights run, since it is faster."""
+    vehicle = fp.vehicle("hehn2011")
+    final = []
+    for bare in (False, True):
+        xml = model_xml(vehicle, timestep=2e-3, lag=vehicle.rotor_lag, bare=bare)
+        model = mujoco.MjModel.from_xml_string(xml)
+        assert (model.ngeom, model.nlight) == ((0, 0) if bare else (10, 1))
+        data = mujoco.MjData(model)
+        data.qpos[7:11] = np.cos(0.3), np.sin(0.3), 0, 0
+        data.qvel[:] = np.linspace(-2, 2, model.nv)
+        data.ctrl[:] = 1.0, 2.0, 1.5, 0.5
+        mujoco.mj_step(model, data, nstep=250)
+        final.append(np.concatenate([data.qpos, data.qvel, data.act]))
+    assert np.array_equal(*final)
+    assert not np.allclose(final[0][:3], 0)

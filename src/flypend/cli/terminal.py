@@ -2,32 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 console = Console()
-LAW_HELP = "a name (inverted, lqr, corrected, printed, detuned), file.py:function or module:function"
+
+
+def say(line: str) -> None:
+    """Print `line` on stderr, as it is."""
+    Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
 
 
 @contextmanager
 def counter() -> Iterator[Callable[[str, int, int], None]]:
-    """Yield the callback `(name, done, total)` of a progress bar."""
-    with progress() as bar:
+    """Yield the callback `(name, done, total)` of a progress bar on stderr; it is silent if that is not a terminal."""
+    on = Console(stderr=True)
+    if not on.is_terminal:
+        yield lambda *_: None
+        return
+    from flypend.cli.bars import task_bar  # slow to import
+
+    with task_bar(on) as bar:
         task = bar.add_task("starting", total=None)
         yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
 
 
-def progress() -> Progress:
-    """Return an empty progress bar on stderr; it is silent if stderr is not a terminal."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    on = Console(stderr=True)
-    return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
+def draw(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
+    """Do the named `tasks`, one after the other, behind a progress bar."""
+    listed = list(tasks)
+    with counter() as tell:
+        for done, (name, task) in enumerate(listed):
+            tell(f"drawing {name}", done, len(listed))
+            task()
 
 
 def bold(path: Path) -> str:
@@ -47,4 +58,4 @@ def tell_how(law: Any) -> None:
     from flypend.settings.laws import note
 
     if said := note(law):
-        Console(stderr=True, soft_wrap=True, highlight=False).print(said, markup=False)
+        say(said)

@@ -35,6 +35,7 @@ def save_both(figure: Figure, path: Path) -> None:
     """Write `figure` to `path` with the suffixes .png and .pdf appended. Raises InputError like `save_figure`."""
     for suffix in (".png", ".pdf"):
         save_figure(figure, path.with_name(path.name + suffix))
+        figure.set_layout_engine("none")  # laid out once: it takes as long as drawing
 
 
 def check_file(path: str | Path, suffixes: Sequence[str]) -> None:

@@ -75,6 +75,7 @@ _TEMPLATE = """\
   </actuator>
 </mujoco>
 """
+_SHOWN = re.compile(r"^ *<(geom name=|light ).*\n", flags=re.MULTILINE)
 _ROTOR = """\
       <site name="rotor{k}" pos="{pos}"/>
       <geom name="disc{k}" type="cylinder" pos="{pos}" size="{disc!r} {thin!r}" rgba="0 0.45 0.7 0.5"/>"""
@@ -90,7 +91,7 @@ LEAST_LAG = 1e-4
 
 
 def model_xml(
-    vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.0, 0.0), lag: float = 0.0, energy: bool = True
+    vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.0, 0.0), lag: float = 0.0, bare: bool = False
 ) -> str:
     """MJCF (MuJoCo's XML) model of `vehicle` in a z-up world; its controls are the rotor forces in N.
 
@@ -105,8 +106,9 @@ def model_xml(
         Position of the ball joint relative to the vehicle's centre of mass, body frame, m.
     lag : float
         Time constant of the rotor forces, s; 0 for none.
-    energy : bool
-        Whether MuJoCo computes the energy at every step.
+    bare : bool
+        Whether to leave out what does not move the machine: geoms, light, and the energy at every step. The motion is
+        the same, bit by bit, a tenth faster.
 
     Returns
     -------
@@ -135,7 +137,7 @@ def model_xml(
         rotors.append(_ROTOR.format(**look))
         if np.linalg.norm(vehicle.rotor_positions[k]) > thin:  # MuJoCo rejects a capsule of zero length
             rotors.append(_ARM.format(**look))
-    return _TEMPLATE.format(
+    model = _TEMPLATE.format(
         timestep=timestep,
         gravity=-vehicle.g,
         center=center,
@@ -148,13 +150,14 @@ def model_xml(
         across=vehicle.rod_inertia + along,
         thin=thin,
         thick=4 * thin,
-        energy="enable" if energy else "disable",
+        energy="disable" if bare else "enable",
         rotors="\n".join(rotors),
         motors="\n".join(
             _MOTOR.format(k=k, torque=float(torque), filter=_FILTER.format(lag=lag) if lag > 0 else "")
             for k, torque in enumerate(torques)
         ),
     )
+    return _SHOWN.sub("", model) if bare else model
 
 
 class MujocoEngine:
@@ -362,7 +365,7 @@ class MuJoCoWorld:
         library = _library()
         self._models = [
             mujoco.MjModel.from_xml_string(
-                model_xml(vehicle, timestep=h, pivot_offset=pivot_offset, lag=filter_lag(vehicle), energy=False)
+                model_xml(vehicle, timestep=h, pivot_offset=pivot_offset, lag=filter_lag(vehicle), bare=True)
             )
             for h in timesteps
         ]

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
+from flypend.flight.kernels import has_kernel, kernel_of
 from flypend.flight.labelled import dataset, variable
 from flypend.flight.request import Flight, bound_to
 from flypend.laws import Controller, Law
@@ -20,6 +23,9 @@ if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[str, int, int], Any]
+# Kernels that are compiled while a flight waits or flies, its own included.
+AHEAD = 4
+Name = TypeVar("Name", str, tuple[str, str])
 
 
 @dataclass(frozen=True)
@@ -72,8 +78,9 @@ def compare(
     progress : callable
         Called with `(name of the law, done, total)`.
     """
+    world = plants.plant(plant)
     flights = flights_of(vehicle, laws, starts, duration)
-    return compared(flights, plants.plant(plant), workers=workers, progress=progress)
+    return Comparison(flown({name: flight.through(world) for name, flight in flights.items()}, workers, progress))
 
 
 def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State, duration: float) -> dict[str, Flight]:
@@ -88,16 +95,31 @@ def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State
     return flights
 
 
-def compared(
-    flights: Mapping[str, Flight], plant: AnyPlant, *, workers: int | None = None, progress: Progress = lambda *_: None
-) -> Comparison:
-    """Fly the `flights` of `flights_of` on `plant`; `workers` and `progress` as in `compare`."""
-    return Comparison(
-        {
-            name: fly_many(flight.through(plant), workers=workers, progress=partial(progress, name))
-            for name, flight in flights.items()
-        }
-    )
+def flown(
+    flights: Mapping[Name, Flight], workers: int | None, progress: Callable[[Name, int, int], Any]
+) -> dict[Name, Ensemble]:
+    """Fly `flights` one after the other; another thread compiles the kernels of those to come.
+
+    `workers` as in `compare`; `progress` is called with `(key of the flight, done, total)`.
+    """
+    names, ensembles = list(flights), {}
+    with ThreadPoolExecutor(1) as pool:
+        coming: deque[Future[Any]] = deque()
+        try:
+            for place, name in enumerate(names):
+                for following in names[place + len(coming) : place + AHEAD]:
+                    coming.append(pool.submit(_compile, flights[following]))
+                coming.popleft().result()
+                ensembles[name] = fly_many(flights[name], workers=workers, progress=partial(progress, name))
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+    return ensembles
+
+
+def _compile(flight: Flight) -> None:
+    """Leave the kernel of `flight`, if it has one, in the cache of this process."""
+    if has_kernel(flight):
+        kernel_of(flight)
 
 
 def summary(ensemble: Ensemble) -> dict[str, Any]:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from flypend import errors, plants
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
-from flypend.studies.compare import Comparison, compared, flights_of
+from flypend.studies.compare import Comparison, flights_of, flown
 
 if TYPE_CHECKING:
     import xarray
@@ -81,14 +80,7 @@ def ladder(
         Called with `(rung and law, done, total)`.
     """
     worlds = {rung: plants.plant(plant) for rung, plant in rungs.items()}  # raises if an extra is not installed
-    flights = flights_of(vehicle, laws, starts, duration)
-    return Ladder(
-        {
-            rung: compared(flights, plant, workers=workers, progress=partial(_told, progress, rung))
-            for rung, plant in worlds.items()
-        }
-    )
-
-
-def _told(progress: Callable[[str, int, int], Any], rung: str, law: str, done: int, total: int) -> None:
-    progress(f"{rung}, {law}", done, total)
+    of_laws = flights_of(vehicle, laws, starts, duration)
+    flights = {(rung, law): flight.through(world) for rung, world in worlds.items() for law, flight in of_laws.items()}
+    ensembles = flown(flights, workers, lambda key, done, total: progress(f"{key[0]}, {key[1]}", done, total))
+    return Ladder({rung: Comparison({law: ensembles[rung, law] for law in of_laws}) for rung in worlds})

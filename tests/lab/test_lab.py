@@ -28,7 +28,7 @@ from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked, verdict
 from flypend.lab.map import directions, region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
-from flypend.lab.session import Slot, flights, read
+from flypend.lab.session import Lanes, Slot, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
 from flypend.laws import law_names
@@ -310,7 +310,7 @@ def test_a_map_is_made_of_the_flights():
 def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
     begun, sent = [], []
 
-    def work(message, _):
+    def work(message, _, wanted):
         begun.append(message["number"])
         time.sleep(0.03)
         yield {"number": message["number"], "part": 1}
@@ -323,7 +323,7 @@ def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
             async def send(reply):
                 sent.append(reply)
 
-            slot = Slot(pool, work, send)
+            slot = Slot(Lanes(pool, pool), work, send)
             for number in range(200):
                 slot.put({"number": number})
                 await asyncio.sleep(0.0005)
@@ -343,7 +343,7 @@ def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
 def test_what_nobody_foresaw_is_answered_and_the_next_question_too(caplog):
     sent = []
 
-    def work(message, _):
+    def work(message, _, wanted):
         if message["number"] == 1:
             raise ZeroDivisionError("so it is")
         yield {"number": message["number"]}
@@ -354,7 +354,7 @@ def test_what_nobody_foresaw_is_answered_and_the_next_question_too(caplog):
             async def send(reply):
                 sent.append(reply)
 
-            slot = Slot(pool, work, send)
+            slot = Slot(Lanes(pool, pool), work, send)
             for number in (1, 2):
                 slot.put({"number": number})
                 await slot.task

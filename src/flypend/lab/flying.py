@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels import IdealKernel, SampledKernel
-from flypend.flight.kernels.single import Solution, sampled_samples
+from flypend.flight.kernels.single import REASONS, Solution, sampled_samples
 from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.trajectory import Trajectory
+from flypend.lab.budget import SPENT, Budget
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
 from flypend.laws.references import sampled
@@ -35,18 +38,22 @@ class Part:
     outcome: Outcome
 
 
-def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
+def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] = lambda: True) -> Trajectory:
     """Fly `setting`, pokes included, and return the trajectory in the frame of its law.
 
     The flight continues for the duration of the setting after the last poke. `tell` is called before a compilation.
+    A flight that has spent the steps of its `Budget` ends there. Raises InputError if it has spent the time, and
+    Abandoned once it is no longer `wanted`.
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
+    budget = Budget(wanted)
     begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
         while_ = flight.duration if poke is None else poke.time - begin
-        part = _after(machine, gains, flight, state, rotors, while_, number)
+        budget.check(begin)
+        part = _after(machine, gains, flight, state, rotors, while_, number, budget)
         parts.append(_moved(part, begin, last=poke is None))
         if poke is None or part.outcome.status != "completed":
             break
@@ -89,7 +96,14 @@ def verdict(run: Trajectory, machine: Tuned | Stepped) -> dict[str, Any]:
 
 
 def _after(
-    machine: Tuned | Stepped, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int
+    machine: Tuned | Stepped,
+    gains: Any,
+    flight: Flight,
+    state: State,
+    rotors: Any,
+    duration: float,
+    number: int,
+    budget: Budget,
 ) -> Part:
     """Fly part `number`: from `state` and the rotor forces `rotors` (N), for `duration` s, with its own noise."""
     if isinstance(flight.plant, Sampled):
@@ -97,23 +111,27 @@ def _after(
     elif duration == 0 and isinstance(machine, Tuned):
         return _part_of(machine, gains, np.zeros(1), state.packed()[None], Outcome("completed", 0.0))
     part = flight.replace(starts=state, duration=duration, seed=(flight.seed or 0) + number)
-    return _part(machine, gains, part, rotors)
+    return _part(machine, gains, part, rotors, budget)
 
 
-def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> Part:
+def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any, budget: Budget) -> Part:
     if isinstance(machine, Stepped):
-        return _stepped_part(flight, rotors)
+        return _stepped_part(flight.replace(law=budget.watch(machine.law)), rotors)
     if isinstance(machine.kernel, SampledKernel):
         return _sampled_part(machine.kernel, gains, flight, rotors)
-    return _ideal_part(machine, machine.kernel, gains, flight)
+    return _ideal_part(machine, machine.kernel, gains, flight, budget)
 
 
-def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight) -> Part:
-    solution = Solution(kernel, flight, gains)
-    t, end = flight.grid, solution.outcome.time
-    if solution.outcome.status != "completed":
-        t = np.append(t[t < end], end)
-    return _part_of(machine, gains, t, solution(t), solution.outcome)
+def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight, budget: Budget) -> Part:
+    exact = replace(flight.tolerances, max_steps=max(budget.steps, 1))
+    solution = Solution(kernel, flight.replace(tolerances=exact), gains)
+    budget.steps -= len(solution.knots) - 1
+    outcome, t = solution.outcome, flight.grid
+    if outcome.reason == REASONS[runge_kutta.TOO_MANY]:
+        outcome = replace(outcome, reason=SPENT)
+    if outcome.status != "completed":
+        t = np.append(t[t < outcome.time], outcome.time)
+    return _part_of(machine, gains, t, solution(t), outcome)
 
 
 def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) -> Part:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from flypend.flight.ensemble import fly_many
+from flypend.lab.budget import MOST_STEPS
 from flypend.lab.setting import Setting
 from flypend.lab.tuning import Stepped, Tell, tuned, values
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.plants import Ideal
 
-RUNS, CHUNK = {"ideal": 3000, "sampled": 1200, "stepped": 96}, {"ideal": 200, "sampled": 24, "stepped": 2}
+RUNS = {"ideal": 3000, "sampled": 1200, "stepped": 96}
+FIRST, MOST = {"ideal": 16, "sampled": 16, "stepped": 2}, {"ideal": 256, "sampled": 64, "stepped": 8}  # of a chunk
+CHUNK_TIME = 0.1  # s of processor time that a chunk should take, so that other pages get their turn
 # 1/ρ and 1/ρ² for the plastic number ρ³ = ρ + 1: Roberts's R2 low-discrepancy sequence on the unit square.
 STEPS = (0.7548776662466927, 0.5698402909980532)
 
@@ -27,24 +32,29 @@ def directions(count: int) -> Any:
     return np.stack([level * np.cos(2 * np.pi * turn), level * np.sin(2 * np.pi * turn), y_3], axis=-1)
 
 
-def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, Any]]:
+def region(
+    setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] = lambda: True
+) -> Iterator[dict[str, Any]]:
     """Fly `setting` with the rod at rest in all directions, the rest of its start unchanged, and yield chunks.
 
     A chunk holds `total`, `done` and, for each of its flights, `y` (e₃ up), `settling` (s; None for a failure) and
-    `cause`.
+    `cause`. A flight of more steps than a `Budget` allows counts as diverged. Ends once it is no longer `wanted`.
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
     kind = "ideal" if isinstance(flight.plant, Ideal) else "sampled"
     kind = "stepped" if isinstance(machine, Stepped) else kind
-    count, done = RUNS[kind], 0
+    count, done, size = RUNS[kind], 0, FIRST[kind]
     rods = directions(count)
     tuning = {name: float(value) for name, value in zip(machine.names, gains, strict=True)}
-    while done < count:
-        y = rods[done : done + CHUNK[kind]]
-        starts = _starts(setting.start, y)
-        own = starts.seen(machine.law.e3)
-        request = flight.replace(law=machine.law, starts=own, gains=tuning, criterion=machine.criterion)
+    exact = replace(flight.tolerances, max_steps=MOST_STEPS)
+    while done < count and wanted():
+        begun = time.thread_time()
+        y = rods[done : done + size]
+        own = _starts(setting.start, y).seen(machine.law.e3)
+        request = flight.replace(
+            law=machine.law, starts=own, gains=tuning, criterion=machine.criterion, tolerances=exact
+        )
         result = fly_many(request, workers=1)
         done += len(y)
         settling = [
@@ -54,6 +64,8 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
             "total": count, "done": done, "y": np.round(y, 5).tolist(), "settling": settling,
             "cause": [str(cause) for cause in result.cause],
         }  # fmt: skip
+        took = max(time.thread_time() - begun, 1e-3)
+        size = int(np.clip(size * CHUNK_TIME / took, FIRST[kind], min(2 * size, MOST[kind])))
 
 
 def _starts(start: State, y: Any) -> State:

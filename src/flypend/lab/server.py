@@ -21,6 +21,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from tornado.httpserver import HTTPServer
+from tornado.iostream import IOStream
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
@@ -28,11 +29,14 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.lab.own import OwnLaws
 from flypend.lab.page import page
-from flypend.lab.session import Slot, flights, maps, read, refusal
+from flypend.lab.session import Lanes, Slot, flights, maps, read, refusal
 from flypend.pages import replay
 
 LARGEST_MESSAGE = 64 * 1024  # bytes; a setting needs one or two thousand
 MOST_PAGES = 32
+MOST_CONNECTIONS = 128  # of all kinds; a browser opens a few for a page
+SILENT = 30  # s until a connection without a request is closed
+THREADS = 2
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; img-src data:; "
     "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -40,13 +44,15 @@ POLICY = (
 
 
 class Laboratory:
-    """State shared by all pages: one thread for flights, one for maps, and the set of open pages."""
+    """State shared by all pages: threads for quick flights, for slow ones and for maps, and the set of open pages."""
 
     def __init__(self, host: str, own: OwnLaws | None = None) -> None:
         self.host, self.own = host, own or OwnLaws()
         self.pages: set[Socket] = set()
-        self.flights = ThreadPoolExecutor(1, "flypend-flight")
-        self.maps = ThreadPoolExecutor(1, "flypend-map")
+        quick = ThreadPoolExecutor(THREADS, "flypend-flight")
+        slow, maps = (ThreadPoolExecutor(1, f"flypend-{name}") for name in ("slow", "map"))
+        self.flights, self.maps = Lanes(quick, slow), Lanes(maps, maps)
+        self.pools = (quick, slow, maps)
 
     def trusts(self, host: str) -> bool:
         """Whether the Host header `host` names this server, and not a foreign name that resolves to it."""
@@ -78,8 +84,30 @@ class Laboratory:
         """Close every page and thread; work in progress stops after its current reply."""
         for open_page in list(self.pages):
             open_page.leave()
-        for pool in (self.flights, self.maps):
+        for pool in self.pools:
             pool.shutdown(wait=True, cancel_futures=True)
+
+
+class Server(HTTPServer):
+    """An HTTP server with a limit on connections, so that silent ones cannot use up the files of the process.
+
+    An open page does not count: its connection has become a socket, of which there are at most MOST_PAGES.
+    """
+
+    connections = 0
+
+    def handle_stream(self, stream: IOStream, address: tuple[Any, ...]) -> None:
+        """Serve a new connection, unless there are too many."""
+        if self.connections >= MOST_CONNECTIONS:
+            stream.close()
+            return
+        self.connections += 1
+        super().handle_stream(stream, address)
+
+    def on_close(self, server_conn: object) -> None:
+        """Forget a connection."""
+        self.connections -= 1
+        super().on_close(server_conn)
 
 
 class Page(RequestHandler):
@@ -129,6 +157,9 @@ class Socket(WebSocketHandler):
 
     def open(self, *_: str, **__: str) -> None:
         """Register the page."""
+        if len(self.laboratory.pages) >= MOST_PAGES:  # others may have opened since the request
+            self.close(1013, "too many pages")
+            return
         self.laboratory.pages.add(self)
         self.set_nodelay(True)
 
@@ -207,7 +238,9 @@ async def _serve(
 ) -> None:
     stop = asyncio.Event()
     listening.setblocking(False)
-    server = HTTPServer(laboratory.application(), max_body_size=LARGEST_MESSAGE)
+    server = Server(
+        laboratory.application(), max_body_size=LARGEST_MESSAGE, idle_connection_timeout=SILENT, body_timeout=SILENT
+    )
     server.add_socket(listening)
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):

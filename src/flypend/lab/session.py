@@ -5,12 +5,17 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+import math
 import time
 from collections.abc import Awaitable, Callable, Iterator
 from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
+from threading import Lock
 from typing import Any
 
 from flypend.errors import InputError
+from flypend.lab.budget import Abandoned
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, verdict
@@ -23,76 +28,121 @@ from flypend.pages import replay
 log = logging.getLogger(__name__)
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands overflow the parser's stack
 KINDS = ("fly", "map", "stop")
+LATELY = 5.0  # s
+GREEDY = 0.5  # s of processor time within about LATELY; a usual flight takes 0.03 s
 Send = Callable[[dict[str, Any]], Awaitable[Any]]
 Tell = Callable[[], Any]
+Wanted = Callable[[], bool]
+Work = Callable[..., Iterator[dict[str, Any]]]  # (message, tell, wanted=)
+
+
+def _always() -> bool:
+    return True
+
+
+@dataclass
+class Lanes:
+    """Threads for answers: `quick`, and `slow` for pages that have lately taken much processor time.
+
+    Such pages wait for each other, and keep nobody else waiting.
+    """
+
+    quick: Executor
+    slow: Executor
 
 
 class Slot:
-    """A queue of length one: while a request is in progress, only the latest new one is kept.
+    """A queue of length one: only the latest request is kept until a thread takes it up.
 
-    `work(message, tell)` returns an iterator of replies, which a thread of `pool` advances one by one; a new message
-    abandons it. `send` sends each reply.
+    `work(message, tell, wanted=)` returns an iterator of replies, which a thread of `lanes` advances one by one; a new
+    message abandons it. `wanted()` says whether anybody waits. `send` sends each reply.
     """
 
-    def __init__(self, pool: Executor, work: Callable[[Any, Tell], Iterator[dict[str, Any]]], send: Send) -> None:
-        self.pool, self.work, self.send = pool, work, send
+    def __init__(self, lanes: Lanes, work: Work, send: Send) -> None:
+        self.lanes, self.work, self.send = lanes, work, send
+        self.load, self.noted = 0.0, time.monotonic()  # processor time taken lately, s, as of then
         self.pending: Any = None
+        self.dropped = False
         self.task: asyncio.Task[None] | None = None
+        self._message: Any = None  # in progress, with its replies
+        self._replies: Iterator[dict[str, Any]] | None = None
+        self._lock = Lock()
 
     def put(self, message: Any) -> None:
         """Queue `message` in place of any that waits."""
-        self.pending = message
+        with self._lock:
+            self.pending, self.dropped = message, False
         if self.task is None or self.task.done():
             self.task = asyncio.get_running_loop().create_task(self._run())
 
     def drop(self) -> None:
-        """Discard the waiting request, and abandon the one in progress after its current reply."""
-        self.pending = False
+        """Discard the waiting request, and abandon the one in progress."""
+        with self._lock:
+            self.pending, self.dropped = None, True
 
     async def _run(self) -> None:
-        while self.pending:
-            message, self.pending = self.pending, None
-            await self._answer(message)
+        while self.pending is not None:
+            self._replies = None
+            await self._answer()
 
-    async def _answer(self, message: Any) -> None:
+    async def _answer(self) -> None:
+        """Answer the request that is the latest when a thread is free: reply by reply, until another one comes."""
         loop = asyncio.get_running_loop()
-
-        def tell() -> None:
-            told = {"kind": "compiling", "number": message.get("number")}
-            asyncio.run_coroutine_threadsafe(_ignore(self.send(told)), loop)
-
-        replies = self.work(message, tell)
-        while True:
+        while self.pending is None or self._replies is None:
             try:
-                reply = await loop.run_in_executor(self.pool, next, replies, None)
+                reply = await loop.run_in_executor(self._lane(), self._advance, loop)
+            except Abandoned:
+                return
             except Exception as error:  # the page needs a reply, and the server must survive for the others
                 log.exception("a setting could not be flown")
                 reason = f"{type(error).__name__}: {error}"
-                await self.send(
-                    refusal(InputError("setting", "one that can be computed", reason), message.get("number"))
-                )
+                refused = InputError("setting", "one that can be computed", reason)
+                await self.send(refusal(refused, self._message.get("number")))
                 return
-            if reply is None or self.pending is False:
+            if reply is None or self.dropped:
                 return
             await self.send(reply)
-            if self.pending is not None:
-                return
+
+    def _lane(self) -> Executor:
+        """Return the threads for the next reply; what the page took fades with LATELY."""
+        now = time.monotonic()
+        self.load, self.noted = self.load * math.exp((self.noted - now) / LATELY), now
+        return self.lanes.slow if self.load > GREEDY else self.lanes.quick
+
+    def _advance(self, loop: asyncio.AbstractEventLoop) -> dict[str, Any] | None:
+        """Take up the latest request, unless one is in progress, and return its next reply; None at the end."""
+        with self._lock:
+            if self.dropped:
+                return None
+            if self._replies is None:
+                self._message, self.pending = self.pending, None
+                self._replies = self.work(self._message, partial(self._tell, loop), wanted=lambda: not self.dropped)
+        begun = time.thread_time()
+        try:
+            return next(self._replies, None)
+        finally:
+            self.load += time.thread_time() - begun
+
+    def _tell(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Send "compiling", from a thread."""
+        told = {"kind": "compiling", "number": self._message.get("number")}
+        asyncio.run_coroutine_threadsafe(_ignore(self.send(told)), loop)
 
 
 async def _ignore(sent: Awaitable[Any]) -> None:
     await sent
 
 
-def flights(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, Any]]:
+def flights(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always) -> Iterator[dict[str, Any]]:
     """Yield the reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports.
 
-    `own` are the custom laws.
+    `own` are the custom laws. Raises Abandoned once the flight is no longer `wanted`.
     """
     begun = time.perf_counter()
     number = message.get("number")
     try:
         setting = setting_of(message.get("setting"), own)
-        run = fly(setting, tell)
+        run = fly(setting, tell, wanted)
         machine = tuned(setting)
         yield {
             "kind": "flight",
@@ -109,11 +159,11 @@ def flights(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str,
         yield refusal(error, number)
 
 
-def maps(message: Any, tell: Tell, own: OwnLaws = NONE) -> Iterator[dict[str, Any]]:
-    """Yield the replies to "map": chunks of the region of attraction; `own` are the custom laws."""
+def maps(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always) -> Iterator[dict[str, Any]]:
+    """Yield the replies to "map": chunks of the region of attraction, while it is `wanted`; `own` as in `flights`."""
     number = message.get("number")
     try:
-        for chunk in region(setting_of(message.get("setting"), own), tell):
+        for chunk in region(setting_of(message.get("setting"), own), tell, wanted):
             yield {"kind": "map", "number": number, **chunk}
     except InputError as error:
         yield refusal(error, number)

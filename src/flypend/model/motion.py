@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from flypend.geometry import apply, cross, dot, hat, hat_squared, is_symbolic, scale
-from flypend.model.dynamics import Rates, gravity_vector
+from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
 
@@ -74,7 +74,7 @@ def disturbed_motion(
         Rates of the state; `x_ddot` is the acceleration of the pivot.
     """
     vehicle = vehicle.seen(e3)
-    M, m, l, I = vehicle.M, vehicle.m, vehicle.l, vehicle.I
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
     R, omega, y, o = state.R, state.omega, state.y, pivot_offset
     F_b = scale(1.0, force_on_bob)
     f, z, F_v = wrench.thrust, state.z, scale(1.0, force_on_vehicle)
@@ -82,7 +82,7 @@ def disturbed_motion(
 
     arm = cross(o, apply(_transposed(R), y))  # moment per unit tension, body frame
     a = apply(vehicle.I_inv, arm)  # (3)
-    alpha = apply(vehicle.I_inv, wrench.moment - cross(omega, apply(I, omega)))
+    alpha = apply(vehicle.I_inv, wrench.moment - gyroscopic_moment(vehicle.I, omega))
     s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
     h_0 = F_v / M - F_b / m + s_0
     T = (l * speed_squared - f / M * dot(y, z) - dot(y, h_0)) / (1 / m + 1 / M + dot(arm, a))  # (6)

@@ -60,6 +60,27 @@ def operations_of(expression, *symbols):
     return program_of([expression], symbols)[0].counts()
 
 
+def test_derivatives_of_roots_and_limits_take_no_division_of_their_own():
+    x, x_dot = ca.SX.sym("x"), ca.SX.sym("v")
+    root = 1 / ca.sqrt(1 + x * x)
+    assert operations_of(root, x)["div"] == 1
+    rate = ca.vertcat(root, ca.jtimes(root, x, x_dot))
+    assert program_of([rate], [x, x_dot])[0].counts()["div"] == 1
+    eighth = 1 / ca.sqrt(ca.sqrt(ca.sqrt(1 + x**8)))
+    counts = program_of([eighth, ca.jtimes(eighth, x, x_dot)], [x, x_dot])[0].counts()
+    assert (counts["div"], counts["sqrt"]) == (1, 3)
+    clipped = ca.fmin(ca.fmax(x, 0), 1)
+    assert "div" not in operations_of(ca.jtimes(clipped, x, x_dot), x, x_dot)
+
+
+def test_the_derivative_of_a_limit_is_shared_where_both_sides_are_equal():
+    x = ca.SX.sym("x")
+    program, function = program_of([ca.jacobian(ca.fmax(x, 1), x), ca.jacobian(ca.fmin(x, 1), x)], [x])
+    for value, wanted in ((0.0, [0.0, 1.0]), (1.0, [0.5, 0.5]), (2.0, [1.0, 0.0])):
+        np.testing.assert_array_equal(np.array(function(value)).ravel(), wanted)
+        np.testing.assert_array_equal(evaluate(program, [np.float64(value)])[0], wanted)
+
+
 a, b, c = (ca.SX.sym(name) for name in "abc")
 
 

@@ -99,3 +99,38 @@ def test_stretches_are_the_longest_runs_of_neighbours():
     cells += [Cell("constant", value=1.0), Cell("call", 0, 0), Cell("call", 0, 1)]
     assert [length for _, length in stretches(cells)] == [2, 1, 1, 1, 2]
     assert stretches([]) == []
+
+
+def queue(length):
+    """A function (memory, x) → (memory, y): the memory is a number that is doubled, and a queue of entries of two."""
+    memory, x = ca.MX.sym("memory", 1 + 2 * length), ca.MX.sym("x", 2)
+    head, oldest = memory[:1], memory[-2:]
+    after = ca.vertcat(double(1, "one")(head), double(2, "two")(x), memory[1:-2])
+    return ca.Function("queue", [memory, x], [after, double(2, "two")(oldest)])
+
+
+@pytest.mark.parametrize("length", [2, 5])
+def test_a_queue_slides_through_memory_instead_of_being_copied(length):
+    routine, width = lower_calls(queue(length)), 4
+    assert routine.slide() == 2
+    assert lower_calls(queue(1)).slide() == 0
+    lanes, size = Lanes(ir.Module("test"), width), 1 + 2 * length
+    sliding = define_routine(lanes, routine, routine.slide())
+    # One function that calls it at two places of one memory, the second two vectors before the first.
+    function, code = lanes.function("both", 3)
+    memory, x, y = function.args
+    for place in (4, 2):
+        code.call(sliding, code.vector_at(memory, place), x, code.vector_at(memory, place - 2), y)
+    code.builder.ret_void()
+    rng = np.random.default_rng(3)
+    first, given = rng.normal(size=(size, width)), rng.normal(size=(2, width))
+    begin = np.concatenate([np.zeros((4, width)), first])
+    shapes = [((2, width), np.float64)]
+    kept = []
+    call = compiled(lanes, function, 3, kept)
+    (last,) = call([begin, given], shapes)
+    expected = [first[:, 0], None]
+    for _ in range(2):
+        expected = [np.array(v).ravel() for v in queue(length).call([ca.DM(expected[0]), ca.DM(given[:, 0])])]
+    np.testing.assert_allclose(kept[0][:size, 0], expected[0], rtol=1e-14)
+    np.testing.assert_allclose(last[:, 0], expected[1], rtol=1e-14)

@@ -21,8 +21,11 @@ from flypend.plants import Ideal
 from flypend.plants.loop import Loop
 
 
-def compiled(lanes, function, pointers):
-    """A callable of arrays for an internal function of the module of `lanes`; it moves them to aligned memory."""
+def compiled(lanes, function, pointers, kept=None):
+    """A callable of arrays for an internal function of the module of `lanes`; it moves them to aligned memory.
+
+    To the list `kept` it adds what then stands in the memory of its inputs.
+    """
     outer = ir.Function(lanes.module, ir.FunctionType(VOID, [POINTER] * pointers), "outer")
     builder = ir.IRBuilder(outer.append_basic_block())
     builder.call(function, outer.args)
@@ -34,6 +37,8 @@ def compiled(lanes, function, pointers):
         memory = [aligned(np.asarray(rows, dtype=number)) for rows in inputs]
         memory += [aligned(np.zeros(shape, dtype=kind)) for shape, kind in shapes]
         native(*(array.ctypes.data for array in memory))
+        if kept is not None:
+            kept.extend(memory[: len(inputs)])
         return memory[len(inputs) :]
 
     return call

@@ -9,10 +9,11 @@ import casadi as ca
 import numpy as np
 
 from flypend.board.believed import Believed
-from flypend.geometry import apply, cross
+from flypend.geometry import apply
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
+from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
 from flypend.plants.loop import Loop
@@ -88,7 +89,7 @@ def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: A
     vehicle, plant = believed.vehicle, loop.sampled
     if plant.interface == "rates":
         omega = State.symbolic(packed).omega
-        free = moment - cross(omega, apply(vehicle.I, omega))
+        free = moment - gyroscopic_moment(vehicle.I, omega)
         return ca.vertcat(thrust, omega + apply(vehicle.I_inv, free) / plant.rate_loop_gain)
     lead = usable_lead(loop.law, loop.vehicle, plant)
     command = led(rotor_forces(thrust, moment, vehicle, plant.limits), rotors, lead)

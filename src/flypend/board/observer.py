@@ -8,6 +8,7 @@ from flypend.board.believed import Believed
 from flypend.geometry import E3, cross
 from flypend.laws import Computer
 from flypend.model import State, linear_momentum
+from flypend.model.momenta import pull_on_rod
 from flypend.model.state import SIZE
 
 # Size of the observer's memory: a flag (initialised), and six each of momentum estimates, known rates and unknowns.
@@ -51,7 +52,7 @@ def observer(believed: Believed, computer: Computer, period: float) -> ca.Functi
     s = State.symbolic(packed)
     measured = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
     f = ca.sum1(rotors)
-    known = ca.vertcat(f * s.z - vehicle.weight * E3, -f / (M * l) * cross(s.y, s.z))
+    known = ca.vertcat(f * s.z - vehicle.weight * E3, cross(s.y, pull_on_rod(f, s.z, vehicle)))
     following = momenta + period * ((before + known) / 2 + estimate)
     following = ca.if_else(begun, following, measured - estimate / L)  # keeps the estimate unchanged
     unknown = L * (measured - following)

@@ -17,15 +17,12 @@ import numpy as np
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
 from flypend.board.command import command_width, idle_command, law_command, steering
-from flypend.model.state import SIZE, project_symbolic
-from flypend.plants.actuation import rate_loop
-from flypend.plants.equations import rotor_lag, rotor_step, step_timing
+from flypend.board.twin import Twin
+from flypend.model.state import SIZE
+from flypend.plants.lag import held, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import Segment, ahead, steps_in, within_period
-
-# Longest prediction step, s: a quarter of the rotor lag, where one step integrates the lag to (1/4)⁴/2880 = 1e-6.
-TWIN_STEP = 5e-3
+from flypend.plants.schedule import Segment, ahead, within_period
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,38 +111,6 @@ def board(
     return Board(loop, believed, reference, step)
 
 
-class _Twin:
-    """The board's model of vehicle and rotors, as function calls on MX symbols."""
-
-    def __init__(self, loop: Loop, believed: Believed, params: Any) -> None:
-        self._plant, self._believed, self._params = loop.sampled, believed, params
-        self._steps: dict[float, ca.Function] = {}
-        self._loop = None
-        if loop.sampled.interface == "rates":
-            plant = loop.sampled
-            self._loop = rate_loop(believed.vehicle, plant.limits, plant.rate_loop_gain, believed.symbols)
-
-    def advance(self, state: Any, rotors: Any, command: Any, duration: float, forces: Any) -> tuple[Any, Any]:
-        """Return state and rotors `duration` seconds later, under a zero-order-hold `command` and external `forces`."""
-        steps = steps_in(duration, self._plant, TWIN_STEP)
-        step = self._of_length(duration / steps)
-        for _ in range(steps):
-            wanted = command if self._loop is None else self._loop(command, state[15:18], self._params)
-            state, rotors = step(state, rotors, wanted, forces, ca.MX(0, 1), self._params)
-        return state, rotors
-
-    def _of_length(self, duration: float) -> ca.Function:
-        """Return the step function for a constant `duration` in s."""
-        length = round(duration, 12)  # one function per length, up to roundoff
-        if length not in self._steps:
-            believed = self._believed
-            self._steps[length] = rotor_step(
-                believed.vehicle, symbols=believed.symbols, rotors=believed.rotors,
-                timing=step_timing(believed.lag, length), project=False, name=f"twin_{round(1e9 * length)}",
-            )  # fmt: skip
-        return self._steps[length]
-
-
 def _ahead(loop: Loop) -> tuple[Segment, ...]:
     return ahead(loop.law.computer.latency, 1 / loop.sampled.rate)
 
@@ -171,18 +136,13 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
     if observer_memory(loop):
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
         kept, forces = observe(state, rotors, kept, params)
-    twin = _Twin(loop, believed, params)
-    for age, duration in _ahead(loop):  # this step's command is yet to come: the newest has age 1
-        state, rotors = twin.advance(state, rotors, commands[age - 1], duration, forces)
-    if _ahead(loop):
-        state = _projection()(state)
+    under_way = [None, *commands]  # this step's command, of age 0, is yet to come
+    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
     return ca.Function("predict", [memory, measurement, params], [kept, forces, state, rotors])
 
 
-def _projection() -> ca.Function:
-    """Return predicted state → state projected onto the manifold; its few steps drift by less than their error."""
-    packed = ca.SX.sym("s", SIZE)
-    return ca.Function("project", [packed], [ca.densify(project_symbolic(packed))])
+def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
+    return Twin(loop, believed, params, forces=observer_memory(loop) > 0)
 
 
 def remembering(loop: Loop, believed: Believed) -> ca.Function:
@@ -193,9 +153,8 @@ def remembering(loop: Loop, believed: Believed) -> ca.Function:
     rotors, _, commands = _parts(loop, memory)
     under_way = [command, *commands]
     if loop.sampled.interface == "rates":  # the rate loop's rotor commands depend on the rotation
-        state, twin = measurement[1:], _Twin(loop, believed, params)
-        for age, duration in _within(loop):
-            state, rotors = twin.advance(state, rotors, under_way[age], duration, forces)
+        twin = _twin(loop, believed, params)
+        _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), forces)
     else:
         rotors = _lagged(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])
@@ -220,7 +179,13 @@ def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
 
 def _lagged(loop: Loop, believed: Believed, rotors: Any, under_way: Sequence[Any]) -> Any:
     """Return the modelled `rotors` one period later, under the rotor forces in transit."""
-    lag = rotor_lag(believed.rotors)
     for age, duration in _within(loop):
-        rotors = lag(rotors, under_way[age], ca.MX(ca.DM(step_timing(believed.lag, duration))))
+        rotors = _lag(believed, round(1e9 * duration))(rotors, under_way[age])
     return rotors
+
+
+def _lag(believed: Believed, nanoseconds: int) -> ca.Function:
+    """Return (rotors, command) → rotors after a time under the command."""
+    rotors, command = ca.SX.sym("r", believed.rotors), ca.SX.sym("u", believed.rotors)
+    _, after = held(rotors, command, step_timing(believed.lag, nanoseconds / 1e9))
+    return ca.Function(f"rotor_lag_{nanoseconds}", [rotors, command], [after])

@@ -188,9 +188,33 @@ class _Builder:
         simple = self._simplified(name, arguments, values)
         if simple is not None:
             return simple
-        if name == "div" and values[0] != 1.0:  # multiply by a reciprocal that can be shared; see `_divided`
-            return self.do("mul", arguments[0], self.do("div", self.constant(1.0), arguments[1]))
+        if name == "div":
+            return self._quotient(*arguments)
         return self._put(Operation(name, tuple(sorted(arguments)) if name in _COMMUTATIVE else arguments))
+
+    def _quotient(self, a: int, b: int) -> int:
+        """a/b as a product with a reciprocal that can be shared (see `_divided`), without dividing where possible.
+
+        CasADi differentiates √u to u̇/(√u + √u), and min and max to shares (p ≤ q)/((p ≤ q) + (q ≤ p)).
+        """
+        first, divisor = self.operations[a], self.operations[b]
+        if divisor.name == "add" and divisor.arguments[0] == divisor.arguments[1]:
+            return self._quotient(self.do("mul", self.constant(0.5), a), divisor.arguments[0])
+        if first.name == "le" and divisor.name == "add" and a in divisor.arguments:
+            other = sum(divisor.arguments) - a
+            if self.operations[other] == Operation("le", first.arguments[::-1]):
+                share = self.do("add", self.constant(1.0), self.do("sub", a, other))
+                return self.do("mul", self.constant(0.5), share)
+        reciprocal = self._reciprocal(b)
+        return reciprocal if self._value(a) == 1.0 else self.do("mul", a, reciprocal)
+
+    def _reciprocal(self, number: int) -> int:
+        """1/x; the square of 1/√x if √x is known."""
+        root = self._known.get(("sqrt", (number,), (0.0).hex()))
+        if root is not None:
+            inverse = self._reciprocal(root)
+            return self.do("mul", inverse, inverse)
+        return self._put(Operation("div", (self.constant(1.0), number)))
 
     def _simplified(self, name: str, arguments: tuple[int, ...], values: list[float | None]) -> int | None:
         """Apply identities (x + 0, x · 0, x + (−y) = x − y, …); None if nothing simplifies."""

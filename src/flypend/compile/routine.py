@@ -6,6 +6,7 @@ large for a processor's cache or a microcontroller's flash. With calls, each pro
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -66,6 +67,15 @@ class Routine:
     def operations(self) -> int:
         """Number of operations of one execution of the routine."""
         return sum(sum(self.programs[call.program].counts().values()) for call in self.calls)
+
+    def slide(self) -> int:
+        """Return by how many places most cells move that the first output takes over from the first input.
+
+        This is the length of an entry if the vector ends with a queue. 0 if none move to a later place.
+        """
+        moves = [i - cell.place for i, cell in enumerate(self.outputs[0]) if cell[:2] == ("input", 0)]
+        later = Counter(move for move in moves if move > 0)
+        return later.most_common(1)[0][0] if later else 0
 
 
 def stretches(cells: Sequence[Cell]) -> list[tuple[Cell, int]]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from flypend.compile.program import Program
 from flypend.compile.routine import Routine
 
+GUSTS = 18  # place of the first number for the gusts among the random numbers of a tick
+
 
 @dataclass(frozen=True)
 class Stretch:
@@ -23,7 +25,7 @@ class EquationsProblem:
     Parameters
     ----------
     step : Program
-        One step (state, rotors, command, wind, timing, –) → (state, rotors).
+        One step (state, rotors, command, wind, timing) → (state, rotors).
     """
 
     step: Program
@@ -124,6 +126,12 @@ class SampledProblem:
         """Lengths of the inputs shared by all flights of a call: timings, noise parameters and wind parameters."""
         noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
         return self.timing * len(self.flown), noise, wind
+
+    @property
+    def drawn(self) -> range:
+        """The random numbers of a tick that are used: the first for the measurement, the others for the gusts."""
+        measured = self.measure.inputs[1] if self.measure else 0
+        return range(0 if measured else GUSTS, GUSTS + self.gusts.inputs[1] if self.gusts else measured)
 
     @property
     def depth(self) -> int:

@@ -38,6 +38,7 @@ from flypend.laws.throw import (
     steering_force,
 )
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
+from flypend.model.dynamics import gyroscopic_moment
 
 # ε in the thrust axis's target F + ε (M+m) g e₃, which points along e₃ where the desired force F vanishes (free fall).
 AXIS_LIFT = 0.028
@@ -92,7 +93,6 @@ def inverted_control(
 
     `forces` are the estimated external forces on vehicle and bob, each (3, 1), N; `path` is the path of pivot and bob.
     """
-    z, z_dot = state.z, apply(state.R, cross(state.omega, E3))
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
     v_ref, a_ref, jerk_ref = derivatives(p_ref, t, 3)
     height = state.x[2] - x_ref[2]
@@ -107,7 +107,7 @@ def inverted_control(
     # share of that time. With a share of 1 the two forces coincide.
     ahead = coasted(state.y, state.y_dot, k.coast_time)
     present = force(*coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time))
-    f = ca.fmin(ca.fmax(dot(present, z), 0), largest_thrust(vehicle))
+    f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
 
@@ -127,18 +127,20 @@ def inverted_control(
         wanted = axis(force(*ahead))
         wanted_dot = lie_derivative(wanted, state, rates, t)
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
-    # ż_d up to a component along z_d, which the transport map of Lemma 2 annihilates.
-    z_d, z_d_dot = scale(per_length, wanted), scale(per_length, wanted_dot)
-    v_e = velocity_error(z, z_dot, z_d, k.rate_feedforward * z_d_dot)
+    # From here on in the body frame, where z = e₃ and half of what follows is zero. ż_d is known up to a component
+    # along z_d, which the transport map of Lemma 2 annihilates.
+    z_d, z_d_dot = (apply(state.R.T, scale(per_length, v)) for v in (wanted, wanted_dot))
+    z_dot = cross(state.omega, E3)
+    v_e = velocity_error(E3, z_dot, z_d, k.rate_feedforward * z_d_dot)
     # Length 2 sin(θ/2), with θ the angle between z and z_d, up to near the antipode θ = π, where it drops to 0.
-    spring = scale(1 / ca.sqrt((1 + dot(z, z_d)) / 2 + ANTIPODE_FLOOR), tangent_part(z, z_d))
+    spring = scale(1 / ca.sqrt((1 + z_d[2]) / 2 + ANTIPODE_FLOOR), tangent_part(E3, z_d))
     stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
     # Limit the turn rate to what the vehicle can stop: the bare spring would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
 
     # z̈ = −|ż|² z + u_z: the paper's (setmu) solved for the ω̇ normal to z. The yaw rate is damped.
-    turn = apply(state.R.T, cross(z, u_z) + state.omega[2] * z_dot)
+    turn = cross(E3, u_z) + state.omega[2] * z_dot
     alpha = ca.vertcat(turn[0], turn[1], -k.yaw_damping * state.omega[2])
-    moment = apply(vehicle.I, alpha) + cross(state.omega, apply(vehicle.I, state.omega))
-    signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(z - z_d)}
+    moment = apply(vehicle.I, alpha) + gyroscopic_moment(vehicle.I, state.omega)
+    signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)

@@ -61,7 +61,8 @@ def bob_acceleration(e: Any, v: Any, y: Any, k: Any) -> Any:
     limited = soft(e, k.position_reach)
     throw = k.throw_speed * low_rod(y, k)
     up = -(k.height_bandwidth**2) * limited[2] - 2 * k.height_damping * k.height_bandwidth * (v[2] - throw)
-    vertical = ca.fmax(up, 0) + soft(ca.fmin(up, 0), k.descent_limit)
+    rising = positive(up)
+    vertical = rising + soft(up - rising, k.descent_limit)
     horizontal = -(k.position_bandwidth**2) * limited[:2] - 2 * k.position_damping * k.position_bandwidth * v[:2]
     return ca.vertcat(soft(horizontal, k.level_limit), vertical)
 
@@ -202,8 +203,13 @@ def soft(value: Any, limit: Any) -> Any:
 
 def smooth_step(q: Any) -> Any:
     """Return exactly 0 below q = 0 and exactly 1 above q = 1; twice differentiable, so that ż_d has no jump."""
-    q = ca.fmin(ca.fmax(q, 0), 1)
+    q = 1 - positive(1 - positive(q))
     return q * q * q * (10 - q * (15 - 6 * q))
+
+
+def positive(value: Any) -> Any:
+    """Return `value` where it is positive, else 0: max(value, 0) with a derivative that takes one operation."""
+    return value * (value > 0)
 
 
 def coasted(y: Any, y_dot: Any, time: Any) -> tuple[Any, Any]:

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import E3, apply, dot, is_symbolic
+from flypend.geometry import E3, apply, cross, dot, is_symbolic
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
 
@@ -35,6 +35,14 @@ class Rates(NamedTuple):
 def gravity_vector(vehicle: Vehicle, e3: E3Direction) -> Any:
     """Gravity vector g⃗ in the world frame, m/s²: −g e₃ for `e3` = "up", +g e₃ for "down" (the paper's frame)."""
     return (-vehicle.g if errors.one_of("e3", e3, ("up", "down")) == "up" else vehicle.g) * E3
+
+
+def gyroscopic_moment(I: Any, omega: Any) -> Any:
+    """ω × I ω, N m, for inertia `I` (3, 3) and angular velocity `omega` (..., 3) in the body frame.
+
+    Written as ω × (I − I₁₁) ω, in which terms vanish for a vehicle of rotational symmetry.
+    """
+    return cross(omega, apply(I - I[0, 0] * np.eye(3), omega))
 
 
 def lie_derivative(h: Any, state: State, rates: Rates, t: Any = None) -> Any:

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from flypend.geometry import E3, apply, cross, dot, hat, hat_squared, is_symbolic, scale
-from flypend.model.dynamics import Rates, gravity_vector
+from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment
+from flypend.model.rod import is_point, shared_out
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
 
@@ -89,7 +90,7 @@ def disturbed_motion(
 
     arm = cross(o, apply(_transposed(R), y))  # moment per unit tension, body frame
     a = apply(I_inv, arm)  # (3)
-    alpha = apply(I_inv, moment - cross(omega, apply(I, omega)))
+    alpha = apply(I_inv, moment - gyroscopic_moment(I, omega))
     s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
     h_0 = F_v / M - F_b / m + s_0
     T = (l * speed_squared - f / M * dot(y, z) - dot(y, h_0)) / (1 / m + 1 / M + dot(arm, a))  # (6)
@@ -106,16 +107,16 @@ def _of_rigid_body(
     vehicle: Vehicle, state: State, wrench: Wrench, offset: Any, on_vehicle: Any, on_rod: Any
 ) -> tuple[Any, ...]:
     """Return o, I, I⁻¹, the moment, F_v and F_b of the rigid body of vehicle and pivot mass, and the point bob."""
-    if vehicle.M is vehicle.mass or vehicle.rod_inertia == 0:
+    if is_point(vehicle):
         return offset, vehicle.I, vehicle.I_inv, wrench.moment, on_vehicle, on_rod
     own, M, o = vehicle.mass, vehicle.M, np.asarray(offset, dtype=float)
-    share, bob = 1 - own / M, vehicle.m / vehicle.bob_mass
+    share = 1 - own / M
     I = vehicle.I + own * share * (o @ o * np.eye(3) - np.outer(o, o))  # parallel axes, reduced mass
-    at_pivot = (1 - bob) * on_rod
+    at_pivot, on_bob = shared_out(on_rod, vehicle)
     back = _transposed(state.R)
     pushed = apply(back, on_vehicle) + scale(wrench.thrust, E3)
     moment = wrench.moment - cross(share * o, pushed) + cross((1 - share) * o, apply(back, at_pivot))
-    return (1 - share) * o, I, np.linalg.inv(I), moment, on_vehicle + at_pivot, bob * on_rod
+    return (1 - share) * o, I, np.linalg.inv(I), moment, on_vehicle + at_pivot, on_bob
 
 
 def _transposed(R: Any) -> Any:

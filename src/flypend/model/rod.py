@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from flypend import errors
+from flypend.model.vehicle import Vehicle
 
 
 def uniform_rod(mass: float, length: float) -> dict[str, float]:
@@ -28,3 +31,16 @@ def rod_with_bob(mass: float, length: float, bob_mass: float) -> dict[str, float
         "rod_inertia": m * L**2 / 12 + m * b / total * (L / 2) ** 2,  # parallel axes
         "rod_end": L,
     }
+
+
+def is_point(vehicle: Vehicle) -> bool:
+    """Whether the rod of `vehicle`, whose numbers may be symbols, is a point mass."""
+    return vehicle.M is vehicle.mass or vehicle.rod_inertia == 0
+
+
+def shared_out(on_rod: Any, vehicle: Vehicle) -> tuple[Any, Any]:
+    """Return the parts of a force `on_rod` (..., 3), at its centre of mass, that act at the pivot and at the bob."""
+    if is_point(vehicle):
+        return 0 * on_rod, on_rod
+    share = vehicle.m / vehicle.bob_mass  # the centre of mass is at this share of the bob's distance
+    return (1 - share) * on_rod, share * on_rod

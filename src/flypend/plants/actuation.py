@@ -10,15 +10,17 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
-from flypend.geometry import apply, cross
+from flypend.geometry import apply
 from flypend.model import Vehicle
 from flypend.model.allocation import allocate
+from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.state import SIZE
-from flypend.plants.equations import NONE, EquationsEngine
+from flypend.plants.equations import EquationsEngine
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import steps_in
 
 OMEGA = slice(15, 18)
+NO_SYMBOLS = np.zeros(0)  # of a vehicle with numeric parameters
 
 
 class Engine(Protocol):
@@ -121,7 +123,7 @@ class Actuation:
         """Hold `command` for `duration` (s) under `wind` (6,), N."""
         steps = steps_in(duration, self._plant, self._longest)
         for _ in range(steps):
-            forces = self._loop(command, self.engine.packed[OMEGA], NONE) if self._rates else command
+            forces = self._loop(command, self.engine.packed[OMEGA], NO_SYMBOLS) if self._rates else command
             self.engine.step(forces, duration / steps, wind)
 
 
@@ -133,12 +135,11 @@ def _compiled_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
 def rate_loop(vehicle: Any, limits: bool, gain: float, symbols: Any = None, name: str = "rate_loop") -> ca.Function:
     """Rate loop (command (4,), omega (3,), symbols) → rotor forces (n,), N, as a CasADi function.
 
-    `gain` is in 1/s; `limits` says whether the forces are kept within the rotor limits. `vehicle`, `symbols` and
-    `name` as in `rotor_step`.
+    `gain` is in 1/s; `limits` says whether the forces are kept within the rotor limits. The parameters of `vehicle` may
+    be symbolic, for code that receives them at run time; `symbols` are these. `name` is that of the function.
     """
     command, omega = ca.SX.sym("c", 4), ca.SX.sym("omega", 3)
-    gyroscopic = cross(omega, apply(vehicle.I, omega))
-    moment = apply(vehicle.I, gain * (command[1:] - omega)) + gyroscopic
+    moment = apply(vehicle.I, gain * (command[1:] - omega)) + gyroscopic_moment(vehicle.I, omega)
     inputs = [command, omega, ca.SX(0, 1) if symbols is None else symbols]
     return ca.Function(name, inputs, [rotor_forces(command[0], moment, vehicle, limits)])
 

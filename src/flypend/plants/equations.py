@@ -1,4 +1,4 @@
-"""The built-in engine: one Runge-Kutta step of vehicle, pendulum and rotors as a compiled function."""
+"""The built-in engine: one step of vehicle, pendulum and rotors as a compiled function."""
 
 from __future__ import annotations
 
@@ -12,14 +12,16 @@ import numpy as np
 from flypend.compile.numeric import as_numpy
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.motion import disturbed_motion
+from flypend.model.rod import shared_out
 from flypend.model.state import SIZE, project_symbolic
+from flypend.plants.cascade import cascade_step
+from flypend.plants.lag import TIMING_SIZE, Ramp, held, step_timing
 
-TIMING_SIZE = 4
-NONE = np.zeros(0)  # symbols of a vehicle with numeric parameters
+NO_OFFSET = (0.0, 0.0, 0.0)
 
 
 class EquationsEngine:
-    """Vehicle, pendulum and rotors with first-order lag, integrated by classical Runge-Kutta steps, e₃-up frame.
+    """Vehicle, pendulum and rotors with first-order lag, e₃-up frame.
 
     Parameters
     ----------
@@ -29,7 +31,7 @@ class EquationsEngine:
         Position of the ball joint relative to the centre of mass, body frame, m.
     """
 
-    def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0)) -> None:
+    def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...] = NO_OFFSET) -> None:
         self._step = _compiled_step(vehicle, tuple(pivot_offset))
         self._lag = vehicle.rotor_lag
         self.packed: Any = np.zeros(SIZE)
@@ -41,8 +43,7 @@ class EquationsEngine:
 
     def step(self, command: Any, duration: float, wind: Any) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
-        timing = step_timing(self._lag, duration)
-        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, timing, NONE)
+        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, step_timing(self._lag, duration))
 
 
 @lru_cache(maxsize=64)
@@ -50,57 +51,54 @@ def _compiled_step(vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> Callabl
     return as_numpy(rotor_step(vehicle, pivot_offset))
 
 
-@lru_cache(maxsize=256)
-def step_timing(lag: float, duration: float) -> Any:
-    """Timing input (4,) of `rotor_step` for a `duration` h and a `lag` T (s): h, and e^{−t/T} at t = 0, h/2 and h."""
-    decay = np.exp(-duration / (2 * lag)) if lag > 0 else 0.0
-    return np.array([duration, float(lag > 0), decay, decay**2])  # without a lag the initial force decays at once
-
-
 def rotor_step(
-    vehicle: Any,
-    pivot_offset: tuple[float, ...] = (0.0, 0.0, 0.0),
-    *,
-    symbols: Any = None,
-    rotors: int | None = None,
-    timing: Any = None,
-    project: bool = True,
-    name: str = "rotor_step",
+    vehicle: Vehicle, pivot_offset: tuple[float, ...] = NO_OFFSET, *, windy: bool = True, name: str = "rotor_step"
 ) -> ca.Function:
-    """One step (state, rotors, command, wind, timing, symbols) → (state, rotors) of `vehicle` as a CasADi function.
+    """One step (state, rotors, command, wind, timing) → (state, rotors) of `vehicle` as a CasADi function.
 
-    The rotor forces follow the command as an exact first-order lag with the time constant of the vehicle. The motion
-    is integrated by the classical Runge-Kutta method of order 4 and projected onto the manifold.
+    The rotor forces follow the command as an exact first-order lag with the time constant of the vehicle.
 
     Parameters
     ----------
     vehicle : Vehicle
-        Vehicle parameters; they may be symbolic, for code that receives them at run time.
+        Vehicle parameters.
     pivot_offset : (3,)
         As in `EquationsEngine`.
-    symbols : SX (k, 1), optional
-        The symbols of a symbolic vehicle.
-    rotors : int, optional
-        Number of rotors of a symbolic vehicle.
-    timing : (4,), optional
-        Output of `step_timing`. If given, it is compiled in as a constant and the input `timing` is empty.
-    project : bool
-        Whether to project the state; a prediction over several steps projects only its end.
+    windy : bool
+        Whether there is wind; the input `wind` is ignored otherwise.
     name : str
         Name of the function.
     """
-    n = rotors or len(vehicle.rotor_spins)
-    packed, forces_before, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
-    wind, given = ca.SX.sym("w", 6), ca.SX.sym("h", TIMING_SIZE if timing is None else 0)
-    timing = given if timing is None else ca.SX(ca.DM(timing))
-    h = timing[0]
-    mixing = vehicle.mixing()
+    n = len(vehicle.rotor_spins)
+    packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
+    wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", TIMING_SIZE)
+    forces, after = held(rotors, command, timing)
+    wrench, outside = forces.mixed(vehicle.mixing()), wind if windy else None
+    if tuple(pivot_offset) == NO_OFFSET:
+        if windy:
+            at_pivot, on_bob = shared_out(wind[3:], vehicle)
+            outside = ca.vertcat(wind[:3] + at_pivot, on_bob)
+        moved = cascade_step(packed, wrench, outside, timing[0], vehicle)
+    else:
+        moved = runge_kutta_step(packed, wrench, outside, timing[0], vehicle, pivot_offset)
+    outputs = ca.cse([ca.densify(moved), ca.densify(after)])
+    return ca.Function(name, [packed, rotors, command, wind, timing], outputs)
 
-    def rates(s: Any, forces: Any) -> Any:
-        wrench = ca.mtimes(mixing, forces)
+
+def runge_kutta_step(
+    packed: Any, wrench: Ramp, outside: Any, h: Any, vehicle: Vehicle, pivot_offset: tuple[float, ...]
+) -> Any:
+    """Return the state (24, 1), e₃ up, after a classical Runge-Kutta step and projection onto the manifold, in CasADi.
+
+    It is for a pivot beside the centre of mass, where rotation and rod depend on each other; arguments as in
+    `cascade_step`, and the pivot offset (3,), m.
+    """
+    wind = ca.SX(6, 1) if outside is None else outside
+
+    def rates(s: Any, acting: Any) -> Any:
         motion = disturbed_motion(
             State.symbolic(s),
-            Wrench(wrench[0], wrench[1:]),
+            Wrench(acting[0], acting[1:]),
             vehicle,
             "up",
             force_on_vehicle=wind[:3],
@@ -109,25 +107,8 @@ def rotor_step(
         )
         return motion.packed()
 
-    start, middle, end = (_lagging(forces_before, command, timing[i]) for i in (1, 2, 3))
-    k_1 = rates(packed, start)
-    k_2 = rates(packed + h / 2 * k_1, middle)
-    k_3 = rates(packed + h / 2 * k_2, middle)
-    k_4 = rates(packed + h * k_3, end)
-    result = packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4)
-    if project:
-        result = project_symbolic(result)
-    outputs = ca.cse([ca.densify(result), ca.densify(end)])
-    inputs = [packed, forces_before, command, wind, given, ca.SX(0, 1) if symbols is None else symbols]
-    return ca.Function(name, inputs, outputs)
-
-
-def rotor_lag(n: int) -> ca.Function:
-    """Lag of the `n` rotors of `rotor_step` alone: (rotors, command, timing) → rotors, as a CasADi function."""
-    rotors, command, timing = ca.SX.sym("r", n), ca.SX.sym("u", n), ca.SX.sym("h", TIMING_SIZE)
-    return ca.Function("rotor_lag", [rotors, command, timing], [_lagging(rotors, command, timing[3])])
-
-
-def _lagging(rotors: Any, command: Any, decay: Any) -> Any:
-    """First-order response of the forces `rotors` to `command` after t, with `decay` = e^{−t/T}."""
-    return command + (rotors - command) * decay
+    k_1 = rates(packed, wrench.start)
+    k_2 = rates(packed + h / 2 * k_1, wrench.mean)
+    k_3 = rates(packed + h / 2 * k_2, wrench.mean)
+    k_4 = rates(packed + h * k_3, wrench.end)
+    return project_symbolic(packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4))

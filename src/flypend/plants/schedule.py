@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,8 @@ from flypend.plants.plant import Plant
 
 # Times closer than this are considered equal, s.
 SAME = 1e-9
-PLANT_STEP = 1e-3  # s, for the Runge-Kutta method; about 1/20 of a rotor lag
+# Longest step of the equations, s: its error over a flight is that of classical Runge-Kutta steps of 1 ms.
+PLANT_STEP = 2e-3
 
 
 class Segment(NamedTuple):
@@ -53,3 +55,23 @@ def steps_in(duration: float, plant: Plant, longest: float | None = None) -> int
         own = duration if plant.engine == "mujoco" else PLANT_STEP
         longest = 1 / plant.rate_loop_rate if plant.interface == "rates" else own
     return max(1, int(np.ceil(duration / longest - SAME)))
+
+
+def in_steps(segments: Sequence[Segment], longest: float) -> list[tuple[Segment, ...]]:
+    """Divide consecutive `segments` among as few steps as possible, about equal and of about `longest` (s) at most.
+
+    A step may span several segments; a segment longer than `longest` is divided into equal parts.
+    """
+    parts: list[Segment] = []
+    for age, duration in segments:
+        count = max(1, int(np.ceil(duration / longest - SAME)))
+        parts += [Segment(age, duration / count)] * count
+    whole = sum(part.duration for part in parts)
+    count = max(1, int(np.ceil(whole / longest - SAME)))
+    steps: dict[int, list[Segment]] = {}
+    begin = 0.0
+    for part in parts:
+        middle = begin + part.duration / 2
+        steps.setdefault(int(middle / whole * count), []).append(part)
+        begin += part.duration
+    return [tuple(step) for step in steps.values()]

@@ -2,20 +2,53 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import partial
 
 from llvmlite import ir
 
+from flypend.compile.llvm import elementary
 from flypend.compile.llvm.vector import Code, Lanes, Value
-from flypend.compile.program import LIBRARY, LIBRARY_2, Program, interpret
+from flypend.compile.program import LIBRARY, LIBRARY_2, Operation, Program, interpret, needed
 from flypend.compile.routine import Cell, Routine, stretches
 
 
 def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]]) -> list[list[Value]]:
     """Emit `program`, where entry i of input vector j is `inputs[j](i)`; return the values of each output vector."""
     operations = {name: partial(operation, code) for name, operation in _OPERATIONS.items()}
-    return interpret(program, inputs, operations, code.value)
+    chosen = with_inverse_roots(program) if code.lanes.estimates_roots else program
+    return interpret(chosen, inputs, operations, code.value)
+
+
+def with_inverse_roots(program: Program) -> Program:
+    """Replace a/√x by a times the operation "inverse root" of x, and √√x by the inverse root of the inverse root."""
+    operations: list[Operation] = []
+    places: list[int] = []  # of the operations of `program`
+    roots: dict[int, int] = {}  # place of the inverse root of a value
+
+    def put(operation: Operation) -> int:
+        operations.append(operation)
+        return len(operations) - 1
+
+    def inverse_root(value: int) -> int:
+        if value not in roots:
+            roots[value] = put(Operation("inverse root", (value,)))
+        return roots[value]
+
+    for name, arguments, value in program.operations:
+        taken = arguments if name == "input" else tuple(places[number] for number in arguments)
+        if name not in ("div", "sqrt") or operations[taken[-1]].name != "sqrt":
+            places.append(put(Operation(name, taken, value)))
+            continue
+        root = inverse_root(operations[taken[-1]].arguments[0])
+        if name == "sqrt":
+            places.append(inverse_root(root))
+        else:
+            one = operations[taken[0]] == Operation("constant", (), 1.0)
+            places.append(root if one else put(Operation("mul", (taken[0], root))))
+    outputs = tuple(tuple(places[number] for number in vector) for vector in program.outputs)
+    return needed(Program(program.name, program.inputs, tuple(operations), outputs))
 
 
 def _true(value: Value) -> Value:
@@ -39,6 +72,7 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "fmin": Code.least,
     "fmax": Code.most,
     "sqrt": Code.sqrt,
+    "inverse root": Code.inverse_root,
     "fabs": Code.fabs,
     "sign": lambda code, a: code.select(a > 0.0, 1.0, code.select(a < 0.0, -1.0, 0.0)),
     "select": lambda code, condition, a: code.select(_true(condition), a, 0.0),
@@ -47,15 +81,18 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "or": lambda code, a, b: code.select(_true(a) | _true(b), 1.0, 0.0),
     **{name: _compared(sign) for name, sign in (("lt", "<"), ("le", "<="), ("eq", "=="), ("ne", "!="))},
     **{name: _of_library(name) for name in (*LIBRARY, *LIBRARY_2)},
+    "log": elementary.log,
+    "sin": elementary.sine,
+    "cos": elementary.cosine,
 }
 
 
-def define(lanes: Lanes, program: Program) -> ir.Function:
+def define(lanes: Lanes, program: Program, *, inline: bool = False) -> ir.Function:
     """Define `program` as a function of the module, with one pointer to vectors per input, then one per output.
 
-    All inputs are read before any output is written, so an output may alias an input.
+    All inputs are read before any output is written, so an output may alias an input. `inline` as in `Lanes.function`.
     """
-    function, code = lanes.function(program.name, len(program.inputs) + len(program.outputs))
+    function, code = lanes.function(program.name, len(program.inputs) + len(program.outputs), inline=inline)
     sources, targets = function.args[: len(program.inputs)], function.args[len(program.inputs) :]
     results = emit(code, program, [partial(code.load, source) for source in sources])
     for target, values in zip(targets, results, strict=True):
@@ -65,13 +102,16 @@ def define(lanes: Lanes, program: Program) -> ir.Function:
     return function
 
 
-def define_routine(lanes: Lanes, routine: Routine) -> ir.Function:
+def define_routine(lanes: Lanes, routine: Routine, slide: int = 0, *, inline: bool = False) -> ir.Function:
     """Define `routine` and the programs it calls as functions of the module: one pointer per input, then per output.
 
-    Inputs and outputs must not overlap.
+    Inputs and outputs must not overlap, but if `slide` > 0 the first output must begin that many vectors before the
+    first input: its cells that only move by `slide` are there already, and are not copied. `inline` as in
+    `Lanes.function`; programs that are called once are inlined.
     """
-    called = [define(lanes, program) for program in routine.programs]
-    function, code = lanes.function(routine.name, len(routine.inputs) + len(routine.outputs))
+    calls = Counter(call.program for call in routine.calls)
+    called = [define(lanes, program, inline=calls[i] == 1) for i, program in enumerate(routine.programs)]
+    function, code = lanes.function(routine.name, len(routine.inputs) + len(routine.outputs), inline=inline)
     targets = function.args[len(routine.inputs) :]
     memories = [code.reserve(length) for length in routine.memories]
 
@@ -95,8 +135,12 @@ def define_routine(lanes: Lanes, routine: Routine) -> ir.Function:
     for call in routine.calls:
         arguments = [vector(cells) for cells in call.inputs]
         code.call(called[call.program], *arguments, *(memories[number] for number in call.outputs))
-    for target, cells in zip(targets, routine.outputs, strict=True):
+    first = routine.outputs[0] if slide else ()
+    # Values from the first input are read before the first output is written over it.
+    early = {i: load(cell) for i, cell in enumerate(first) if cell[:2] == ("input", 0) and cell.place != i - slide}
+    for number, (target, cells) in enumerate(zip(targets, routine.outputs, strict=True)):
         for i, cell in enumerate(cells):
-            code.store(load(cell), target, i)
+            if not (slide and number == 0 and cell == Cell("input", 0, i - slide)):
+                code.store(early[i] if number == 0 and i in early else load(cell), target, i)
     code.builder.ret_void()
     return function

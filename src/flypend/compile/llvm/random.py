@@ -10,6 +10,7 @@ import numpy as np
 from llvmlite import ir
 
 from flypend.compile.llvm import jit
+from flypend.compile.llvm.elementary import log_of_normal, nearest, turned
 from flypend.compile.llvm.vector import I64, VOID, Code, Lanes, Value
 
 # Philox4x32-10 (Salmon and others 2011, "Parallel random numbers: as easy as 1, 2, 3").
@@ -39,8 +40,11 @@ def philox(builder: ir.IRBuilder, counter: list[ir.Value], key: list[ir.Value]) 
     return counter
 
 
-def define_normals(lanes: Lanes) -> ir.Function:
-    """Define a function (seeds, ticks, out): `PER_TICK` normal numbers per lane, one seed and tick per lane."""
+def define_normals(lanes: Lanes, used: range = range(PER_TICK)) -> ir.Function:
+    """Define a function (seeds, ticks, out): `PER_TICK` normal numbers per lane, one seed and tick per lane.
+
+    Only the numbers `used` are drawn, in whole blocks of four.
+    """
     function, code = lanes.function("normals", 3)
     kind = ir.VectorType(I64, lanes.width)
     seed, tick = (_integers(code, memory, kind) for memory in function.args[:2])
@@ -48,7 +52,7 @@ def define_normals(lanes: Lanes) -> ir.Function:
     shift = ir.Constant(kind, [32] * lanes.width)
     low = ir.Constant(kind, [0xFFFFFFFF] * lanes.width)
     key = [builder.and_(seed, low), builder.lshr(seed, shift)]
-    for block in range(PER_TICK // 4):
+    for block in range(used.start // 4, -(-used.stop // 4)):
         counter = [ir.Constant(kind, [block] * lanes.width), builder.and_(tick, low), builder.lshr(tick, shift)]
         words = philox(builder, [*counter, ir.Constant(kind, [0] * lanes.width)], key)
         uniform = [(Value(code, builder.uitofp(word, lanes.vector)) + 0.5) * 2.0**-32 for word in words]
@@ -65,10 +69,12 @@ def _integers(code: Code, memory: ir.Value, kind: ir.VectorType) -> ir.Value:
 
 
 def _box_muller(code: Code, u: Value, v: Value, out: ir.Value, place: int) -> None:
-    radius = code.sqrt(-2.0 * code.library("log", u))
-    angle = 2 * np.pi * v
-    code.store(radius * code.library("cos", angle), out, place)
-    code.store(radius * code.library("sin", angle), out, place + 1)
+    """Two normal numbers from `u` and `v`, uniform in (0, 1): √(−2 log u) cos 2πv and … sin 2πv."""
+    radius = code.sqrt(-2.0 * log_of_normal(code, u))
+    quarters = nearest(code, 4.0 * v)
+    sine, cosine = turned(code, 2 * np.pi * (v - 0.25 * quarters), quarters)  # the difference is exact
+    code.store(radius * cosine, out, place)
+    code.store(radius * sine, out, place + 1)
 
 
 def normals(seed: int, ticks: int) -> Any:

@@ -6,6 +6,9 @@ its neighbours. `flypend.flight.sampled` does the same in Python, one flight at 
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import add
+
 from llvmlite import ir
 
 from flypend.compile.llvm.emit import define, define_routine
@@ -13,8 +16,8 @@ from flypend.compile.llvm.random import PER_TICK, define_normals
 from flypend.compile.llvm.reductions import Reductions
 from flypend.compile.llvm.runge_kutta import COMPLETED, DIVERGED, UNDEFINED
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
-from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, World
-from flypend.compile.sampled_problem import EquationsProblem, SampledProblem
+from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, Way, World
+from flypend.compile.sampled_problem import GUSTS, EquationsProblem, SampledProblem
 from flypend.model.state import MAX_STATE
 
 INTEGERS = ("runs", "ticks", "sample_count", "row_count")
@@ -23,7 +26,7 @@ ARGUMENTS = (
     "sample_ticks", "sample_count", "judged", "rows", "row_count",
     "samples", "reductions", "final", "end", "status",
 )  # fmt: skip
-GUSTS = 18  # offset of the gust numbers among the draws of a tick
+STRANDS = 4  # partial sums, which hide the latency of additions
 
 
 def arguments(problem: SampledProblem) -> tuple[str, ...]:
@@ -45,14 +48,18 @@ class _Kernel:
         self.lanes, self.problem = lanes, problem
         self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
         self.at = dict(zip(arguments(problem), function.args, strict=True))
-        self.board = define_routine(lanes, problem.board)
+        # The board's memory slides through a longer one, so that the commands in transit, a queue, stay where they are.
+        slide = problem.board.slide()
+        self.board = define_routine(lanes, problem.board, slide, inline=True)
+        self.stride = slide or problem.memory
+        self.strides = -(-problem.memory // self.stride)  # then it is moved back to where it does not overlap itself
         programs = {name: getattr(problem, name) for name in ("begin", "measure", "gusts")}
-        self.call = {name: define(lanes, program) for name, program in programs.items() if program is not None}
-        self.normals = define_normals(lanes) if problem.random else None
+        self.call = {name: define(lanes, p, inline=True) for name, p in programs.items() if p is not None}
+        self.normals = define_normals(lanes, problem.drawn) if problem.random else None
         n, k = problem.size, problem.rotors
-        self.state, self.next = code.reserve(n + k), code.reserve(n + k)
-        self.measured = code.reserve(1 + n)  # preceded by the time
-        self.memory, self.none = code.reserve(2 * problem.memory), code.reserve(1)  # double buffer
+        self.states = code.reserve(2 * (1 + n + k))  # before and after a tick, in turn; each preceded by the time
+        self.measured, self.none = code.reserve(1 + n), code.reserve(1)
+        self.memory = code.reserve(self.strides * self.stride + problem.memory)
         self.P, self.wind, self.gust = code.reserve(problem.gains), code.reserve(6), code.reserve(6)
         self.ring, self.draws = code.reserve(problem.depth * problem.command), code.reserve(PER_TICK)
         self.t, self.alive, self.status, self.end = (code.reserve(1) for _ in range(4))
@@ -65,8 +72,8 @@ class _Kernel:
     def _world(self) -> World:
         world = self.problem.world
         if isinstance(world, EquationsProblem):
-            return Equations(self.code, self.problem, world, self.next)
-        return Mujoco(self.code, self.problem, world, self.next, self.at)
+            return Equations(self.code, self.problem, world)
+        return Mujoco(self.code, self.problem, world, self.at)
 
     def write(self) -> None:
         code, builder, width = self.code, self.code.builder, self.lanes.width
@@ -101,23 +108,30 @@ class _Kernel:
         run, last = builder.add(self.first, lane), builder.sub(self.at["runs"], ir.Constant(I64, 1))
         return builder.select(builder.icmp_signed("<", run, last), run, last)
 
+    def _state(self, tick: ir.Value) -> ir.Value:
+        """Address of the state at `tick`; the vector before it is for the time."""
+        builder, length = self.code.builder, 1 + self.problem.size + self.problem.rotors
+        odd = builder.mul(builder.and_(tick, ir.Constant(I64, 1)), ir.Constant(I64, length))
+        return self.code.vector_at(self.states, builder.add(odd, ir.Constant(I64, 1)))
+
     def _begin(self) -> None:
         code, problem = self.code, self.problem
+        state = self._state(ir.Constant(I64, 0))
         with code.count(self.lanes.width) as lane:
             run = self._run(lane)
-            self._copy(self.at["starts"], run, self.state, lane, problem.size + problem.rotors)
+            self._copy(self.at["starts"], run, state, lane, problem.size + problem.rotors)
             self._copy(self.at["parameters"], run, self.P, lane, problem.gains)
             code.put(code.scalar(self.at["seeds"], run, I64), self.seeds, lane)
             self.results.reset(lane)
         command = code.reserve(problem.command)
-        code.call(self.call["begin"], code.vector_at(self.state, problem.size), self.memory, command)
+        memory, _ = self._memories(ir.Constant(I64, 0))
+        code.call(self.call["begin"], code.vector_at(state, problem.size), memory, command)
         for slot in range(problem.depth):
             self._move(command, code.vector_at(self.ring, slot * problem.command), problem.command)
         for memory in (self.gust, self.wind):
             for i in range(6):
                 code.store(0.0, memory, i)
-        self._move(self.state, self.next, problem.size + problem.rotors)
-        self.world.begin(self.first)
+        self.world.begin(self.first, state)
         code.store(1.0, self.alive)
         code.store(float(COMPLETED), self.status)
         ticks = code.value(code.builder.sitofp(self.at["ticks"], self.lanes.scalar))
@@ -133,13 +147,14 @@ class _Kernel:
 
     def _store_results(self) -> None:
         code, builder, width = self.code, self.code.builder, ir.Constant(I64, self.lanes.width)
+        state = self._state(self.at["ticks"])
         with code.count(self.lanes.width) as lane:
             run = builder.add(self.first, lane)
             with code.when(builder.icmp_signed("<", run, self.at["runs"])):
                 with code.count(self.problem.size) as i:
                     here = builder.add(builder.mul(i, width), lane)
                     there = builder.add(builder.mul(run, ir.Constant(I64, self.problem.size)), i)
-                    code.put(code.scalar(self.state, here), self.at["final"], there)
+                    code.put(code.scalar(state, here), self.at["final"], there)
                 code.put(code.scalar(self.end, lane), self.at["end"], run)
                 code.put(builder.fptosi(code.scalar(self.status, lane), I64), self.at["status"], run)
                 self.results.store(lane, run, self.at["reductions"])
@@ -148,38 +163,57 @@ class _Kernel:
 
     def _tick(self, tick: ir.Value) -> None:
         code, problem = self.code, self.problem
+        state, after = self._state(tick), self._state(code.builder.add(tick, ir.Constant(I64, 1)))
         time = code.value(code.builder.sitofp(tick, self.lanes.scalar)) * problem.period
         self._draw(tick)
-        code.store(time, self.measured)
-        measured = code.vector_at(self.measured, 1)
-        if problem.measure is not None:
-            code.call(self.call["measure"], self.state, self.draws, self.noise, measured)
-        else:
-            self._move(self.state, measured, problem.size)
         command = code.vector_at(self.ring, self._slot(tick, 0))
-        before, after = self._memories(tick)
-        code.call(self.board, before, self.measured, self.none, self.P, self.none, after, command)
+        self._command(tick, time, state, command)
         self._end_runs(self._undefined(command), UNDEFINED, time)
         if problem.gusts is not None:
             drawn = code.vector_at(self.draws, GUSTS)
             code.call(self.call["gusts"], self.gust, drawn, self.blowing, self.gust, self.wind)
+        source = state
         for place, stretch in enumerate(problem.flown):
             timing = code.vector_at(self.timings, place * problem.timing)
-            command = code.vector_at(self.ring, self._slot(tick, stretch.age))
-            self.world.advance(place, stretch, command, self.wind, timing)
-        self.world.show()
-        self._end_runs(self._lost(), DIVERGED, time)
-        alive = code.load(self.alive) > 0.0
-        with code.count(problem.size + problem.rotors) as i:
-            kept = code.select(alive, code.load(self.next, i), code.load(self.state, i))
-            code.store(kept, self.state, i)
-            code.store(kept, self.next, i)
+            held = code.vector_at(self.ring, self._slot(tick, stretch.age))
+            self.world.advance(place, stretch, held, self.wind, timing, Way(source, after))
+            source = after
+        self.world.show(after)
+        with code.when(code.any(self._far(after))):
+            self._end_runs(self._lost(after), DIVERGED, time)
+        with code.when(code.any(code.load(self.alive) <= 0.0)):
+            self._keep_ended(state, after)
+
+    def _command(self, tick: ir.Value, time: Value, state: ir.Value, command: ir.Value) -> None:
+        """Run the flight computer on what it measures of `state`, and store its `command`."""
+        code, one = self.code, ir.Constant(I64, -1)
+        measured = code.vector_at(state, one)
+        if self.problem.measure is not None:
+            measured = self.measured
+            code.call(self.call["measure"], state, self.draws, self.noise, code.vector_at(measured, 1))
+        code.store(time, measured)
+        before, after = self._memories(tick)
+        code.call(self.board, before, measured, self.none, self.P, self.none, after, command)
+        with code.when(code.builder.icmp_signed("==", self._left(tick), one)):
+            self._move(after, self._memories(ir.Constant(I64, 0))[0], self.problem.memory)
+
+    def _left(self, tick: ir.Value) -> ir.Value:
+        """Strides that the board's memory has left after `tick`, less one."""
+        builder, strides = self.code.builder, ir.Constant(I64, self.strides)
+        return builder.sub(ir.Constant(I64, self.strides - 2), builder.srem(tick, strides))
 
     def _memories(self, tick: ir.Value) -> tuple[ir.Value, ir.Value]:
-        """Addresses of the board's memory before and after `tick`, which alternate."""
-        builder, length = self.code.builder, ir.Constant(I64, self.problem.memory)
-        odd = builder.mul(builder.and_(tick, ir.Constant(I64, 1)), length)
-        return self.code.vector_at(self.memory, odd), self.code.vector_at(self.memory, builder.sub(length, odd))
+        """Addresses of the board's memory before and after `tick`: the second is one stride before the first."""
+        builder, stride = self.code.builder, ir.Constant(I64, self.stride)
+        left = builder.add(self._left(tick), ir.Constant(I64, 1))
+        place = builder.mul(left, stride)
+        return self.code.vector_at(self.memory, builder.add(place, stride)), self.code.vector_at(self.memory, place)
+
+    def _keep_ended(self, state: ir.Value, after: ir.Value) -> None:
+        """Keep the last state of the lanes that have ended."""
+        code, alive = self.code, self.code.load(self.alive) > 0.0
+        with code.count(self.problem.size + self.problem.rotors) as i:
+            code.store(code.select(alive, code.load(after, i), code.load(state, i)), after, i)
 
     def _draw(self, tick: ir.Value) -> None:
         code = self.code
@@ -208,15 +242,22 @@ class _Kernel:
             total = total + 0.0 * code.load(commanded, i)
         return ~total.compare("==", 0.0)
 
-    def _lost(self) -> Value:
+    def _far(self, state: ir.Value) -> Value:
+        """Whether |s| may exceed the limit in an entry, from the length of the whole vector."""
         code = self.code
-        largest = code.reserve(1)
-        code.store(0.0, largest)
-        with code.count(self.problem.size) as i:
-            size = code.fabs(code.load(self.next, i))
-            before = code.load(largest)
-            code.store(code.select(size <= before, before, size), largest)  # NaN propagates
-        return ~(code.load(largest) < MAX_STATE)
+        sums = [code.value(0.0)] * STRANDS
+        for i in range(self.problem.size):
+            entry = code.load(state, i)
+            sums[i % STRANDS] = sums[i % STRANDS] + entry * entry
+        return ~(reduce(add, sums) < MAX_STATE**2)  # NaN is far
+
+    def _lost(self, state: ir.Value) -> Value:
+        """Whether an entry exceeds the limit or is NaN."""
+        code = self.code
+        lost = ~(code.fabs(code.load(state)) < MAX_STATE)
+        for i in range(1, self.problem.size):
+            lost = lost | ~(code.fabs(code.load(state, i)) < MAX_STATE)
+        return lost
 
     def _end_runs(self, where: Value, status: int, time: Value) -> None:
         code = self.code
@@ -239,14 +280,14 @@ class _Kernel:
             code.store(time, self.t)
             alive = code.load(self.alive) > 0.0
             with code.when(builder.icmp_signed("!=", code.scalar(self.at["judged"], cursor, I64), ir.Constant(I64, 0))):
-                self.results.update(alive, self.t, self.state, self.P)
+                self.results.update(alive, self.t, self._state(tick), self.P)
             following = builder.add(cursor, ir.Constant(I64, 1))
             row, after = (code.scalar(self.at["rows"], place, I64) for place in (cursor, following))
             with code.when(builder.icmp_signed(">", after, row)):  # never true if the caller stores no samples
-                self._store_samples(row)
+                self._store_samples(self._state(tick), row)
             builder.store(following, self.cursor)
 
-    def _store_samples(self, kept: ir.Value) -> None:
+    def _store_samples(self, state: ir.Value, kept: ir.Value) -> None:
         code, builder = self.code, self.code.builder
         length = self.problem.size + self.problem.rotors
         with code.count(self.lanes.width) as lane:
@@ -256,4 +297,4 @@ class _Kernel:
                 with code.count(length) as i:
                     here = builder.add(builder.mul(i, ir.Constant(I64, self.lanes.width)), lane)
                     there = builder.add(builder.mul(row, ir.Constant(I64, length)), i)
-                    code.put(code.scalar(self.state, here), self.at["samples"], there)
+                    code.put(code.scalar(state, here), self.at["samples"], there)

@@ -1,11 +1,11 @@
 """Worlds of sampled flights inside a kernel: the built-in equations in SIMD lanes, or MuJoCo, one flight at a time.
 
-A world starts a run, steps under a command, and keeps the packed state and rotor forces at the address `state`.
+A world starts a run and steps under a command, from the packed state and rotor forces at one address to another.
 """
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from llvmlite import ir
 
@@ -21,44 +21,62 @@ MUJOCO_ARGUMENTS = ("data", "qpos", "qvel", "act", "ctrl", "xfrc", "mj_step", "m
 ON_VEHICLE, ON_BOB = 6, 12
 
 
+class Way(NamedTuple):
+    """Addresses of the state at the beginning and at the end of a stretch; they may be the same."""
+
+    source: ir.Value
+    target: ir.Value
+
+
 class World(Protocol):
     """Simulates vehicle and pendulum between control ticks."""
 
-    def begin(self, run: ir.Value) -> None:
-        """Start `run` from the state in `state`."""
+    def begin(self, run: ir.Value, state: ir.Value) -> None:
+        """Start `run` from `state`."""
 
-    def advance(self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value) -> None:
+    def advance(
+        self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value, way: Way
+    ) -> None:
         """Advance through `stretch`, number `place` of the tick, under `command` and `wind`, with inputs `timing`."""
 
-    def show(self) -> None:
-        """Update `state`."""
+    def show(self, state: ir.Value) -> None:
+        """Make sure that `state`, at which the last stretch ended, is up to date."""
 
 
 class Equations:
     """The built-in equations of motion, on all lanes of the kernel."""
 
-    def __init__(self, code: Code, problem: SampledProblem, world: EquationsProblem, state: ir.Value) -> None:
-        self._code, self._state = code, state
-        self._rotors = code.vector_at(state, problem.size)
-        self._step = define(code.lanes, world.step)
+    def __init__(self, code: Code, problem: SampledProblem, world: EquationsProblem) -> None:
+        self._code, self._size = code, problem.size
+        single = [stretch.steps for stretch in problem.flown] == [1]
+        self._step = define(code.lanes, world.step, inline=single)
         self._loop = define(code.lanes, problem.loop) if problem.loop is not None else None
         self._forces, self._none = code.reserve(problem.rotors), code.reserve(1)
 
-    def begin(self, run: ir.Value) -> None:
-        """Do nothing: the steps operate on `state` in place."""
+    def begin(self, run: ir.Value, state: ir.Value) -> None:
+        """Do nothing: the steps operate on the state itself."""
 
-    def advance(self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value) -> None:
+    def advance(
+        self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value, way: Way
+    ) -> None:
         """Implement `World.advance`."""
-        code, state, rotors = self._code, self._state, self._rotors
-        with code.count(stretch.steps):
-            wanted = command
-            if self._loop is not None:
-                code.call(self._loop, command, code.vector_at(state, OMEGA), self._none, self._forces)
-                wanted = self._forces
-            code.call(self._step, state, rotors, wanted, wind, timing, self._none, state, rotors)
+        self._advance(command, wind, timing, way)
+        if stretch.steps > 1:
+            with self._code.count(stretch.steps - 1):
+                self._advance(command, wind, timing, Way(way.target, way.target))
 
-    def show(self) -> None:
-        """Do nothing: `state` is always up to date."""
+    def _advance(self, command: ir.Value, wind: ir.Value, timing: ir.Value, way: Way) -> None:
+        """Take one step."""
+        code, size = self._code, self._size
+        wanted = command
+        if self._loop is not None:
+            code.call(self._loop, command, code.vector_at(way.source, OMEGA), self._none, self._forces)
+            wanted = self._forces
+        before, after = (code.vector_at(state, size) for state in way)  # rotors
+        code.call(self._step, way.source, before, wanted, wind, timing, way.target, after)
+
+    def show(self, state: ir.Value) -> None:
+        """Do nothing: the state is always up to date."""
 
 
 class _At:
@@ -77,18 +95,16 @@ class Mujoco:
     MuJoCo steps per evaluation of the rate loop; `models` holds one model per stretch, with the matching timestep.
     """
 
-    def __init__(
-        self, code: Code, problem: SampledProblem, world: MujocoProblem, state: ir.Value, at: dict[str, ir.Value]
-    ) -> None:
+    def __init__(self, code: Code, problem: SampledProblem, world: MujocoProblem, at: dict[str, ir.Value]) -> None:
         if code.lanes.width != 1:
             raise ValueError("MuJoCo requires a kernel with one lane")
-        self._code, self._problem, self._world, self._state, self._at = code, problem, world, state, at
+        self._code, self._problem, self._world, self._at = code, problem, world, at
         self._seen = define(code.lanes, world.seen)
         self._loop = define(code.lanes, problem.loop) if problem.loop is not None else None
         self._none, self._lost = code.reserve(1), code.reserve(1)
         self._rotors = at["act"] if world.filtered else at["ctrl"]
 
-    def begin(self, run: ir.Value) -> None:
+    def begin(self, run: ir.Value, state: ir.Value) -> None:
         """Implement `World.begin`; row `run` of `begins` holds the MuJoCo coordinates of the start."""
         code, builder, at = self._code, self._code.builder, self._at
         builder.call(self._function("mj_reset"), [self._model(0), at["data"]])
@@ -97,11 +113,13 @@ class Mujoco:
         self._copy(builder.gep(at["begins"], [row], source_etype=code.lanes.scalar), at["qpos"], positions)
         row = builder.add(row, ir.Constant(I64, positions))
         self._copy(builder.gep(at["begins"], [row], source_etype=code.lanes.scalar), at["qvel"], velocities)
-        self._copy(code.vector_at(self._state, self._problem.size), self._rotors, self._problem.rotors)
+        self._copy(code.vector_at(state, self._problem.size), self._rotors, self._problem.rotors)
         code.store(0.0, self._lost)
 
-    def advance(self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value) -> None:
-        """Implement `World.advance`."""
+    def advance(
+        self, place: int, stretch: Stretch, command: ir.Value, wind: ir.Value, timing: ir.Value, way: Way
+    ) -> None:
+        """Implement `World.advance`; MuJoCo keeps the state itself."""
         code, builder, at = self._code, self._code.builder, self._at
         self._copy(wind, code.vector_at(at["xfrc"], ON_VEHICLE), 3)
         self._copy(code.vector_at(wind, 3), code.vector_at(at["xfrc"], ON_BOB), 3)
@@ -116,13 +134,13 @@ class Mujoco:
             with code.count(inner), code.when(code.any(code.load(self._lost) < 1.0)):
                 builder.call(self._function("mj_step"), [self._model(place), at["data"]])
 
-    def show(self) -> None:
+    def show(self, state: ir.Value) -> None:
         """Implement `World.show`; NaN once a force has been invalid."""
         code, at = self._code, self._at
-        rotors = code.vector_at(self._state, self._problem.size)
-        code.call(self._seen, at["qpos"], at["qvel"], self._rotors, self._state, rotors)
+        rotors = code.vector_at(state, self._problem.size)
+        code.call(self._seen, at["qpos"], at["qvel"], self._rotors, state, rotors)
         with code.when(code.any(code.load(self._lost) > 0.0)):
-            code.store(float("nan"), self._state)
+            code.store(float("nan"), state)
 
     def _check_forces(self) -> None:
         """Mark the run as lost if a force is NaN or too large; MuJoCo itself would replace the force by zero."""

@@ -28,7 +28,8 @@ from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
-from flypend.plants.equations import TIMING_SIZE, rotor_step, step_timing
+from flypend.plants.equations import rotor_step
+from flypend.plants.lag import TIMING_SIZE, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, seen_by_mujoco, substeps
@@ -245,7 +246,9 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
     rates = plant.interface == "rates"
     world: EquationsProblem | MujocoProblem
     if plant.engine == "equations":
-        world = EquationsProblem(lower(rotor_step(true, plant.pivot_offset, name="world")))
+        world = EquationsProblem(
+            lower(rotor_step(true, plant.pivot_offset, windy=plant.wind is not None, name="world"))
+        )
     else:
         seen = lower(seen_by_mujoco(len(vehicle.rotor_spins)))
         world = MujocoProblem(seen, filtered=_is_filtered(loop), largest=MAX_FORCE)

@@ -1,0 +1,34 @@
+"""The equations of motion in momenta, which fall apart into a cascade: rotation, rod, centre of mass.
+
+With the pivot at the vehicle's centre of mass, nothing but the moment turns the vehicle, the rod feels of the vehicle
+only its thrust f z, and the centre of mass c of both bodies feels only forces from outside. With H = y × ẏ,
+
+    I ω̇ = τ − ω × I ω,   Ṙ = R ω̂                                                                     (rotation)
+    ẏ = H × y,   Ḣ = y × b,   b = (F_b/m − F_v/M − f z/M)/l                                            (rod)
+    (M+m) c̈ = f z + F_v + F_b − (M+m) g e₃,   c = x + m l/(M+m) y                                      (centre)
+
+They are those of `model.motion` for a pivot offset of zero.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flypend.geometry import apply, scale
+from flypend.model.dynamics import gyroscopic_moment
+from flypend.model.vehicle import Vehicle
+
+
+def angular_acceleration(moment: Any, omega: Any, vehicle: Vehicle) -> Any:
+    """Return ω̇ (..., 3), rad/s², at angular velocity `omega` under `moment`, N m, both in the body frame."""
+    return apply(vehicle.I_inv, moment - gyroscopic_moment(vehicle.I, omega))
+
+
+def pull_on_rod(thrust: Any, z: Any, vehicle: Vehicle) -> Any:
+    """Return the part of b (..., 3), 1/s², that the `thrust` (N) along `z` exerts: −f z/(M l)."""
+    return scale(-1 / (vehicle.M * vehicle.l) * thrust, z)
+
+
+def outside_on_rod(on_vehicle: Any, on_bob: Any, vehicle: Vehicle) -> Any:
+    """Return the part of b (..., 3), 1/s², that external forces on vehicle and bob (N) exert: (F_b/m − F_v/M)/l."""
+    return (on_bob / vehicle.m - on_vehicle / vehicle.M) / vehicle.l

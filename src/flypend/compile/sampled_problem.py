@@ -51,6 +51,23 @@ class MujocoProblem:
 
 
 @dataclass(frozen=True)
+class Touch:
+    """What the rod can touch; see `flypend.flight.touch`.
+
+    Parameters
+    ----------
+    room : Program
+        (state before, state after a tick) → a lower bound of the distances in between.
+    touching : Program
+        (before, after) → (least distance, share of the tick until the rod touches, part); the share is > 1 if it does
+        not.
+    """
+
+    room: Program
+    touching: Program
+
+
+@dataclass(frozen=True)
 class SampledProblem:
     """A sampled flight as programs.
 
@@ -81,6 +98,8 @@ class SampledProblem:
         Control period, s.
     random : bool
         Whether random numbers are drawn.
+    touch : Touch, optional
+        What ends a flight as collided.
     """
 
     board: Routine
@@ -95,6 +114,7 @@ class SampledProblem:
     timing: int
     period: float
     random: bool
+    touch: Touch | None = None
 
     @property
     def memory(self) -> int:

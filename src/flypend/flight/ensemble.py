@@ -40,7 +40,7 @@ class Ensemble:
         Initial states (n,), in the law's frame.
     final : State
         Final states (n,), in the law's frame.
-    success, settling, excursion, effort, peak_force, end, cause : (n,)
+    success, settling, excursion, effort, peak_force, end, clearance, cause : (n,)
         The fields of `Metrics`, run by run.
     e3 : "up" or "down"
         Direction of the frame's third axis.
@@ -62,6 +62,7 @@ class Ensemble:
     effort: NDArray[np.float64]
     peak_force: NDArray[np.float64]
     end: NDArray[np.float64]
+    clearance: NDArray[np.float64]
     cause: NDArray[np.str_]
     e3: E3Direction
     vehicle: Vehicle
@@ -205,7 +206,9 @@ def fly_many(
 
 def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
     """Return the fields of `Metrics` as arrays (n,), for a `flight` that a kernel has `flown`."""
-    return judged(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion)
+    return judged(
+        flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance
+    )
 
 
 def _gathered(flight: Flight, flown: Flown) -> Ensemble:

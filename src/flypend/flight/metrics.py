@@ -36,9 +36,11 @@ class Metrics:
         Largest rotor force, N.
     end : float
         End time, s.
+    clearance : float
+        Least distance of the rod to what its mount lets it touch, m; infinite on a gimbal.
     cause : str
-        Cause of failure: "diverged" or "singular", else the first of "rod", "axis", "position" out of tolerance during
-        the last `Criterion.hold` seconds. Empty for a success.
+        Cause of failure: "diverged", "singular" or "collided", else the first of "rod", "axis", "position" out of
+        tolerance during the last `Criterion.hold` seconds. Empty for a success.
     """
 
     success: bool
@@ -47,6 +49,7 @@ class Metrics:
     effort: float
     peak_force: float
     end: float
+    clearance: float
     cause: str
 
 
@@ -59,11 +62,16 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     reductions = [_since(run.t, np.any(out, axis=0)), *(_last(run.t, bad) for bad in out)]
     forces = run.rotor_forces
     values = [*reductions, np.max(distance), np.mean(forces**2), np.max(forces)]
-    columns = judged(np.array([values]), [run.outcome.status], np.array([run.outcome.time]), run.vehicle, criterion)
+    columns = judged(
+        np.array([values]), [run.outcome.status], np.array([run.outcome.time]), run.vehicle, criterion,
+        clearance=np.array([np.min(run.clearance)]),
+    )  # fmt: skip
     return Metrics(**{name: column[0].item() for name, column in columns.items()})
 
 
-def judged(reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: Criterion) -> dict[str, Any]:
+def judged(
+    reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: Criterion, clearance: Any = None
+) -> dict[str, Any]:
     """Return the fields of `Metrics` as arrays (n,), from the reductions of n runs.
 
     Parameters
@@ -71,11 +79,13 @@ def judged(reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: 
     reductions : (n, 7)
         See `criterion.REDUCTIONS`.
     status : (n,)
-        "completed", "diverged" or "singular".
+        "completed", "diverged", "singular" or "collided".
     end : (n,)
         End time of each run, s.
     vehicle, criterion
         Vehicle parameters, and success criterion.
+    clearance : (n,), optional
+        Least distance of the rod to what it can touch, m; default infinite.
     """
     since, last, excursion, square, peak = (
         reductions[:, 0], reductions[:, 1:4], reductions[:, 4], reductions[:, 5], reductions[:, 6]
@@ -92,6 +102,7 @@ def judged(reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: 
         "effort": np.sqrt(square) / share,
         "peak_force": peak,
         "end": end,
+        "clearance": np.full(len(end), np.inf) if clearance is None else clearance,
         "cause": np.where(success, "", cause),
     }
 

@@ -12,15 +12,16 @@ class Outcome:
 
     Parameters
     ----------
-    status : "completed", "diverged" or "singular"
-        The run reached its duration, the state left all bounds, or the law stopped being defined.
+    status : "completed", "diverged", "singular" or "collided"
+        The run reached its duration, the state left all bounds, the law stopped being defined, or the rod touched the
+        vehicle or left its cup.
     time : float
         End time, s.
     reason : str
         Cause and remedy; empty for a completed run.
     """
 
-    status: Literal["completed", "diverged", "singular"]
+    status: Literal["completed", "diverged", "singular", "collided"]
     time: float
     reason: str = ""
 

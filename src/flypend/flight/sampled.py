@@ -20,6 +20,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
+from flypend.flight.touch import watcher
 from flypend.laws import Controller
 from flypend.model.state import MAX_STATE, seen_packed
 from flypend.plants.actuation import Actuation, make_engine
@@ -55,7 +56,8 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
     loop = flight.loop
     vehicle, law, plant = loop.vehicle, loop.law, loop.sampled.replace(seed=flight.seed)
     start, duration = flight.starts, flight.duration
-    engine = make_engine(plant.true_vehicle(vehicle), plant)
+    true = plant.true_vehicle(vehicle)
+    engine = make_engine(true, plant)
     packed = seen_packed(start.packed(), law.e3)
     begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
     engine.reset(packed, begin)
@@ -67,6 +69,9 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
     states, forces = [engine.packed], [engine.rotors]
     commands, segments = Commands(idle_command(loop, begin)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
+    watch, there = watcher(true, period), np.append(engine.packed, engine.rotors)
+    if (touch := watch(there, there)) is not None:
+        outcome, ticks = Outcome("collided", 0.0, touch.reason), 0
     with np.errstate(all="ignore"):
         for k in range(ticks):
             measured = measure(k, engine.packed)
@@ -81,6 +86,11 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
             if not (np.all(np.isfinite(engine.packed)) and np.max(np.abs(engine.packed)) < MAX_STATE):
                 outcome = Outcome("diverged", k * period, LEFT)
                 break
+            here = np.append(engine.packed, engine.rotors)
+            if (touch := watch(there, here)) is not None:
+                outcome = Outcome("collided", (k + touch.share) * period, touch.reason)
+                break
+            there = here
             states.append(engine.packed)
             forces.append(engine.rotors)
     return Samples(np.arange(len(states)) * period, np.array(states), np.array(forces), outcome)

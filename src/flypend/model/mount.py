@@ -39,6 +39,41 @@ def margins_of(rod: Any, push: Any, vehicle: Vehicle) -> Any:
     return ca.SX(0, 1) if symbolic else np.zeros((*rod.shape[:-1], 0))
 
 
+def least_margin(rod: Any, push: Any, vehicle: Vehicle) -> tuple[Any, Any, Any]:
+    """Return the smallest entry of `margins_of`, its place, and the clearance, the smallest distance, in CasADi.
+
+    Among rotors of equal height and distance from the pivot, disc and arm in whose direction the rod points most are
+    the nearest; the others are left out.
+    """
+    centres = vehicle.rotor_positions
+    if vehicle.mount != "hub" or not _alike(centres):
+        margins = margins_of(rod, push, vehicle)
+        least, place = _smallest(margins)
+        return least, place, least if vehicle.mount == "hub" else margins[0]  # a force is no distance
+    _, at = _smallest(ca.vertcat(*(-_inner(rod, centre) for centre in centres)))
+    nearest = [sum(ca.if_else(at == k, c[i], 0) for k, c in enumerate(centres)) for i in (0, 1)]
+    disc = _to_disc(rod, [*nearest, float(centres[0, 2])], vehicle.reach, vehicle.body)
+    length = float(np.linalg.norm(centres[0]))
+    along = (_inner(rod, [*nearest, float(centres[0, 2])])) / length
+    arm = _to_arm(along, vehicle.body)
+    least = ca.fmin(disc, arm)
+    return least, ca.if_else(disc <= arm, at, at + len(centres)), least
+
+
+def _alike(centres: Any) -> bool:
+    """Whether all rotors are as high, and as far from the pivot."""
+    return bool(np.allclose(centres[:, 2], centres[0, 2]) and np.allclose(np.ptp(np.linalg.norm(centres, axis=1)), 0))
+
+
+def _smallest(values: Any) -> tuple[Any, Any]:
+    """Smallest entry and its place."""
+    value, place = values[0], ca.SX(0)
+    for i in range(1, values.numel()):
+        place = ca.if_else(values[i] < value, i, place)
+        value = ca.fmin(values[i], value)
+    return value, place
+
+
 def rod_in_body(state: State, e3: E3Direction) -> tuple[Any, Any]:
     """Return the rod Rᵀy and its rate Rᵀẏ − ω × Rᵀy (1/s), each (..., 3), in the e₃-up body frame.
 
@@ -83,14 +118,16 @@ def clearances(rod: Any, centres: Any, length: float, body: Body) -> Any:
         The radii.
     """
     discs = [_to_disc(rod, centre, length, body) for centre in centres]
-    arms = [_to_arm(rod, centre, body) for centre in centres]
+    arms = [_to_arm(_inner(rod, centre) / np.linalg.norm(centre), body) for centre in centres]
     return ca.vertcat(*discs, *arms) if is_symbolic(rod) else np.stack([*discs, *arms], axis=-1)
 
 
-def _to_arm(rod: Any, centre: Any, body: Body) -> Any:
-    """Two rays from one point are closest where they begin, here at the hub's rim: 2 r sin(θ/2) apart."""
-    along = _inner(rod, np.asarray(centre) / np.linalg.norm(centre))
-    chord = _sqrt(_most(2 * (1 - along), 0.0))  # 2 sin(θ/2)
+def _to_arm(cosine: Any, body: Body) -> Any:
+    """Signed distance to an arm at an angle of this `cosine` to the rod.
+
+    Two rays from one point are closest where they begin, here at the hub's rim: 2 r sin(θ/2) apart.
+    """
+    chord = _sqrt(_most(2 * (1 - cosine), 0.0))  # 2 sin(θ/2)
     return body.hub_radius * chord - (body.arm_radius + body.rod_radius)
 
 
@@ -101,7 +138,7 @@ def _to_disc(rod: Any, centre: Any, length: float, body: Body) -> Any:
     either side of the disc; where the rod leaves the cylinder its derivative tells on which side the minimum lies.
     """
     u = [rod[i] if is_symbolic(rod) else rod[..., i] for i in range(3)]
-    c = [float(value) for value in centre]
+    c = list(centre)
     first, last = body.hub_radius, length
     entry, leaving, meets = _cylinder(u, c, body.disc_radius)
     before = (entry * u[2] - c[2]) * u[2] >= 0  # the distance rises where the rod enters the cylinder
@@ -143,7 +180,7 @@ def _slope(s: Any, u: Any, c: Any, radius: float) -> tuple[Any, Any]:
 
 
 def _inner(rod: Any, fixed: Any) -> Any:
-    return sum((rod[i] if is_symbolic(rod) else rod[..., i]) * float(fixed[i]) for i in range(3))
+    return sum((rod[i] if is_symbolic(rod) else rod[..., i]) * fixed[i] for i in range(3))
 
 
 def _clipped(value: Any, low: Any, high: Any) -> Any:

@@ -14,14 +14,14 @@ from matplotlib.patches import Circle, Patch
 
 from flypend.errors import InputError
 from flypend.flight.metrics import wilson
-from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED
+from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED, SKY
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.studies.sweep.bins import EDGE, Cells, Runs, default_plane, label, plane, side, sphere
 from flypend.studies.sweep.chunk import CAUSES
 
 WIDTH = 7.16  # two-column width of a paper, in
 # One colour per cause of failure; success is white.
-CAUSE_COLOURS = {"rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK}
+CAUSE_COLOURS = {"rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK, "collided": SKY}
 EMPTY = "#e4e4e4"
 # Cells with a wider confidence interval are hatched.
 WIDE = 0.2

@@ -20,7 +20,7 @@ from flypend.compile.problem import Problem
 from flypend.compile.program import Program, needed
 from flypend.model.state import MAX_STATE
 
-COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY = range(6)
+COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY, COLLIDED = range(7)
 # Half as many rejected steps as with SciPy's 0.9 and 10, and 3 to 7 % fewer evaluations at the same error.
 SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
 # Minimum step, s: below it, time no longer advances or a singularity has been located.

@@ -14,7 +14,8 @@ from llvmlite import ir
 from flypend.compile.llvm.emit import define, define_routine
 from flypend.compile.llvm.random import PER_TICK, define_normals
 from flypend.compile.llvm.reductions import Reductions
-from flypend.compile.llvm.runge_kutta import COMPLETED, DIVERGED, UNDEFINED
+from flypend.compile.llvm.runge_kutta import COLLIDED, COMPLETED, DIVERGED, UNDEFINED
+from flypend.compile.llvm.touching import Touching
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
 from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, Way, World
 from flypend.compile.sampled_problem import GUSTS, EquationsProblem, SampledProblem
@@ -24,7 +25,7 @@ INTEGERS = ("runs", "ticks", "sample_count", "row_count")
 ARGUMENTS = (
     "starts", "parameters", "plant", "seeds", "runs", "ticks",
     "sample_ticks", "sample_count", "judged", "rows", "row_count",
-    "samples", "reductions", "final", "end", "status",
+    "samples", "reductions", "final", "end", "status", "clearance", "part",
 )  # fmt: skip
 STRANDS = 4  # partial sums, which hide the latency of additions
 
@@ -67,6 +68,7 @@ class _Kernel:
         self.seeds, self.tick_of_lane = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
         self.cursor = code.reserve(1, I64)
         self.results = Reductions(code, problem.judge, problem.reductions)
+        self.touching = Touching(code, problem.touch, self.at) if problem.touch is not None else None
         self.world = self._world()
 
     def _world(self) -> World:
@@ -137,6 +139,8 @@ class _Kernel:
         ticks = code.value(code.builder.sitofp(self.at["ticks"], self.lanes.scalar))
         code.store(ticks * self.problem.period, self.end)
         code.builder.store(ir.Constant(I64, 0), self.cursor)
+        if self.touching is not None:
+            self._end_runs(self.touching.begin(state), COLLIDED, code.value(0.0))
 
     def _copy(self, rows: ir.Value, row: ir.Value, memory: ir.Value, lane: ir.Value, length: int) -> None:
         code, builder = self.code, self.code.builder
@@ -158,6 +162,8 @@ class _Kernel:
                 code.put(code.scalar(self.end, lane), self.at["end"], run)
                 code.put(builder.fptosi(code.scalar(self.status, lane), I64), self.at["status"], run)
                 self.results.store(lane, run, self.at["reductions"])
+                if self.touching is not None:
+                    self.touching.store(lane, run)
 
     # One control tick -----------------------------------------------------------------------------------------
 
@@ -181,6 +187,9 @@ class _Kernel:
         self.world.show(after)
         with code.when(code.any(self._far(after))):
             self._end_runs(self._lost(after), DIVERGED, time)
+        if self.touching is not None:
+            touched, share = self.touching.between(state, after, code.load(self.alive) > 0.0)
+            self._end_runs(touched, COLLIDED, time + share * problem.period)
         with code.when(code.any(code.load(self.alive) <= 0.0)):
             self._keep_ended(state, after)
 

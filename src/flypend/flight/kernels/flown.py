@@ -21,7 +21,7 @@ Progress = Callable[[int, int], Any]
 LEAST_SHARE = 64
 
 # Status strings of `Outcome` for the codes of `flypend.compile.llvm.runge_kutta`.
-STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged"])
+STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged", "collided"])
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,9 @@ class Flown:
         States at the sample times, followed by rotor forces in a sampled flight; NaN after the end.
     steps : (n,), optional
         Attempted steps, in the ideal plant.
+    clearance, part : (n,), optional
+        Least distance (m) of the rod to what it can touch, and the part that was touched, −1 for none; see
+        `flypend.flight.touch`.
     """
 
     final: Any
@@ -50,9 +53,13 @@ class Flown:
     reductions: Any
     samples: Any = None
     steps: Any = None
+    clearance: Any = None
+    part: Any = None
 
     @classmethod
-    def of_size(cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: bool) -> Flown:
+    def of_size(
+        cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: bool, touching: bool = False
+    ) -> Flown:
         """Allocate results for `runs` runs with states of `size`; `samples` is (times, length) if they are kept."""
         return cls(
             final=np.empty((runs, size)),
@@ -61,9 +68,11 @@ class Flown:
             reductions=np.empty((runs, len(REDUCTIONS))) if judged else None,
             samples=None if samples is None else _aligned((runs, *samples)),
             steps=np.empty(runs, dtype=np.int64) if steps else None,
+            clearance=np.empty(runs) if touching else None,
+            part=np.empty(runs, dtype=np.int64) if touching else None,
         )
 
-    def part(self, runs: slice) -> Flown:
+    def of(self, runs: slice) -> Flown:
         """Return views of the results of `runs`."""
         columns = {entry.name: getattr(self, entry.name) for entry in fields(self)}
         return Flown(**{name: None if column is None else column[runs] for name, column in columns.items()})
@@ -101,12 +110,12 @@ def in_pieces(
     threads = min(threads, len(slices))
     if threads <= 1:
         for part in slices:
-            fly(part, out.part(part))
+            fly(part, out.of(part))
             progress(part.stop, runs)
         return out
     with ThreadPoolExecutor(threads) as pool:
         try:
-            for part, _ in zip(slices, pool.map(lambda part: fly(part, out.part(part)), slices), strict=True):
+            for part, _ in zip(slices, pool.map(lambda part: fly(part, out.of(part)), slices), strict=True):
                 progress(part.stop, runs)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -19,13 +19,14 @@ from flypend.compile.llvm.sampled import INTEGERS, arguments, write_kernel
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
-from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
+from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch, Touch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.model import State
+from flypend.flight.touch import room, touching
+from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import rotor_step
@@ -74,6 +75,11 @@ class SampledKernel:
     criterion: Criterion
     function: Any
     key: str
+
+    @property
+    def touches(self) -> bool:
+        """Whether there is something that the rod can touch."""
+        return self.loop.vehicle.mount != "gimbal"
 
     def through(self, plant: Plant) -> SampledKernel:
         """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
@@ -127,7 +133,7 @@ class SampledKernel:
         least = np.full((runs, n), vehicle.rotor_limits[0])
         packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
         samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + n)
-        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=True)
+        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=True, touching=self.touches)
         numbers = plant_numbers(loop)
         piece = PIECE if loop.sampled.engine == "equations" else PIECE_MUJOCO
 
@@ -148,6 +154,7 @@ class SampledKernel:
             address(starts), address(values), address(numbers), address(seeds), len(starts), count,
             address(ticks.ticks), len(ticks.ticks), address(ticks.judged), address(ticks.rows), int(ticks.rows[-1]),
             address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
+            address(out.clearance), address(out.part),
         )  # fmt: skip
         if self.loop.sampled.engine == "equations":
             self.function(*given)
@@ -266,7 +273,14 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
         timing=TIMING_SIZE if plant.engine == "equations" else 1,
         period=1 / plant.rate,
         random=is_random(plant),
+        touch=_touch(true, 1 / plant.rate),
     )
+
+
+def _touch(vehicle: Vehicle, period: float) -> Touch | None:
+    if vehicle.mount == "gimbal":
+        return None
+    return Touch(lower(room(vehicle, period)), lower(touching(vehicle, period)))
 
 
 def _begin(loop: Loop) -> Program:

@@ -15,6 +15,7 @@ from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples, nearest_ticks
+from flypend.flight.touch import touched
 from flypend.model.state import MAX_STATE, SIZE, seen_packed
 
 REASONS = {
@@ -85,13 +86,15 @@ def sampled_samples(
     flown = fly(keep_at=ticks)
     code, end = int(flown.code[0]), float(flown.end[0])
     if code != runge_kutta.COMPLETED:  # the end of a run is known once it has been flown
-        last = round(end * plant.rate)
+        last = int(np.floor(end * plant.rate + 1e-6))  # a rod touches between two ticks
         ticks = np.append(ticks[ticks < last], last)
         flown = fly(keep_at=ticks)
     outcome = Outcome("completed", end)
     if code != runge_kutta.COMPLETED:
-        singular = code == runge_kutta.UNDEFINED
-        outcome = Outcome("singular" if singular else "diverged", end, NOT_FINITE if singular else LEFT)
+        reason = {runge_kutta.UNDEFINED: NOT_FINITE, runge_kutta.DIVERGED: LEFT}
+        if code == runge_kutta.COLLIDED:
+            reason[code] = touched(flight.vehicle, int(flown.part[0]))
+        outcome = Outcome(str(STATUS[code]), end, reason[code])  # type: ignore[arg-type]
     t, samples = ticks / plant.rate, flown.samples[0]
     kept = t <= end + 1e-9
     packed = seen_packed(samples[kept, :SIZE], law.e3)

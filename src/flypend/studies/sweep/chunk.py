@@ -23,8 +23,8 @@ from flypend.studies.sweep.design import Design, design
 from flypend.studies.sweep.study import Study, study
 
 # The meaning of the stored cause codes, by index.
-CAUSES = ("success", *PARTS, "diverged", "singular")
-FLOATS = ("settling", "excursion", "effort", "peak_force", "end")
+CAUSES = ("success", *PARTS, "diverged", "singular", "collided")
+FLOATS = ("settling", "excursion", "effort", "peak_force", "end", "clearance")
 
 
 @lru_cache(maxsize=4)

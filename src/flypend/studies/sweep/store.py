@@ -33,8 +33,8 @@ ROWS = {
     "final": "packed",
 }
 UNITS = {
-    "settling": "s", "excursion": "m", "peak_force": "N", "end": "s", "x": "m", "x_dot": "m/s", "omega": "rad/s",
-    "y_dot": "1/s", "tilt": "rad", "azimuth": "rad", "heading": "rad", "rate": "1/s",
+    "settling": "s", "excursion": "m", "peak_force": "N", "end": "s", "clearance": "m", "x": "m", "x_dot": "m/s",
+    "omega": "rad/s", "y_dot": "1/s", "tilt": "rad", "azimuth": "rad", "heading": "rad", "rate": "1/s",
 }  # fmt: skip
 NOTES = {
     "settling": "time from which the criterion holds to the end; NaN for a failure",
@@ -42,6 +42,7 @@ NOTES = {
     "effort": "root mean square of the rotor forces over their share of the weight",
     "peak_force": "largest force of any rotor",
     "end": "time at which the run ended",
+    "clearance": "least distance of the rod to what its mount lets it touch; infinite on a gimbal",
     "tilt": "tilt of the rod from inverted",
     "quat_xyzw": "rotation from body to world, order x, y, z, w",
     "final": "packed final state: x, x_dot, R (row-major), omega, y, y_dot",

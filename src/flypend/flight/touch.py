@@ -1,0 +1,113 @@
+"""Whether and where the rod touches within an interval, as one function for kernels and the step-by-step reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from flypend.compile.numeric import as_numpy
+from flypend.geometry import dot, unit
+from flypend.model import State, Vehicle, Wrench, rod_tension
+from flypend.model.mount import least_margin, part_names, rod_in_body
+from flypend.model.state import SIZE
+
+# Points within a control period at which the rod is looked at. At 500 Hz they are 0.5 ms apart: the tip of a rod of
+# half a metre at 15 rad/s moves 4 mm, less than the thickness of the rod.
+POINTS = 4
+NEVER = 2.0  # the share of an interval in which the rod touches nothing
+
+
+def touching(vehicle: Vehicle, period: float) -> ca.Function:
+    """Build (before, after) → (clearance, share, part), for states with rotor forces (24 + n,), e₃ up.
+
+    Between the states, `period` (s) apart, the rod moves in the body frame along the cubic through directions and rates
+    at both ends, and is looked at in `POINTS` equally spaced shares of the interval. `clearance` is the smallest
+    distance there, m, `share` the first at which a margin of `model.mount` is negative, `NEVER` if none is, and `part`
+    the place of that margin in `part_names`.
+    """
+    before, after, ends = _ends(vehicle)
+    least, share, part = ca.SX(np.inf), ca.SX(NEVER), ca.SX(-1)
+    for k in range(POINTS, 0, -1):
+        smallest, place, clearance = least_margin(*_between(ends, period, k / POINTS), vehicle)
+        least = ca.fmin(least, clearance)
+        share = ca.if_else(smallest < 0, k / POINTS, share)
+        part = ca.if_else(smallest < 0, place, part)
+    return ca.Function("touching", [before, after], [ca.cse(ca.vertcat(least, share, part))])
+
+
+def room(vehicle: Vehicle, period: float) -> ca.Function:
+    """Build (before, after) → a lower bound of every distance in between, m, much cheaper than `touching`.
+
+    A point of a disc at height h and radius ρ is at least ρ |u₃| − |h| from a rod u in the body frame, one of an arm at
+    least 2 ρ sin(ε/2), sin ε = |u₃|. In between, |u₃| changes by at most |u̇| for half the interval. In a cup nothing is
+    bounded: the result is negative.
+    """
+    before, after, ((u_0, rate_0, _), (u_1, rate_1, _)) = _ends(vehicle)
+    if vehicle.mount != "hub":
+        return ca.Function("room", [before, after], [ca.SX(-1)])
+    body, centres = vehicle.body, vehicle.rotor_positions
+    inner = float(np.min(np.linalg.norm(centres[:, :2], axis=1))) - body.disc_radius
+    speed = ca.fmax(ca.sqrt(dot(rate_0, rate_0)), ca.sqrt(dot(rate_1, rate_1)))
+    up = ca.fmin(ca.fabs(u_0[2]), ca.fabs(u_1[2]))
+    up = ca.if_else(u_0[2] * u_1[2] > 0, ca.fmax(up - 0.75 * period * speed, 0), 0)  # a cubic overshoots a little
+    discs = inner * up - float(np.max(np.abs(centres[:, 2]))) - body.rod_radius
+    chord = ca.sqrt(2 * up**2 / (1 + ca.sqrt(ca.fmax(1 - up**2, 0))))  # 2 sin(ε/2) without cancellation
+    arms = body.hub_radius * chord - body.arm_radius - body.rod_radius
+    return ca.Function("room", [before, after], [ca.cse(ca.fmin(discs, arms))])
+
+
+def touched(vehicle: Vehicle, part: int) -> str:
+    """Return the reason of an outcome, for the `part` of `touching`."""
+    name = part_names(vehicle)[part]
+    if vehicle.mount == "hub":
+        return f"the rod touched {name}"
+    return "the rod left the cone of its cup" if name == "cone" else "the cup would have had to pull the rod"
+
+
+class Touch(NamedTuple):
+    """A touch: at which `share` of an interval, and the `reason` for an outcome."""
+
+    share: float
+    reason: str
+
+
+@lru_cache(maxsize=64)
+def watcher(vehicle: Vehicle, period: float) -> Callable[[Any, Any], Touch | None]:
+    """Return (before, after) → the first touch between two states (24 + n,), `period` (s) apart, None for none."""
+    if vehicle.mount == "gimbal":
+        return lambda before, after: None
+    look = as_numpy(touching(vehicle, period))
+
+    def watch(before: Any, after: Any) -> Touch | None:
+        _, share, part = look(before, after)
+        return Touch(float(share), touched(vehicle, int(part))) if share <= 1 else None
+
+    return watch
+
+
+_End = tuple[Any, Any, Any]
+
+
+def _ends(vehicle: Vehicle) -> tuple[Any, Any, tuple[_End, _End]]:
+    """Symbols of both states; and for each, the rod in the body frame, its rate, and its push on the vehicle."""
+    n = len(vehicle.rotor_spins)
+    before, after = ca.SX.sym("before", SIZE + n), ca.SX.sym("after", SIZE + n)
+
+    def end(packed: Any) -> _End:
+        state = State.symbolic(packed[:SIZE])
+        thrust = ca.sum1(packed[SIZE:])
+        return (*rod_in_body(state, "up"), -rod_tension(state, Wrench(thrust, ca.SX(3, 1)), vehicle))
+
+    return before, after, (end(before), end(after))
+
+
+def _between(ends: tuple[_End, _End], period: float, share: float) -> tuple[Any, Any]:
+    """Rod in the body frame and its push at a `share` of the interval."""
+    (u_0, rate_0, push_0), (u_1, rate_1, push_1) = ends
+    s, r = share, 1 - share
+    u = (1 + 2 * s) * r**2 * u_0 + s**2 * (3 - 2 * s) * u_1 + period * (s * r**2 * rate_0 - s**2 * r * rate_1)
+    return unit(u), r * push_0 + s * push_1

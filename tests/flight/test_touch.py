@@ -1,0 +1,164 @@
+"""Flights that end because the rod touches: kernels against the step-by-step reference and MuJoCo's geometry."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.compile.numeric import as_numpy
+from flypend.flight.touch import NEVER, room, touching
+from flypend.model.mount import part_names
+
+mujoco = pytest.importorskip("mujoco")
+
+HUB = fp.vehicle("hehn2011").replace(mount="hub")
+CUP = fp.vehicle("hehn2011").replace(mount="cup")
+LAW = fp.laws.inverted()
+TICKS = np.arange(2001) / 500  # every control tick of 4 s
+
+
+def flown(vehicle, start, duration=4.0, **settings):
+    return fp.simulate(vehicle, LAW, start, duration, times=TICKS[: int(500 * duration) + 1], **settings)
+
+
+def with_forces(run):
+    return np.concatenate([run.packed, run.rotor_forces], axis=1)
+
+
+@pytest.mark.parametrize(("vehicle", "plant"), [(HUB, "rotors"), (CUP, "rotors"), (HUB, "mujoco")])
+def test_kernel_and_reference_end_at_the_same_touch(vehicle, plant):
+    starts, duration = fp.random_starts(8, 21), 1.5
+    ends = fp.simulate_ensemble(vehicle, LAW, starts, duration, plant=plant)
+    seen = set()
+    for i in range(len(ends)):
+        run = flown(vehicle, starts[i], duration, plant=plant, engine="scipy")
+        seen.add(run.outcome.status)
+        assert ends.cause[i] == "collided" if run.outcome.status == "collided" else ends.cause[i] != "collided"
+        # Trajectories of kernel and reference differ by roundoff, and the rod is looked at every quarter of a tick.
+        assert ends.end[i] == pytest.approx(run.outcome.time, abs=0.26 / 500)
+        single = flown(vehicle, starts[i], duration, plant=plant)
+        assert (single.outcome.status, single.outcome.reason) == (run.outcome.status, run.outcome.reason)
+        assert single.outcome.time == ends.end[i]
+        assert single.t[-1] <= single.outcome.time + 1e-9
+    assert seen == ({"completed", "collided"} if vehicle.mount == "hub" else {"collided"})
+
+
+def test_the_clearance_of_an_ensemble_is_the_least_of_a_run():
+    starts = fp.random_starts(40, 22)
+    ends = fp.simulate_ensemble(HUB, LAW, starts, 4.0)
+    for i in np.flatnonzero(ends.cause == "")[:10]:
+        sampled = flown(HUB, starts[i]).clearance.min()
+        # Between ticks the rod comes closer: its far end moves some centimetres in 2 ms, the nearest point some mm.
+        assert sampled - 1e-3 < ends.clearance[i] <= sampled + 1e-12
+        assert fp.metrics(flown(HUB, starts[i])).clearance == sampled
+    free = fp.simulate_ensemble(fp.vehicle("hehn2011"), LAW, starts, 0.1)
+    assert np.all(np.isinf(free.clearance))
+
+
+def test_the_lower_bound_bounds_and_most_often_spares_the_search():
+    bound, look = as_numpy(room(HUB, 0.002)), as_numpy(touching(HUB, 0.002))
+    spared = []
+    for seed in range(3):
+        states = with_forces(flown(fp.vehicle("hehn2011"), fp.random_starts(1, seed)[0]))
+        pairs = list(zip(states[:-1], states[1:], strict=True))
+        low = np.array([bound(*pair) for pair in pairs]).ravel()
+        least = np.array([look(*pair)[0] for pair in pairs])
+        assert np.all(low <= least + 1e-12)
+        spared.append(np.mean(low[1:] >= np.minimum.accumulate(least)[:-1]))
+    assert np.mean(spared) > 0.8
+
+
+def test_between_two_ticks_a_rod_is_seen_to_pass_through_a_disc():
+    """Turning at 20 rad/s in the plane of an arm, its tip passes the discs' plane within a tick."""
+    rate, half = 20.0, 0.001
+
+    def state(angle):
+        y = np.array([np.cos(angle), 0, np.sin(angle)])
+        return np.append(fp.State(y=y, y_dot=rate * np.array([-y[2], 0, y[0]])).packed(), np.ones(4))
+
+    least, share, part = as_numpy(touching(HUB, 2 * half))(state(-rate * half), state(rate * half))
+    assert least < -HUB.body.rod_radius
+    assert share == 0.25
+    assert part_names(HUB)[int(part)] in ("disc 1", "arm 1")
+    least, share, part = as_numpy(touching(HUB, 2 * half))(state(0.6), state(0.6 + 2 * rate * half))
+    assert (share, part) == (NEVER, -1)
+    assert least > 0
+
+
+class Geometry:
+    """Rod, discs and arms as MuJoCo's geoms, with its own search for the distance between them."""
+
+    def __init__(self, vehicle):
+        body = vehicle.body
+        discs = "".join(
+            f'<geom type="cylinder" pos="{x} {y} {z}" size="{body.disc_radius} 1e-5"/>'
+            for x, y, z in vehicle.rotor_positions
+        )
+        arms = "".join(
+            '<geom type="capsule" fromto="{} {} {} {} {} {}" size="{}"/>'.format(
+                *(body.hub_radius / np.linalg.norm(place) * place), *place, body.arm_radius
+            )
+            for place in vehicle.rotor_positions
+        )
+        rod = (
+            '<body mocap="true"><geom name="rod" type="capsule" '
+            f'fromto="0 0 {body.hub_radius} 0 0 {vehicle.reach}" size="{body.rod_radius}"/></body>'
+        )
+        text = f"<mujoco><worldbody>{discs}{arms}{rod}</worldbody></mujoco>"
+        self.model = mujoco.MjModel.from_xml_string(text)
+        self.data = mujoco.MjData(self.model)
+
+    def distance(self, rod):
+        """Least distance, or 0 or less, of the rod along the unit vector `rod` in the body frame."""
+        quat = np.array([1 + rod[2], -rod[1], rod[0], 0.0])  # turns e₃ to the rod
+        self.data.mocap_quat[0] = quat / np.linalg.norm(quat)
+        mujoco.mj_kinematics(self.model, self.data)
+        last = self.model.ngeom - 1
+        return min(mujoco.mj_geomDistance(self.model, self.data, last, i, 1.0, None) for i in range(last))
+
+
+def verdict_of_mujoco(vehicle, run):
+    """Time of the first touch by MuJoCo's geoms every half millisecond, the body's rotation interpolated; or None."""
+    geometry, rods = Geometry(vehicle), np.einsum("nji,nj->ni", run.R, run.y)
+    for k in range(len(run.t) - 1):
+        for share in (0.0, 0.25, 0.5, 0.75):
+            rod = (1 - share) * rods[k] + share * rods[k + 1]
+            if geometry.distance(rod / np.linalg.norm(rod)) <= 0:
+                return run.t[k] + share * (run.t[k + 1] - run.t[k])
+    return None
+
+
+def compared_with_mujoco(runs, seed, duration):
+    """Number of flights that touch, by MuJoCo as plant and by its geoms as judge; and the largest difference in time."""
+    starts, touched, late = fp.random_starts(runs, seed), 0, 0.0
+    ours = fp.simulate_ensemble(HUB, LAW, starts, duration)
+    for i in range(runs):
+        run = flown(fp.vehicle("hehn2011"), starts[i], duration, plant="mujoco")
+        time = verdict_of_mujoco(HUB, run)
+        assert (time is not None) == (ours.cause[i] == "collided"), (i, time, ours.cause[i], ours.clearance[i])
+        if time is not None:
+            touched, late = touched + 1, max(late, abs(time - ours.end[i]))
+    return touched, late
+
+
+def test_geometry_of_mujoco_finds_the_same_distance():
+    geometry, rng = Geometry(HUB), np.random.default_rng(2)
+    from flypend.model.mount import clearances
+
+    for rod in fp.State.random(rng, 200).y:
+        ours = clearances(rod, HUB.rotor_positions, HUB.reach, HUB.body).min()
+        if ours > 0:
+            # The cylinder is 1e-5 m high on either side; MuJoCo's search is good to 1e-6.
+            assert geometry.distance(rod) == pytest.approx(ours, abs=3e-5)
+
+
+def test_mujoco_gives_the_same_verdict():
+    touched, late = compared_with_mujoco(12, seed=23, duration=2.0)
+    assert 2 < touched < 12
+    assert late < 5e-3
+
+
+@pytest.mark.slow
+def test_mujoco_gives_the_same_verdict_in_500_flights():
+    touched, late = compared_with_mujoco(500, seed=24, duration=4.0)
+    assert 100 < touched < 500
+    assert late < 5e-3

@@ -67,7 +67,14 @@ def where(mask, inside, outside):
 
 def test_a_flight_that_stands_from_the_start():
     assert metrics(flight()) == Metrics(
-        success=True, settling=0.0, excursion=0.0, effort=pytest.approx(1), peak_force=SHARE, end=3.0, cause=""
+        success=True,
+        settling=0.0,
+        excursion=0.0,
+        effort=pytest.approx(1),
+        peak_force=SHARE,
+        end=3.0,
+        clearance=float("inf"),
+        cause="",
     )
 
 

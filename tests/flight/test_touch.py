@@ -1,5 +1,7 @@
 """Flights that end because the rod touches: kernels against the step-by-step reference and MuJoCo's geometry."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -59,7 +61,7 @@ def test_the_lower_bound_bounds_and_most_often_spares_the_search():
     spared = []
     for seed in range(3):
         states = with_forces(flown(fp.vehicle("hehn2011"), fp.random_starts(1, seed)[0]))
-        pairs = list(zip(states[:-1], states[1:], strict=True))
+        pairs = list(pairwise(states))
         low = np.array([bound(*pair) for pair in pairs]).ravel()
         least = np.array([look(*pair)[0] for pair in pairs])
         assert np.all(low <= least + 1e-12)

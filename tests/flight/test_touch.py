@@ -130,7 +130,7 @@ def verdict_of_mujoco(vehicle, run):
 
 
 def compared_with_mujoco(runs, seed, duration):
-    """Number of flights that touch, by MuJoCo as plant and by its geoms as judge; and the largest difference in time."""
+    """Number of flights that touch with MuJoCo as plant and judge, and the largest difference in time, s."""
     starts, touched, late = fp.random_starts(runs, seed), 0, 0.0
     ours = fp.simulate_ensemble(HUB, LAW, starts, duration)
     for i in range(runs):

@@ -1,8 +1,9 @@
 """What a study of 10⁸ flights costs, from one that is flown here: `python -m benchmarks.scale --runs 20000`.
 
 The inverted law on hehn2011 through rotors, noise, gusts and its observer at 500 Hz, judged every 10 ms, from random
-starts, into a Zarr store. Prints what was measured, and from it the plan for more runs. `--runs 10000000` flies the ten
-million for which the first table of docs/studies/studies.md was planned, if you can wait; an interruption resumes.
+starts, into a Zarr store. Prints what was measured, and from it the plan of docs/studies/studies.md. `--runs 10000000
+--out ten.zarr` flies ten million, a matter of hours; after an interruption, the same command goes on, and what it
+prints then counts the rest only.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from benchmarks.report import machine
 MANY = 10**8
 CORES = (2, 64, 1024)
 LONG = 10.0  # s: the flights that are planned
+CHUNK = 32_768  # runs of a task of the plan, a file in each column: minutes of flight, and thousands of files
 
 
 def study(runs: int, duration: float) -> dict[str, Any]:
@@ -37,38 +39,37 @@ def study(runs: int, duration: float) -> dict[str, Any]:
 
 
 class Cost(NamedTuple):
-    """What a study took: runs, seconds of processor and of wall, bytes of its store, runs in a chunk."""
+    """What a study took: runs, seconds of processor and of wall, bytes and columns of its store."""
 
     runs: int
     processor: float
     wall: float
     size: int
-    chunk: int
+    columns: int
 
 
 def flown(path: Path, runs: int, duration: float, workers: int) -> Cost:
     """Fly the study into a new store at `path`."""
-    made = fp.study(study(runs, duration))
     fp.sweep(study(1, duration), path.with_name("first.zarr"), workers=1)  # compiles
     before, begin = time.process_time(), time.perf_counter()
-    fp.sweep(made, path, workers=workers)
+    data = fp.sweep(study(runs, duration), path, workers=workers)
     spent = time.process_time() - before, time.perf_counter() - begin
     size = sum(file.stat().st_size for file in path.rglob("*") if file.is_file())
-    return Cost(runs, *spent, size, made.chunk)
+    return Cost(runs, *spent, size, len(data.data_vars))
 
 
 def plan(cost: Cost, duration: float, runs: int = MANY) -> list[str]:
     """Rows of a table: what `runs` flights of `LONG` seconds need, in proportion to `cost`."""
     flight, size = cost.processor / cost.runs * LONG / duration, cost.size / cost.runs
-    chunks = -(-runs // cost.chunk)
+    tasks = -(-runs // CHUNK)
     hours = runs * flight / 3600
     return [
         f"| processor time of a flight of {LONG:g} s, storing included | {1e3 * flight:.2f} ms |",
         f"| core-hours | {hours:,.0f} |",
         *(f"| on {cores:,} such cores | {hours / cores:,.1f} h |" for cores in CORES),
-        f"| store | {runs * size / 1e9:.1f} GB, {size:.0f} bytes a run |",
-        f"| tasks of {cost.chunk:,} runs | {chunks:,}, {cost.chunk * flight:.1f} s each |",
-        f"| into the store, with {CORES[-1]:,} cores | {CORES[-1] * size / flight / 1e6:.2f} MB/s |",
+        f"| store | {runs * size / 1e9:.1f} GB, {size:.0f} bytes a run, {tasks * cost.columns:,} files |",
+        f"| tasks, with `chunk = {CHUNK}` | {tasks:,}, {CHUNK * flight:.0f} s and {CHUNK * size / 1e6:.1f} MB each |",
+        f"| into the one process that writes, from {CORES[-1]:,} cores | {CORES[-1] * size / flight / 1e6:.2f} MB/s |",
     ]
 
 

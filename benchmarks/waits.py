@@ -1,12 +1,14 @@
-"""What a user waits for each common command: `python -m benchmarks.waits`, some six minutes on two idle cores.
+"""What a user waits for each common command: `python -m benchmarks.waits`, some ten minutes on two idle cores.
 
 Every command is a process of its own, first with an empty cache of compiled kernels, as on the first day, then again.
-Its modules are compiled to bytecode before, as pip does. Prints a table for docs/flight/engine.md.
+Its modules are compiled to bytecode before, as pip does. Prints a table for docs/flight/engine.md. Words after it
+choose the commands that contain one of them.
 """
 
 from __future__ import annotations
 
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -48,39 +50,46 @@ WAITS = (
 )
 
 
-def waited(command: str, folder: Path, cache: Path) -> float:
-    """Seconds on the wall that `command` takes in `folder`; for the laboratory, until its first line."""
+def waited(command: str, folder: Path, cache: Path) -> tuple[float, float]:
+    """Seconds of wall and of processor that `command` takes in `folder`; for the laboratory, until its first line."""
     environment = os.environ | {
         "FLYPEND_CACHE": str(cache), "PYTHONPYCACHEPREFIX": str(folder / "bytecode"), "PYTHONDONTWRITEBYTECODE": "",
     }  # fmt: skip
     arguments = [sys.executable, "-m", *command.split()]
-    begin = time.perf_counter()
+    before, begin = _children(), time.perf_counter()
     if command.startswith("flypend lab"):
         with subprocess.Popen(arguments, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True) as process:
             assert process.stdout is not None
             process.stdout.readline()
             spent = time.perf_counter() - begin
             process.send_signal(signal.SIGTERM)
-        return spent
-    subprocess.run(arguments, cwd=folder, env=environment, check=True, capture_output=True)
-    return time.perf_counter() - begin
+    else:
+        subprocess.run(arguments, cwd=folder, env=environment, check=True, capture_output=True)
+        spent = time.perf_counter() - begin
+    return spent, _children() - before
+
+
+def _children() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def main() -> None:
     """Print the table."""
-    where = machine()
+    where, words = machine(), sys.argv[1:]
+    chosen = [wait for wait in WAITS if not words or any(word in wait.command for word in words)]
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
         for name in ("swing-up.toml", "my_law.py", "studies/hanging.toml"):
             (folder / Path(name).name).write_bytes((EXAMPLES / name).read_bytes())
-        waited("flypend --version", folder, folder)
-        waited("flypend paper", folder, folder / "warm")  # bytecode of everything
+        for warm in ("flypend run 1 --quick --html run.html", *(wait.command for wait in chosen)):  # bytecode
+            waited(warm, folder, folder / "warm")
         print(f"{where['processor']}, {where['cores']} cores (load {where['load']:.1f}), {where['date']}.\n")
-        print("| command | what | first, s | again, s |\n|---|---|---|---|", flush=True)
-        for wait in WAITS:
+        print("| command | what | first, s | again, s | of processor |\n|---|---|---|---|---|", flush=True)
+        for wait in chosen:
             with tempfile.TemporaryDirectory() as cache:
-                first, again = (waited(wait.command, folder, Path(cache)) for _ in range(2))
-            print(f"| `{wait.command}` | {wait.what} | {first:.1f} | {again:.1f} |", flush=True)
+                (first, _), (again, processor) = (waited(wait.command, folder, Path(cache)) for _ in range(2))
+            print(f"| `{wait.command}` | {wait.what} | {first:.1f} | {again:.1f} | {processor:.1f} |", flush=True)
 
 
 if __name__ == "__main__":

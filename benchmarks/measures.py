@@ -75,7 +75,7 @@ MEASURES: dict[str, Callable[[], float]] = {
     "judged": lambda: flown(2048, plant="ideal", rtol=1e-6),
     "rotors": lambda: flown(256, plant="rotors"),
     "real": lambda: flown(256, plant=real()),
-    "mujoco": lambda: flown(8, plant="mujoco"),
+    "mujoco": lambda: flown(4, plant="mujoco"),
     "imported": imported,
     "own": own,
 }

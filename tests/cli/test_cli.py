@@ -120,6 +120,18 @@ def test_a_run_writes_the_run_and_its_reports_and_nothing_else(second):
     assert sorted(content(folder)) == ["out", "out/report.json", "out/report.md", "out/run.nc"]
 
 
+def test_a_run_without_figures_imports_nothing_that_it_does_not_need(tmp_path):
+    """Each of these takes longer to import than the run takes to fly."""
+    heavy = ("numpy.ma", "scipy", "matplotlib", "mujoco", "xarray", "joblib", "distributed", "flypend.export", "jax")
+    program = (
+        "import runpy, sys\ntry:\n    runpy.run_module('flypend', run_name='__main__', alter_sys=True)\n"
+        f"except SystemExit as end:\n    print(end.code, [name for name in {heavy} if name in sys.modules])"
+    )
+    command = [sys.executable, "-c", program, "run", "1", "--no-figures"]
+    done = subprocess.run(command, cwd=tmp_path, env=ENVIRONMENT, capture_output=True, encoding="utf-8", check=True)
+    assert done.stdout.splitlines()[-1] == "0 []"
+
+
 def test_a_run_is_that_of_the_library(second):
     folder, _ = second
     row = experiment("2")

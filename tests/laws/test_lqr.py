@@ -1,5 +1,9 @@
 """The regulator: optimal by definition, stable by linearisation, good near hover and no further."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from scipy.linalg import solve_continuous_lyapunov
@@ -205,3 +209,20 @@ def test_the_law_is_known_by_name_with_its_gains_and_a_reference():
     ):
         with pytest.raises(fp.InputError, match=line):
             fp.laws.law_from_dict(table)
+
+
+def test_the_gains_do_not_depend_on_the_threads_of_blas():
+    """To the last bit: a worker of a sweep, whose BLAS has one thread, flies the equations of its caller."""
+    code = (
+        "import flypend as fp; from flypend.laws.lqr import gain_matrix as K; "
+        "print(K(fp.vehicle('hehn2011'), fp.laws.lqr().values).tobytes().hex())"
+    )
+    told = {
+        subprocess.run(
+            [sys.executable, "-c", code], env={**os.environ, "OPENBLAS_NUM_THREADS": threads},
+            capture_output=True, text=True, check=True,
+        ).stdout
+        for threads in ("1", "2", "3")
+    }  # fmt: skip
+    assert len(told) == 1
+    assert len(told.pop()) == 2 * 8 * 64 + 1  # doubles of K (4, 16), and the end of the line

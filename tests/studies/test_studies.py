@@ -129,6 +129,31 @@ def test_a_ladder_as_arrays_has_rungs_laws_and_runs():
     assert len(data.to_dataframe()) == 12
 
 
+def test_kernels_are_compiled_ahead_of_the_flights_but_not_far_ahead(monkeypatch):
+    """Those compiled far ahead would have left the cache, which holds 64, before they fly."""
+    module, events = sys.modules["flypend.studies.compare"], []
+    monkeypatch.setattr(module, "kernel_of", lambda flight: events.append(("compile", flight.duration)))
+    monkeypatch.setattr(module, "fly_many", lambda flight, **_: events.append(("fly", flight.duration)))
+    (flight,) = module.flights_of(VEHICLE, [inverted()], random_starts(2, 1), 1.0).values()
+    times = [float(k) for k in range(1, 11)]
+    module.flown({str(k): flight.replace(duration=k) for k in times}, 1, lambda *_: None)
+    for kind in ("compile", "fly"):
+        assert [duration for what, duration in events if what == kind] == times
+    for k in times:
+        assert events.index(("compile", k)) < events.index(("fly", k))
+        if k > module.AHEAD:
+            assert events.index(("compile", k)) > events.index(("fly", k - module.AHEAD))
+
+
+def test_a_law_that_cannot_be_compiled_is_told_in_its_turn():
+    """After the flights of the laws before it, whose kernels are compiled before it."""
+    told = []
+    broken = Law(name="broken", e3="up", control=lambda t, state, vehicle, gains: "no wrench")
+    with pytest.raises(fp.InputError, match="law: expected a Control or a Wrench, got str"):
+        compare(VEHICLE, [inverted(), broken], random_starts(2, 1), 0.02, progress=lambda *now: told.append(now))
+    assert told[-1] == ("inverted", 2, 2)
+
+
 def test_names_are_made_unique_and_progress_names_the_law():
     told = []
     laws = [Controller(name=name, function=hover, rate=50.0) for name in ("a", "b", "a", "a")]

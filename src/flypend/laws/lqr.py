@@ -128,7 +128,17 @@ def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
     P = solve_riccati(A, B, Q[np.ix_(keep, keep)], R)
     K = np.zeros((4, len(COORDINATES)))
     K[:, keep] = np.linalg.solve(R, B.T @ P)
-    return K
+    return _rounded(K)
+
+
+def _rounded(K: Matrix) -> Matrix:
+    """Round each row of `K` to 2⁻³⁰ of its largest entry: roundoff differs with BLAS and with its number of threads.
+
+    Otherwise the workers of a sweep, and the cache of kernels, would know as many laws.
+    """
+    unit = np.exp2(np.ceil(np.log2(np.max(np.abs(K), axis=1, keepdims=True))) - 30)
+    rounded: Matrix = np.round(K / unit) * unit + 0.0  # no zero is negative
+    return rounded
 
 
 def solve_riccati(A: Matrix, B: Matrix, Q: Matrix, R: Matrix) -> Matrix:

@@ -12,11 +12,14 @@ import numpy as np
 
 import flypend as fp
 from benchmarks import clock
+from benchmarks.peak import flops_per_second
 from benchmarks.problem import Problem
+from flypend.compile.sampled_problem import EquationsProblem
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import MAX_STEPS, Moments, call
-from flypend.plants import Ideal, plant
+from flypend.flight.kernels.sampled import sampled_problem
+from flypend.plants import MOTION_CAPTURE, ROTORS, Ideal, Wind
 from flypend.plants.loop import Loop
 
 DECADES = range(3, 8)
@@ -106,13 +109,37 @@ def inverted() -> Iterator[Line]:
 
 
 def rotors() -> Iterator[Line]:
-    """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms."""
+    """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms, without and with noise and gusts."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 256).packed()
-    kernel = sampled_kernel(Loop(vehicle, law, plant("rotors")), Criterion())
+    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 128).packed()
+    windy = Wind(gust_on_vehicle=0.3, gust_on_bob=0.03)
+    loops = [Loop(vehicle, law, p) for p in (ROTORS, ROTORS.replace(noise=MOTION_CAPTURE, wind=windy))]
     ticks = np.arange(0, 5001, 5)
-    (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, judge_at=ticks, workers=1), repeats=2)
-    yield Line("inverted law, 10 s, rotors at 500 Hz", len(starts) / seconds, "flights/s")
+    tasks = [partial(sampled_kernel(loop, Criterion()).fly, starts, 10.0, judge_at=ticks, workers=1) for loop in loops]
+    clean, noisy = (len(starts) / seconds for seconds in clock.processor(*tasks))
+    yield Line("inverted law, 10 s, rotors at 500 Hz", clean, "flights/s")
+    yield Line("the same with noise, gusts and observer", noisy / clean, "×", "≥ 0.6")
+    total = 0.0
+    for part, operations in operations_per_tick(loops[0], ticks).items():
+        yield Line(f"operations per control tick: {part}", operations, "")
+        total += operations
+    share = 100 * clean * 10.0 * loops[0].sampled.rate * total / flops_per_second()
+    yield Line("operations per second over the peak of multiply-adds", share, "%", "≥ 45")
+
+
+def operations_per_tick(loop: Loop, judged: Any) -> dict[str, float]:
+    """Operations of a flight per control tick, by part; `judged` are the ticks at which it is judged."""
+    problem = sampled_problem(loop, Criterion())
+    assert isinstance(problem.world, EquationsProblem)
+    names = {"command": "law and allocation", "twin": "prediction", "observe": "observer", "rotor": "rotor model"}
+    parts = dict.fromkeys(names.values(), 0.0)
+    for called in problem.board.calls:
+        program = problem.board.programs[called.program]
+        parts[names[program.name.split("_")[0]]] += sum(program.counts().values())
+    steps = sum(stretch.steps for stretch in problem.flown)
+    parts["plant"] = steps * sum(problem.world.step.counts().values())
+    parts["judging"] = sum(problem.judge.counts().values()) * (len(judged) - 1) / judged[-1]
+    return parts
 
 
 def sizes(problem: Problem, kernel: Any) -> Iterator[Line]:

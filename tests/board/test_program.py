@@ -7,6 +7,7 @@ import flypend as fp
 from flypend.board.computer import SteppedBoard
 from flypend.board.program import board, depth, initial_memory, memory_size
 from flypend.compile.numeric import as_numpy
+from flypend.compile.routine import lower_calls
 from flypend.plants import Plant
 from flypend.plants.loop import Loop
 
@@ -50,3 +51,10 @@ def test_nothing_but_its_memory_decides_what_it_answers():
     np.testing.assert_array_equal(first[1], step(memory, measured, NONE, NONE, NONE)[1])
     # Negative control: with what it remembers of the first step it answers otherwise.
     assert np.max(np.abs(first[1] - step(first[0], measured, NONE, NONE, NONE)[1])) > 1e-3
+
+
+def test_a_control_period_takes_a_fifth_of_the_operations_of_twelve_steps():
+    """docs/flight/engine.md says what each part takes; a prediction of more steps than one must be wanted."""
+    assert lower_calls(board(Loop(VEHICLE, LAW, Plant())).step).operations() < 2300
+    slow = fp.laws.inverted(latency=0.075).bind(VEHICLE)
+    assert lower_calls(board(Loop(VEHICLE, slow, Plant())).step).operations() < 2300 + 3 * 800

@@ -102,11 +102,14 @@ def test_stretches_are_the_longest_runs_of_neighbours():
 
 
 def queue(length):
-    """A function (memory, x) → (memory, y): the memory is a number that is doubled, and a queue of entries of two."""
+    """A function (memory, x) → (memory, y): the memory is a number that is doubled, and a queue of entries of two.
+
+    It answers with twice the oldest entry, and the number as it was.
+    """
     memory, x = ca.MX.sym("memory", 1 + 2 * length), ca.MX.sym("x", 2)
     head, oldest = memory[:1], memory[-2:]
     after = ca.vertcat(double(1, "one")(head), double(2, "two")(x), memory[1:-2])
-    return ca.Function("queue", [memory, x], [after, double(2, "two")(oldest)])
+    return ca.Function("queue", [memory, x], [after, ca.vertcat(double(2, "two")(oldest), head)])
 
 
 @pytest.mark.parametrize("length", [2, 5])
@@ -125,7 +128,7 @@ def test_a_queue_slides_through_memory_instead_of_being_copied(length):
     rng = np.random.default_rng(3)
     first, given = rng.normal(size=(size, width)), rng.normal(size=(2, width))
     begin = np.concatenate([np.zeros((4, width)), first])
-    shapes = [((2, width), np.float64)]
+    shapes = [((3, width), np.float64)]
     kept = []
     call = compiled(lanes, function, 3, kept)
     (last,) = call([begin, given], shapes)

@@ -253,6 +253,18 @@ class _Builder:
                 return other
             if value == -1.0:
                 return self.do("neg", other)
+            if value is not None and (folded := self._multiple(value, other)) is not None:
+                return folded
+        return None
+
+    def _multiple(self, factor: float, number: int) -> int | None:
+        """c₁ (c₂ x) as (c₁ c₂) x; None if the value at `number` is no multiple by a constant."""
+        operation = self.operations[number]
+        if operation.name == "mul":
+            for inner, x in (operation.arguments, operation.arguments[::-1]):
+                known = self._value(inner)
+                if known is not None and math.isfinite(factor * known) and factor * known != 0.0:
+                    return self.do("mul", self.constant(factor * known), x)
         return None
 
     def _negated(self, number: int) -> int | None:

@@ -73,13 +73,13 @@ def _turned(s: State, moment: Ramp, h: Any, vehicle: Vehicle) -> _Turned:
     middle = (before + after) / 2 + h / 8 * (k_1 - k_4)
     whole = h / 6 * (before + 4 * middle + after) + h**2 / 12 * cross(before, after)
     half = h / 24 * (5 * before + 8 * middle - after) + h**2 / 48 * cross(before, middle)
-    return _Turned(after, ca.mtimes(s.R, _rotation(whole)), ca.mtimes(s.R, _rotation(half)[:, 2]))
+    return _Turned(after, ca.mtimes(s.R, rotation_by(whole)), ca.mtimes(s.R, rotation_by(half)[:, 2]))
 
 
-def _rotation(vector: Any) -> Any:
+def rotation_by(vector: Any) -> Any:
     """Rotation matrix (3, 3) of a rotation vector, by its half tangent g = tan(θ/2) n: 1 + 2/(1 + |g|²) (ĝ + ĝ²).
 
-    Orthogonal whatever the error of g.
+    Orthogonal whatever the error of g, by which it turns 1e-7 rad too little at 0.5 rad and 2e-2 at 2 rad.
     """
     squared = dot(vector, vector)
     ratio: Any = HALF_TANGENT[-1]

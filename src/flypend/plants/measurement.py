@@ -11,9 +11,10 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import hat, tangent_part, unit
+from flypend.geometry import tangent_part, unit
 from flypend.model import State
 from flypend.model.state import SIZE
+from flypend.plants.cascade import rotation_by
 from flypend.plants.plant import Noise, Wind
 
 # Each control tick draws 24 numbers: the first 18 are for the measurement, the other 6 for the gusts.
@@ -45,15 +46,11 @@ def measurement() -> ca.Function:
     packed, draws, sigma = ca.SX.sym("s", SIZE), ca.SX.sym("n", 18), ca.SX.sym("sigma", NOISE_SIZE)
     noise = dict(zip((entry.name for entry in fields(Noise)), ca.vertsplit(sigma), strict=True))
     s, draw = State.symbolic(packed), [draws[3 * i : 3 * i + 3] for i in range(6)]
-    turn = noise["attitude"] * draw[2]
-    angle = ca.norm_2(turn) + 1e-150  # avoids 0/0 for a draw of exactly zero
-    first, second = ca.sin(angle) / angle, 2 * (ca.sin(angle / 2) / angle) ** 2
-    rotation = ca.SX.eye(3) + first * hat(turn) + second * hat(turn) @ hat(turn)
     y = unit(s.y + noise["y"] * tangent_part(s.y, draw[4]))
     measured = State(
         x=s.x + noise["x"] * draw[0],
         x_dot=s.x_dot + noise["x_dot"] * draw[1],
-        R=s.R @ rotation,
+        R=s.R @ rotation_by(noise["attitude"] * draw[2]),
         omega=s.omega + noise["omega"] * draw[3],
         y=y,
         y_dot=tangent_part(y, s.y_dot + noise["y_dot"] * draw[5]),

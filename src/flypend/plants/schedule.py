@@ -11,7 +11,8 @@ from flypend.plants.plant import Plant
 
 # Times closer than this are considered equal, s.
 SAME = 1e-9
-# Longest step of the equations, s: its error over a flight is that of classical Runge-Kutta steps of 1 ms.
+# Longest step of the equations, s. Against steps of 0.1 ms a flight of hehn2011 is off by 2e-8 after 2 s in the median,
+# by 2e-6 at most.
 PLANT_STEP = 2e-3
 
 

@@ -72,7 +72,7 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "fmin": Code.least,
     "fmax": Code.most,
     "sqrt": Code.sqrt,
-    "inverse root": Code.inverse_root,
+    "inverse root": elementary.inverse_root,
     "fabs": Code.fabs,
     "sign": lambda code, a: code.select(a > 0.0, 1.0, code.select(a < 0.0, -1.0, 0.0)),
     "select": lambda code, condition, a: code.select(_true(condition), a, 0.0),
@@ -135,12 +135,12 @@ def define_routine(lanes: Lanes, routine: Routine, slide: int = 0, *, inline: bo
     for call in routine.calls:
         arguments = [vector(cells) for cells in call.inputs]
         code.call(called[call.program], *arguments, *(memories[number] for number in call.outputs))
-    first = routine.outputs[0] if slide else ()
+    cells = [(number, i, cell) for number, output in enumerate(routine.outputs) for i, cell in enumerate(output)]
+    if slide:
+        cells = [entry for entry in cells if entry != (0, entry[1], Cell("input", 0, entry[1] - slide))]
     # Values from the first input are read before the first output is written over it.
-    early = {i: load(cell) for i, cell in enumerate(first) if cell[:2] == ("input", 0) and cell.place != i - slide}
-    for number, (target, cells) in enumerate(zip(targets, routine.outputs, strict=True)):
-        for i, cell in enumerate(cells):
-            if not (slide and number == 0 and cell == Cell("input", 0, i - slide)):
-                code.store(early[i] if number == 0 and i in early else load(cell), target, i)
+    early = {(number, i): load(cell) for number, i, cell in cells if slide and cell[:2] == ("input", 0)}
+    for number, i, cell in cells:
+        code.store(early.get((number, i)) or load(cell), targets[number], i)
     code.builder.ret_void()
     return function

@@ -21,9 +21,6 @@ def _estimates_roots() -> bool:
     return bool(llvm.get_host_cpu_features().get("avx512f", False))
 
 
-ESTIMATED = 8  # doubles of which one instruction estimates 1/√x
-
-
 class Lanes:
     """Vector type of a module: `width` lanes of `precision` "double" or "float"."""
 
@@ -35,7 +32,7 @@ class Lanes:
         self.vector = ir.VectorType(self.scalar, width)
         self.mask = ir.VectorType(I1, width)
         self.size = (8 if precision == "double" else 4) * width
-        self.estimates_roots = precision == "double" and width % ESTIMATED == 0 and _estimates_roots()
+        self.estimates_roots = precision == "double" and width % 8 == 0 and _estimates_roots()
 
     def constant(self, value: float) -> ir.Value:
         """`value` in every lane."""
@@ -157,45 +154,6 @@ class Code:
     def sqrt(self, value: Value) -> Value:
         """Square root."""
         return Value(self, self.builder.call(self.lanes.intrinsic("sqrt"), [value.raw]))
-
-    def inverse_root(self, value: Value) -> Value:
-        """1/√value to within 2 ulp: an estimate to 14 bits and a series, in a third of the time of root and division.
-
-        Only if the lanes have `estimates_roots`.
-        """
-        builder, lanes = self.builder, self.lanes
-        estimate = Value(self, self._joined([self._estimate(part) for part in self._eights(value)]))
-        # With r = (1 − e)^(1/2) / √x it is r (1 − e)^(−1/2); e < 2⁻¹², and the first term left out is (35/128) e⁴.
-        fma = lanes.intrinsic("fma", 3)
-        r, (one, half, third, fourth) = estimate.raw, map(lanes.constant, (1.0, 1 / 2, 3 / 8, 5 / 16))
-        e = builder.call(fma, [builder.fneg(builder.fmul(value.raw, r)), r, one])
-        series = builder.call(fma, [builder.call(fma, [fourth, e, third]), e, half])
-        refined = Value(self, builder.call(fma, [builder.fmul(r, e), series, r]))
-        return self.select(Value(self, e).compare("==", Value(self, e)), refined, estimate)  # 1/√0 = ∞, 1/√∞ = 0
-
-    def _eights(self, value: Value) -> list[ir.Value]:
-        """The parts of `value` that one instruction takes."""
-        if self.lanes.width == ESTIMATED:
-            return [value.raw]
-        i32 = ir.IntType(32)
-        masks = [
-            ir.Constant(ir.VectorType(i32, ESTIMATED), list(range(first, first + ESTIMATED)))
-            for first in range(0, self.lanes.width, ESTIMATED)
-        ]
-        return [self.builder.shuffle_vector(value.raw, value.raw, mask) for mask in masks]
-
-    def _joined(self, parts: list[ir.Value]) -> ir.Value:
-        """One vector from `parts` of equal length."""
-        while len(parts) > 1:
-            length = 2 * parts[0].type.count
-            mask = ir.Constant(ir.VectorType(ir.IntType(32), length), list(range(length)))
-            parts = [self.builder.shuffle_vector(a, b, mask) for a, b in zip(parts[::2], parts[1::2], strict=True)]
-        return parts[0]
-
-    def _estimate(self, eight: ir.Value) -> ir.Value:
-        kind, bits = eight.type, ir.IntType(8)
-        function = self.lanes.declared("llvm.x86.avx512.rsqrt14.pd.512", ir.FunctionType(kind, [kind, kind, bits]))
-        return self.builder.call(function, [eight, ir.Constant(kind, ir.Undefined), ir.Constant(bits, 0xFF)])
 
     def power(self, value: Value, exponent: float) -> Value:
         """`value` > 0 to a power, accurate to a few per cent: the bit pattern of a float approximates its logarithm."""

@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 from typer.exceptions import TyperException
 
 from flypend import __version__
 from flypend.cli import examples, studies, viewing
-from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, tell_how
+from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, say, tell_how
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
 
@@ -322,12 +321,13 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # the terminal's encoding may lack ✓ or ẍ
     try:
         code = app(standalone_mode=False)
+    except (KeyboardInterrupt, typer.Abort):
+        sys.exit(128 + signal.SIGINT)
     except (InputError, TyperException) as error:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, TyperException) else str(error)
         if message:  # empty without arguments: the help has already been printed
-            line = " ".join(f"flypend: {message}".split())
-            Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
+            say(" ".join(f"flypend: {message}".split()))
         sys.exit(2)
     sys.exit(code or 0)

@@ -22,7 +22,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from flypend.cli.terminal import LAW_HELP, bold, console, stepped, tell_how
+from flypend.cli.terminal import LAW_HELP, bold, console, resumable, stepped, tell_how
 
 app = typer.Typer()
 
@@ -57,7 +57,7 @@ def sweep(
     made = study_from(study, law)
     tell_how(made.law)
     processes = processes or stepped(made.law)
-    with run_counter(made.law.name) as tell:
+    with resumable(), run_counter(made.law.name) as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
@@ -93,7 +93,7 @@ def draw_map(
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
 
-    for module in ("zarr", "xarray", "distributed", "scipy"):
+    for module in ("zarr", "xarray", "scipy"):
         require(module, extra="studies", for_="map")
     if (what is None) == (law is None):
         raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
@@ -150,7 +150,7 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
 
     made = study_from(content)
     tell_how(made.law)
-    with run_counter(made.law.name) as tell:
+    with resumable(), run_counter(made.law.name) as tell:
         flown = fly(made, store, workers=workers, processes=stepped(made.law), force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -30,6 +32,22 @@ def progress() -> Progress:
     return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
 
 
+@contextmanager
+def resumable() -> Iterator[None]:
+    """Tell on stderr, if the block is interrupted, which command resumes it: this one, without --force."""
+    try:
+        yield
+    except (KeyboardInterrupt, SystemExit):
+        again = shlex.join(["flypend", *(word for word in sys.argv[1:] if word != "--force")])
+        say(f"Stopped; every finished chunk is kept. To go on:\n  {again}")
+        raise
+
+
+def say(line: str) -> None:
+    """Print `line` on stderr, as it is."""
+    Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
+
+
 def bold(path: Path) -> str:
     """Return `path` in bold, any markup in its name escaped."""
     return f"[bold]{escape(str(path))}[/bold]"
@@ -47,4 +65,4 @@ def tell_how(law: Any) -> None:
     from flypend.settings.laws import note
 
     if said := note(law):
-        Console(stderr=True, soft_wrap=True, highlight=False).print(said, markup=False)
+        say(said)

@@ -151,13 +151,15 @@ class Trajectory:
         """
         with whole_file(path, [".nc"]) as partial:
             labels = {name: Variable((name,), np.array(values)) for name, values in AXES.items()}
-            drift = {
-                "drift_of": Variable(("drift_of",), np.array(_DRIFT_OF)),
-                "drift": Variable(
-                    ("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"}
-                ),
-            }
-            write_netcdf(partial, {**labels, **self._variables(), **drift}, self._attributes())
+            write_netcdf(partial, {**labels, **self._variables(), **self._drift()}, self._attributes())
+
+    def _drift(self) -> dict[str, Variable]:
+        """Return the drift, if there is any: an array without rows would leave a data frame of the file none."""
+        if not len(self.drift):
+            return {}
+        labels = Variable(("drift_of",), np.array(_DRIFT_OF))
+        about = {"long_name": "before projection, per step"}
+        return {"drift_of": labels, "drift": Variable(("step", "drift_of"), np.array(self.drift), about)}
 
     def _variables(self) -> dict[str, Variable]:
         """Return the sampled arrays with their dimensions and units."""

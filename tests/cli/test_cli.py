@@ -410,14 +410,14 @@ def test_a_folder_without_permission_is_one_line(call, tmp_path):
     ("arguments", "words"),
     [
         (("fly",), "No such command 'fly'"),
-        (("--quick",), "No such option: --quick"),
+        (("--quick",), "No such option"),
         (("run",), "Missing argument"),
-        (("run", "2", "--sett", "duration=1"), "No such option: --sett"),
+        (("run", "2", "--sett", "duration=1"), "No such option"),
         (("run", "2", "3"), "unexpected extra argument"),
         (("run", "2", "--out"), "requires an argument"),
         (("paper", "--quick=yes"), "does not take a value"),
-        (("compare", "--runs", "0"), "'--runs': Input should be greater than or equal to 1"),
-        (("compare", "--runs", "many"), "'--runs': Input should be a valid integer"),
+        (("compare", "--runs", "0"), "'--runs': 0 is not in the range x>=1"),
+        (("compare", "--runs", "many"), "'--runs': 'many' is not a valid integer"),
     ],
 )
 def test_a_wrong_command_is_one_line_and_code_2(call, tmp_path, arguments, words):

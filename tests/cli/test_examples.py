@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import typer
-from typer.exceptions import TyperException
+from click import ClickException
 
 import flypend as fp
 from flypend.cli import app as cli
@@ -34,8 +33,7 @@ def at_home(tmp_path, monkeypatch):
     """In a folder with the examples, as a reader who types the commands; what is imported from there is forgotten."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", list(sys.path))
-    typer_app = typer.main.get_command(cli.app)
-    typer_app(["examples"], standalone_mode=False)
+    cli.app(["examples"], standalone_mode=False)
     yield
     for name in [name for name in sys.modules if name.split(".")[0] == "examples"]:
         del sys.modules[name]
@@ -81,7 +79,7 @@ def test_the_other_plant_that_the_swing_up_names_flies_as_well():
 
 
 def write(*arguments):
-    typer.main.get_command(cli.app)(["examples", *arguments], standalone_mode=False)
+    cli.app(["examples", *arguments], standalone_mode=False)
 
 
 def test_the_examples_are_written_and_nothing_else_is_touched(tmp_path, monkeypatch):
@@ -178,7 +176,7 @@ def commands():
 def parsed(line):
     """Name and parameters of a command line, as the command itself would get them; raises what it would."""
     _, *arguments = shlex.split(line, comments=True)
-    group = typer.main.get_command(cli.app)
+    group = cli.app
     with group.make_context("flypend", list(arguments)) as context:
         name, command, rest = group.resolve_command(context, arguments)
         with command.make_context(name, rest, parent=context) as inner:
@@ -220,7 +218,7 @@ def test_a_command_of_a_page_can_be_typed(at_home, line):
 
 @pytest.mark.parametrize("line", ["flypend ladder --step 1", "flypend fly", "flypend compare --runs many"])
 def test_a_command_that_cannot_be_typed_is_noticed(line):
-    with pytest.raises(TyperException):
+    with pytest.raises(ClickException):
         parsed(line)
 
 

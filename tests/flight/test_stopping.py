@@ -6,14 +6,12 @@ import sys
 import threading
 import time
 
-import numpy as np
 import pytest
 
 import flypend as fp
 from flypend.flight.kernels.stopping import StoppedError, heard, interruptible, joined
 
 HEARD = 0.5  # s: what the user is promised
-STARTS = fp.State(y=np.tile([0.0, 0.0, -1.0], (3, 1)))
 CALLS = {
     # Each takes minutes if it is not stopped; `start` is one start, `starts` three.
     "one run, sampled": "fp.simulate(vehicle, law, start, 19_000.0, times=[19_000.0])",
@@ -58,16 +56,16 @@ def test_an_interrupt_ends_a_call_from_the_main_thread(call):
 
 def test_what_was_stopped_is_not_believed():
     """A call in another thread that is stopped raises, and never returns its half-filled arrays."""
-    ends = []
+    vehicle, law, start, ends = fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0, 0, 1.0)), []
 
     def fly(word):
         try:
             with joined(word):
-                fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0, 0, 1.0)), 19_000.0, times=[19_000.0])
+                fp.simulate(vehicle, law, start, 19_000.0, times=[19_000.0])
         except StoppedError:
             ends.append("stopped")
 
-    fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0, 0, 1.0)), 1.0)  # compiled before
+    fp.simulate(vehicle, law, start, 1.0)  # compiled before
     with interruptible() as word:
         thread = threading.Thread(target=fly, args=(word,))
         thread.start()

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import typer
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -292,7 +291,7 @@ def test_its_commands_can_be_typed(monkeypatch):
     assert len(lines) >= 5
     for line in lines:
         _, *arguments = shlex.split(line, comments=True)
-        group = typer.main.get_command(cli.app)
+        group = cli.app
         with group.make_context("flypend", list(arguments)) as context:
             name, found, rest = group.resolve_command(context, arguments)
             with found.make_context(name, rest, parent=context) as inner:

@@ -6,57 +6,46 @@ import io
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-from typer.exceptions import TyperException
+import click
 
 from flypend import __version__
 from flypend.cli import examples, studies, viewing
-from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, say, tell_how
-from flypend.cli.viewing import Style
+from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
+from flypend.cli.terminal import bold, complaints, console, counter, draw, tell_how
 from flypend.errors import InputError
 
-app = typer.Typer(
-    help="Spherical pendulum on a quadrotor: reproduce the paper, test its claims, fly your own experiments.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
+
+class _Commands(click.Group):
+    """Lists the commands in the order in which they are added, each with its whole first sentence."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.commands)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, some.get_short_help_str(1000)) for name, some in self.commands.items()])
+
+
+@click.group(
+    cls=_Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True, "max_content_width": 100},
 )
-app.add_typer(viewing.app)
-app.add_typer(studies.app)
-app.add_typer(examples.app)
-
-Out = Annotated[Path, typer.Option("--out", "-o", help="Output folder.")]
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        console.print(f"flypend {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def _root(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
-    ] = False,
-    debug: Annotated[
-        bool, typer.Option("--debug", help="Show the full traceback of an error, as in flypend --debug run 1.")
-    ] = False,
-) -> None:
-    """Options common to all commands."""  # main looks for --debug itself: it must work even if parsing fails
+@click.version_option(__version__, message="%(prog)s %(version)s", prog_name="flypend")
+@click.option("--debug", is_flag=True, help="Show the full traceback of an error, as in flypend --debug run 1.")
+def app(debug: bool) -> None:
+    """Spherical pendulum on a quadrotor: reproduce the paper, test its claims, fly your own experiments."""
+    # main looks for --debug itself: it must work even if parsing fails
 
 
 @app.command()
-def paper(
-    out: Out = Path("paper-out"),
-    quick: Annotated[bool, typer.Option("--quick", help="Skip the movies: seconds instead of a minute.")] = False,
-    style: Style = "paper",
-) -> None:
+@out_option("paper-out")
+@click.option("--quick", is_flag=True, help="Skip the movies: seconds instead of a minute.")
+@style_option
+def paper(out: Path, quick: bool, style: str) -> None:
     """Fly the paper's five experiments and check every claim of its theorem.
 
     Writes figures, stop-motion, movies, every run as NetCDF, report.md and report.json.
@@ -73,35 +62,38 @@ def paper(
 
 
 @app.command()
+@click.argument("what")
+@out_option("run-out")
+@click.option("--law", help=f"Replace the law: {LAW_HELP}.")
+@click.option(
+    "--set",
+    "override",
+    metavar="KEY=VALUE",
+    multiple=True,
+    help="Override a setting, such as law.gains.k_d=2 or law.name=printed.",
+)
+@click.option("--quick", is_flag=True, help="Skip the movies.")
+@click.option("--figures/--no-figures", default=True, help="Draw the figures (--no-figures also skips the movies).")
+@click.option("--controller", help="python, or the law as exported, compiled C: c (double) or c-float.")
+@click.option("--html", type=path, metavar="FILE", help="Also write the replay, a page for any browser.")
+@style_option
 def run(
-    what: Annotated[
-        str, typer.Argument(help="An experiment of the paper (1, 2, 2-projected, 3, 4, 5) or a TOML file.")
-    ],
-    out: Out = Path("run-out"),
-    law: Annotated[str | None, typer.Option("--law", help=f"Replace the law: {LAW_HELP}.")] = None,
-    override: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="KEY=VALUE", help="Override a setting, such as law.gains.k_d=2 or law.name=printed."
-        ),
-    ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Skip the movies.")] = False,
-    figures: Annotated[bool, typer.Option(help="Draw the figures (--no-figures also skips the movies).")] = True,
-    controller: Annotated[
-        str | None, typer.Option(help="python, or the law as exported, compiled C: c (double) or c-float.")
-    ] = None,
-    html: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Also write the replay, a page for any browser.")
-    ] = None,
-    style: Style = "paper",
+    what: str,
+    out: Path,
+    law: str | None,
+    override: tuple[str, ...],
+    quick: bool,
+    figures: bool,
+    controller: str | None,
+    html: Path | None,
+    style: str,
 ) -> None:
-    """Fly one experiment of the paper, or your own vehicle, law, gains and start.
+    """Fly WHAT: one experiment of the paper (1, 2, 2-projected, 3, 4, 5), or a TOML file with your own.
 
-    A TOML file has the keys [bold]vehicle[/bold] (a name or a table), [bold]law[/bold] (a name or a function, and
-    gains), [bold]start[/bold] (x, x_dot, R, omega, y, y_dot) and [bold]duration[/bold] in seconds. Optional keys are
-    [bold]plant[/bold] (ideal, rotors, mujoco, hehn2011, or a table), [bold]rtol[/bold], and [bold]experiment[/bold],
-    which supplies missing values from the paper. A law that holds a position accepts a [bold]reference[/bold] (a shape
-    and its parameters). [bold]controller[/bold] = "c" flies the law as exported C, on rotors and mujoco.
+    A TOML file has the keys vehicle (a name or a table), law (a name or a function, and gains), start (x, x_dot, R,
+    omega, y, y_dot) and duration in seconds. Optional keys are plant (ideal, rotors, mujoco, hehn2011, or a table),
+    rtol, and experiment, which supplies missing values from the paper. A law that holds a position accepts a reference
+    (a shape and its parameters). controller = "c" flies the law as exported C, on rotors and mujoco.
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
@@ -113,7 +105,7 @@ def run(
 
     if figures and not quick:
         check_movies()
-    changes = [*(override or ()), *([f"controller={controller}"] if controller is not None else [])]
+    changes = [*override, *([f"controller={controller}"] if controller is not None else [])]
     chosen = run_file(what, changes, law)
     flight = chosen.flight
     tell_how(flight.law)
@@ -136,7 +128,7 @@ def run(
         with_figures=figures,
         with_movies=figures and not quick,
         style=style,
-        progress=_run_tasks,
+        progress=draw,
     )
     if html is not None:
         trajectory.to_html(html)
@@ -147,27 +139,25 @@ def run(
     console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
 
 
-Laws = Annotated[
-    list[str] | None,
-    typer.Option("--law", help=f"Law to fly: {LAW_HELP}; repeatable."),
-]
-Starts = Annotated[str, typer.Option("--starts", help="random, or paper: its five starts, read in the e₃-up frame.")]
-Runs = Annotated[int, typer.Option("--runs", help="Number of random starts.", min=1)]
-Seed = Annotated[int, typer.Option("--seed", help="Seed of the random starts.", min=0)]
-VehicleName = Annotated[str, typer.Option("--vehicle", help="Vehicle name or TOML file.")]
-Duration = Annotated[float, typer.Option("--duration", help="Seconds per flight.")]
+starts_option = click.option(
+    "--starts", default="random", help="random, or paper: its five starts, read in the e₃-up frame."
+)
+runs_option = click.option("--runs", type=click.IntRange(min=1), default=100, help="Number of random starts.")
+seed_option = click.option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
+duration_option = click.option("--duration", type=float, default=10.0, help="Seconds per flight.")
 
 
 @app.command()
+@laws_option
+@out_option("compare-out")
+@starts_option
+@runs_option
+@seed_option
+@vehicle_option
+@click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
+@duration_option
 def compare(
-    law: Laws = None,
-    out: Out = Path("compare-out"),
-    starts: Starts = "random",
-    runs: Runs = 100,
-    seed: Seed = 1,
-    vehicle: VehicleName = "hehn2011",
-    plant: Annotated[str, typer.Option("--plant", help="ideal, rotors, mujoco or hehn2011.")] = "rotors",
-    duration: Duration = 10.0,
+    law: tuple[str, ...], out: Path, starts: str, runs: int, seed: int, vehicle: str, plant: str, duration: float
 ) -> None:
     """Compare laws, your own included, from the same starts: one table, one figure.
 
@@ -179,7 +169,7 @@ def compare(
     from flypend.studies import compare as fly
 
     chosen = _plant(plant)
-    names = law or ["inverted", "lqr", "corrected", "detuned"]
+    names = law or ("inverted", "lqr", "corrected", "detuned")
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
     settings = {**settings, "plant": plant}
     check_writable(out)
@@ -191,15 +181,23 @@ def compare(
 
 
 @app.command()
+@laws_option
+@out_option("ladder-out")
+@starts_option
+@runs_option
+@seed_option
+@vehicle_option
+@duration_option
+@click.option("--rung", multiple=True, help="Fly only this rung; repeatable.")
 def ladder(
-    law: Laws = None,
-    out: Out = Path("ladder-out"),
-    starts: Starts = "random",
-    runs: Runs = 100,
-    seed: Seed = 1,
-    vehicle: VehicleName = "hehn2011",
-    duration: Duration = 10.0,
-    rung: Annotated[list[str] | None, typer.Option("--rung", help="Fly only this rung; repeatable.")] = None,
+    law: tuple[str, ...],
+    out: Path,
+    starts: str,
+    runs: int,
+    seed: int,
+    vehicle: str,
+    duration: float,
+    rung: tuple[str, ...],
 ) -> None:
     """Find what breaks each law: rotor limits, lag, sampling, delay, noise, model mismatch or a pivot offset."""
     from flypend import errors
@@ -208,7 +206,7 @@ def ladder(
     from flypend.studies import ladder as climb
     from flypend.studies.ladder import RUNGS
 
-    laws, batch, machine, settings = _study(law or ["inverted", "lqr"], starts, runs, seed, vehicle, duration)
+    laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
     chosen = {errors.one_of("--rung", name, RUNGS): RUNGS[name] for name in rung or RUNGS}
     check_writable(out)
     with counter() as tell:
@@ -219,26 +217,22 @@ def ladder(
 
 
 @app.command()
-def circles(law: Laws = None, seed: Seed = 1) -> None:
+@laws_option
+@seed_option
+def circles(law: tuple[str, ...], seed: int) -> None:
     """Fly hover and two circles in the set-up of Hehn and D'Andrea (2011), next to their published results."""
     from flypend.report.studies import tracking_table
     from flypend.studies.hehn import hehn2011
 
-    console.print(tracking_table(hehn2011(tuple(law or ("inverted", "lqr")), seed)))
+    console.print(tracking_table(hehn2011(law or ("inverted", "lqr"), seed)))
 
 
 @app.command()
-def lab(
-    host: Annotated[str, typer.Option("--host", help="Address to listen on; the default admits this machine only.")] = (
-        "127.0.0.1"
-    ),
-    port: Annotated[int, typer.Option("--port", help="Port; 0 picks a free one.", min=0, max=65535)] = 0,
-    browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,
-    law: Annotated[
-        list[str] | None,
-        typer.Option("--law", help="Custom law to offer, file.py:function or module:function; repeatable."),
-    ] = None,
-) -> None:
+@click.option("--host", default="127.0.0.1", help="Address to listen on; the default admits this machine only.")
+@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port; 0 picks a free one.")
+@click.option("--browser/--no-browser", default=True, help="Open the page in a browser.")
+@click.option("--law", multiple=True, help="Custom law to offer, file.py:function or module:function; repeatable.")
+def lab(host: str, port: int, browser: bool, law: tuple[str, ...]) -> None:
     """Open the laboratory in a browser: move sliders, drag the rod, poke it, and watch the flight. Ctrl-C stops it."""
     from flypend.lab import serve
     from flypend.settings.laws import law_named
@@ -246,20 +240,19 @@ def lab(
     def announce(url: str) -> None:
         console.print(f"The laboratory is at {url}", soft_wrap=True)
 
-    for name in law or ():
+    for name in law:
         tell_how(law_named(name))
-    serve(host, port, browser=browser, laws=law or (), announce=announce)
+    serve(host, port, browser=browser, laws=law, announce=announce)
 
 
 @app.command("export-c")
-def export_c(
-    law: Annotated[str, typer.Option("--law", help=f"Law to export: {LAW_HELP}.")] = "inverted",
-    vehicle: VehicleName = "hehn2011",
-    out: Out = Path("c-out"),
-    precision: Annotated[str, typer.Option("--precision", help="double or float.")] = "double",
-    rate: Annotated[float, typer.Option("--rate", help="Control rate, Hz.")] = 500.0,
-    light: Annotated[bool, typer.Option("--light", help="Export the light form of the inverted law.")] = False,
-) -> None:
+@click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
+@vehicle_option
+@out_option("c-out")
+@click.option("--precision", default="double", help="double or float.")
+@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
+def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, light: bool) -> None:
     """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
@@ -278,8 +271,12 @@ def export_c(
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
+for _command in (*studies.COMMANDS, *viewing.COMMANDS, *examples.COMMANDS):
+    app.add_command(_command)
+
+
 def _study(
-    names: list[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
+    names: Sequence[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
 ) -> tuple[list[Any], Any, Any, dict[str, Any]]:
     """Return the validated laws, starts and vehicle of a study, and the settings for its report."""
     from flypend import errors, model
@@ -292,7 +289,7 @@ def _study(
     errors.number("--duration", duration, above=0, unit="s")
     kind = errors.one_of("--starts", starts, ("random", "paper"))
     batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
-    settings = {"laws": names, "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
+    settings = {"laws": list(names), "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
     return laws, batch, machine, settings | ({"seed": seed} if kind == "random" else {})
 
 
@@ -303,16 +300,6 @@ def _plant(name: str) -> Any:
     return plant(errors.one_of("--plant", name, PRESETS))  # raises if an extra is not installed
 
 
-def _run_tasks(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
-    listed = list(tasks)
-    with progress() as bar:
-        shown = bar.add_task("", total=len(listed))
-        for name, task in listed:
-            bar.update(shown, description=f"drawing {name}")
-            task()
-            bar.advance(shown)
-
-
 def main() -> None:
     """Run the command line; bad input prints one line and exits with code 2."""
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as on Ctrl-C
@@ -320,14 +307,16 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # the terminal's encoding may lack ✓ or ẍ
     try:
-        code = app(standalone_mode=False)
-    except (KeyboardInterrupt, typer.Abort):
-        sys.exit(128 + signal.SIGINT)
-    except (InputError, TyperException) as error:
+        code = app(prog_name="flypend", standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as error:
+        error.show()
+        sys.exit(2)
+    except (InputError, click.ClickException) as error:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
-        message = error.format_message() if isinstance(error, TyperException) else str(error)
-        if message:  # empty without arguments: the help has already been printed
-            say(" ".join(f"flypend: {message}".split()))
+        message = error.format_message() if isinstance(error, click.ClickException) else str(error)
+        complaints().print(" ".join(f"flypend: {message}".split()), markup=False)
         sys.exit(2)
+    except click.Abort:  # Ctrl-C
+        sys.exit(128 + signal.SIGINT)
     sys.exit(code or 0)

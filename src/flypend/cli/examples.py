@@ -5,23 +5,21 @@ from __future__ import annotations
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path, PurePosixPath
-from typing import Annotated
 
-import typer
+import click
 
+from flypend.cli.options import out_option
 from flypend.cli.terminal import bold, console
 from flypend.errors import InputError
 from flypend.files.staging import staged
 
-app = typer.Typer()
 SUFFIXES = (".toml", ".py")
 
 
-@app.command()
-def examples(
-    out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("examples"),
-    force: Annotated[bool, typer.Option("--force", help="Overwrite files that differ from the examples.")] = False,
-) -> None:
+@click.command()
+@out_option("examples")
+@click.option("--force", is_flag=True, help="Overwrite files that differ from the examples.")
+def examples(out: Path, force: bool) -> None:
     """Write the examples: a run file, a study, a custom law. Without --force, no changed file is overwritten."""
     contents = {name: source.read_bytes() for name, source in shipped().items()}
     if not force:
@@ -55,3 +53,6 @@ def _check_free(out: Path, contents: dict[PurePosixPath, bytes]) -> None:
         place = out / name
         if place.is_file() and place.read_bytes() != content:
             raise InputError(str(place), "no file, or the example itself (--force overwrites it)", "another file")
+
+
+COMMANDS = (examples,)

@@ -5,49 +5,32 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-from rich.console import Console
-from rich.markup import escape
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TaskID,
-    TextColumn,
-    TimeRemainingColumn,
+import click
+
+from flypend.cli.options import LAW_HELP, out_option, path
+from flypend.cli.terminal import bold, complaints, console, resumable, stepped, tell_how
+
+workers_option = click.option(
+    "--workers", type=click.IntRange(min=1), help="Cores of this machine to use; default all."
 )
-from rich.text import Text
-
-from flypend.cli.terminal import LAW_HELP, bold, console, resumable, stepped, tell_how
-
-app = typer.Typer()
-
-StudyFile = Annotated[Path, typer.Argument(help="TOML file of the study; docs/studies/studies.md lists the keys.")]
-Store = Annotated[Path, typer.Option("--out", "-o", help="Zarr store for the runs; its name ends in .zarr.")]
-Scheduler = Annotated[
-    str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786.")
-]
-Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Cores of this machine to use; default all.")]
-Processes = Annotated[bool, typer.Option("--processes", help="Use worker processes instead of threads.")]
-Law = Annotated[str | None, typer.Option("--law", help=f"Replace the law of the study: {LAW_HELP}.")]
-Force = Annotated[bool, typer.Option("--force", help="Start over: discard the store of an earlier sweep.")]
+law_option = click.option("--law", help=f"Replace the law of the study: {LAW_HELP}.")
+force_option = click.option("--force", is_flag=True, help="Start over: discard the store of an earlier sweep.")
 
 
-@app.command()
+@click.command()
+@click.argument("study", type=path)
+@click.option("--out", "-o", type=path, required=True, help="Zarr store for the runs; its name ends in .zarr.")
+@click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786.")
+@workers_option
+@click.option("--processes", is_flag=True, help="Use worker processes instead of threads.")
+@force_option
+@law_option
 def sweep(
-    study: StudyFile,
-    out: Store,
-    scheduler: Scheduler = None,
-    workers: Workers = None,
-    processes: Processes = False,
-    force: Force = False,
-    law: Law = None,
+    study: Path, out: Path, scheduler: str | None, workers: int | None, processes: bool, force: bool, law: str | None
 ) -> None:
-    """Fly a study of up to 10⁷ runs into a Zarr store.
+    """Fly STUDY, a TOML file, of up to 10⁷ runs into a Zarr store; docs/studies/studies.md lists the keys.
 
     After any interruption, the same command resumes the sweep. The result is bit-identical to an uninterrupted one.
     """
@@ -62,30 +45,37 @@ def sweep(
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
 
-@app.command("map")
+@click.command("map")
+@click.argument("what", type=path, required=False)
+@out_option("map.png", "Output file: .png, .pdf or .svg.")
+@click.option("--x", help="Quantity on the horizontal axis, such as tilt, rate or gains.k_d.")
+@click.option("--y", help="Quantity on the vertical axis.")
+@click.option("--law", help=f"Fly this law from random starts, not a study: {LAW_HELP}.")
+@click.option("--vehicle", help="With --law: vehicle name or TOML file.")
+@click.option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
+@click.option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")
+@click.option("--seed", type=click.IntRange(min=0), default=1, help="With --law: seed of the starts.")
+@click.option("--duration", type=float, help="With --law: seconds per run.")
+@workers_option
+@force_option
 def draw_map(
-    what: Annotated[
-        Path | None, typer.Argument(help="Store of a sweep (.zarr), or the TOML file of a study to fly first.")
-    ] = None,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Output file: .png, .pdf or .svg.")] = Path("map.png"),
-    x: Annotated[
-        str | None, typer.Option("--x", help="Quantity on the horizontal axis, such as tilt, rate or gains.k_d.")
-    ] = None,
-    y: Annotated[str | None, typer.Option("--y", help="Quantity on the vertical axis.")] = None,
-    law: Annotated[
-        str | None, typer.Option("--law", help=f"Fly this law from random starts, not a study: {LAW_HELP}.")
-    ] = None,
-    vehicle: Annotated[str | None, typer.Option("--vehicle", help="With --law: vehicle name or TOML file.")] = None,
-    plant: Annotated[str, typer.Option("--plant", help="With --law: rotors, ideal or hehn2011.")] = "rotors",
-    runs: Annotated[int, typer.Option("--runs", min=1, help="With --law: number of runs.")] = 100_000,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="With --law: seed of the starts.")] = 1,
-    duration: Annotated[float | None, typer.Option("--duration", help="With --law: seconds per run.")] = None,
-    workers: Workers = None,
-    force: Force = False,
+    what: Path | None,
+    out: Path,
+    x: str | None,
+    y: str | None,
+    law: str | None,
+    vehicle: str | None,
+    plant: str,
+    runs: int,
+    seed: int,
+    duration: float | None,
+    workers: int | None,
+    force: bool,
 ) -> None:
     """Map success, settling time, excursion and causes of failure over the initial rod: on the sphere and in a plane.
 
-    With a study or --law, the runs are saved to a store next to the map, and an interrupted command resumes.
+    WHAT is the store of a sweep (.zarr), or the TOML file of a study to fly first. With a study or --law, the runs are
+    saved to a store next to the map, and an interrupted command resumes.
     """
     from flypend.errors import InputError, require
     from flypend.files.whole import FIGURES, save_figure
@@ -114,16 +104,15 @@ def draw_map(
     console.print(f"The map is in {bold(out)}.")
 
 
-@app.command()
-def tune(
-    study: StudyFile,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("tune-out"),
-    workers: Workers = None,
-    law: Law = None,
-) -> None:
-    """Tune gains on the objective of a study, by CMA-ES, and report on held-out starts.
+@click.command()
+@click.argument("study", type=path)
+@out_option("tune-out")
+@workers_option
+@law_option
+def tune(study: Path, out: Path, workers: int | None, law: str | None) -> None:
+    """Tune gains on the objective of STUDY, a TOML file, by CMA-ES, and report on held-out starts.
 
-    Writes tuned.toml, an input of [bold]flypend run[/bold], and the history of the search as JSON and as a figure.
+    Writes tuned.toml, an input of flypend run, and the history of the search as JSON and as a figure.
     """
     from flypend.files.staging import check_writable
     from flypend.report.tuning import told as told_of
@@ -164,19 +153,19 @@ def told(successes: int, runs: int) -> str:
     return f"{successes} of {runs} runs succeed: {share:.4g} % (95 % interval {100 * low:.4g} to {100 * high:.4g} %)."
 
 
-class _Rate(ProgressColumn):
-    """Column of the progress bar: runs per second."""
-
-    def render(self, task: Task) -> Text:
-        return Text("" if task.speed is None else f"{task.speed:,.0f}/s")
-
-
 @contextmanager
 def run_counter(name: str) -> Iterator[Callable[[int, int], None]]:
     """Yield the callback `(done, total)` of a progress bar with rate and remaining time; silent off a terminal."""
-    on = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
-    with Progress(*columns, console=on, transient=True, disable=not on.is_terminal) as bar:
+    on = complaints()
+    if not on.is_terminal:
+        yield lambda *_: None
+        return
+    from rich.markup import escape
+    from rich.progress import TaskID
+
+    from flypend.cli.bars import run_bar
+
+    with run_bar(on) as bar:
         tasks: list[TaskID] = []
 
         def tell(done: int, total: int) -> None:
@@ -185,3 +174,6 @@ def run_counter(name: str) -> Iterator[Callable[[int, int], None]]:
             bar.update(tasks[0], completed=done)
 
         yield tell
+
+
+COMMANDS = (sweep, draw_map, tune)

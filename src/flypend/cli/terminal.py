@@ -4,32 +4,43 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 console = Console()
-LAW_HELP = "a name (inverted, lqr, corrected, printed, detuned), file.py:function or module:function"
+
+
+def complaints() -> Console:
+    """Return a console on stderr that neither wraps nor highlights."""
+    return Console(stderr=True, soft_wrap=True, highlight=False)
 
 
 @contextmanager
 def counter() -> Iterator[Callable[[str, int, int], None]]:
-    """Yield the callback `(name, done, total)` of a progress bar."""
-    with progress() as bar:
+    """Yield the callback `(name, done, total)` of a progress bar on stderr; it is silent if that is not a terminal."""
+    on = complaints()
+    if not on.is_terminal:
+        yield lambda *_: None
+        return
+    from flypend.cli.bars import task_bar  # slow to import
+
+    with task_bar(on) as bar:
         task = bar.add_task("starting", total=None)
         yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
 
 
-def progress() -> Progress:
-    """Return an empty progress bar on stderr; it is silent if stderr is not a terminal."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    on = Console(stderr=True)
-    return Progress(*columns, console=on, transient=True, disable=not on.is_terminal)
+def draw(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
+    """Do the named `tasks`, one after the other, behind a progress bar."""
+    listed = list(tasks)
+    with counter() as tell:
+        for done, (name, task) in enumerate(listed):
+            tell(f"drawing {name}", done, len(listed))
+            task()
 
 
 @contextmanager
@@ -39,13 +50,8 @@ def resumable() -> Iterator[None]:
         yield
     except (KeyboardInterrupt, SystemExit):
         again = shlex.join(["flypend", *(word for word in sys.argv[1:] if word != "--force")])
-        say(f"Stopped; every finished chunk is kept. To go on:\n  {again}")
+        complaints().print(f"Stopped; every finished chunk is kept. To go on:\n  {again}", markup=False)
         raise
-
-
-def say(line: str) -> None:
-    """Print `line` on stderr, as it is."""
-    Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
 
 
 def bold(path: Path) -> str:
@@ -65,4 +71,4 @@ def tell_how(law: Any) -> None:
     from flypend.settings.laws import note
 
     if said := note(law):
-        say(said)
+        complaints().print(said, markup=False)

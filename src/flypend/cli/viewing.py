@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
-import typer
+import click
 
-from flypend.cli.terminal import bold, console, counter, progress
-
-app = typer.Typer()
-
-Saved = Annotated[Path, typer.Argument(help="A run saved by flypend (.nc).")]
-Style = Annotated[str, typer.Option("--style", help="paper (one or two columns) or slides (16:9, larger fonts).")]
+from flypend.cli.options import out_option, path, style_option
+from flypend.cli.terminal import bold, console, counter, draw
 
 
-@app.command()
-def replay(
-    runs: Annotated[list[Path], typer.Argument(help="One to four saved runs (.nc); the camera follows the first.")],
-    out: Annotated[Path, typer.Option("--out", "-o", help="Output page (.html).")] = Path("replay.html"),
-    beside: Annotated[
-        bool, typer.Option("--beside", help="One panel per run; default one panel with ghosts. The page can switch.")
-    ] = False,
-    title: Annotated[str | None, typer.Option("--title", help="Title; default the laws and vehicles.")] = None,
-    speed: Annotated[float, typer.Option("--speed", help="Flight time over playback time.")] = 1.0,
-) -> None:
-    """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare."""
+@click.command()
+@click.argument("runs", type=path, nargs=-1, required=True)
+@out_option("replay.html", "Output page (.html).")
+@click.option("--beside", is_flag=True, help="One panel per run; default one panel with ghosts. The page can switch.")
+@click.option("--title", help="Title; default the laws and vehicles.")
+@click.option("--speed", type=float, default=1.0, help="Flight time over playback time.")
+def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, speed: float) -> None:
+    """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare.
+
+    RUNS are one to four files saved by flypend (.nc); the camera follows the first.
+    """
     from flypend.flight.trajectory import load
 
     first, *others = [load(path) for path in runs]
@@ -33,18 +28,17 @@ def replay(
     console.print(f"Open {bold(out)} in a browser.")
 
 
-@app.command()
-def movie(
-    run: Saved,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Output movie (.mp4 or .gif).")] = Path("flight.mp4"),
-    camera: Annotated[str, typer.Option("--camera", help="side, or axis (from above, along gravity).")] = "side",
-    speed: Annotated[float, typer.Option("--speed", help="Flight time over playback time.")] = 0.25,
-    fps: Annotated[float, typer.Option("--fps", help="Frames per second of playback.")] = 30,
-    size: Annotated[
-        tuple[int, int], typer.Option("--size", metavar="WIDTH HEIGHT", help="Size in pixels; even numbers.")
-    ] = (640, 640),
-) -> None:
-    """Write a slow-motion movie of a saved run."""
+@click.command()
+@click.argument("run", type=path)
+@out_option("flight.mp4", "Output movie (.mp4 or .gif).")
+@click.option("--camera", default="side", help="side, or axis (from above, along gravity).")
+@click.option("--speed", type=float, default=0.25, help="Flight time over playback time.")
+@click.option("--fps", type=float, default=30.0, help="Frames per second of playback.")
+@click.option(
+    "--size", type=(int, int), default=(640, 640), metavar="WIDTH HEIGHT", help="Size in pixels; even numbers."
+)
+def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tuple[int, int]) -> None:
+    """Write a slow-motion movie of RUN, a file saved by flypend (.nc)."""
     from flypend import errors
     from flypend.flight.trajectory import load
     from flypend.pictures.animate import check_encoder
@@ -59,13 +53,12 @@ def movie(
     console.print(f"The movie is {bold(out)}.")
 
 
-@app.command()
-def figures(
-    run: Saved,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("figures-out"),
-    style: Style = "paper",
-) -> None:
-    """Draw the figures of a saved run, each as .pdf and .png."""
+@click.command()
+@click.argument("run", type=path)
+@out_option("figures-out")
+@style_option
+def figures(run: Path, out: Path, style: str) -> None:
+    """Draw the figures of RUN, a file saved by flypend (.nc), each as .pdf and .png."""
     from flypend.files.staging import check_writable, staged
     from flypend.flight.trajectory import load
     from flypend.pictures.style import style_named
@@ -74,8 +67,9 @@ def figures(
     style_named(style)
     flight = load(run)
     check_writable(out)
-    with staged(out) as folder, progress() as bar:
-        for name, task in bar.track(figure_tasks(flight, folder, style=style), description="drawing"):
-            bar.update(bar.task_ids[0], description=f"drawing {name}")
-            task()
+    with staged(out) as folder:
+        draw(figure_tasks(flight, folder, style=style))
     console.print(f"Figures are in {bold(out)}.")
+
+
+COMMANDS = (replay, movie, figures)

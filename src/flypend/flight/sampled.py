@@ -17,6 +17,7 @@ from flypend.board.command import idle_command
 from flypend.board.computer import FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
+from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.laws import Controller
@@ -42,7 +43,7 @@ class Samples:
 
     def at(self, ticks: Any) -> Samples:
         """Return the samples at the control ticks nearest to `ticks` (real numbers), without duplicates."""
-        kept = np.unique(np.clip(np.rint(ticks).astype(int), 0, len(self.t) - 1))
+        kept = distinct(np.clip(np.rint(ticks).astype(int), 0, len(self.t) - 1))
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
@@ -116,7 +117,7 @@ def number_of_ticks(duration: float, plant: Plant) -> int:
 
 def nearest_ticks(times: Any, plant: Plant, duration: float) -> Any:
     """Return the control ticks (k,) nearest to `times` (s) in a flight of `duration` seconds, without duplicates."""
-    return np.unique(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
+    return distinct(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
 
 
 def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:

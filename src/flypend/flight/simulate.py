@@ -97,12 +97,11 @@ def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
 def _ideal(flight: Flight, engine: str) -> Trajectory:
     """Fly the closed loop in continuous time; the wrench acts as commanded."""
     loop = close_loop(flight.vehicle, flight.loop.symbolic)
-    outputs = as_numpy(loop.outputs)
-    solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop, outputs)
+    solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop)
     wanted, end = flight.moments, solution.outcome.time
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
     packed = solution(t)
-    values = np.stack([outputs(time, s) for time, s in zip(t, packed, strict=True)])
+    values = np.array(loop.outputs(t[None], packed.T)).T
     return Trajectory(
         t=t,
         **split(packed),
@@ -127,13 +126,14 @@ def _by_kernel(flight: Flight) -> Solution:
     return Solution(kernel, flight)
 
 
-def _by_scipy(flight: Flight, loop: ClosedLoop, outputs: Any) -> Integration:
+def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
     errors.require("scipy", extra="studies", for_="engine")
     from flypend.flight.integrate import integrate  # SciPy's integrators are slow to import, and not needed by kernels
 
     guard, margin, reason = loop.law.guard, None, ""
     if guard is not None:
         errors.one_of("law.guard", guard.signal, loop.signal_names)
+        outputs = as_numpy(loop.outputs)
         row, threshold, reason = 4 + loop.signal_names.index(guard.signal), guard.threshold, guard.reason
 
         def margin(t: float, s: Any) -> float:

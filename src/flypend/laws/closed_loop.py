@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -65,18 +66,23 @@ def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[st
     """
     bound = law.bind(vehicle)
     errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)
+    return _symbolic_loop(vehicle, bound, tuple(parameters))
+
+
+@lru_cache(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
+def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...]) -> SymbolicLoop:
     t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
     state = State.symbolic(s)
     control = bound.evaluate(t, state, vehicle, gains={name: p[i] for i, name in enumerate(parameters)})
     rates = equations_of_motion(state, control.wrench, vehicle, bound.e3)
-    check_parameters(law.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
+    check_parameters(bound.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
 
     lyapunov = dict(control.lyapunov)
     if lyapunov:
         lyapunov["V"] = sum(lyapunov.values())
     lyapunov |= {f"{name}_rate": lie_derivative(value, state, rates, t) for name, value in lyapunov.items()}
     signals = {**lyapunov, **control.signals}
-    return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, tuple(parameters))
+    return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, parameters)
 
 
 def check_parameters(law: str, wrench: Any, parameters: Sequence[str], symbols: Any) -> None:

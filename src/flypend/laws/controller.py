@@ -107,5 +107,5 @@ class Controller:
 
     def upright(self, t: float, packed: Any) -> NDArray[Any]:
         """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
-        wrench = self.function(t, State.from_packed(seen_packed(packed, self.e3))).seen(self.e3)
+        wrench = self.function(t, State.trusted(seen_packed(packed, self.e3))).seen(self.e3)
         return np.append(wrench.thrust, wrench.moment)

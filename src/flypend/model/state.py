@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 from typing import Any, Literal, Self
 
@@ -180,7 +181,7 @@ def split(packed: Any) -> dict[str, Any]:
     packed = np.asarray(packed)
     out, start = {}, 0
     for name, shape in SHAPES.items():
-        width = int(np.prod(shape))
+        width = math.prod(shape)
         out[name] = packed[..., start : start + width].reshape((*packed.shape[:-1], *shape))
         start += width
     return out

@@ -14,7 +14,6 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.export import compiled
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle, vehicle
@@ -169,6 +168,8 @@ def _controller(law: Law | Controller, vehicle: Vehicle, kind: Any) -> Law | Con
         return law
     if isinstance(law, Controller):
         raise InputError("controller", "python, for a law that is not written in symbols", repr(kind))
+    from flypend.export import compiled  # slow to import, and seldom needed
+
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS
@@ -125,18 +125,6 @@ def from_queue(
     threads = max(1, min(workers or os.cpu_count() or 1, runs // LEAST_SHARE))
     heard([partial(fly, queue)] * threads, lambda: progress(min(int(queue[0]), runs), runs))
     progress(runs, runs)
-
-
-def merged(judge_at: ArrayLike, keep_at: ArrayLike | None, kind: type[Any]) -> tuple[Any, Any, NDArray[np.int64]]:
-    """Merge the points, numbers of `kind`, at which the criterion is evaluated and those at which states are kept.
-
-    Returns the points in increasing order, 1 or 0 for those that are judged, and the number of samples kept before each
-    point, the total last.
-    """
-    judge, keep = (np.asarray(() if some is None else some, dtype=kind) for some in (judge_at, keep_at))
-    points = np.union1d(judge, keep)
-    rows = np.append(0, np.cumsum(np.isin(points, keep))).astype(np.int64)
-    return points, np.isin(points, judge).astype(kind), rows
 
 
 def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:

@@ -21,8 +21,9 @@ from flypend.compile.problem import Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
-from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of, merged
+from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
 from flypend.flight.kernels.stopping import Word, heard
+from flypend.flight.moments import merged
 from flypend.flight.request import Flight
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop

@@ -22,8 +22,9 @@ from flypend.compile.routine import lower_calls
 from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
-from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of, merged
+from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.kernels.stopping import Word
+from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed

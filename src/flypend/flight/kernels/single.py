@@ -11,6 +11,7 @@ from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels.flown import STATUS, Flown, inputs_of
 from flypend.flight.kernels.ideal import MAX_STEPS, IdealKernel, integrate, setting_of
 from flypend.flight.kernels.sampled import SampledKernel
+from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples, nearest_ticks
@@ -50,11 +51,12 @@ class Solution:
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
         """Return the states (len(t), 24) at times within the run, from the method's dense output, projected."""
-        times, place = np.unique(np.atleast_1d(np.asarray(t, dtype=float)), return_inverse=True)
+        wanted = np.atleast_1d(np.asarray(t, dtype=float))
+        times = distinct(wanted)
         samples: NDArray[np.float64] = self._fly(times).samples[0]
         samples[times <= 0] = self._start
         samples[times >= self.outcome.time] = self._final
-        return samples[place]
+        return samples[np.searchsorted(times, wanted)]
 
 
 def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:

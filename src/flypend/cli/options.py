@@ -1,0 +1,24 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+LAW_HELP = "a name (inverted, lqr, corrected, printed, detuned), file.py:function or module:function"
+
+path: Any = click.Path(path_type=Path)
+laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
+vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
+style_option = click.option(
+    "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."
+)
+
+
+def out_option(default: str, describe: str = "Output folder.") -> Callable[[_Command], _Command]:
+    """Return the option --out, with this default."""
+    return click.option("--out", "-o", type=path, default=default, help=describe)

@@ -104,56 +104,6 @@ def test_a_store_that_is_exchanged_under_a_sweep_is_not_written_into(change, tmp
         assert again(tmp_path / "aside.zarr") == 40
 
 
-DOUBLE = 4
-
-
-def double_start(folder, name, seeds=(1, 1)):
-    """Two commands that start on one store within milliseconds; returns their exit codes and messages."""
-    code = (
-        "import sys, flypend as fp\nfrom flypend.cli.app import main\n"
-        "print('ready', flush=True); sys.stdin.readline(); main()"
-    )
-    processes = []
-    for seed in seeds:
-        (folder / f"{seed}.toml").write_text(toml_text(SHORT | {"seed": seed}), encoding="utf-8")
-        command = [sys.executable, "-c", code, "sweep", f"{seed}.toml", "-o", name, "--workers", "1"]
-        pipe = subprocess.PIPE
-        processes.append(subprocess.Popen(command, cwd=folder, stdin=pipe, stdout=pipe, stderr=pipe, text=True))
-    for process in processes:
-        assert process.stdout.readline() == "ready\n"
-    for process in processes:
-        process.stdin.write("\n")
-        process.stdin.flush()
-    return [(process, *process.communicate(timeout=60)) for process in processes]
-
-
-def check_double_start(folder, name, seeds=(1, 1)):
-    ends = double_start(folder, name, seeds)
-    codes = sorted(process.returncode for process, _, _ in ends)
-    assert codes in ([0, 0], [0, 2]), ends
-    for process, _, told in ends:
-        assert "Traceback" not in told, told
-        if process.returncode == 2:
-            assert "no other sweep is writing" in told or "seed: expected" in told, told
-    return codes
-
-
-@pytest.mark.parametrize("seeds", [(1, 1), (1, 2)])
-def test_of_two_that_start_at_once_one_flies_and_one_is_told(seeds, tmp_path):
-    check_double_start(tmp_path, "a.zarr", seeds)
-    assert Runs(tmp_path / "a.zarr").number == 100
-    assert sorted(entry.name for entry in tmp_path.glob("*.zarr*")) == [".a.zarr.lock", "a.zarr"]
-
-
-@pytest.mark.slow
-def test_150_double_starts(tmp_path):
-    found = []
-    for k in range(150):
-        found.append(check_double_start(tmp_path, f"{k}.zarr", (1, 1 + k % 2)))
-        assert Runs(tmp_path / f"{k}.zarr").number == 100
-    print(f"150 double starts: {found.count([0, 2])} with one refused, {found.count([0, 0])} one after the other")
-
-
 # Lost, cut and foreign parts ------------------------------------------------------------------------------------------
 
 

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import importlib.util
-from collections.abc import Iterable
-from typing import Any
+import inspect
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeVar
 
 import numpy as np
+
+C = TypeVar("C")
 
 
 class InputError(ValueError):
@@ -86,6 +90,59 @@ def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
     for name in given:
         if name not in names:
             one_of(f"{field}.{name}" if field else name, name, names)
+
+
+def named_arguments(cls: type[C]) -> type[C]:
+    """Class decorator for records: a call with wrong arguments raises InputError, as a wrong value does."""
+    build = cls.__init__
+    signature = inspect.signature(build)
+
+    @functools.wraps(build)
+    def checked(self: Any, *args: Any, **given: Any) -> None:
+        try:
+            build(self, *args, **given)
+        except TypeError:
+            _check_call(cls.__name__, signature, args, given)
+            raise
+
+    cls.__init__ = checked  # type: ignore[method-assign]
+    return cls
+
+
+def _check_call(name: str, signature: inspect.Signature, args: tuple[Any, ...], given: Mapping[str, Any]) -> None:
+    """Raise InputError if a call of the class `name` does not fit its constructor's `signature`."""
+    known = list(signature.parameters.values())[1:]
+    only_known(name, given, [parameter.name for parameter in known])
+    by_place = [parameter.name for parameter in known if parameter.kind is not inspect.Parameter.KEYWORD_ONLY]
+    if len(args) > len(by_place):
+        raise InputError(name, f"arguments by name, such as {known[0].name}=", f"{len(args)} without")
+    for parameter in known:
+        missing = parameter.name not in given and parameter.name not in by_place[: len(args)]
+        if missing and parameter.default is inspect.Parameter.empty:
+            raise InputError(f"{name}.{parameter.name}", "a value", "nothing")
+
+
+def check_arguments(field: str, function: Any, form: str) -> None:
+    """Raise InputError unless `function` can be called as in `form`, such as "(t, state)".
+
+    Arguments in square brackets may be left out. A function that does not tell its arguments passes.
+    """
+    if not callable(function):
+        raise InputError(field, f"a function {form}", repr(function)[:80])
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):  # written in C
+        return
+    names = form.strip("()").replace("]", "").replace("[", "").split(", ")
+    needed = form.strip("()").split("[")[0].rstrip(", ").split(", ")
+    for count in range(len(needed), len(names) + 1):
+        by_name = {"path": None} if "path" in signature.parameters else {}
+        try:
+            signature.bind(*[None] * count, **by_name)
+        except TypeError:
+            continue
+        return
+    raise InputError(field, f"a function {form}", f"one {signature}")
 
 
 def require(module: str, *, extra: str, for_: str) -> None:

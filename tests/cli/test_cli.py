@@ -15,6 +15,7 @@ import pytest
 
 import flypend as fp
 from flypend.cli import app as cli
+from flypend.cli import terminal
 from flypend.files import whole as files
 from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
@@ -160,7 +161,7 @@ def test_a_report_is_that_of_the_library(second):
     assert report["flypend"] == fp.__version__
     assert report["outcome"] == {"status": "completed", "time": 6.5, "reason": ""}
     assert report["settings"]["experiment"] == "2"
-    assert "corrected on nayak2018: completed at 6.5 s" in told
+    assert "corrected, k_2 4.4 on nayak2018: completed at 6.5 s" in told
     assert "0.99905 ✓" in told
     lines = (folder / "out" / "report.md").read_text(encoding="utf-8").splitlines()
     assert lines[0] == "# A run of corrected on nayak2018"
@@ -173,10 +174,10 @@ def test_a_run_with_overrides_is_that_of_the_library(call, tmp_path):
     row = experiment("4")
     flown = fp.simulate(row.vehicle, fp.laws.printed(**{**row.gains, "k_d": 2}), row.start, 1.0, plant="ideal")
     written = fp.load(tmp_path / "out" / "run.nc")
-    assert code == 0
+    assert code == 1  # it has not flown to its end
     assert written.outcome.status == flown.outcome.status == "singular"
     assert written.outcome.time == pytest.approx(flown.outcome.time, rel=1e-6)
-    assert "printed on nayak2018: singular at 0.1068 s" in told
+    assert "printed, k_d 2, k_1 9 on nayak2018: singular at 0.1068 s" in told
 
 
 def test_a_file_of_ones_own_is_flown(call, tmp_path):
@@ -260,7 +261,7 @@ def test_names_that_look_like_markup_are_printed_as_they_are(call, tmp_path):
         "run", own.name, "--no-figures", "--out", "out[red]", "--set", f'vehicle.name="{name}"'
     )
     assert (code, complaints) == (0, "")
-    assert f"corrected on {name}: completed" in told
+    assert f"corrected, k_1 8 on {name}: completed" in told
     assert "Results are in out[red]." in told
     assert "own[bold]" in told
     assert (tmp_path / "out[red]" / "run.nc").exists()
@@ -541,3 +542,118 @@ def test_a_terminal_that_lacks_the_signs_gets_something_else_for_them(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     assert "y ? e?" in done.stdout  # y → e₃
     assert "Results are in run-out." in done.stdout
+
+
+# Interrupted ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
+    """Three runs of hours: below 64, nothing was heard. --force is not repeated, for it would start over."""
+    (tmp_path / "study.toml").write_text(
+        'vehicle = "hehn2011"\nlaw = { name = "lqr" }\nduration = 19000.0\njudge_period = 10.0\nruns = 3\nchunk = 3\n'
+        '[vary.start]\nomega = { ball = 0.1 }\n[start]\ny = [0.0, 0.0, 1.0]\n',
+        encoding="utf-8",
+    )  # fmt: skip
+    command = [sys.executable, "-m", "flypend", "sweep", "study.toml", "-o", "my runs.zarr", "--force"]
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        time.sleep(6)
+        assert process.poll() is None
+        sent = time.monotonic()
+        process.send_signal(number)
+        told = process.communicate(timeout=60)[1]
+        assert time.monotonic() - sent < 1.0
+    assert process.returncode == 128 + number
+    assert "flypend sweep study.toml -o 'my runs.zarr'\n" in told
+    assert "Traceback" not in told
+    assert "--force" not in told
+
+
+# Words ----------------------------------------------------------------------------------------------------------------
+
+
+def test_laws_and_vehicles_are_listed_with_gains_units_and_defaults(call):
+    code, told, _ = call("laws")
+    assert code == 0
+    assert all(law in told for law in ("printed (e3 down)", "corrected (e3 down)", "inverted (e3 up)", "lqr (e3 up)"))
+    row = next(line for line in told.splitlines() if line.strip().startswith("attitude_bandwidth"))
+    assert row.split()[1:3] == [
+        f"{fp.laws.inverted().gains_for(fp.vehicle('hehn2011'))['attitude_bandwidth']:.4g}",
+        "rad/s",
+    ]
+    _, told, _ = call("laws", "corrected")
+    assert "k_d" in told
+    assert "inverted" not in told
+    code, told, _ = call("vehicles")
+    assert code == 0
+    assert {"crazyflie", "hehn2011", "nayak2018"} <= set(told.split())
+    machine = fp.vehicle("hehn2011")
+    assert f"{4 * machine.rotor_limits[1] / machine.weight:.3g}" in told
+    assert call("laws", "lqqr")[0] == 2
+
+
+def test_a_pipe_gets_whole_lines(tmp_path):
+    """A table of the laws has lines of more than 80 columns; a terminal would wrap them."""
+    environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    command = [sys.executable, "-m", "flypend", "laws", "inverted"]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
+    gains = fp.laws.inverted().table
+    rows = [line.split()[0] for line in done.stdout.splitlines() if line.strip()]
+    assert [row for row in rows if row in gains] == list(gains)
+    assert all(gain.doc in done.stdout for gain in gains.values())
+
+
+def test_a_run_file_and_a_study_are_not_mistaken_for_each_other(call, tmp_path):
+    run = 'vehicle = "nayak2018"\nlaw = { name = "corrected" }\nduration = 1.0\n[start]\ny = [0.0, 0.0, 1.0]\n'
+    (tmp_path / "run.toml").write_text(run, encoding="utf-8")
+    (tmp_path / "study.toml").write_text("runs = 10\n" + run, encoding="utf-8")
+    code, _, told = call("run", "study.toml", "--no-figures")
+    assert (code, "got a study (it has runs): flypend sweep study.toml" in told) == (2, True)
+    for command in (("sweep", "run.toml", "-o", "a.zarr"), ("map", "run.toml"), ("tune", "run.toml")):
+        code, _, told = call(*command)
+        assert (code, "flypend run run.toml" in told) == (2, True)
+
+
+def test_overridden_vehicles_and_laws_are_called_so(call, tmp_path):
+    text = 'vehicle = { base = "hehn2011", mass = 0.6 }\nduration = 0.1\nstart = { y = [0.0, 0.0, -1.0] }\n'
+    law = 'law = { name = "inverted", gains = { throw_speed = 2.5 } }\n'
+    (tmp_path / "own.toml").write_text(law + text, encoding="utf-8")
+    _, told, _ = call("run", "own.toml", "--no-figures")
+    assert told.startswith("inverted, throw_speed 2.5 on hehn2011, mass 0.6: completed")
+
+
+def test_the_detuned_law_can_be_flown_alone(call, tmp_path):
+    (tmp_path / "own.toml").write_text(
+        'vehicle = "hehn2011"\nlaw = { name = "lqr" }\nduration = 0.1\nstart = { y = [0.0, 0.0, -1.0] }\n',
+        encoding="utf-8",
+    )
+    code, told, _ = call("run", "own.toml", "--no-figures", "--law", "detuned")
+    assert (code, told.startswith("detuned, ")) == (0, True)
+
+
+def test_failed_flights_are_kept_and_fly_again_to_the_same_end(call, tmp_path):
+    code, told, _ = call("compare", "--law", "lqr", "--runs", "4", "--duration", "1", "--keep", "kept")
+    assert code == 0
+    files = sorted((tmp_path / "compare-out" / "failed").iterdir())
+    assert files
+    assert f"{len(files)} failed flights in " in told
+    assert sorted(path.stem for path in (tmp_path / "kept").iterdir()) == [path.stem for path in files]
+    call("run", f"compare-out/failed/{files[0].name}", "--no-figures", "-o", "again")
+    again, kept = fp.load(tmp_path / "again" / "run.nc"), fp.load(tmp_path / "kept" / f"{files[0].stem}.nc")
+    np.testing.assert_array_equal(again.packed, kept.packed)
+    starts = fp.random_starts(4, 1)
+    flown = fp.compare(fp.vehicle("hehn2011"), [fp.laws.lqr()], starts, 1.0)
+    number = int(files[0].stem.rpartition("-")[2])
+    np.testing.assert_allclose(again.packed[-1], flown.ensembles["lqr"].final[number].packed(), atol=1e-9)
+
+
+def test_a_long_command_tells_how_far_it_is_without_a_terminal(monkeypatch, capsys):
+    clock = iter([0.0, 5.0, 40.0, 50.0, 75.0, 99.0])
+    monkeypatch.setattr(terminal.time, "monotonic", lambda: next(clock))
+    tell = terminal.lines(terminal.complaints())
+    for done in (100, 200, 300, 400, 1000):
+        tell("inverted", done, 1000)
+    assert capsys.readouterr().err.splitlines() == [
+        "inverted: 200 of 1000, about 5 min left",  # 100 in 40 s
+        "inverted: 400 of 1000, about 2 min left",  # 300 in 75 s
+    ]

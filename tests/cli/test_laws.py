@@ -105,7 +105,7 @@ def test_a_file_stands_where_the_run_file_stands(call, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path / "elsewhere")
     code, out, told = call("run", "../run.toml", "--no-figures", "--out", "out", "--set", "law.gains.stiffness=250")
     assert (code, told) == (0, "")
-    assert out.startswith("balance on hehn2011")
+    assert out.startswith("balance, stiffness 250, damping 20 on hehn2011")
     settings = json.loads((tmp_path / "elsewhere" / "out" / "report.json").read_text(encoding="utf-8"))["settings"]
     assert settings["law"]["function"] == f"{tmp_path / 'mine.py'}:balance"
     assert settings["law"]["gains"] == {"damping": 20.0, "stiffness": 250}

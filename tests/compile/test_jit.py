@@ -1,6 +1,10 @@
 """The cache of compiled kernels: kept, checked, rebuilt, never in the way."""
 
 import ctypes
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -91,3 +95,46 @@ def test_without_a_folder_that_can_be_written_it_works(tmp_path, monkeypatch):
     assert result("key", 2.0, calls) == 3.0
     assert result("key", 2.0, calls) == 3.0
     assert calls == [2.0, 2.0]
+
+
+def test_an_entry_of_another_kernel_under_this_name_is_refused(cache):
+    calls = []
+    result("key", 2.0, calls)
+    (entry,) = cache.iterdir()
+    result("another key", 4.0, calls)
+    (other,) = set(cache.iterdir()) - {entry}
+    other.rename(entry)
+    assert result("key", 2.0, calls) == 3.0
+    assert calls == [2.0, 4.0, 2.0]
+
+
+PLACE = "import sys; from flypend.compile.llvm import jit; print(jit.cache_folder(), jit.cache_folder())"
+NOBODY = "import pwd\ndef getpwuid(uid): raise KeyError(uid)\npwd.getpwuid = getpwuid\n"
+
+
+def where(folder, code, **changed):
+    """The cache folder of a process in `folder` with other variables, and what it says on stderr."""
+    kept = {name: value for name, value in os.environ.items() if name not in (jit.CACHE_VARIABLE, "XDG_CACHE_HOME")}
+    environment = {name: value for name, value in (kept | changed).items() if value is not None}
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=True)
+    first, second = done.stdout.split()
+    assert first == second
+    return Path(first), done.stderr
+
+
+@pytest.mark.parametrize("empty", ["", " ", "relative"])
+def test_an_empty_cache_variable_is_not_the_current_folder(empty, tmp_path):
+    path, told = where(tmp_path, PLACE, XDG_CACHE_HOME=empty, HOME=str(tmp_path / "home"))
+    assert path == tmp_path / "home" / ".cache" / "flypend"
+    assert told == ""
+
+
+def test_without_a_home_the_cache_is_temporary_and_one_line_says_so(tmp_path):
+    """As in a container under a number that nobody has: neither HOME nor an entry in the list of users."""
+    path, told = where(tmp_path, NOBODY + PLACE, HOME=None)
+    assert path.is_absolute()
+    assert not path.is_relative_to(tmp_path)
+    assert not path.exists()  # it went with the process
+    assert told.count("\n") == 1
+    assert jit.CACHE_VARIABLE in told

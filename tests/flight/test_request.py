@@ -7,6 +7,7 @@ import pytest
 
 import flypend as fp
 from flypend import plants
+from flypend.files import memory
 from flypend.flight.ensemble import fly_many
 from flypend.flight.request import Flight, Tolerances
 from flypend.flight.simulate import fly
@@ -280,3 +281,85 @@ def test_random_starts_take_whole_numbers(runs, seed):
 def test_without_gravity_there_is_no_inverted_pose(law):
     with pytest.raises(fp.InputError, match=r"^vehicle\.gravity: "):
         getattr(fp.laws, law)().bind(fp.vehicle("hehn2011").replace(gravity=0.0))
+
+
+# What cannot be flown, and what would not fit -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "line"),
+    [
+        (lambda: fp.Plant(dely=1), r"^Sampled.dely: expected one of .*, got 'dely' \(did you mean 'delay'\?\)$"),
+        (lambda: fp.State(x=(0, 0, 0)), r"^State.y: expected a value, got nothing$"),
+        (lambda: fp.State((0, 0, 0)), r"^State: expected arguments by name, such as x=, got 1 without$"),
+        (lambda: fp.Criterion(rodd=1), r"^Criterion.rodd: .* \(did you mean 'rod'\?\)$"),
+        (lambda: fp.Vehicle(mass=1.0), r"^Vehicle.bob_mass: expected a value, got nothing$"),
+        (
+            lambda: fp.Law(name="a", e3="up", control=lambda t, s: None),
+            r"^law.control: expected a function \(t, state, vehicle, gains\[, forces\]\), got one \(t, s\)$",
+        ),
+        (lambda: fp.Controller(name="a", function=lambda t: None), r"^controller.function: .*, got one \(t\)$"),
+        (lambda: fp.Law(name="a", e3="up", control=None), r"^law.control: expected a function .*, got None$"),
+    ],
+)
+def test_wrong_calls_are_one_line(make, line):
+    with pytest.raises(fp.InputError, match=line):
+        make()
+
+
+def own(**changes):
+    given = {
+        "vehicle": fp.vehicle("hehn2011"),
+        "law": fp.laws.lqr(),
+        "starts": fp.State(y=(0, 0, 1.0)),
+        "duration": 1.0,
+    }
+    return fp.Flight(**given | changes)
+
+
+def test_a_start_in_degrees_is_asked_about():
+    with pytest.raises(fp.InputError, match=r"start.omega: expected at most 200 rad/s .*, got 360 rad/s; is it in deg"):
+        own(starts=fp.State(y=(0, 0, 1.0), omega=(0, 360, 0)))
+    own(starts=fp.State(y=(0, 0, 1.0), omega=(0, 199, 0)))
+
+
+@pytest.mark.parametrize("change", [{"bob_mass": 1.0}, {"mass": 500.0}])
+def test_a_vehicle_that_cannot_lift_itself_is_told_so_at_once(change):
+    vehicle = fp.vehicle("hehn2011").replace(**change)
+    with pytest.raises(fp.InputError, match=rf"rotors that lift it: more than its weight, {vehicle.weight:.4g} N"):
+        own(vehicle=vehicle)
+    own(vehicle=vehicle, plant="ideal")  # which has no limits
+    own(vehicle=vehicle, plant=fp.Plant(limits=False))
+
+
+def test_results_beyond_the_memory_are_refused_with_what_they_need(monkeypatch):
+    monkeypatch.setattr(memory, "free_memory", lambda: 1e9)
+    with pytest.raises(
+        fp.InputError, match=r"duration: .* fits the 1 GB of free memory, got 1000001 samples, .* 2 GB$"
+    ):
+        own(duration=10_000.0)
+    own(duration=10_000.0, times=[1.0])
+    many = fp.State(y=np.tile([0, 0, 1.0], (1000, 1)))
+    with pytest.raises(fp.InputError, match=r"times: .* got 1000 runs with 10000 samples each, which need 2.24 GB$"):
+        own(starts=many, times=np.linspace(0.0, 1.0, 10_000))
+    own(starts=many)
+    with pytest.raises(fp.InputError, match=r"runs: .* got 100000000 starts, which need 100 GB$"):
+        fp.random_starts(10**8, 1)
+    with pytest.raises(
+        fp.InputError, match=r"judge_period: expected at most 1e\+07 .*, got 1e-09 s, which takes 1e\+09"
+    ):
+        own(judge_period=1e-9)
+
+
+def test_the_free_memory_is_a_number_of_bytes():
+    assert 1e7 < memory.free_memory() < 1e14
+
+
+def test_results_fit_a_screen():
+    runs = fp.simulate_ensemble(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.random_starts(3, 1), 0.1)
+    law = fp.laws.inverted(throw_speed=2.0)
+    for thing in (fp.vehicle("hehn2011"), law, law.bind(fp.vehicle("hehn2011")), runs):
+        assert len(repr(thing)) < 160
+        assert "\n" not in repr(thing)
+    assert "throw_speed=2.0" in repr(law)
+    assert " of 3 succeed" in repr(runs)

@@ -129,7 +129,7 @@ def test_an_experiment_with_changes(tmp_path):
     """
     chosen, row = flight(written(tmp_path, text)), experiment("5")
     same_state(chosen.starts, dataclasses.replace(row.start, omega=np.zeros(3)))
-    assert chosen.vehicle == row.vehicle.replace(mass=0.3)
+    assert chosen.vehicle == row.vehicle.replace(mass=0.3, name="nayak2018, mass 0.3")
     assert chosen.law.gains == fp.laws.printed(k_d=1, k_1=7, k_2=4, beta="off").values
     assert (chosen.duration, chosen.tolerances.rtol) == (1.0, 1e-8)
 
@@ -170,7 +170,7 @@ def test_overrides_apply_in_order():
 def test_overrides_change_a_file_and_leave_the_rest(tmp_path):
     path = written(tmp_path, OWN)
     chosen = flight(path, ["vehicle.mass=0.7", "law.gains.k_2=3", "start.x=[1, 2, 3]"])
-    assert chosen.vehicle == fp.vehicle("nayak2018").replace(mass=0.7)
+    assert chosen.vehicle == fp.vehicle("nayak2018").replace(mass=0.7, name="nayak2018, mass 0.7")
     assert chosen.law.gains == fp.laws.corrected(k_d=1.5, k_2=3).values
     np.testing.assert_array_equal(chosen.starts.x, [1, 2, 3])
     np.testing.assert_array_equal(chosen.starts.y, [0.6, 0, 0.8])
@@ -344,7 +344,7 @@ def test_what_is_no_file_of_settings_is_refused(tmp_path):
     nothing = "run: expected an experiment (1, 2, 2-projected, 3, 4, 5) or a TOML file, got "
     for what, start in (
         (str(broken), f"{broken}: expected a TOML file, got Invalid value (at line 2"),
-        (str(binary), f"{binary}: expected a TOML file, got 'utf-8' codec can't decode byte 0x89"),
+        (str(binary), f"{binary}: expected a TOML file in UTF-8, got byte 0x89 (at line 1, column 1)"),
         (str(tmp_path), f"{tmp_path}: expected a readable TOML file, got Is a directory"),
         (str(tmp_path / "none.toml"), f"{tmp_path / 'none.toml'}: expected a readable TOML file, got No such file"),
         (str(tmp_path / "none"), nothing),

@@ -80,6 +80,30 @@ def test_the_objective_is_what_its_weights_say():
     assert Objective(failure=0, settling=0, effort=2).cost(columns, 10.0).tolist() == [3, 200]
 
 
+SMALL = STUDY | {"runs": 50, "tune": STUDY["tune"] | {"runs": 20, "generations": 4}}
+
+
+def test_an_interrupted_search_goes_on_to_the_same_result(tmp_path):
+    """Stopped after two of four generations, with half a line written on: two are read, two are flown."""
+    path = tmp_path / "costs.jsonl"
+    whole = fp.tune(SMALL, workers=1)
+
+    def stop(generation, _):
+        if generation == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        fp.tune(SMALL, workers=1, costs=path, progress=stop)
+    with path.open("a", encoding="utf-8") as file:
+        file.write("[[0.1, 0.2")
+    told = []
+    again = fp.tune(SMALL, workers=1, costs=path, progress=lambda *now: told.append(now))
+    assert told == [(2, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
+    assert (again.gains, again.history, again.after) == (whole.gains, whole.history, whole.after)
+    with pytest.raises(fp.InputError, match="expected the costs of this search"):
+        fp.tune(SMALL | {"seed": 9}, workers=1, costs=path)
+
+
 def test_noise_is_tuned_on_other_seeds_than_it_is_reported_on():
     table = {
         "vehicle": "hehn2011", "law": {"name": "corrected", "gains": {"k_d": 1.0}}, "duration": 0.3, "runs": 5,
@@ -108,7 +132,8 @@ def test_the_command_leaves_a_file_that_flies(tmp_path, monkeypatch, capsys):
         cli.main()
     assert exit_.value.code == 0
     told = capsys.readouterr().out
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["history.json", "history.png", "tuned.toml"]
+    left = sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert left == ["costs.jsonl", "history.json", "history.png", "tuned.toml"]
     history = json.loads((tmp_path / "out" / "history.json").read_text(encoding="utf-8"))
     settings = tomllib.loads((tmp_path / "out" / "tuned.toml").read_text(encoding="utf-8"))
     assert settings["law"]["gains"] == {"yaw_damping": 1.0, **history["after"]["gains"]}

@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import examples, studies, viewing
+from flypend.cli import examples, listing, studies, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.errors import InputError
@@ -101,6 +101,7 @@ def run(
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
     from flypend.report.flight import check_movies
+    from flypend.settings.laws import told
     from flypend.settings.runfile import run_file
 
     if figures and not quick:
@@ -132,11 +133,15 @@ def run(
     )
     if html is not None:
         trajectory.to_html(html)
-    console.print(f"{trajectory.law} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False)
+    console.print(
+        f"{told(flight.law, flight.vehicle)} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False
+    )
     console.print(f"inverted: {judgement(trajectory)}")
     if verdicts:
         console.print(summary_table({(trajectory.law, what): verdicts}))
     console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
+    if trajectory.outcome.status != "completed":
+        sys.exit(1)
 
 
 starts_option = click.option(
@@ -156,28 +161,46 @@ duration_option = click.option("--duration", type=float, default=10.0, help="Sec
 @vehicle_option
 @click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
 @duration_option
+@click.option("--keep", type=path, metavar="DIR", help="Also fly the failed flights again, and save each in DIR (.nc).")
 def compare(
-    law: tuple[str, ...], out: Path, starts: str, runs: int, seed: int, vehicle: str, plant: str, duration: float
+    law: tuple[str, ...],
+    out: Path,
+    starts: str,
+    runs: int,
+    seed: int,
+    vehicle: str,
+    plant: str,
+    duration: float,
+    keep: Path | None,
 ) -> None:
     """Compare laws, your own included, from the same starts: one table, one figure.
+
+    The starts of failed flights become run files in the folder failed of the output, for flypend run.
 
     A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the pivot stays within 0.2 m of
     its reference.
     """
-    from flypend.files.staging import check_writable
+    from flypend.files.staging import check_writable, staged
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.studies import compare as fly
+    from flypend.studies.failed import failed_runs, flown_again
 
     chosen = _plant(plant)
     names = law or ("inverted", "lqr", "corrected", "detuned")
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
     settings = {**settings, "plant": plant}
-    check_writable(out)
+    for folder in (out, keep) if keep is not None else (out,):
+        check_writable(folder)
     with counter() as tell:
         result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
-    write_comparison(result, settings, out)
+    failed = failed_runs(result, names, plant, duration)
+    write_comparison(result, settings, out, failed)
+    if keep is not None:
+        with staged(keep) as folder, counter() as tell:
+            flown_again(failed, folder, tell)
     console.print(comparison_table(result))
-    console.print(f"Report and figure are in {bold(out)}.")
+    again = f", {len(failed)} failed flights in {bold(out / 'failed')}" if failed else ""
+    console.print(f"Report and figure are in {bold(out)}{again}.")
 
 
 @app.command()
@@ -271,7 +294,7 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
-for _command in (*studies.COMMANDS, *viewing.COMMANDS, *examples.COMMANDS):
+for _command in (*studies.COMMANDS, *viewing.COMMANDS, *listing.COMMANDS, *examples.COMMANDS):
     app.add_command(_command)
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
-from rich.console import Console
 
 from flypend.cli.options import LAW_HELP, out_option, path
-from flypend.cli.terminal import bold, console, stepped, tell_how
+from flypend.cli.terminal import bold, complaints, console, lines, resumable, stepped, tell_how
 
 workers_option = click.option(
     "--workers", type=click.IntRange(min=1), help="Cores of this machine to use; default all."
@@ -41,7 +41,7 @@ def sweep(
     made = study_from(study, law)
     tell_how(made.law)
     processes = processes or stepped(made.law)
-    with run_counter(made.law.name) as tell:
+    with resumable(), run_counter(made.law.name) as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
@@ -84,7 +84,7 @@ def draw_map(
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
 
-    for module in ("zarr", "xarray", "distributed", "scipy"):
+    for module in ("zarr", "xarray", "scipy"):
         require(module, extra="studies", for_="map")
     if (what is None) == (law is None):
         raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
@@ -113,6 +113,7 @@ def draw_map(
 def tune(study: Path, out: Path, workers: int | None, law: str | None) -> None:
     """Tune gains on the objective of STUDY, a TOML file, by CMA-ES, and report on held-out starts.
 
+    Keeps the costs of every generation in the folder as it goes: the same command resumes an interrupted search.
     Writes tuned.toml, an input of flypend run, and the history of the search as JSON and as a figure.
     """
     from flypend.files.staging import check_writable
@@ -124,8 +125,8 @@ def tune(study: Path, out: Path, workers: int | None, law: str | None) -> None:
     made = study_from(study, law)
     tell_how(made.law)
     check_writable(out)
-    with run_counter("generations") as tell:
-        result = search(made, workers=workers, progress=tell)
+    with resumable(), run_counter("generations") as tell:
+        result = search(made, workers=workers, costs=out / "costs.jsonl", progress=tell)
     write_tuned(result, out)
     console.print(f"before: {told_of(result.before)}", markup=False)
     console.print(f"after:  {told_of(result.after)}", markup=False)
@@ -140,7 +141,7 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
 
     made = study_from(content)
     tell_how(made.law)
-    with run_counter(made.law.name) as tell:
+    with resumable(), run_counter(made.law.name) as tell:
         flown = fly(made, store, workers=workers, processes=stepped(made.law), force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 
@@ -156,10 +157,10 @@ def told(successes: int, runs: int) -> str:
 
 @contextmanager
 def run_counter(name: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield the callback `(done, total)` of a progress bar with rate and remaining time; silent off a terminal."""
-    on = Console(stderr=True)
+    """Yield the callback `(done, total)` of a progress bar with rate and remaining time, or of a line now and then."""
+    on = complaints()
     if not on.is_terminal:
-        yield lambda *_: None
+        yield partial(lines(on), name)
         return
     from rich.markup import escape
     from rich.progress import TaskID

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import shlex
+import sys
+import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,26 +14,62 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-console = Console()
+# Off a terminal, lines are as long as they are: whoever reads a file or a pipe wraps them.
+_free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
+console = Console(width=1000 if _free else None)
+# Without a terminal, a line on stderr tells how far a long command is: every 30 s.
+EVERY = 30.0
+
+
+def complaints() -> Console:
+    """Return a console on stderr that neither wraps nor highlights."""
+    return Console(stderr=True, soft_wrap=True, highlight=False)
 
 
 def say(line: str) -> None:
     """Print `line` on stderr, as it is."""
-    Console(stderr=True, soft_wrap=True, highlight=False).print(line, markup=False)
+    complaints().print(line, markup=False)
 
 
 @contextmanager
 def counter() -> Iterator[Callable[[str, int, int], None]]:
-    """Yield the callback `(name, done, total)` of a progress bar on stderr; it is silent if that is not a terminal."""
-    on = Console(stderr=True)
+    """Yield the callback `(name, done, total)` of a progress bar on stderr, or of a line now and then."""
+    on = complaints()
     if not on.is_terminal:
-        yield lambda *_: None
+        yield lines(on)
         return
     from flypend.cli.bars import task_bar  # slow to import
 
     with task_bar(on) as bar:
         task = bar.add_task("starting", total=None)
         yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
+
+
+def lines(on: Console) -> Callable[[str, int, int], None]:
+    """Return a callback `(name, done, total)` that prints a line now and then, with the time left."""
+    begin, due = time.monotonic(), EVERY
+    first: list[int] = []
+
+    def tell(what: str, done: int, total: int) -> None:
+        nonlocal due
+        if not first:
+            first.append(done)  # what an earlier command has done costs no time
+        took = time.monotonic() - begin
+        if took < due or done >= total:
+            return
+        due = took + EVERY
+        fresh = done - first[0]
+        left = f", about {_span(took * (total - done) / fresh)} left" if fresh > 0 else ""
+        on.print(f"{what}: {done} of {total}{left}", markup=False)
+
+    return tell
+
+
+def _span(seconds: float) -> str:
+    """Format a time to come: 40 s, 12 min, 3.5 h."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
 def draw(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
@@ -39,6 +79,17 @@ def draw(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
         for done, (name, task) in enumerate(listed):
             tell(f"drawing {name}", done, len(listed))
             task()
+
+
+@contextmanager
+def resumable() -> Iterator[None]:
+    """Tell on stderr, if the block is interrupted, which command resumes it: this one, without --force."""
+    try:
+        yield
+    except (KeyboardInterrupt, SystemExit):
+        again = shlex.join(["flypend", *(word for word in sys.argv[1:] if word != "--force")])
+        say(f"Stopped; what is finished is kept. To go on:\n  {again}")
+        raise
 
 
 def bold(path: Path) -> str:

@@ -109,7 +109,8 @@ class _Reader:
     def __init__(self, content: bytes) -> None:
         self._content, self._at = content, 4
         if content[:4] not in (b"CDF\x01", MAGIC):
-            raise ValueError("not a NetCDF file in the classic format")
+            kind = "NetCDF 4" if content[:4] == b"\x89HDF" else "an empty file" if not content else "another file"
+            raise ValueError(f"{kind}, not NetCDF in the classic format")
         self._offset = 4 if content[3] == 1 else 8
 
     def file(self) -> tuple[dict[str, Variable], dict[str, Any]]:
@@ -128,7 +129,7 @@ class _Reader:
         shape = tuple(size for _, size in own)
         data = self._content[begin : begin + math.prod(shape) * dtype.itemsize]
         if len(data) != math.prod(shape) * dtype.itemsize:
-            raise ValueError(f"truncated inside {name}")
+            raise ValueError(f"a file that is cut off (inside {name})")
         values = np.frombuffer(data, dtype).reshape(shape).astype(dtype.newbyteorder("="))
         return name, Variable(tuple(dim for dim, _ in own), values, about)
 
@@ -168,6 +169,6 @@ class _Reader:
     def _take(self, count: int) -> bytes:
         content = self._content[self._at : self._at + count]
         if len(content) != count:
-            raise ValueError("truncated inside the header")
+            raise ValueError("a file that is cut off (inside its header)")
         self._at += count
         return content

@@ -20,6 +20,7 @@ PARTS = ("rod", "axis", "position")
 REDUCTIONS = ("since", "last", "last", "last", "max", "mean", "max")
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """Conditions that a flight must satisfy during its last `hold` seconds to succeed.

@@ -71,6 +71,12 @@ class Ensemble:
     t: NDArray[np.float64] | None = None
     samples: State | None = None
 
+    def __repr__(self) -> str:
+        """Return law, vehicle and success rate in one line."""
+        low, high = self.interval
+        found = f"{int(np.sum(self.success))} of {len(self)} succeed (95 %: {100 * low:.1f} to {100 * high:.1f} %)"
+        return f"<Ensemble of {self.law} on {self.vehicle.name}: {found}>"
+
     def __len__(self) -> int:
         """Number of runs."""
         return len(self.success)

@@ -13,9 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from flypend import errors, plants
 from flypend.compile.methods import NAMES as METHODS
 from flypend.errors import InputError
+from flypend.files.memory import check_fits
 from flypend.flight.criterion import Criterion
+from flypend.geometry import norm
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.model import State, Vehicle
+from flypend.model.state import SIZE
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 from flypend.plants.loop import Loop
 from flypend.plants.plant import check_seed
@@ -23,12 +26,16 @@ from flypend.plants.plant import check_seed
 SAMPLE_PERIOD = 0.01
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
 MOST_JUDGED = 1e7
+MOST_SPIN = 200.0  # rad/s, where a rotor's own speed begins
+# What a result takes: a sample of a trajectory with wrench, signals and intermediate arrays; a run of an ensemble.
+BYTES_OF_SAMPLE, BYTES_OF_RUN = 2000, 1000
 LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 Hz
 # At this tolerance and looser, the method of order 5 is faster.
 LOOSE = 1e-6
 PRECISIONS = ("double", "float")
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Tolerances:
     """Integration tolerances of the ideal plant; a sampled flight uses fixed steps of 1 ms or less.
@@ -80,6 +87,7 @@ class Tolerances:
         return self.method or ("dp5" if self.rtol >= LOOSE and law.guard is None else "dop853")
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Flight:
     """A flight from one start or many: everything that the result depends on, checked once.
@@ -140,8 +148,9 @@ class Flight:
             if not isinstance(getattr(self, name), kind):
                 raise InputError(name, f"a {kind.__name__}", repr(getattr(self, name))[:80])
         put("judge_period", errors.number("judge_period", self.judge_period, above=0, unit="s"))
-        if self.duration / self.judge_period > MOST_JUDGED:
-            raise InputError("judge_period", f"at most {MOST_JUDGED:g} of them in a run", f"{self.judge_period:g} s")
+        if (judged := self.duration / self.judge_period) > MOST_JUDGED:
+            told = f"{self.judge_period:g} s, which takes {judged:g}"
+            raise InputError("judge_period", f"at most {MOST_JUDGED:g} of them in a run", told)
         if self.seed is not None:
             check_seed("seed", self.seed)
         put("plant", _plant_for(self.law, plants.plant(self.plant)))
@@ -161,10 +170,39 @@ class Flight:
         return MappingProxyType({name: _column(self.law, name, value, self.runs) for name, value in self.gains.items()})
 
     def _check_together(self) -> None:
+        spin = float(np.max(norm(self.starts.omega), initial=0.0))
+        if spin > MOST_SPIN:
+            told = f"{spin:.4g} rad/s; is it in degrees?"
+            raise InputError(
+                "start.omega", f"at most {MOST_SPIN:g} rad/s ({MOST_SPIN / (2 * np.pi):.0f} turns/s)", told
+            )
+        self._check_lift()
+        self._check_memory()
         if isinstance(self.plant, Sampled):
             for name, usual in (("method", "nothing"), ("precision", "'double'")):
                 if getattr(self.tolerances, name) != getattr(Tolerances(), name):
                     raise InputError(name, f"{usual} in a sampled flight", repr(getattr(self.tolerances, name)))
+
+    def _check_lift(self) -> None:
+        """Raise InputError if rotors with limits cannot lift the vehicle."""
+        vehicle = self.vehicle
+        most = len(vehicle.rotor_spins) * vehicle.rotor_limits[1]
+        if isinstance(self.plant, Sampled) and self.plant.limits and most <= vehicle.weight:
+            told = f"{most:.4g} N from {len(vehicle.rotor_spins)} rotors"
+            masses = f"mass {vehicle.mass:g} kg + bob_mass {vehicle.bob_mass:g} kg (not g)"
+            wanted = f"rotors that lift it: more than its weight, {vehicle.weight:.4g} N with {masses}"
+            raise InputError("vehicle.rotor_limits", wanted, told)
+
+    def _check_memory(self) -> None:
+        """Raise InputError if the results would not fit the memory."""
+        kept = len(self.moments) if self.single else 0 if self.times is None else len(self.times)
+        if self.single:
+            needed, what = kept * BYTES_OF_SAMPLE, f"{kept} samples"
+        else:
+            size = 8 * (SIZE + len(self.vehicle.rotor_spins))
+            needed, what = self.runs * (BYTES_OF_RUN + kept * size), f"{self.runs} runs with {kept} samples each"
+        field = "duration" if self.times is None else "times"
+        check_fits(field if kept else "runs", needed, what)
 
     @property
     def single(self) -> bool:

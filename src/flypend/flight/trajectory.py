@@ -86,6 +86,10 @@ class Trajectory:
         if self.x_ref is None:
             object.__setattr__(self, "x_ref", np.zeros((len(self.t), 3)))
 
+    def __repr__(self) -> str:
+        """Return law, vehicle and how the run ended, in one line."""
+        return f"<Trajectory of {self.law} on {self.vehicle.name}: {len(self.t)} samples, {self.outcome}>"
+
     @property
     def z(self) -> Any:
         """Thrust axis z = R e₃, (n, 3)."""
@@ -175,13 +179,15 @@ class Trajectory:
         """
         with whole_file(path, [".nc"]) as partial:
             labels = {name: Variable((name,), np.array(values)) for name, values in AXES.items()}
-            drift = {
-                "drift_of": Variable(("drift_of",), np.array(_DRIFT_OF)),
-                "drift": Variable(
-                    ("step", "drift_of"), np.array(self.drift), {"long_name": "before projection, per step"}
-                ),
-            }
-            write_netcdf(partial, {**labels, **self._variables(), **drift}, self._attributes())
+            write_netcdf(partial, {**labels, **self._variables(), **self._drift()}, self._attributes())
+
+    def _drift(self) -> dict[str, Variable]:
+        """Return the drift, if there is any: an array without rows would leave a data frame of the file none."""
+        if not len(self.drift):
+            return {}
+        labels = Variable(("drift_of",), np.array(_DRIFT_OF))
+        about = {"long_name": "before projection, per step"}
+        return {"drift_of": labels, "drift": Variable(("step", "drift_of"), np.array(self.drift), about)}
 
     def _variables(self) -> dict[str, Variable]:
         """Return the sampled arrays with their dimensions and units."""
@@ -256,16 +262,21 @@ def load(path: str | Path) -> Trajectory:
     """Load the run that `Trajectory.save` wrote to `path`. Raises InputError if the file is not one."""
     try:
         return _from_file(*read_netcdf(Path(path)))
-    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        # Raised by a file that is not NetCDF, is truncated, or lacks a variable.
-        told = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
+    except OSError as error:
+        raise errors.InputError(str(path), "a run saved by flypend", error.strerror or error) from None
+    except errors.InputError as error:
+        raise errors.InputError(str(path), "a run saved by flypend", f"a damaged one ({error})") from None
+    except ValueError as error:  # what the reader and the checks below tell
+        raise errors.InputError(str(path), "a run saved by flypend", error) from None
+    except Exception as error:  # a header whose numbers make no sense
+        told = f"a damaged one ({type(error).__name__}: {error})"
         raise errors.InputError(str(path), "a run saved by flypend", told) from None
 
 
 def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Trajectory:
     missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
     if missing:
-        raise ValueError(f"a file without the attributes {missing}")
+        raise ValueError(f"NetCDF that flypend has not written: no {', '.join(missing)}")
     arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
     arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # written by xarray
     return Trajectory(

@@ -121,6 +121,10 @@ class BoundLaw:
     def __post_init__(self) -> None:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
 
+    def __repr__(self) -> str:
+        """Return name, frame and vehicle."""
+        return f"<BoundLaw {self.name}, e3 {self.e3}, {len(self.gains)} gains for {self.vehicle.name}>"
+
     def bind(self, vehicle: Vehicle) -> BoundLaw:
         """Return the law itself, already bound to `vehicle`. Raises InputError if it is bound to another vehicle."""
         if vehicle != self.vehicle:

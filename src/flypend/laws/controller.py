@@ -20,6 +20,7 @@ from flypend.model.state import E3Direction, seen_packed
 Steering = Callable[[float, State], Wrench]
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Controller:
     """State feedback by any Python callable: not symbolic, so slower, and always sampled.
@@ -66,6 +67,7 @@ class Controller:
 
     def __post_init__(self) -> None:
         errors.one_of("controller.e3", self.e3, ("up", "down"))
+        errors.check_arguments("controller.function", self.function, "(t, state)")
         errors.number("controller.rate", self.rate, above=0, unit="Hz")
         object.__setattr__(self, "table", table(self.table or self.gains))
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))

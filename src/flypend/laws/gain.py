@@ -45,6 +45,7 @@ SHARE = Bounds(low=0.0, high=1.0)
 POSITIVE_SHARE = Bounds(low=0.0, high=1.0, open_low=True)
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Gain:
     """One gain of a law.

@@ -222,12 +222,15 @@ GAINS = table(
 def go_together(gains: Mapping[str, Any]) -> None:
     """Raise InputError unless the bandwidths in `gains` are separated and low_below < high_above < 1."""
     slow, middle, fast = (gains[f"{loop}_bandwidth"] for loop in ("position", "rod", "attitude"))
-    if not (SEPARATION * slow <= middle and SEPARATION * middle <= fast):
-        raise InputError(
-            "bandwidths",
-            f"position, rod and attitude each {SEPARATION:g} times the one before",
-            f"{slow:.3g}, {middle:.3g}, {fast:.3g} rad/s",
-        )
+    for inner, outer, name, other in ((fast, middle, "attitude", "rod"), (middle, slow, "rod", "position")):
+        if inner < SEPARATION * outer:
+            raise InputError(
+                f"{name}_bandwidth",
+                f"at least {SEPARATION:g} times the {other}_bandwidth, {SEPARATION * outer:.3g} rad/s: raise it, or "
+                f"lower the {other}_bandwidth to {inner / SEPARATION:.3g} rad/s (default attitude_bandwidth falls with "
+                "the rotor_lag of the vehicle, default rod_bandwidth rises with √(gravity / rod_length))",
+                f"{inner:.3g} rad/s",
+            )
     low, high = gains["low_below"], gains["high_above"]
     if not low < high < 1:
         raise InputError("high_above", "low_below < high_above < 1", f"{low:g}, {high:g}")

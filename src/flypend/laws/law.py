@@ -19,6 +19,7 @@ from flypend.model.state import E3Direction
 Values = Mapping[str, Any]
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Law:
     """A symbolic state feedback with open gains.
@@ -72,12 +73,18 @@ class Law:
 
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))
+        errors.check_arguments("law.control", self.control, "(t, state, vehicle, gains[, forces])")
         gains = table(self.gains)
         errors.only_known("law.fixed", self.fixed, [gain.name for gain in gains.values() if gain.numeric])
         fixed = tuple(name for name, gain in gains.items() if gain.fixed or name in self.fixed)
         object.__setattr__(self, "gains", gains)
         object.__setattr__(self, "given", MappingProxyType(checked(gains, self.given)))
         object.__setattr__(self, "fixed", fixed)
+
+    def __repr__(self) -> str:
+        """Return name, frame and the gains that are given."""
+        given = "".join(f", {name}={value!r}" for name, value in self.given.items())
+        return f"<Law {self.name}, e3 {self.e3}, {len(self.gains)} gains{given}>"
 
     @property
     def values(self) -> dict[str, Any]:

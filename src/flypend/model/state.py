@@ -31,6 +31,7 @@ FLIP_PACKED = np.concatenate(
 )
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class State:
     """State of vehicle and pendulum. All fields may have the same leading batch axes.

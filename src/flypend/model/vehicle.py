@@ -17,6 +17,7 @@ from flypend.model.body import MOUNTS, Body, MountKind, body_from
 from flypend.model.state import FLIP, E3Direction
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Vehicle:
     """A multirotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
@@ -166,6 +167,12 @@ class Vehicle:
             raise InputError("rotor_positions", "rotors that share thrust and yaw equally", "an asymmetric vehicle")
         return unmixing[:, 1:3], float(np.abs(per_yaw[0])), np.sign(per_yaw)
 
+    def __repr__(self) -> str:
+        """Return the name and the numbers that matter most, in one line."""
+        rotors = f"{len(self.rotor_spins)} rotors of {self.rotor_limits[0]:g} to {self.rotor_limits[1]:g} N"
+        masses = f"mass {self.mass:g} kg, bob {self.bob_mass:g} kg, rod {self.rod_length:g} m"
+        return f"<Vehicle {self.name}: {masses}, {rotors}, lag {self.rotor_lag:g} s>"
+
     def _content(self) -> str:
         return repr(self.to_dict())
 
@@ -227,7 +234,12 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         return tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(str(path), "a readable TOML file", error.strerror or error) from None
-    except ValueError as error:  # no TOML, no text, or a name that no file can have
+    except UnicodeDecodeError as error:
+        before = error.object[: error.start]
+        line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
+        told = f"byte 0x{error.object[error.start]:02x} (at line {line}, column {column})"
+        raise InputError(str(path), "a TOML file in UTF-8", told) from None
+    except ValueError as error:  # no TOML, or a name that no file can have
         raise InputError(str(path), "a TOML file", error) from None
 
 

@@ -28,6 +28,7 @@ def check_seed(field: str, seed: object) -> None:
         raise InputError(field, "an integer >= 0", repr(seed))
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Noise:
     """Standard deviations of white measurement noise, drawn independently at every control tick.
@@ -58,6 +59,7 @@ class Noise:
 MOTION_CAPTURE = Noise(x=1e-3, x_dot=1e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3, y_dot=3e-2)
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Wind:
     """Wind forces on vehicle and bob, world frame with e₃ up, N.
@@ -99,6 +101,7 @@ class Ideal:
     """The ideal plant of the theorems: continuous time, and the wrench acts as commanded."""
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Sampled:
     """A plant under sampled control. Each departure from the ideal plant can be set on its own.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ from rich.table import Table
 
 from flypend import __version__
 from flypend.files.staging import staged
+from flypend.files.toml import toml_text
 from flypend.report.text import write_json
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
@@ -60,8 +61,13 @@ def comparison_markdown(comparison: Comparison) -> str:
     return "\n".join(lines)
 
 
-def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str | Path) -> None:
-    """Write report.md, report.json (with `settings`), comparison.pdf and .png of `comparison` into the folder `out`."""
+def write_comparison(
+    comparison: Comparison, settings: dict[str, Any], out: str | Path, failed: Mapping[str, Any] | None = None
+) -> None:
+    """Write report.md, report.json (with `settings`), comparison.pdf and .png of `comparison` into the folder `out`.
+
+    `failed`, the run files of failed flights by name, go into the folder `failed` inside it.
+    """
     from flypend.files.whole import save_both
     from flypend.pictures.studies import comparison_figure
 
@@ -71,6 +77,9 @@ def write_comparison(comparison: Comparison, settings: dict[str, Any], out: str 
         content = {"flypend": __version__, "settings": settings, "laws": comparison.rows()}
         write_json(folder / "report.json", content)
         save_both(comparison_figure(comparison), folder / "comparison")
+        for name, run in (failed or {}).items():
+            (folder / "failed").mkdir(exist_ok=True)
+            (folder / "failed" / f"{name}.toml").write_text(toml_text(run), encoding="utf-8")
 
 
 def ladder_rows(ladder: Ladder) -> list[list[str]]:

@@ -19,6 +19,16 @@ from flypend.paper.claims import Verdict
 from flypend.paper.finding import Finding
 
 Column = tuple[str, str]
+# What each cause of failure means by the default criterion, for readers who meet it for the first time.
+_END = "within the last second"
+WHY = {
+    "rod": f"rod: its tip is more than 0.05 rod lengths from upright {_END}",
+    "axis": f"axis: the thrust axis leans by more than 0.05 rad {_END}",
+    "position": f"position: the pivot is more than 0.2 m from its reference {_END}",
+    "diverged": "diverged: the state left all bounds",
+    "singular": "singular: the law stopped being defined",
+    "collided": "collided: the rod touched the vehicle or left its cup",
+}
 
 
 def number(value: float) -> str:
@@ -29,7 +39,7 @@ def number(value: float) -> str:
 def judgement(run: Trajectory) -> str:
     """Return one line: whether `run` ends inverted at its reference, its excursion and its peak rotor force."""
     m = metrics(run)
-    verdict = f"stands after {m.settling:.2f} s" if m.success else f"does not stand ({m.cause})"
+    verdict = f"stands after {m.settling:.2f} s" if m.success else f"does not stand ({WHY.get(m.cause, m.cause)})"
     least = f", rod clear by {number(1e3 * m.clearance)} mm" if m.clearance < float("inf") else ""
     return f"{verdict}, largest distance {number(m.excursion)} m, largest rotor force {number(m.peak_force)} N{least}"
 

@@ -16,6 +16,7 @@ from flypend.errors import InputError, one_of, only_known
 from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_dict, law_names
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import LawError, Located, from_function, is_factory, shown
+from flypend.model import Vehicle
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -46,6 +47,9 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
         return law_named(value, folder, key)
     if not isinstance(value, Mapping):
         raise InputError(key, "the name of a law, or a table", repr(value))
+    if value.get("name") == "detuned":
+        named = law_from_dict({**value, "name": "inverted", "gains": {**DETUNED, **value.get("gains", {})}}, key)
+        return replace(named, name="detuned")
     if "function" not in value:
         return law_from_dict(value, key)
     only_known(key, value, ("function", "gains", "e3"))
@@ -89,6 +93,13 @@ def note(law: AnyLaw) -> str:
         return ""
     why = f": {law.because}" if law.because else ""
     return f"{law.name} is not written in symbols{why}. It flies step by step in Python, about a thousand times slower."
+
+
+def told(law: BoundLaw | Controller, vehicle: Vehicle) -> str:
+    """Return the name of `law` with the gains that differ from their defaults for `vehicle`, at most four."""
+    given = {name: value for name, value in law.gains.items() if value != law.table[name].value(vehicle)}
+    shown = [f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in given.items()]
+    return ", ".join([law.name, *shown[:4], *(["…"] if len(shown) > 4 else [])])
 
 
 def law_table(value: Any, key: str = "law") -> dict[str, Any]:

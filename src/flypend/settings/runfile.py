@@ -24,6 +24,11 @@ from flypend.plants import AnyPlant, Ideal, Noise, Wind, plant
 from flypend.settings.laws import absolute, law_from, law_table, table_of
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
+# Keys that only a study has; a file with none of them is a run file.
+STUDY_KEYS = frozenset(
+    ("runs", "vary", "sampling", "seed", "chunk", "final", "criterion", "tune", "judge_period", "max_steps", "engine",
+     "precision")
+)  # fmt: skip
 _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
 
 
@@ -69,6 +74,9 @@ def _read(what: str) -> dict[str, Any]:
         return {"experiment": what}
     if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any invalid name)
         settings = read_toml(what)
+        if study := sorted(STUDY_KEYS & settings.keys()):
+            told = f"a study (it has {study[0]}): flypend sweep {what} -o {Path(what).stem}.zarr"
+            raise InputError(what, "a run file", told)
         if "law" in settings:
             settings["law"] = absolute(settings["law"], Path(what).parent)
         return settings
@@ -127,8 +135,18 @@ def vehicle_table(value: Any) -> dict[str, Any]:
         base = vehicle(chosen.pop("base"))
         if "body" in chosen and base.body is not None:
             chosen["body"] = base.body.to_dict() | table_at(chosen, "body", "vehicle.body")
-        chosen = base.to_dict() | chosen
+        own = base.to_dict()
+        changed = [f"{name} {_short(value)}".strip() for name, value in chosen.items() if own.get(name) != value]
+        named = {"name": ", ".join([own["name"], *changed])} if changed and "name" not in chosen else {}
+        chosen = own | chosen | named
     return chosen
+
+
+def _short(value: Any) -> str:
+    """Format a value for a name; nothing for an array or a table."""
+    if isinstance(value, list | dict):
+        return ""
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def start_of(table: dict[str, Any]) -> State:

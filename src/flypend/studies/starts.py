@@ -7,6 +7,7 @@ from numbers import Integral
 import numpy as np
 
 from flypend.errors import InputError
+from flypend.files.memory import check_fits
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
@@ -23,6 +24,7 @@ def random_starts(runs: int, seed: int) -> State:
     if not isinstance(runs, Integral) or isinstance(runs, bool) or not 1 <= int(runs) <= MOST_RUNS:
         raise InputError("runs", f"an integer from 1 to {MOST_RUNS}", repr(runs))
     check_seed("seed", seed)
+    check_fits("runs", 1000.0 * runs, f"{runs} starts")
     return State.random(np.random.default_rng(seed), runs)
 
 

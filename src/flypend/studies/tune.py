@@ -15,8 +15,10 @@ from flypend.errors import InputError
 from flypend.flight.ensemble import fly_many
 from flypend.flight.metrics import wilson
 from flypend.model import State
+from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.axes import integer
+from flypend.studies.sweep.chunk import program_digest
 from flypend.studies.sweep.design import design
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
@@ -100,6 +102,7 @@ def tune(
     study: Study | str | Path | Mapping[str, Any],
     *,
     workers: int | None = None,
+    costs: str | Path | None = None,
     progress: Callable[[int, int], Any] = lambda *_: None,
 ) -> Tuned:
     """Tune gains on the objective of a study, by CMA-ES in the logarithm of the gains.
@@ -114,35 +117,44 @@ def tune(
         As in `sweep`. Its runs serve for the report only.
     workers : int, optional
         Threads; default one per core.
+    costs : path, optional
+        File that keeps the costs of every generation as it is flown. With the same file and study, an interrupted
+        search goes on, to the same result.
     progress : callable
         Called with `(generation, generations)`.
 
     Raises
     ------
     InputError
-        If the study is invalid, or if it varies gains or a grid.
+        If the study is invalid, or if it varies gains or a grid; if `costs` belongs to another search, or cannot be
+        written.
     """
     errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
     task = _task(made)
     search = _search(task)
+    kept = Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}")
     history: list[dict[str, Any]] = []
     best, least = task.start, np.inf
+    progress(min(kept.generations, task.generations), task.generations)
     for generation in range(task.generations):
         points = np.clip(search.ask(), 0.0, 1.0)
-        costs = task.costs(points, workers)
-        search.tell(list(points), costs.tolist())
-        if costs.min() < least:
-            least, best = float(costs.min()), points[np.argmin(costs)]
+        found = kept.of(generation, len(points))
+        if found is None:
+            found = task.costs(points, workers)
+            kept.keep(generation, found)
+        search.tell(list(points), found.tolist())
+        if found.min() < least:
+            least, best = float(found.min()), points[np.argmin(found)]
         flown = (generation + 1) * len(points) * task.runs
         centre = task.gains(np.clip(search.mean, 0, 1))
-        history.append({"runs": flown, "best": least, "median": float(np.median(costs)), "centre": centre})
+        history.append({"runs": flown, "best": least, "median": float(np.median(found)), "centre": centre})
         progress(generation + 1, task.generations)
         if search.stop():
             break
-    found = task.gains(best)
-    own = {name: made.law.numbers[name] for name in found}
-    return Tuned(made, found, task.report(own, workers), task.report(found, workers), history)
+    gains = task.gains(best)
+    own = {name: made.law.numbers[name] for name in gains}
+    return Tuned(made, gains, task.report(own, workers), task.report(gains, workers), history)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import atexit
 import ctypes
 import hashlib
 import os
+import shutil
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache
+from logging import getLogger
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -18,17 +21,35 @@ import llvmlite.binding as llvm
 from platformdirs import user_cache_path
 
 CACHE_VARIABLE = "FLYPEND_CACHE"
-_ENTRY = b"flypend object 1\n"
+_ENTRY = b"flypend object 2\n"
 _names = iter(range(1 << 62))
 _lock = Lock()
 
 
 def cache_folder() -> Path:
-    """Folder of compiled kernels: $FLYPEND_CACHE, or `flypend` in the user's cache folder."""
+    """Folder of compiled kernels: $FLYPEND_CACHE, or `flypend` in the user's cache folder.
+
+    A user without a home gets a folder that lasts as long as the process, and a warning.
+    """
     given = os.environ.get(CACHE_VARIABLE)
     if given:
         return Path(given)
-    return user_cache_path("flypend", appauthor=False)
+    try:
+        found = user_cache_path("flypend", appauthor=False)
+    except RuntimeError:  # no HOME, and no entry in the list of users
+        return _temporary()
+    return found if found.is_absolute() else _temporary()
+
+
+@lru_cache(maxsize=1)
+def _temporary() -> Path:
+    """A folder that is removed when the process ends."""
+    folder = Path(tempfile.mkdtemp(prefix="flypend-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    getLogger("flypend").warning(
+        "flypend: no home folder; compiled code is kept in %s until the end (set %s)", folder, CACHE_VARIABLE
+    )
+    return folder
 
 
 @lru_cache(maxsize=1)
@@ -87,10 +108,10 @@ def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[An
     """
     entry = hashlib.sha256("\n".join([key, _machine()[1], source_digest()]).encode()).hexdigest()
     path = cache_folder() / f"{entry}.o"
-    code = _read(path)
+    code = _read(path, entry)
     if code is None:
         code = compiled(module())
-        _write(path, code)
+        _write(path, entry, code)
     return Native(code, name, tuple(arguments))
 
 
@@ -107,24 +128,30 @@ def compiled(module: Any) -> bytes:
     return code
 
 
-def _read(path: Path) -> bytes | None:
-    """Read the cached object at `path`; None if it is missing or corrupt."""
+def _read(path: Path, entry: str) -> bytes | None:
+    """Read the cached object of `entry` at `path`; None if it is missing, corrupt, or another's under this name."""
     try:
-        entry = path.read_bytes()
+        content = path.read_bytes()
     except OSError:
         return None
-    header, digest, code = entry[: len(_ENTRY)], entry[len(_ENTRY) : len(_ENTRY) + 32], entry[len(_ENTRY) + 32 :]
-    return code if header == _ENTRY and digest == hashlib.sha256(code).digest() else None
+    begin = len(_ENTRY) + 32
+    code = content[begin:]
+    return code if content[:begin] == _head(entry, code) else None
 
 
-def _write(path: Path, code: bytes) -> None:
+def _head(entry: str, code: bytes) -> bytes:
+    """The first bytes of a cache file: the kind of file, and a digest that binds `code` to `entry`."""
+    return _ENTRY + hashlib.sha256(entry.encode() + code).digest()
+
+
+def _write(path: Path, entry: str, code: bytes) -> None:
     """Write `code` to `path` atomically; do nothing if the folder is not writable."""
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, partial = tempfile.mkstemp(dir=path.parent, suffix=".partial")
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(_ENTRY + hashlib.sha256(code).digest() + code)
+                file.write(_head(entry, code) + code)
             Path(partial).replace(path)
         finally:
             Path(partial).unlink(missing_ok=True)

@@ -14,6 +14,7 @@ from flypend.compile.llvm.reductions import Reductions
 from flypend.compile.llvm.rows import as_double, copy_lane
 from flypend.compile.llvm.sampling import Sampler, Step
 from flypend.compile.llvm.stages import Stages
+from flypend.compile.llvm.stopping import not_stopped
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
 from flypend.compile.methods import Method
 from flypend.compile.problem import Problem
@@ -29,7 +30,7 @@ SHORTEST = 1e-13
 ARGUMENTS = (
     "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps",
     "times", "time_count", "judged", "rows", "row_count",
-    "samples", "reductions", "final", "end", "status", "steps", "knots",
+    "samples", "reductions", "final", "end", "status", "steps", "knots", "stop",
 )  # fmt: skip
 INTEGERS, REALS = ("runs", "max_steps", "time_count", "row_count"), ("duration", "rtol", "atol")
 
@@ -65,7 +66,6 @@ class _Kernel:
 
     def write(self) -> None:
         code, builder = self.code, self.code.builder
-        zero = ir.Constant(I64, 0)
         builder.store(ir.Constant(I64, self.lanes.width), self.left)
         self.duration, self.rtol, self.atol = (code.value(self._real(name)) for name in REALS)
         for memory, length in ((self.S, self.problem.size), (self.P, self.problem.parameters)):
@@ -78,9 +78,14 @@ class _Kernel:
             code.put(ir.Constant(I64, -1), self.run, lane)
             self._load_next(lane)
         self._first_rates()
-        with code.loop(lambda: builder.icmp_signed(">", builder.load(self.left, typ=I64), zero)):
+        with code.loop(lambda: builder.and_(self._more(), not_stopped(builder, self.at["stop"]))):
             self._iterate()
         builder.ret_void()
+
+    def _more(self) -> ir.Value:
+        """Whether a lane has a run."""
+        builder = self.code.builder
+        return builder.icmp_signed(">", builder.load(self.left, typ=I64), ir.Constant(I64, 0))
 
     def _real(self, name: str) -> ir.Value:
         value = self.at[name]

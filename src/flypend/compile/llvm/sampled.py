@@ -15,6 +15,7 @@ from flypend.compile.llvm.emit import define, define_routine
 from flypend.compile.llvm.random import PER_TICK, define_normals
 from flypend.compile.llvm.reductions import Reductions
 from flypend.compile.llvm.runge_kutta import COLLIDED, COMPLETED, DIVERGED, UNDEFINED
+from flypend.compile.llvm.stopping import not_stopped
 from flypend.compile.llvm.touching import Touching
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
 from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, Way, World
@@ -25,7 +26,7 @@ INTEGERS = ("runs", "ticks", "sample_count", "row_count")
 ARGUMENTS = (
     "starts", "parameters", "plant", "seeds", "runs", "ticks",
     "sample_ticks", "sample_count", "judged", "rows", "row_count",
-    "samples", "reductions", "final", "end", "status", "clearance", "part",
+    "samples", "reductions", "final", "end", "status", "clearance", "part", "stop",
 )  # fmt: skip
 STRANDS = 4  # partial sums, which hide the latency of additions
 
@@ -87,11 +88,17 @@ class _Kernel:
             self.first = builder.mul(group, ir.Constant(I64, width))
             self._begin()
             self._sample(ir.Constant(I64, 0))
-            with code.count(self.at["ticks"]) as tick, code.when(code.any(code.load(self.alive) > 0.0)):
+            with code.count(self.at["ticks"]) as tick, code.when(self._flying()):
                 self._tick(tick)
                 self._sample(builder.add(tick, ir.Constant(I64, 1)))
             self._store_results()
         builder.ret_void()
+
+    def _flying(self) -> ir.Value:
+        """Whether a lane is in flight, and the call not stopped."""
+        code = self.code
+        alive = code.any(code.load(self.alive) > 0.0)
+        return code.builder.and_(alive, not_stopped(code.builder, self.at["stop"]))
 
     def _load_inputs(self) -> None:
         """Broadcast the plant parameters to all lanes."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS
+from flypend.flight.kernels.stopping import Word, heard
 from flypend.plants.loop import Loop
 
 Progress = Callable[[int, int], Any]
@@ -95,7 +96,7 @@ def _aligned(shape: tuple[int, ...]) -> Any:
 
 
 def in_pieces(
-    fly: Callable[[slice, Flown], None],
+    fly: Callable[[slice, Flown, Word], None],
     out: Flown,
     piece: int,
     workers: int | None,
@@ -103,49 +104,35 @@ def in_pieces(
 ) -> Flown:
     """Call `fly` on pieces of at most `piece` runs in `workers` threads, and return `out`, which they fill.
 
-    `progress` is called with (done, runs) after each piece. Results do not depend on piece size or thread.
+    `progress` is called with (done, runs) ten times a second. Results do not depend on piece size or thread.
     """
-    runs, threads = len(out), workers or os.cpu_count() or 1
+    runs, done = len(out), [0]
     slices = [slice(start, min(start + piece, runs)) for start in range(0, runs, piece)]
-    threads = min(threads, len(slices))
-    if threads <= 1:
-        for part in slices:
-            fly(part, out.of(part))
-            progress(part.stop, runs)
-        return out
-    with ThreadPoolExecutor(threads) as pool:
-        try:
-            for part, _ in zip(slices, pool.map(lambda part: fly(part, out.of(part)), slices), strict=True):
-                progress(part.stop, runs)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    waiting = iter(slices)  # shared by the threads: the next piece is taken atomically
+
+    def work(stop: Word) -> None:
+        for part in waiting:
+            if stop[0]:
+                return
+            fly(part, out.of(part), stop)
+            done.append(part.stop - part.start)
+
+    threads = min(workers or os.cpu_count() or 1, len(slices))
+    heard([work] * threads, lambda: progress(sum(done), runs))
+    progress(runs, runs)
     return out
 
 
 def from_queue(
-    fly: Callable[[Any], None], runs: int, workers: int | None, progress: Progress = lambda *_: None
+    fly: Callable[[Any, Word], None], runs: int, workers: int | None, progress: Progress = lambda *_: None
 ) -> None:
     """Call `fly` in `workers` threads; all take their runs from one queue (1,), the index of the next run.
 
-    `progress` is called with (started, runs) ten times a second. An interrupt empties the queue and is raised once the
-    runs in progress have ended.
+    `progress` is called with (started, runs) ten times a second.
     """
     queue = np.zeros(1, dtype=np.int64)
-    threads = min(workers or os.cpu_count() or 1, runs // LEAST_SHARE)
-    if threads < 1:
-        fly(queue)
-    else:
-        with ThreadPoolExecutor(threads) as pool:
-            try:
-                tasks = [pool.submit(fly, queue) for _ in range(threads)]
-                while wait(tasks, timeout=0.1).not_done:
-                    progress(min(int(queue[0]), runs), runs)
-            except BaseException:
-                queue[0] = runs
-                raise
-        for task in tasks:
-            task.result()
+    threads = max(1, min(workers or os.cpu_count() or 1, runs // LEAST_SHARE))
+    heard([partial(fly, queue)] * threads, lambda: progress(min(int(queue[0]), runs), runs))
     progress(runs, runs)
 
 

@@ -22,6 +22,7 @@ from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
+from flypend.flight.kernels.stopping import Word, heard
 from flypend.flight.moments import merged
 from flypend.flight.request import Flight
 from flypend.laws import BoundLaw
@@ -128,8 +129,8 @@ class IdealKernel:
         samples = None if keep_at is None else (moments.kept, SIZE)
         out = Flown.of_size(len(starts), SIZE, samples=samples, steps=True, judged=judge)
 
-        def fly(queue: Any) -> None:
-            call(self.function, starts, values, setting, moments, out, queue=queue)
+        def fly(queue: Any, stop: Word) -> None:
+            call(self.function, starts, values, setting, moments, out, stop, queue=queue)
 
         from_queue(fly, len(starts), workers, progress)
         return out
@@ -162,7 +163,7 @@ def integrate(
     """
     moments = Moments.of(keep_at=times)
     out = Flown.of_size(1, SIZE, samples=(moments.kept, SIZE), steps=True, judged=False)
-    call(function, start[None], values, setting, moments, out, knots)
+    heard([lambda stop: call(function, start[None], values, setting, moments, out, stop, knots)])
     return out
 
 
@@ -173,20 +174,22 @@ def call(
     setting: tuple[float, float, float, int],
     moments: Moments,
     out: Flown,
+    stop: Word,
     knots: NDArray[np.float64] | None = None,
     queue: NDArray[np.int64] | None = None,
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
-    `setting` is duration (s), rtol, atol and step limit. `out` is filled, and `knots` as in `integrate`. Calls in
-    several threads share the runs through one `queue` (1,), the index of the next run.
+    `setting` is duration (s), rtol, atol and step limit. `out` is filled, and `knots` as in `integrate`. Once
+    `stop` is set, the call returns at its next step. Calls in several threads share the runs through one `queue` (1,),
+    the index of the next run.
     """
     queue = np.zeros(1, dtype=np.int64) if queue is None else queue
     function(
         address(starts), address(values), address(queue), len(starts), *setting,
         address(moments.times), len(moments.times) - 1, address(moments.judged), address(moments.rows), moments.kept,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
-        address(out.steps), address(knots),
+        address(out.steps), address(knots), address(stop),
     )  # fmt: skip
 
 

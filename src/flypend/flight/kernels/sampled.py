@@ -23,6 +23,7 @@ from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, Sam
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
+from flypend.flight.kernels.stopping import Word
 from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.flight.touch import room, touching
@@ -137,8 +138,8 @@ class SampledKernel:
         numbers = plant_numbers(loop)
         piece = PIECE if loop.sampled.engine == "equations" else PIECE_MUJOCO
 
-        def fly(part: slice, out: Flown) -> None:
-            self._call(packed[part], values[part], numbers, seeds[part], count, moments, out)
+        def fly(part: slice, out: Flown, stop: Word) -> None:
+            self._call(packed[part], values[part], numbers, seeds[part], count, moments, out, stop)
 
         flown = in_pieces(fly, memory, piece, workers, progress)
         if loop.law.e3 == "down":
@@ -147,14 +148,16 @@ class SampledKernel:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
 
-    def _call(self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Ticks, out: Flown) -> None:
+    def _call(
+        self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Ticks, out: Flown, stop: Word
+    ) -> None:
         if out.samples is not None:
             out.samples[...] = np.nan
         given = (
             address(starts), address(values), address(numbers), address(seeds), len(starts), count,
             address(ticks.ticks), len(ticks.ticks), address(ticks.judged), address(ticks.rows), int(ticks.rows[-1]),
             address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
-            address(out.clearance), address(out.part),
+            address(out.clearance), address(out.part), address(stop),
         )  # fmt: skip
         if self.loop.sampled.engine == "equations":
             self.function(*given)

@@ -18,6 +18,7 @@ from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.flight.kernels.flown import Flown, inputs_of
 from flypend.flight.kernels.ideal import Moments, call, compiled, setting_of
+from flypend.flight.kernels.stopping import heard
 from flypend.flight.request import Flight
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.model.state import SIZE, project_symbolic
@@ -43,7 +44,8 @@ def fly_tangents(flight: Flight, gains: tuple[str, ...], directions: Any, rates:
     joined = np.ascontiguousarray(np.concatenate([starts, directions], axis=1))
     parameters = np.ascontiguousarray(np.concatenate([inputs_of(loop, None, len(directions)), rates], axis=1))
     out = Flown.of_size(len(joined), joined.shape[1], samples=None, steps=True, judged=False)
-    call(_kernel(loop), joined, parameters, setting_of(flight), Moments.of(), out)
+    kernel, setting = _kernel(loop), setting_of(flight)
+    heard([lambda stop: call(kernel, joined, parameters, setting, Moments.of(), out, stop)])
     return out
 
 

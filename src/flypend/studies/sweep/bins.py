@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,7 +16,7 @@ from flypend.geometry import norm
 from flypend.studies.sweep.axes import ANGLES
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.store import existing
-from flypend.studies.sweep.study import Study, study
+from flypend.studies.sweep.study import Study
 
 # Target number of runs per cell, and bounds on the number of cells per side.
 PER_CELL, LEAST, MOST = 400, 8, 64
@@ -81,8 +80,8 @@ class Runs:
 
     def __init__(self, path: str | Path) -> None:
         self._store = existing(path)
-        self.study: Study = study(tomllib.loads(str(self._store.attributes["study"])))
-        self._numbers = [number for number in range(self.study.chunks) if self._store.whole(number)]
+        self.study: Study = self._store.study
+        self._numbers = [number for number in range(self.study.chunks) if self._store.marked(number)]
         self.names = self._store.columns
         if not self._numbers:
             raise InputError(str(path), "a store with runs", "one without")
@@ -95,7 +94,10 @@ class Runs:
         return size * (len(self._numbers) - 1) + short
 
     def gather(self, grids: Sequence[Grid]) -> list[Cells]:
-        """Return the statistics of the cells of each of `grids`, in one pass over the store."""
+        """Return the statistics of the cells of each of `grids`, in one pass over the store.
+
+        Raises InputError for a chunk that does not match its digest.
+        """
         sums = [np.zeros((3 + len(CAUSES), int(np.prod(grid.shape)))) for grid in grids]
         needed = {"settling", "excursion", "cause"}.union(*(grid.columns for grid in grids))
         for number in self._numbers:

@@ -1,9 +1,8 @@
-"""Chunks on Dask: on threads of this process, on local worker processes, or on an existing cluster."""
+"""Chunks on an existing Dask cluster."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -16,26 +15,11 @@ CONNECT = 10.0
 
 
 def flown_chunks(
-    text: str,
-    program: str,
-    numbers: Iterable[int],
-    *,
-    scheduler: str | None,
-    workers: int | None,
-    processes: bool,
-) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Fly chunks `numbers` of a study, and yield each with its columns as it completes.
+    text: str, program: str, numbers: Iterable[int], scheduler: str
+) -> Generator[tuple[int, dict[str, Any]], None, None]:
+    """Fly chunks `numbers` of a study on the cluster of a Dask `scheduler`, and yield each with its columns.
 
-    Parameters
-    ----------
-    text, program, numbers
-        The study as TOML; the digest of its program; the indices of the chunks.
-    scheduler : str, optional
-        Address of a Dask scheduler; default a local cluster.
-    workers : int, optional
-        Threads or processes of the local cluster; default one per core.
-    processes : bool
-        Whether the local cluster uses processes instead of threads.
+    `text` is the study as TOML, `program` the digest of its program.
 
     Raises
     ------
@@ -47,7 +31,7 @@ def flown_chunks(
     as_completed: Any = distributed.as_completed
 
     waiting = iter(numbers)
-    with _client(scheduler, workers, processes) as client:
+    with _client(scheduler) as client:
         cores = sum(client.nthreads().values()) or 1
 
         def submit(number: int) -> Any:
@@ -79,40 +63,16 @@ def _result(future: Any) -> dict[str, Any]:
 
 
 @contextmanager
-def _client(scheduler: str | None, workers: int | None, processes: bool) -> Iterator[Any]:
+def _client(scheduler: str) -> Iterator[Any]:
     import dask
     import distributed
 
-    made: tuple[Any, Any] = (distributed.Client, distributed.LocalCluster)
-    Client, LocalCluster = made
-
-    count = workers or os.cpu_count() or 1
-    settings = {"distributed.comm.timeouts.connect": CONNECT, "distributed.worker.daemon": True}
-    with dask.config.set(settings):
-        if scheduler is not None:
-            try:
-                client = Client(scheduler, timeout=CONNECT)
-            except (OSError, ValueError, TimeoutError) as error:
-                raise InputError(
-                    "scheduler", "the address of a Dask scheduler that answers", f"{scheduler} ({error})"
-                ) from None
-            with client:
-                yield client
-            return
-        size = (
-            {"n_workers": count, "threads_per_worker": 1}
-            if processes
-            else {"n_workers": 1, "threads_per_worker": count}
-        )
-        with (
-            LocalCluster(
-                processes=processes,
-                dashboard_address="127.0.0.1:0",
-                worker_dashboard_address="127.0.0.1:0",
-                memory_limit=0,
-                silence_logs=50,
-                **size,
-            ) as cluster,
-            Client(cluster) as client,
-        ):
+    make: Any = distributed.Client
+    with dask.config.set({"distributed.comm.timeouts.connect": CONNECT}):
+        try:
+            client = make(scheduler, timeout=CONNECT)
+        except (OSError, ValueError, TimeoutError) as error:
+            told = f"{scheduler} ({error})"
+            raise InputError("scheduler", "the address of a Dask scheduler that answers", told) from None
+        with client:
             yield client

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
+from contextlib import closing
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from flypend import errors
+from flypend.studies.sweep import cluster, local
 from flypend.studies.sweep.chunk import fly_range, program_digest
-from flypend.studies.sweep.cluster import flown_chunks
-from flypend.studies.sweep.store import alone, opened, removed
+from flypend.studies.sweep.claim import alone
+from flypend.studies.sweep.store import discard, opened
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
 
@@ -42,11 +44,12 @@ def sweep(
     store : path
         The store; its name ends in .zarr.
     scheduler : str, optional
-        Address of a Dask scheduler, such as tcp://host:8786; default a local cluster.
+        Address of a Dask scheduler, such as tls://host:8786; default this machine. Whoever can connect to a scheduler
+        without TLS runs code as you, here and on its workers.
     workers : int, optional
         Cores of this machine to use; default all.
     processes : bool
-        Whether the local cluster uses processes. Threads are as fast, start sooner, and end with the caller.
+        Whether to use processes on this machine, which no port leads to. Threads are as fast for compiled laws.
     force : bool
         Whether to start over, discarding the store of an earlier sweep.
     progress : callable
@@ -58,27 +61,34 @@ def sweep(
         If the study is invalid; if the store belongs to another study (naming the first difference), is not writable or
         is in use by another sweep; or if the scheduler does not answer.
     """
-    for module in ("zarr", "xarray", "distributed", "scipy"):
+    for module in ("zarr", "xarray", "scipy", *(["distributed"] if scheduler is not None else [])):
         errors.require(module, extra="studies", for_="sweep")
     made = study if isinstance(study, Study) else study_from(study)
-    if force:
-        removed(store)
     like = fly_range(made, 0, 1)
     program = program_digest(made)
-    kept = opened(store, made, program, versions(), like)
-    with alone(kept):
-        missing = [number for number in range(made.chunks) if not kept.whole(number, verify=True)]
+    with alone(store):
+        if force:
+            discard(store)
+        kept = opened(store, made, program, versions(), like)
+        missing = [number for number in range(made.chunks) if not kept.whole(number)]
         done = made.runs - sum(_length(made, number) for number in missing)
         progress(done, made.runs)
         if missing:
-            flown = flown_chunks(
-                made.text(), program, missing, scheduler=scheduler, workers=workers, processes=processes
-            )
-            for number, columns in flown:
-                kept.write(number, columns)
-                done += _length(made, number)
-                progress(done, made.runs)
+            with closing(_flown(made, program, missing, scheduler, workers, processes)) as flown:
+                for number, columns in flown:
+                    kept.write(number, columns)
+                    done += _length(made, number)
+                    progress(done, made.runs)
     return dataset(kept.path)
+
+
+def _flown(
+    made: Study, program: str, numbers: list[int], scheduler: str | None, workers: int | None, processes: bool
+) -> Generator[tuple[int, dict[str, Any]], None, None]:
+    """Yield the chunks `numbers` as they complete, from a Dask cluster or from this machine."""
+    if scheduler is None:
+        return local.flown_chunks(made.text(), program, numbers, workers=workers, processes=processes)
+    return cluster.flown_chunks(made.text(), program, numbers, scheduler)
 
 
 def _length(study: Study, number: int) -> int:

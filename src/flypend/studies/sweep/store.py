@@ -1,66 +1,46 @@
 """The Zarr store of a study: per task, one chunk of every column, and a mark that the chunk is complete.
 
-A mark is a digest of the data of a chunk, written after the data. A chunk without a mark, or whose data do not match
-it (a file truncated by a power cut, a faulty disk), counts as not flown.
+A mark is a digest of the chunk: of the store's attributes, the chunk's number and its data. It is written after the
+data. A chunk without a mark counts as not flown; one that does not match its mark (truncated by a power cut, lost,
+copied from elsewhere) is flown again by a sweep and refused by every reader.
 """
 
 from __future__ import annotations
 
 import hashlib
+import json
 import shutil
 import tomllib
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from uuid import uuid4
 
 import numpy as np
-from filelock import FileLock, Timeout
 
 from flypend.errors import InputError, require
-from flypend.studies.sweep.chunk import CAUSES
+from flypend.studies.sweep import layout
+from flypend.studies.sweep.claim import checked_path, clear, remove
+from flypend.studies.sweep.layout import MARKS
 from flypend.studies.sweep.study import Study
-
-MARKS = "whole"
-ROWS = {
-    "y": "axis",
-    "y_dot": "axis",
-    "x": "axis",
-    "x_dot": "axis",
-    "omega": "axis",
-    "quat_xyzw": "quat",
-    "final": "packed",
-}
-UNITS = {
-    "settling": "s", "excursion": "m", "peak_force": "N", "end": "s", "clearance": "m", "x": "m", "x_dot": "m/s",
-    "omega": "rad/s", "y_dot": "1/s", "tilt": "rad", "azimuth": "rad", "heading": "rad", "rate": "1/s",
-}  # fmt: skip
-NOTES = {
-    "settling": "time from which the criterion holds to the end; NaN for a failure",
-    "excursion": "largest distance of the pivot from its reference",
-    "effort": "root mean square of the rotor forces over their share of the weight",
-    "peak_force": "largest force of any rotor",
-    "end": "time at which the run ended",
-    "clearance": "least distance of the rod to what its mount lets it touch; infinite on a gimbal",
-    "tilt": "tilt of the rod from inverted",
-    "quat_xyzw": "rotation from body to world, order x, y, z, w",
-    "final": "packed final state: x, x_dot, R (row-major), omega, y, y_dot",
-    MARKS: "digest of a complete chunk of runs; 0 for an incomplete one",
-}
+from flypend.studies.sweep.study import study as study_from
 
 
 class Store:
-    """The store at `path`: reads, writes and verifies chunks."""
+    """The store at `path`: reads, writes and verifies chunks.
 
-    def __init__(self, path: Path) -> None:
-        import zarr
+    Raises InputError, if `writable` is false, for arrays whose metadata are not those of the study; they are restored
+    otherwise.
+    """
 
+    def __init__(self, path: Path, group: Any, *, writable: bool) -> None:
         self.path = path
-        self._group = zarr.open_group(path, mode="r+")
-        self.attributes = dict(self._group.attrs)
-        self._arrays: dict[str, Any] = {name: array for name, array in self._group.arrays() if name != MARKS}
-        self._marks: Any = self._group[MARKS]
+        self._group = group
+        self.attributes = dict(group.attrs)
+        self.study: Study = _study_in(path, self.attributes)
+        self._arrays = self._opened(writable)
+        self._marks: Any = self._arrays.pop(MARKS)
 
     @property
     def columns(self) -> list[str]:
@@ -70,50 +50,122 @@ class Store:
     @property
     def runs(self) -> int:
         """Number of runs."""
-        return int(self._arrays["cause"].shape[0])
+        return self.study.runs
 
     @property
     def chunk(self) -> int:
         """Runs per chunk."""
-        return int(self._arrays["cause"].chunks[0])
+        return self.study.chunk
 
     def write(self, number: int, columns: Mapping[str, Any]) -> None:
-        """Write chunk `number`, then its mark."""
-        for name in self.columns:
-            self._arrays[name][self._rows(number)] = columns[name]
-        self._marks[number] = _digest({name: np.asarray(columns[name]) for name in self.columns})
+        """Write chunk `number`, then its mark. Raises InputError if a file cannot be written, or the store is gone."""
+        mark = self._digest(number, columns)
+        try:
+            for name in self.columns:
+                self._check_place()
+                self._arrays[name][self._rows(number)] = np.ascontiguousarray(columns[name])
+            self._check_place()
+            self._marks[number] = mark
+        except OSError as error:
+            where = str(error.filename2 or self.path)  # of a rename, not the temporary file that is renamed
+            wanted = "a file that can be written (rerun to resume)"
+            raise InputError(where, wanted, error.strerror or error) from None
 
     def read(self, number: int, names: list[str] | None = None) -> dict[str, Any]:
-        """Return the columns `names` (default all) of chunk `number`."""
-        return {name: self._arrays[name][self._rows(number)] for name in names or self.columns}
+        """Return the columns `names` (default all) of chunk `number`. Raises InputError unless it matches its mark."""
+        try:
+            columns = {name: self._arrays[name][self._rows(number)] for name in self.columns}
+            sound = self._mark(number) == self._digest(number, columns)
+        except Exception:  # undecodable data: Zarr and its codecs raise exceptions of many types
+            sound = False
+        if not sound:
+            wanted = f"chunk {number} as it was written (flypend sweep flies it again)"
+            raise InputError(str(self.path), wanted, "a chunk that does not match its digest")
+        return columns if names is None else {name: columns[name] for name in names}
+
+    def marked(self, number: int) -> bool:
+        """Whether chunk `number` has been flown: it has a mark, which is perhaps unreadable."""
+        try:
+            return self._mark(number) != 0
+        except Exception:  # as in `read`
+            return True
+
+    def whole(self, number: int) -> bool:
+        """Whether chunk `number` has been flown and matches its mark."""
+        try:
+            return self.marked(number) and bool(self.read(number))
+        except InputError:
+            return False
 
     def unmark(self, number: int) -> None:
-        """Mark chunk `number` as incomplete."""
+        """Mark chunk `number` as not flown."""
         self._marks[number] = 0
 
-    def whole(self, number: int, *, verify: bool = False) -> bool:
-        """Whether chunk `number` has a mark; with `verify`, also whether its data match the mark."""
-        try:
-            mark = int(self._marks[number])
-            return mark != 0 and (not verify or mark == _digest(self.read(number)))
-        except Exception:  # undecodable data: Zarr and its codecs raise exceptions of many types
-            return False
+    def _mark(self, number: int) -> int:
+        return int(self._marks[number])
 
     def _rows(self, number: int) -> slice:
         return slice(number * self.chunk, min((number + 1) * self.chunk, self.runs))
 
+    def _digest(self, number: int, columns: Mapping[str, Any]) -> int:
+        """Sixty-four bits of the SHA-256 of attributes, number and data, never 0."""
+        digest = hashlib.sha256(f"{self.attributes['seal']} {number}".encode())
+        for name in self.columns:
+            value = np.ascontiguousarray(columns[name])
+            digest.update(f"{name} {value.dtype.str} {value.shape}".encode())
+            digest.update(value.data)
+        return int.from_bytes(digest.digest()[:8], "little") or 1
 
-def _digest(columns: Mapping[str, Any]) -> int:
-    """Sixty-four bits of the SHA-256 of column names and data, never 0."""
-    digest = hashlib.sha256()
-    for name in sorted(columns):
-        digest.update(name.encode())
-        digest.update(np.ascontiguousarray(columns[name]).data)
-    return int.from_bytes(digest.digest()[:8], "little") or 1
+    def _check_place(self) -> None:
+        """Raise InputError unless the folder at the path is still this store."""
+        if _id_at(self.path) != self.attributes["id"]:
+            raise InputError(str(self.path), "the store that this sweep has begun", "nothing, or another one")
+
+    def _opened(self, writable: bool) -> dict[str, Any]:
+        """The arrays by name, their metadata compared with those of a new store."""
+        model = layout.model(self.study, self.attributes["columns"])
+        found = {}
+        for name, wanted in model.arrays():
+            array = _array_in(self._group, name)
+            if array is None or not layout.alike(array, wanted):
+                if not writable:
+                    told = f"the metadata of {name} as they were written (flypend sweep restores them)"
+                    raise InputError(str(self.path), told, "none" if array is None else "others")
+                _restore(self.path, name, self.study, self.attributes["columns"])
+                array = self._group[name]
+            found[name] = array
+        return found
+
+
+def _array_in(group: Any, name: str) -> Any:
+    """Return the array `name` of `group`; None if it cannot be opened."""
+    import zarr
+
+    try:
+        array = group[name]
+    except Exception:  # as in `Store.read`
+        return None
+    return array if isinstance(array, zarr.Array) else None
+
+
+def _restore(path: Path, name: str, study: Study, columns: layout.Columns) -> None:
+    """Write the metadata of the array `name` in the store at `path`, as in a new store."""
+    import zarr
+
+    target = path / name / "zarr.json"
+    try:
+        with TemporaryDirectory() as new:
+            layout.add_arrays(zarr.create_group(new), study, columns)
+            target.parent.mkdir(exist_ok=True)
+            partial = target.with_name(f"zarr.{uuid4().hex}.partial")
+            shutil.copyfile(Path(new) / name / "zarr.json", partial)
+        partial.replace(target)
+    except OSError as error:
+        raise InputError(str(target), "a file that can be written", error.strerror or error) from None
 
 
 def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, str], like: Mapping[str, Any]) -> Store:
-    """Return the store of `study` at `path`, creating it if there is none.
+    """Return the store of `study` at `path` for writing, creating it if there is none. The caller holds its lock.
 
     Parameters
     ----------
@@ -132,7 +184,8 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         If the path is not writable, or if the store belongs to another study (naming the first difference).
     """
     path = checked_path(path)
-    attributes = {
+    columns = layout.columns_of(like)
+    attributes: dict[str, Any] = {
         "flypend": "sweep",
         "study": study.text(),
         "program": program,
@@ -140,85 +193,77 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         "vehicle": study.flight.vehicle.name,
         "law": study.law.name,
         "e3": study.law.e3,
+        "columns": {name: [kind, row] for name, (kind, row) in columns.items()},
     }
+    clear(path)
     if not path.exists():
-        _create(path, study, attributes, like)
-    store = existing(path)
+        layout.create(path, study, {**attributes, "id": uuid4().hex, "seal": _seal(attributes)}, columns)
+    store = existing(path, writable=True)
     _check_same(path, store.attributes, attributes)
     return store
 
 
-def checked_path(path: str | Path) -> Path:
-    """Return `path` as a `Path`. Raises InputError unless it ends in .zarr."""
-    path = Path(path)
-    if path.suffix != ".zarr":
-        raise InputError("store", "a name ending in .zarr", str(path))
-    return path
+def existing(path: str | Path, *, writable: bool = False) -> Store:
+    """Open the store at `path`. Raises InputError unless a sweep has written it, and, to read, its metadata are whole.
 
-
-def existing(path: str | Path) -> Store:
-    """Open the store at `path`. Raises InputError unless a sweep has written it."""
+    `writable` restores damaged metadata; the caller then holds the lock.
+    """
     path = checked_path(path)
-    require("zarr", extra="studies", for_="store")
-    try:
-        store = Store(path) if path.is_dir() else None
-    except Exception as error:  # not Zarr, or unreadable metadata
-        raise InputError(str(path), "a store that a sweep has written", error) from None
-    if store is None or store.attributes.get("flypend") != "sweep":
-        raise InputError(str(path), "a store that a sweep has written", "nothing" if store is None else "another")
-    return store
+    group = _group_at(path)
+    attributes = dict(group.attrs)
+    if attributes.get("seal") != _seal(attributes) or not isinstance(attributes.get("id"), str):
+        wanted = "the attributes that a sweep has written (--force replaces the store)"
+        raise InputError(str(path), wanted, "others: they were changed, or are of another version of flypend")
+    return Store(path, group, writable=writable)
 
 
-def removed(path: str | Path) -> None:
-    """Remove the store at `path`, if any. Raises InputError if something other than a sweep's store is there."""
+def discard(path: str | Path) -> None:
+    """Delete the store at `path`, if any, whole or not. The caller holds its lock.
+
+    Raises InputError if something is there that no sweep has written.
+    """
     path = checked_path(path)
     if path.exists():
-        existing(path)
-        aside = path.with_name(f".{uuid4().hex}.removed")  # atomic: present or gone, even if interrupted
-        path.rename(aside)
-        shutil.rmtree(aside)
+        _group_at(path)
+        remove(path)
 
 
-def _create(path: Path, study: Study, attributes: dict[str, Any], like: Mapping[str, Any]) -> None:
-    """Create an empty store next to `path` and rename it to `path`."""
+def _group_at(path: Path) -> Any:
+    """The Zarr group of a sweep at `path`. Raises InputError if there is none."""
+    require("zarr", extra="studies", for_="store")
     import zarr
-    from zarr.codecs import BloscCodec, BloscShuffle
 
-    partial = path.with_name(f".{path.stem}.partial")
-    shutil.rmtree(partial, ignore_errors=True)
+    wanted = "a store that a sweep has written"
     try:
-        group = zarr.create_group(partial, attributes=attributes)
-        blosc = BloscCodec(cname="zstd", clevel=1, shuffle=BloscShuffle.shuffle)
-        for name, value in like.items():
-            dimensions = ["run"] if value.ndim == 1 else ["run", ROWS[name]]
-            group.create_array(
-                name,
-                shape=(study.runs, *value.shape[1:]),
-                chunks=(min(study.chunk, study.runs), *value.shape[1:]),
-                dtype=value.dtype,
-                compressors=blosc,
-                dimension_names=dimensions,
-                attributes=_notes(name),
-                fill_value=np.nan if value.dtype.kind == "f" else 0,
-            )
-        group.create_array(
-            MARKS, shape=(study.chunks,), chunks=(1,), dtype="uint64", compressors=None, dimension_names=["chunk"],
-            attributes=_notes(MARKS), fill_value=0,
-        )  # fmt: skip
-        partial.rename(path)
-    except OSError as error:
-        raise InputError(str(path), "a folder that can be written", error.strerror or error) from None
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
+        group = zarr.open_group(path, mode="r+", use_consolidated=False) if path.is_dir() else None
+    except Exception as error:  # not Zarr, or unreadable metadata
+        raise InputError(str(path), wanted, error) from None
+    if group is None or group.attrs.get("flypend") != "sweep":
+        raise InputError(str(path), wanted, "nothing" if group is None else "another")
+    return group
 
 
-def _notes(name: str) -> dict[str, Any]:
-    notes: dict[str, Any] = {"units": UNITS[name]} if name in UNITS else {}
-    if name in NOTES:
-        notes["long_name"] = NOTES[name]
-    if name == "cause":
-        notes |= {"flag_values": list(range(len(CAUSES))), "flag_meanings": " ".join(CAUSES)}
-    return notes
+def _id_at(path: Path) -> Any:
+    """The id of the store at `path`; None if there is none."""
+    try:
+        return json.loads((path / "zarr.json").read_bytes())["attributes"]["id"]
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
+
+
+def _seal(attributes: Mapping[str, Any]) -> str:
+    """Return the digest of all attributes but the id, which says nothing about the runs, and the seal itself."""
+    sealed = {name: value for name, value in attributes.items() if name not in ("id", "seal")}
+    return hashlib.sha256(json.dumps(sealed, sort_keys=True).encode()).hexdigest()
+
+
+def _study_in(path: Path, attributes: Mapping[str, Any]) -> Study:
+    """The study of a store. Raises InputError if it cannot be built here, as without the file of its law."""
+    try:
+        return study_from(tomllib.loads(str(attributes["study"])))
+    except InputError as error:
+        wanted = f"a store whose study can be read ({error.field}: expected {error.expected})"
+        raise InputError(str(path), wanted, error.got) from None
 
 
 def _check_same(path: Path, found: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
@@ -230,7 +275,7 @@ def _check_same(path: Path, found: Mapping[str, Any], wanted: Mapping[str, Any])
         if there.get(key) != here.get(key):
             which = f"{there.get(key, 'nothing')}, as in {path} (--force replaces it)"
             raise InputError(key.removeprefix("study."), which, here.get(key, "nothing"))
-    if found["program"] != wanted["program"]:
+    if found["seal"] != _seal(wanted):
         raise InputError(str(path), "the equations that it was begun with (--force replaces it)", "others")
 
 
@@ -239,28 +284,3 @@ def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     for key, value in table.items():
         out |= _flat(value, f"{prefix}{key}.") if isinstance(value, Mapping) else {f"{prefix}{key}": value}
     return out
-
-
-def lock_of(path: Path) -> Path:
-    """Return the path of the lock file of the store at `path`."""
-    return path.with_name(f".{path.name}.lock")
-
-
-@contextmanager
-def alone(store: Store) -> Iterator[None]:
-    """Lock the store against a second sweep. The system releases the lock however the process ends."""
-    place = lock_of(store.path)
-    lock = FileLock(place, timeout=0)
-    try:
-        lock.acquire()
-    except Timeout:
-        raise InputError(str(store.path), "a store that no other sweep is writing", "one in use") from None
-    except OSError as error:
-        raise InputError(str(place), "a file that can be written", error.strerror or error) from None
-    try:
-        yield
-    finally:
-        # Unlink while holding the lock: a process that has the old file open notices and opens a new one.
-        with suppress(OSError):  # some systems cannot unlink an open file; there, releasing the lock removes it
-            place.unlink()
-        lock.release()

@@ -20,7 +20,7 @@ from flypend.model import State, Vehicle
 from flypend.model.vehicle import read_toml
 from flypend.plants import AnyPlant, Ideal, Sampled
 from flypend.settings.laws import absolute, law_from, law_table, table_of
-from flypend.settings.runfile import check_plain, plant_of, start_of, table_at, vehicle_table
+from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, start_of, table_at, vehicle_table
 from flypend.studies.sweep.axes import Axis, axes, integer
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
@@ -140,6 +140,8 @@ def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study
     Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
     settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
+    if not isinstance(what, Mapping) and settings.keys() and not STUDY_KEYS & settings.keys():
+        raise InputError(str(what), "a study (runs, vary, …)", f"a run file, or another: flypend run {what}")
     if "law" in settings and not isinstance(what, Mapping):
         settings["law"] = absolute(settings["law"], Path(what).parent)
     if law is not None:

@@ -1,0 +1,70 @@
+"""The commands that list what there is: laws with their gains, and vehicles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from flypend.cli.options import vehicle_option
+from flypend.cli.terminal import console
+
+
+@click.command()
+@click.argument("name", required=False)
+@vehicle_option
+def laws(name: str | None, vehicle: str) -> None:
+    """List the laws with their gains: default for a vehicle, unit and meaning. NAME: this law only, or your own."""
+    from flypend import model
+    from flypend.laws import law_names
+    from flypend.settings.laws import law_named
+
+    machine = model.vehicle(vehicle)
+    for each in [name] if name else law_names():
+        law = law_named(each, key="law")
+        console.print(f"{law.name} (e3 {law.e3}), defaults for {machine.name}", markup=False)
+        console.print(_gains(law, machine) if law.table else "  no gains")
+
+
+@click.command()
+def vehicles() -> None:
+    """List the vehicles with mass, bob, rod, the rotors' largest force over the weight, and rotor lag."""
+    from flypend import model
+    from flypend.model.vehicle import vehicle_names
+
+    found = _table("vehicle", "mass kg", "bob kg", "rod m", "thrust/weight", "lag s", "rotors", "gravity m/s²")
+    for name in vehicle_names():
+        v = model.vehicle(name)
+        rotors = len(v.rotor_spins)
+        ratio = f"{rotors * v.rotor_limits[1] / v.weight:.3g}"
+        numbers = (f"{x:g}" for x in (v.mass, v.bob_mass, v.rod_length))
+        found.add_row(name, *numbers, ratio, f"{v.rotor_lag:g}", str(rotors), f"{v.gravity:g}")
+    console.print(found)
+
+
+def _gains(law: Any, machine: Any) -> Any:
+    """The table of the gains of a law."""
+    from flypend.errors import InputError
+
+    found = _table("gain", "default", "unit", "meaning")
+    for gain in law.table.values():
+        try:
+            value = law.given[gain.name] if gain.name in getattr(law, "given", {}) else gain.value(machine)
+        except InputError:  # it has none for this vehicle
+            value = "–"
+        found.add_row(gain.name, f"{value:.4g}" if isinstance(value, float) else str(value), gain.unit or "–", gain.doc)
+    return found
+
+
+def _table(*names: str) -> Any:
+    from rich.box import SIMPLE
+    from rich.table import Table
+
+    found = Table(box=SIMPLE, padding=(0, 1, 0, 0))
+    for place, name in enumerate(names):
+        number = 0 < place < len(names) - (names[-1] == "meaning") - (names[-2] == "unit")
+        found.add_column(name, justify="right" if number else "left")
+    return found
+
+
+COMMANDS = (laws, vehicles)

@@ -1,0 +1,60 @@
+"""The failed flights of a comparison as run files, to be flown again one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flypend.model.state import SHAPES
+from flypend.plants import plant
+from flypend.settings.laws import absolute, table_of
+from flypend.studies.compare import Comparison
+
+# Of each law at most so many are kept.
+MOST = 1000
+
+
+def failed_runs(comparison: Comparison, laws: Sequence[str], plant_name: str, duration: float) -> dict[str, Any]:
+    """Return the content of a run file for each failed flight of `comparison`, by name "law-run".
+
+    Parameters
+    ----------
+    comparison : Comparison
+        The comparison, of which at most `MOST` failures a law are taken.
+    laws : sequence of str
+        Its laws as on the command line, in order.
+    plant_name, duration
+        The name of its plant, and the duration of its flights, s.
+    """
+    found: dict[str, Any] = {}
+    seed = getattr(plant(plant_name), "seed", None)
+    for (name, ensemble), law in zip(comparison.ensembles.items(), laws, strict=True):
+        table = absolute(table_of(law), Path.cwd())
+        for run in np.flatnonzero(~ensemble.success)[:MOST]:
+            start = ensemble.starts[run]
+            found[f"{_plain(name)}-{run}"] = {
+                "vehicle": ensemble.vehicle.to_dict(),
+                "law": table,
+                "plant": plant_name if seed is None else {"base": plant_name, "seed": seed + int(run)},
+                "duration": float(duration),
+                "start": {field: getattr(start, field).tolist() for field in SHAPES},
+            }
+    return found
+
+
+def flown_again(runs: Mapping[str, Any], folder: Path, progress: Any = lambda *_: None) -> None:
+    """Fly the run files `runs` of `failed_runs` one by one, and save each in `folder` as name.nc."""
+    from flypend.flight.simulate import fly
+    from flypend.settings.runfile import run_of
+
+    for done, (name, content) in enumerate(runs.items()):
+        progress(f"flying {name} again", done, len(runs))
+        fly(run_of(dict(content)).flight).save(folder / f"{name}.nc")
+
+
+def _plain(name: str) -> str:
+    """`name` with nothing in it that a file name minds."""
+    return "".join(letter if letter.isalnum() else "-" for letter in name).strip("-")

@@ -1,0 +1,68 @@
+"""Chunks on the cores of this machine, by threads or by processes that are spoken to through pipes alone."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing
+from typing import Any
+
+from flypend.errors import InputError
+from flypend.flight.kernels.stopping import interruptible, joined
+from flypend.studies.sweep.chunk import fly_chunk
+
+# Times that workers may die in a row, with no chunk in between.
+DEATHS = 3
+
+
+def flown_chunks(
+    text: str, program: str, numbers: Sequence[int], *, workers: int | None, processes: bool
+) -> Generator[tuple[int, dict[str, Any]], None, None]:
+    """Fly chunks `numbers` of a study, and yield each with its columns as it completes.
+
+    Parameters
+    ----------
+    text, program, numbers
+        The study as TOML; the digest of its program; the indices of the chunks.
+    workers : int, optional
+        Threads or processes; default one per core.
+    processes : bool
+        Whether to use processes instead of threads. Another takes over from one that dies.
+
+    Raises
+    ------
+    InputError
+        If processes die again and again.
+    """
+    left, deaths = list(numbers), 0
+    while left:
+        try:
+            with closing(_flown(text, program, left, workers or os.cpu_count() or 1, processes)) as coming:
+                for number, columns in coming:
+                    left.remove(number)
+                    deaths = 0
+                    yield number, columns
+        except BrokenProcessPool as error:
+            deaths += 1
+            if deaths == DEATHS:
+                told = str(error).split(". ")[0]
+                raise InputError("processes", "worker processes that live (rerun to resume)", told) from None
+
+
+def _flown(
+    text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
+) -> Generator[tuple[int, dict[str, Any]], None, None]:
+    from joblib import Parallel, delayed
+
+    with interruptible() as stop:
+        # Processes hear the end of this one from their pipes; threads poll a word, which cannot be sent.
+        word = None if processes else stop
+        tasks = (delayed(_fly)(text, number, program, word) for number in list(numbers))
+        backend = "loky" if processes else "threading"
+        yield from Parallel(n_jobs=workers, backend=backend, return_as="generator_unordered")(tasks)
+
+
+def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str, Any]]:
+    with joined(stop):
+        return number, fly_chunk(text, number, program)

@@ -1,0 +1,270 @@
+"""Stores under attack: killed sweeps, two that start at once, and mutated files.
+
+The small numbers run with every test; `pytest -m slow tests/studies/test_attacks.py -s` runs the full ones and prints
+the counts of docs/reliability.md.
+"""
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+
+import pytest
+
+import flypend as fp
+from flypend.files.toml import toml_text
+from flypend.studies.sweep.bins import Runs
+from flypend.studies.sweep.store import existing
+
+SHORT = {
+    "vehicle": "nayak2018",
+    "law": {"name": "corrected"},
+    "plant": "ideal",
+    "duration": 1.0,
+    "judge_period": 0.1,
+    "runs": 100,
+    "chunk": 10,
+    "criterion": {"target": "e3", "position": float("inf"), "rod": 1.0, "axis": 0.5},
+    "vary": {"start": {"y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 2.0}}},
+}
+LONG = SHORT | {"runs": 4000, "chunk": 20, "duration": 2.0, "rtol": 1e-9}
+# A process that has imported and compiled everything forks one for every command: they start within a millisecond.
+FORKS = """
+import json, os, sys
+import zarr, xarray, joblib
+from flypend.cli.app import main
+from flypend.studies.sweep import run, study
+for line in sys.stdin:
+    asked = json.loads(line)
+    if "warm" in asked:
+        run.fly_range(study(asked["warm"]), 0, 1)
+        print("warm", flush=True)
+    elif "wait" in asked:
+        print(os.waitstatus_to_exitcode(os.waitpid(asked["wait"], 0)[1]), flush=True)
+    elif child := os.fork():
+        print(child, flush=True)
+    else:
+        os.chdir(asked["folder"])
+        os.dup2(os.open(asked["told"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC), 2)
+        os.dup2(2, 1)
+        sys.argv = ["flypend", *asked["arguments"]]
+        try:
+            main()
+        except SystemExit as end:
+            code = end.code
+        except BaseException:
+            sys.excepthook(*sys.exc_info())
+            code = 99
+        sys.stdout.flush(), sys.stderr.flush()
+        os._exit(code)
+"""
+
+
+class Forks:
+    """Commands that start at once; each tells what it has to say in a file of its own."""
+
+    def __init__(self, folder):
+        pipe = subprocess.PIPE
+        self._folder, self._count = folder, 0
+        self._process = subprocess.Popen([sys.executable, "-c", FORKS], stdin=pipe, stdout=pipe, text=True)
+        for path in folder.glob("*.toml"):
+            assert self._asked(warm=str(path)) == "warm"
+
+    def _asked(self, **what):
+        self._process.stdin.write(json.dumps(what) + "\n")
+        self._process.stdin.flush()
+        return self._process.stdout.readline().strip()
+
+    def start(self, *arguments):
+        """Start `flypend` with these arguments, and return its number and the file of what it says."""
+        self._count += 1
+        told = self._folder / f"{self._count % 4}.txt"
+        return int(self._asked(folder=str(self._folder), told=str(told), arguments=arguments)), told
+
+    def end(self, number):
+        """Wait for a command, and return its exit code; negative if a signal ended it."""
+        return int(self._asked(wait=number))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._process.stdin.close()
+        self._process.wait(60)
+        self._process.stdout.close()
+
+
+def written(folder, name, table):
+    (folder / name).write_text(toml_text(table), encoding="utf-8")
+
+
+def content(folder):
+    """Every file of a store by name, without its random id."""
+    files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    root = json.loads(files["zarr.json"])
+    root["attributes"].pop("id")
+    return files | {"zarr.json": json.dumps(root)}
+
+
+# Two writers ----------------------------------------------------------------------------------------------------------
+
+
+def attack_double_starts(number, folder):
+    """Two commands start on one store at once, of one study or of two; by exit codes."""
+    found = Counter()
+    for seed in (1, 2):
+        written(folder, f"{seed}.toml", SHORT | {"seed": seed})
+    with Forks(folder) as forks:
+        for k in range(number):
+            name, force = f"{k}.zarr", ("--force",) * (k % 3 == 2)
+            files = ("1.toml", f"{1 + k % 2}.toml")
+            started = [forks.start("sweep", file, "-o", name, "--workers", "1", *force) for file in files]
+            codes = sorted(forks.end(process) for process, _ in started)
+            lines = [told.read_text(encoding="utf-8") for _, told in started]
+            assert codes in ([0, 0], [0, 2]), lines
+            assert not any("Traceback" in line for line in lines), lines
+            if codes == [0, 2]:
+                assert any("no other sweep is writing" in line or "seed: expected" in line for line in lines), lines
+            found[tuple(codes)] += 1
+            whole = Runs(folder / name)
+            assert whole.number == 100
+            whole.gather([])  # every chunk is of the study that the attributes name
+            assert {path.name for path in folder.glob(f"*{name}*")} >= {name, f".{name}.lock"}
+            assert not list(folder.glob(".*.partial")), list(folder.iterdir())
+            assert not list(folder.glob(".*.removed"))
+    return found
+
+
+def test_of_two_that_start_at_once_one_flies_and_one_is_told(tmp_path):
+    attack_double_starts(3, tmp_path)
+
+
+@pytest.mark.slow
+def test_150_double_starts(tmp_path):
+    print("150 double starts, by exit codes:", dict(attack_double_starts(150, tmp_path)))
+
+
+# Kills ----------------------------------------------------------------------------------------------------------------
+
+
+def attack_kills(number, seed, folder):
+    """Kill a sweep `number` times at random moments, starting it again each time; return the number of finished ones.
+
+    A sweep that is finished is compared with one that was never interrupted, and begun again.
+    """
+    rng, finished = random.Random(seed), 0
+    written(folder, "study.toml", LONG)
+    fp.sweep(LONG, folder / "whole.zarr", workers=1)
+    sound, path = content(folder / "whole.zarr"), folder / "b.zarr"
+    with Forks(folder) as forks:
+        for _ in range(number):
+            process, told = forks.start("sweep", "study.toml", "-o", "b.zarr", "--workers", "1")
+            time.sleep(rng.choice([0.05, 0.3, 1.0]) * rng.random())
+            os.kill(process, signal.SIGKILL)
+            code = forks.end(process)
+            assert code in (0, -signal.SIGKILL), told.read_text(encoding="utf-8")
+            if path.exists() and sum(existing(path).marked(k) for k in range(200)) == 200:
+                finished += 1
+                fp.sweep(LONG, path, workers=1)
+                assert content(path) == sound
+                shutil.rmtree(path)
+    fp.sweep(LONG, path, workers=1)
+    assert content(path) == sound
+    assert {entry.name for entry in folder.glob("*b.zarr*")} == {"b.zarr", ".b.zarr.lock"}
+    return finished
+
+
+def test_random_kills_change_nothing(tmp_path):
+    attack_kills(3, 1, tmp_path)
+
+
+@pytest.mark.slow
+def test_200_random_kills(tmp_path):
+    print("200 random kills; sweeps that were finished before theirs:", attack_kills(200, 2, tmp_path))
+
+
+# Mutated stores -------------------------------------------------------------------------------------------------------
+
+
+def mutate(store, rng):
+    """Harm one to three files of a store: change, cut, lose, exchange, empty, or put a folder in their place."""
+    for _ in range(rng.choice([1, 1, 2, 3])):
+        files = sorted(path for path in store.rglob("*") if path.is_file())
+        path = rng.choice(files)
+        kind = rng.choice(["flip", "flip", "cut", "lose", "copy", "empty", "grow", "folder"])
+        bytes_ = bytearray(path.read_bytes())
+        if kind == "flip" and bytes_:
+            for _ in range(rng.choice([1, 1, 8])):
+                bytes_[rng.randrange(len(bytes_))] ^= 1 << rng.randrange(8)
+            path.write_bytes(bytes_)
+        elif kind == "cut":
+            path.write_bytes(bytes_[: rng.randrange(len(bytes_) + 1)])
+        elif kind == "lose":
+            path.unlink()
+        elif kind == "copy":
+            path.write_bytes(rng.choice(files).read_bytes())
+        elif kind == "empty":
+            path.write_bytes(b"")
+        elif kind == "grow":
+            path.write_bytes(bytes_ + rng.randbytes(rng.choice([1, 100])))
+        else:
+            path.unlink()
+            path.mkdir()
+
+
+def attack_stores(number, seed, folder):
+    """Read and mend mutated stores: nothing but InputError, no wrong number, and after a sweep all numbers."""
+    rng, ends = random.Random(seed), Counter()
+    fp.sweep(SHORT, folder / "sound.zarr", workers=1)
+    numbers = read(folder / "sound.zarr")
+    path = folder / "a.zarr"
+    for k in range(number):
+        shutil.copytree(folder / "sound.zarr", path)
+        mutate(path, rng)
+        begin = time.process_time()
+        try:
+            found = read(path)
+            assert right(found, numbers), (seed, k)  # whatever part of the store is left
+            ends["read, every number right"] += 1
+        except fp.InputError:
+            ends["refused by readers"] += 1
+        try:
+            fp.sweep(SHORT, path, workers=1)
+            assert right(read(path), numbers), (seed, k)
+            assert len(read(path)) == len(numbers), (seed, k)
+            ends["mended by sweep"] += 1
+        except fp.InputError:
+            ends["refused by sweep"] += 1
+        assert time.process_time() - begin < 10, (seed, k)
+        shutil.rmtree(path)
+    return ends
+
+
+def read(path):
+    """All chunks that a store says are flown."""
+    store = existing(path)
+    return {number: store.read(number) for number in range(store.study.chunks) if store.marked(number)}
+
+
+def right(found, numbers):
+    """Whether every number in the chunks `found` is that of the sound store, bit by bit."""
+    return all(
+        column.tobytes() == numbers[chunk][name].tobytes()
+        for chunk, columns in found.items()
+        for name, column in columns.items()
+    )
+
+
+def test_mutated_stores_are_mended_or_refused_and_never_believed(tmp_path):
+    ends = attack_stores(25, 1, tmp_path)
+    assert ends["mended by sweep"] > 10
+
+
+@pytest.mark.slow
+def test_3000_mutated_stores(tmp_path):
+    print("3,000 mutated stores:", dict(attack_stores(3000, 2, tmp_path)))

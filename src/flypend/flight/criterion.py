@@ -70,7 +70,7 @@ class Criterion:
     def squares(self, y: Any, z: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any]:
         """Return |y − e₃|² and |z − e₃|², each less its squared tolerance: smooth, with the sign of `excess`.
 
-        CasADi expressions; arguments as in `excess`.
+        `y`, `z` and `lean` are CasADi expressions; see `excess`.
         """
         rod = ca.sumsqr(y - self.pose(e3)) - (self.rod + lean) ** 2
         return rod, ca.sumsqr(z - E3) - (self.axis + lean) ** 2

@@ -51,6 +51,7 @@ def lines() -> Iterator[Line]:
     yield from sampling(problem, kernel(method="dp5"))
     yield from floats(problem, kernel)
     yield from inverted()
+    yield from judging()
     yield from rotors()
     yield from sizes(problem, kernel(method="dp5"))
 
@@ -106,6 +107,20 @@ def inverted() -> Iterator[Line]:
     for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
         (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
         yield Line(f"inverted law, 10 s, ideal plant, rtol {rtol:.0e}", len(starts) / seconds, "runs/s", goal)
+
+
+def judging() -> Iterator[Line]:
+    """What the default judging, every 10 ms, leaves of the speed on the ideal plant."""
+    vehicle, starts = fp.vehicle("hehn2011"), fp.State.random(np.random.default_rng(0), 2048)
+    law = fp.laws.inverted().bind(vehicle)
+    for method in ("dp5", "dop853"):
+        kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method=method)
+        unjudged = partial(kernel.fly, starts.packed(), 10.0, rtol=1e-6, workers=1, judge=False)
+        judged = partial(
+            fp.simulate_ensemble, vehicle, law, starts, 10.0, plant="ideal", rtol=1e-6, method=method, workers=1
+        )
+        plain, full = clock.processor(unjudged, judged)
+        yield Line(f"inverted law, {method}, judged every 10 ms over unjudged", plain / full, "×", "≥ 0.75")
 
 
 def rotors() -> Iterator[Line]:

@@ -102,7 +102,9 @@ def test_it_judges_as_the_kernel_does(method):
     assert flown.status.tolist() == reference.status.tolist()
     got, wanted = flown.reductions, reference.reductions
     np.testing.assert_array_equal(got[:, :4], wanted[:, :4])  # times of samples
-    np.testing.assert_allclose(got[:, 4:], wanted[:, 4:], rtol=1e-5)
+    np.testing.assert_allclose(got[:, 4:6], wanted[:, 4:6], rtol=1e-5)
+    # The peak is the largest force at a stage. Steps differ by some per cent, and with them the times of the stages.
+    np.testing.assert_allclose(got[:, 6], wanted[:, 6], rtol=1e-3)
     assert len(np.unique(wanted[:, 0])) > 3
 
 

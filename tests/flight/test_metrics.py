@@ -158,8 +158,18 @@ def test_excursion_and_position_are_from_the_reference():
 def test_effort_is_the_root_mean_square_over_the_share_of_the_weight():
     forces = where(np.arange(301) < 100, np.array([3.0, 3.0, 3.0, 3.0]), np.array([0.0, 0.0, 2.0, 2.0])) * SHARE
     judged = metrics(flight(rotor_forces=forces))
-    assert judged.effort == pytest.approx(np.sqrt((100 * 9 + 201 * 2) / 301))
+    # 99 intervals, one across the step, and 200 more: the trapezoidal rule.
+    assert judged.effort == pytest.approx(np.sqrt((99 * 9 + (9 + 2) / 2 + 200 * 2) / 300))
     assert judged.peak_force == pytest.approx(3 * SHARE)
+
+
+def test_effort_is_a_mean_over_time_however_the_samples_are_spread():
+    """Forces that grow like t: the mean of t² over 3 s is 3 s². The error is that of the trapezoidal rule, h²/12."""
+    t = np.concatenate([np.linspace(0, 0.5, 501), np.linspace(0.5, 3.0, 51)[1:]])
+    ramp = flight(t, rotor_forces=np.repeat(t[:, None], 4, axis=1) * SHARE)
+    assert metrics(ramp).effort == pytest.approx(np.sqrt(3.0), rel=1e-3)
+    # Negative control: the mean over these samples is another.
+    assert np.sqrt(np.mean(t**2)) < 0.5 * np.sqrt(3.0)
 
 
 def test_the_share_is_that_of_the_vehicle_that_flew():

@@ -4,7 +4,52 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flypend.compile.program import Program
+from flypend.compile.program import Program, needed
+
+# Operations with kinks or jumps.
+PIECEWISE = frozenset(
+    ("fabs", "sign", "fmin", "fmax", "floor", "ceil", "fmod", "select", "not", "and", "or", "lt", "le", "eq", "ne")
+)
+
+
+@dataclass(frozen=True)
+class Judging:
+    """What is reduced over a run: gauges that must end within bounds, and forces.
+
+    Parameters
+    ----------
+    gauges : Program
+        (t, s, ṡ) → k gauges, their first and second time derivatives, and the tolerances they are about, each (k,). A
+        gauge is a squared distance, less a squared tolerance or not; the last one is the square of which the largest
+        root is reported.
+    bounds : tuple of float
+        Largest value within tolerance of each gauge.
+    forces : Program
+        Output 1 of the rates, here called wrench → mean square and maximum of the forces (2,).
+    """
+
+    gauges: Program
+    bounds: tuple[float, ...]
+    forces: Program
+
+    @property
+    def values(self) -> Program:
+        """(t, s, ṡ) → the gauges alone, which do not depend on ṡ."""
+        return needed(Program("values", self.gauges.inputs, self.gauges.operations, self.gauges.outputs[:1]))
+
+    @property
+    def smooth(self) -> bool:
+        """Whether the gauges are without cases, so that between steps they follow from their derivatives."""
+        return not PIECEWISE & self.gauges.counts().keys()
+
+    @property
+    def size(self) -> int:
+        """Number of reductions.
+
+        Time since which all gauges are within bounds, last time out of bounds of each, root of the largest value of the
+        last gauge, and mean square over time and maximum of the forces.
+        """
+        return len(self.bounds) + 4
 
 
 @dataclass(frozen=True)
@@ -14,21 +59,18 @@ class Problem:
     Parameters
     ----------
     rates : Program
-        (t, s, p) → state rates.
+        (t, s, p) → state rates, and if runs are judged the wrench.
     project : Program
         s → s projected onto the manifold, and the drift (3,) before projection.
-    observe : Program
-        (t, s, p) → the values to reduce over the sample times.
-    reductions : tuple of str
-        One kind of reduction per value; see `Reductions`.
+    judging : Judging, optional
+        What is reduced over a run.
     margin : Program, optional
         (t, s, p) → a scalar that is positive where the law is defined.
     """
 
     rates: Program
     project: Program
-    observe: Program
-    reductions: tuple[str, ...]
+    judging: Judging | None = None
     margin: Program | None = None
 
     @property

@@ -15,8 +15,8 @@ from flypend.model import State, Vehicle
 from flypend.model.state import E3Direction
 
 PARTS = ("rod", "axis", "position")
-# Reductions over samples in a kernel, in order: time since which everything is within tolerance, last time out of
-# tolerance for each part, largest distance, and mean square and maximum of the rotor forces.
+# Reductions over a run in a kernel, in order: time since which everything is within tolerance, last time out of
+# tolerance for each part, largest distance, and mean square over time and maximum of the rotor forces.
 REDUCTIONS = ("since", "last", "last", "last", "max", "mean", "max")
 
 
@@ -68,6 +68,14 @@ class Criterion:
         rod = norm(y - self.pose(e3)) - (self.rod + lean)
         return rod, norm(z - E3) - (self.axis + lean), distance - self.position
 
+    def squares(self, y: Any, z: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any]:
+        """Return |y − e₃|² and |z − e₃|², each less its squared tolerance: smooth, with the sign of `excess`.
+
+        `y`, `z` and `lean` are CasADi expressions; see `excess`.
+        """
+        rod = ca.sumsqr(y - self.pose(e3)) - (self.rod + lean) ** 2
+        return rod, ca.sumsqr(z - E3) - (self.axis + lean) ** 2
+
 
 def lean(acceleration: Any, g: float) -> Any:
     """Return |d − e₃|, d being the direction of `acceleration` + g e₃ (e₃ up): the lean needed to follow a reference.
@@ -96,11 +104,35 @@ def observed(
 
     `t` is the symbol of time, s; `reference` is the reference position of the law, None for the origin.
     """
-    x_ref = reference(t) if reference is not None else ca.SX.zeros(3)
-    velocity = ca.jacobian(x_ref, t)
-    a_ref = ca.densify(ca.jacobian(velocity, t)) * (1.0 if e3 == "up" else np.array([1.0, -1.0, -1.0]))
+    x_ref, moving = _target(t, vehicle, reference, e3)
     distance = norm(state.x - x_ref)
-    moving = lean(a_ref, vehicle.g) if ca.depends_on(velocity, t) else 0.0
     excess = criterion.excess(state.y, state.z, distance, moving, e3)
     worst = ca.fmax(ca.fmax(excess[0], excess[1]), excess[2])
     return ca.vertcat(worst, *excess, distance, ca.sumsqr(rotors) / rotors.numel(), ca.mmax(rotors))
+
+
+def gauged(
+    t: Any, state: State, vehicle: Vehicle, reference: Reference | None, criterion: Criterion, e3: E3Direction
+) -> tuple[Any, Any]:
+    """Return CasADi gauges (3, 1) of `PARTS`, smooth in time, and the tolerances (3, 1) that they are about.
+
+    The gauges are |y − e₃|² and |z − e₃|² less their squared tolerances, and the squared distance. A part is within
+    tolerance while its gauge is at most its entry of `gauge_bounds`. Arguments as in `observed`.
+    """
+    x_ref, moving = _target(t, vehicle, reference, e3)
+    gauges = ca.vertcat(*criterion.squares(state.y, state.z, moving, e3), ca.sumsqr(state.x - x_ref))
+    tolerances = ca.vertcat(criterion.rod + moving, criterion.axis + moving, min(criterion.position, 1e6))
+    return gauges, tolerances
+
+
+def gauge_bounds(criterion: Criterion) -> tuple[float, float, float]:
+    """Largest value within tolerance of each gauge of `gauged`."""
+    return 0.0, 0.0, criterion.position**2
+
+
+def _target(t: Any, vehicle: Vehicle, reference: Reference | None, e3: E3Direction) -> tuple[Any, Any]:
+    """Return the position (3, 1) of `reference` at `t` and the lean that it requires, 0 unless it accelerates."""
+    x_ref = reference(t) if reference is not None else ca.SX.zeros(3)
+    velocity = ca.jacobian(x_ref, t)
+    a_ref = ca.densify(ca.jacobian(velocity, t)) * (1.0 if e3 == "up" else np.array([1.0, -1.0, -1.0]))
+    return x_ref, lean(a_ref, vehicle.g) if ca.depends_on(velocity, t) else 0.0

@@ -21,6 +21,11 @@ SAME = 1e-9
 class Metrics:
     """Metrics of one flight against its criterion, by default standing inverted at the reference.
 
+    A trajectory is judged at its samples, and so are flights of an ensemble in a sampled plant; means over time follow
+    the trapezoidal rule. In the ideal plant an ensemble takes forces from the steps of the integration: the largest is
+    that of all stages, so peaks between samples count, and the mean is that of the method. Its excursion, of the same
+    samples, is as accurate as a step.
+
     Parameters
     ----------
     success : bool
@@ -31,7 +36,7 @@ class Metrics:
     excursion : float
         Largest distance of the pivot from its reference, m.
     effort : float
-        Root mean square of the rotor forces, relative to each rotor's share of the weight.
+        Root mean square over time of the rotor forces, relative to each rotor's share of the weight.
     peak_force : float
         Largest rotor force, N.
     end : float
@@ -61,7 +66,7 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     out = [~(part <= 0) for part in excess]
     reductions = [_since(run.t, np.any(out, axis=0)), *(_last(run.t, bad) for bad in out)]
     forces = run.rotor_forces
-    values = [*reductions, np.max(distance), np.mean(forces**2), np.max(forces)]
+    values = [*reductions, np.max(distance), _mean(run.t, np.mean(forces**2, axis=1)), np.max(forces)]
     columns = judged(
         np.array([values]), [run.outcome.status], np.array([run.outcome.time]), run.vehicle, criterion,
         clearance=np.array([np.min(run.clearance)]),
@@ -127,6 +132,13 @@ def _since(t: Any, bad: Any) -> float:
     found = np.flatnonzero(bad)
     place = found[-1] + 1 if len(found) else 0
     return float(t[place]) if place < len(t) else float("inf")
+
+
+def _mean(t: Any, values: Any) -> float:
+    """Return the mean of `values` (n,) over the times `t` (n,) by the trapezoidal rule; of one sample, its value."""
+    if t[-1] <= t[0]:
+        return float(values[-1])
+    return float(np.sum(np.diff(t) * (values[1:] + values[:-1])) / (2 * (t[-1] - t[0])))
 
 
 def wilson_bounds(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[Any, Any]:

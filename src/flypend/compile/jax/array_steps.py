@@ -35,15 +35,15 @@ FLYING, IDLE = -1, -2
 class Lanes(NamedTuple):
     """L runs in progress: run index, time, next step (L,), state and rate (24, L), code, steps tried, last rejected.
 
-    `judged` holds the state of the reductions; see `flypend.compile.jax.judging`.
+    `wrench` (w, L) is that at s; `judged` holds the reductions so far, see `flypend.compile.jax.judging`.
     """
 
     run: Any
-
     t: Any
     h: Any
     s: Any
     rate: Any
+    wrench: Any
     code: Any
     steps: Any
     rejected: Any
@@ -103,7 +103,9 @@ def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[.
             results = Results(
                 results.s.at[:, place].set(now.s), results.t.at[place].set(now.t),
                 results.code.at[place].set(now.code), results.steps.at[place].set(now.steps),
-                results.reductions.at[:, place].set(step.judge.reductions(now.judged)),
+                results.reductions.at[:, place].set(
+                    step.judge.reductions(now.judged, now.t, setting.times)
+                ),
             )  # fmt: skip
             fresh = begin(jnp.where(ended, following + jnp.cumsum(ended) - 1, now.run))
             merged: Lanes = jax.tree.map(lambda new, old: jnp.where(ended, new, old), fresh, now)
@@ -111,9 +113,7 @@ def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[.
 
         first = begin(jnp.arange(width))
         numbers, codes = jnp.zeros(n + 1), jnp.zeros(n + 1, int)
-        none = Results(
-            jnp.zeros((len(starts), n + 1)), numbers, codes, codes, jnp.zeros((len(problem.reductions), n + 1))
-        )
+        none = Results(jnp.zeros((len(starts), n + 1)), numbers, codes, codes, jnp.zeros((step.reductions, n + 1)))
         carry = (first, jnp.asarray(width), none)
         return jax.lax.while_loop(lambda carry: (carry[0].code != IDLE).any(), body, carry)[2]
 
@@ -128,7 +128,9 @@ class _Step:
         self._rates = as_jax(problem.rates)
         self._project = as_jax(problem.project)
         self._margin: Function | None = as_jax(problem.margin) if problem.margin is not None else None
-        self.judge = Judge(problem, method, self._rate)
+        assert problem.judging is not None
+        self.reductions = problem.judging.size
+        self.judge = Judge(problem, problem.judging, method, self._rate)
         s = method.stages
         # Row i holds the weights of the state at which stage i is evaluated; stage s is the end of the step.
         self._A: Any = np.zeros((s + 1, s + 1))
@@ -141,7 +143,7 @@ class _Step:
 
         n = starts.shape[1]
         t = jnp.zeros(n)
-        rate = self._rate(t, starts, parameters)
+        rate, wrench = self._rate(t, starts, parameters)
         scale = setting.atol + setting.rtol * jnp.abs(starts)
         size, slope = (jnp.sum((rows / scale) ** 2, axis=0) for rows in (starts, rate))
         h = jnp.clip(0.01 * jnp.sqrt(size / jnp.maximum(slope, 1e-10)), 1e-6, 1e-2)
@@ -149,8 +151,8 @@ class _Step:
         code = jnp.where(self._allowed(t, starts, parameters), FLYING, SINGULAR)
         code = jnp.where(defined, code, UNDEFINED)
         none = jnp.zeros(n, dtype=bool)
-        steps, judged = jnp.zeros(n, dtype=int), self.judge.begin(n)
-        return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, code, steps, none, judged)
+        steps, judged = jnp.zeros(n, dtype=int), self.judge.begin(starts, wrench, setting.times)
+        return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, wrench, code, steps, none, judged)
 
     def __call__(self, runs: Lanes, parameters: Any, setting: Setting) -> Lanes:
         import jax.numpy as jnp
@@ -159,16 +161,17 @@ class _Step:
         last = runs.t + 1.0001 * runs.h >= setting.duration
         h = jnp.where(last, setting.duration - runs.t, runs.h)
         t_new = jnp.where(last, setting.duration, runs.t + h)
-        raw, K, error = self._attempt(runs, h, parameters, setting)
-        after = K[self.method.stages]
+        raw, K, W, error = self._attempt(runs, h, parameters, setting)
+        end = self.method.stages
         new = self._project(raw)[0]
         good = flying & (error <= 1)
         allowed = self._allowed(t_new, new, parameters)
         inside = jnp.max(jnp.abs(new), axis=0) < MAX_STATE
         accepted, lost = good & allowed & inside, good & allowed & ~inside
         if self.method.errors[0][-1] == 0:  # otherwise f at the end is known, up to projection
-            after = self._rate(t_new, new, parameters)
-        taken = Taken(runs.t, t_new, h, runs.s, new, K.at[self.method.stages].set(after))
+            rate, wrench = self._rate(t_new, new, parameters)
+            K, W = K.at[end].set(rate), W.at[end].set(wrench)
+        taken = Taken(runs.t, t_new, h, runs.s, new, K, W)
         judged = self.judge(runs.judged, taken, accepted, parameters, setting.times)
 
         factor = self._factor(error, runs.rejected, accepted, good & ~allowed)
@@ -183,15 +186,16 @@ class _Step:
             t=jnp.where(accepted, t_new, runs.t),
             h=h_next,
             s=jnp.where(accepted, new, runs.s),
-            rate=jnp.where(accepted, after, runs.rate),
+            rate=jnp.where(accepted, K[end], runs.rate),
+            wrench=jnp.where(accepted, W[end], runs.wrench),
             code=code,
             steps=steps,
             rejected=flying & ~accepted,
             judged=judged,
         )
 
-    def _attempt(self, runs: Lanes, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any]:
-        """The new state before projection, all stages, and the error (accept if <= 1).
+    def _attempt(self, runs: Lanes, h: Any, parameters: Any, setting: Setting) -> tuple[Any, Any, Any, Any]:
+        """The new state before projection, rates and wrenches of all stages, and the error (accept if <= 1).
 
         The last stage, f at the new state, is computed only if the error estimate uses it.
         """
@@ -202,19 +206,21 @@ class _Step:
         A, C = jnp.asarray(self._A), jnp.asarray(self._C)
         last = method.stages + (method.errors[0][-1] != 0)
 
-        def stage(i: Any, K: Any) -> Any:
+        def stage(i: Any, known: tuple[Any, Any]) -> tuple[Any, Any]:
             # One copy of the program serves all stages, which keeps compilation fast.
+            K, W = known
             y = runs.s + h * jnp.tensordot(A[i], K, axes=1)
-            return K.at[i].set(self._rate(runs.t + C[i] * h, y, parameters))
+            rate, wrench = self._rate(runs.t + C[i] * h, y, parameters)
+            return K.at[i].set(rate), W.at[i].set(wrench)
 
-        K = jnp.zeros((method.stages + 1, *runs.s.shape)).at[0].set(runs.rate)
-        K = jax.lax.fori_loop(1, last, stage, K)
+        K, W = (jnp.zeros((method.stages + 1, *x.shape)).at[0].set(x) for x in (runs.rate, runs.wrench))
+        K, W = jax.lax.fori_loop(1, last, stage, (K, W))
         new = runs.s + h * jnp.tensordot(A[method.stages], K, axes=1)
         scale = setting.atol + setting.rtol * jnp.maximum(jnp.abs(runs.s), jnp.abs(new))
         sums = [
             jnp.sum((jnp.tensordot(jnp.asarray(weights), K, axes=1) / scale) ** 2, axis=0) for weights in method.errors
         ]
-        return new, K, self._norm(sums, h, len(new))
+        return new, K, W, self._norm(sums, h, len(new))
 
     def _norm(self, sums: list[Any], h: Any, n: int) -> Any:
         import jax.numpy as jnp
@@ -234,8 +240,10 @@ class _Step:
         shrunk = jnp.where(factor < 1.0, factor, LEAST_FACTOR)
         return jnp.where(guarded, 0.5, jnp.where(accepted, grown, shrunk))
 
-    def _rate(self, t: Any, s: Any, parameters: Any) -> Any:
-        return self._rates(t[None], s, parameters)[0]
+    def _rate(self, t: Any, s: Any, parameters: Any) -> tuple[Any, Any]:
+        """Rates (24, L) and wrench (w, L)."""
+        rate, wrench = self._rates(t[None], s, parameters)
+        return rate, wrench
 
     def _allowed(self, t: Any, s: Any, parameters: Any) -> Any:
         import jax.numpy as jnp

@@ -7,12 +7,16 @@ not depend on its neighbours.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from llvmlite import ir
 
+from flypend.compile.llvm.dense import Dense, Step
 from flypend.compile.llvm.emit import define
-from flypend.compile.llvm.reductions import Reductions
+from flypend.compile.llvm.grid import Grid
+from flypend.compile.llvm.judging import Judge
 from flypend.compile.llvm.rows import as_double, copy_lane
-from flypend.compile.llvm.sampling import Sampler, Step
+from flypend.compile.llvm.sampling import Sampler
 from flypend.compile.llvm.stages import Stages
 from flypend.compile.llvm.stopping import not_stopped
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
@@ -29,10 +33,11 @@ SHORTEST = 1e-13
 
 ARGUMENTS = (
     "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps",
-    "times", "time_count", "judged", "rows", "row_count",
+    "times", "time_count", "judge_times", "bins", "bin_count", "bin_rate",
     "samples", "reductions", "final", "end", "status", "steps", "knots", "stop",
 )  # fmt: skip
-INTEGERS, REALS = ("runs", "max_steps", "time_count", "row_count"), ("duration", "rtol", "atol")
+INTEGERS = ("runs", "max_steps", "time_count")
+REALS = ("duration", "rtol", "atol", "bin_count", "bin_rate")
 
 
 def write_kernel(lanes: Lanes, problem: Problem, method: Method) -> None:
@@ -58,16 +63,16 @@ class _Kernel:
         self.t, self.h, self.count, self.limit = (code.reserve(1) for _ in range(4))
         self.active, self.when, self.drift = code.reserve(1), code.reserve(1), code.reserve(3)
         self.run, self.left = code.reserve(lanes.width, I64), code.reserve(1, I64)
-        reductions = Reductions(code, problem.observe, problem.reductions)
-        onto = define(lanes, without_drift(problem.project))
-        self.sampler = Sampler(code, method, n, self.at, onto, reductions)
-        self.sampler.run = self.run
+        self.dense = Dense(code, method, n, define(lanes, without_drift(problem.project)))
+        self.sampler = Sampler(code, self.dense, self.at, self.run)
+        grid = Grid(code, self.at)
+        self.judge = Judge(code, method, problem.judging, stages, self.dense, grid) if problem.judging else None
         self.low = code.reserve(1)
 
     def write(self) -> None:
         code, builder = self.code, self.code.builder
         builder.store(ir.Constant(I64, self.lanes.width), self.left)
-        self.duration, self.rtol, self.atol = (code.value(self._real(name)) for name in REALS)
+        self.duration, self.rtol, self.atol = (code.value(self._real(name)) for name in ("duration", "rtol", "atol"))
         for memory, length in ((self.S, self.problem.size), (self.P, self.problem.parameters)):
             with code.count(length) as i:
                 code.store(0.0, memory, i)
@@ -158,16 +163,15 @@ class _Kernel:
         active: Value,
     ) -> None:
         code, n = self.code, self.problem.size
-        if self.method.errors[0][-1] != 0:  # f at the end is known, up to projection
-            after = self.stages.rate(self.method.stages)
-        else:
-            after = code.reserve(n)
-            code.store(t_new, self.when)
-            code.call(self.stages.rates, self.when, self.Y, self.P, after)
-        self.sampler.take(Step(self.stages, after, t, h, t_new), accepted)
+        if self.method.errors[0][-1] == 0:  # otherwise f at the end is known, up to projection
+            self.stages.evaluate(t_new, self.method.stages)
+        step = Step(self.stages, t, h, t_new)
+        self.dense.begin()
+        self.sampler.take(step, accepted)
+        self._if_judged(lambda judge: judge.take(step, accepted, self.rtol + self.atol))
         with code.count(n) as i:
             code.store(code.select(accepted, code.load(self.Y, i), code.load(self.S, i)), self.S, i)
-            code.store(code.select(accepted, code.load(after, i), code.load(self.K, i)), self.K, i)
+        self.stages.carry(accepted)
         self._record_knot(t_new, accepted)
 
         count = code.load(self.count) + 1.0
@@ -218,12 +222,10 @@ class _Kernel:
             self._first_rates()
 
     def _first_rates(self) -> None:
-        """Evaluate the rates of new runs. The rates of all other lanes stay bit-identical."""
-        code, n = self.code, self.problem.size
-        first, new = code.reserve(n), code.load(self.h) <= 0.0
-        code.call(self.stages.rates, self.t, self.S, self.P, first)
-        with code.count(n) as i:
-            code.store(code.select(new, code.load(first, i), code.load(self.K, i)), self.K, i)
+        """Evaluate the rates of new runs and judge their starts. All other lanes stay bit-identical."""
+        new = self.code.load(self.h) <= 0.0
+        self.stages.start(self.t, new)
+        self._if_judged(lambda judge: judge.begin(new, self.t))
 
     def _max_steps(self) -> Value:
         code = self.code
@@ -245,7 +247,17 @@ class _Kernel:
         code.put(as_double(code, code.scalar(self.t, lane)), self.at["end"], run)
         code.put(status, self.at["status"], run)
         code.put(builder.fptosi(code.scalar(self.count, lane), I64), self.at["steps"], run)
-        self.sampler.finish(lane, run)
+        self.sampler.finish(lane)
+        self._if_judged(lambda judge: judge.store(lane, run, code.scalar(self.t, lane)))
+
+    def _if_judged(self, emit: Callable[[Judge], None]) -> None:
+        """Emit code that runs if the caller wants reductions, of a problem that has any."""
+        if self.judge is None:
+            return
+        builder = self.code.builder
+        address = builder.ptrtoint(self.at["reductions"], I64)
+        with self.code.when(builder.icmp_unsigned("!=", address, ir.Constant(I64, 0))):
+            emit(self.judge)
 
     def _load_next(self, lane: ir.Value) -> None:
         """Load the next start into `lane`, or idle the lane if the queue is empty."""

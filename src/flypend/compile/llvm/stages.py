@@ -19,7 +19,8 @@ STRANDS = 4  # divides the length of a state, with or without its tangent
 class Stages:
     """Memory and code of a step from state S to state Y, with parameters P and stage rates K.
 
-    `rates` is the program (t, s, p) → state rates. Stage 0 of K must hold the rates at S before a step.
+    `rates` is the program (t, s, p) → state rates, and if it has a second output, the wrench. Stage 0 must hold both at
+    S before a step.
     """
 
     def __init__(self, code: Code, method: Method, rates: Program) -> None:
@@ -29,16 +30,40 @@ class Stages:
         self.rates = define(code.lanes, rates)
         self.S, self.Y, self.P = code.reserve(self.size), code.reserve(self.size), code.reserve(rates.inputs[2])
         self.K = code.reserve(self.size * (len(method.errors[0]) + len(method.C_extra)))
+        self.wrenches = rates.outputs[1:]
+        self._W = [code.reserve(len(vector) * (method.stages + 1 + len(method.C_extra))) for vector in self.wrenches]
         self._when = code.reserve(1)
 
     def rate(self, stage: int) -> ir.Value:
         """Address of the rates of `stage`."""
         return self.code.vector_at(self.K, stage * self.size)
 
+    def wrench(self, stage: int) -> ir.Value:
+        """Address of the wrench of `stage`."""
+        return self.code.vector_at(self._W[0], stage * len(self.wrenches[0]))
+
     def evaluate(self, t: Value, stage: int) -> None:
         """Evaluate the rates at (`t`, Y) into `stage`."""
         self.code.store(t, self._when)
-        self.code.call(self.rates, self._when, self.Y, self.P, self.rate(stage))
+        self._call(self._when, self.Y, stage)
+
+    def start(self, t: ir.Value, lanes: Value) -> None:
+        """Evaluate the rates at S and the time stored at `t` into stage 0, in `lanes`; others keep every bit."""
+        last = self.method.stages
+        self._call(t, self.S, last)
+        self.carry(lanes)
+
+    def carry(self, lanes: Value) -> None:
+        """Let the last stage, at the end of a step, be stage 0 of the next, in `lanes`."""
+        code, last = self.code, self.method.stages
+        for memory, length in ((self.K, self.size), *zip(self._W, map(len, self.wrenches), strict=True)):
+            with code.count(length) as i:
+                end = code.load(memory, code.builder.add(i, ir.Constant(I64, last * length)))
+                code.store(code.select(lanes, end, code.load(memory, i)), memory, i)
+
+    def _call(self, t: ir.Value, state: ir.Value, stage: int) -> None:
+        wrench = [self.wrench(stage)] if self._W else []
+        self.code.call(self.rates, t, state, self.P, self.rate(stage), *wrench)
 
     def combine(self, weights: Any, h: Value) -> None:
         """Set Y = S + h Σ_j w_j k_j, with w the `weights`."""

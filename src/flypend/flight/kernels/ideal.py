@@ -17,17 +17,18 @@ from flypend.compile.llvm.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_k
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
-from flypend.compile.problem import Problem
+from flypend.compile.problem import Judging, Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
-from flypend.flight.criterion import REDUCTIONS, Criterion, observed
+from flypend.flight.criterion import Criterion, gauge_bounds, gauged
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
 from flypend.flight.kernels.stopping import Word, heard
-from flypend.flight.moments import merged
 from flypend.flight.request import Flight
+from flypend.geometry import hat
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
-from flypend.model import State
+from flypend.model import State, Vehicle, lie_derivative
+from flypend.model.dynamics import Rates
 from flypend.model.state import MAX_STATE, SIZE, project_symbolic
 from flypend.plants.loop import Loop
 
@@ -37,29 +38,32 @@ SHORT, LONG = 64, 128
 OPERATIONS_OF_LONG = 800
 BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
+# Share of a time by which single precision may move it.
+ROUNDING = 1e-5
 
 
 class Moments(NamedTuple):
-    """Sample times of a run in a kernel's format.
+    """Times of a run in a kernel's format, each list increasing and ending with infinity.
 
-    `times` (s) increase and end with infinity. `judged` is 1 where the criterion is evaluated, else 0. `rows` holds the
-    number of samples kept before each time, and finally the total.
+    States are kept at `kept`, s; the criterion is evaluated at `judged`, s. Entry b of `bins` is at most the number of
+    judged times up to b / `rate`, s, as `compile.llvm.grid` requires.
     """
 
-    times: NDArray[np.float64]
+    kept: NDArray[np.float64]
     judged: NDArray[np.float64]
-    rows: NDArray[np.int64]
+    bins: NDArray[np.float64]
+    rate: float
 
     @classmethod
     def of(cls, judge_at: ArrayLike = (), keep_at: ArrayLike | None = None) -> Moments:
-        """Merge the times at which the criterion is evaluated and those at which states are kept."""
-        times, judged, rows = merged(judge_at, keep_at, np.float64)
-        return cls(np.append(times, np.inf), np.append(judged, 0.0), rows)
-
-    @property
-    def kept(self) -> int:
-        """Number of samples that are kept."""
-        return int(self.rows[-1])
+        """Prepare the times at which the criterion is evaluated and those at which states are kept."""
+        judged, kept = (np.asarray(() if some is None else some, dtype=float) for some in (judge_at, keep_at))
+        last = judged[-1] if len(judged) else 0.0
+        rate = 2 * len(judged) / last if last > 0 else 0.0
+        edges = np.arange(2 * len(judged)) / rate if rate else np.zeros(1)
+        # An edge that rounding would move past a time lies before it.
+        bins = np.searchsorted(judged, (1 - ROUNDING) * edges, side="right").astype(float)
+        return cls(np.append(kept, np.inf), np.append(judged, np.inf), bins, rate)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +130,7 @@ class IdealKernel:
         moments = Moments.of(judge_at, keep_at)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
-        samples = None if keep_at is None else (moments.kept, SIZE)
+        samples = None if keep_at is None else (len(moments.kept) - 1, SIZE)
         out = Flown.of_size(len(starts), SIZE, samples=samples, steps=True, judged=judge)
 
         def fly(queue: Any, stop: Word) -> None:
@@ -162,7 +166,7 @@ def integrate(
     and four numbers for each: its time, and the drift (3,) before projection.
     """
     moments = Moments.of(keep_at=times)
-    out = Flown.of_size(1, SIZE, samples=(moments.kept, SIZE), steps=True, judged=False)
+    out = Flown.of_size(1, SIZE, samples=(len(moments.kept) - 1, SIZE), steps=True, judged=False)
     heard([lambda stop: call(function, start[None], values, setting, moments, out, stop, knots)])
     return out
 
@@ -187,7 +191,8 @@ def call(
     queue = np.zeros(1, dtype=np.int64) if queue is None else queue
     function(
         address(starts), address(values), address(queue), len(starts), *setting,
-        address(moments.times), len(moments.times) - 1, address(moments.judged), address(moments.rows), moments.kept,
+        address(moments.kept), len(moments.kept) - 1,
+        address(moments.judged), address(moments.bins), len(moments.bins), moments.rate,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
         address(out.steps), address(knots), address(stop),
     )  # fmt: skip
@@ -244,17 +249,44 @@ def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
     vehicle, law = loop.vehicle, loop.symbolic
     symbols = symbolic_loop(vehicle, law, loop.parameters)
     inputs = [symbols.t, symbols.s, symbols.p]
-    state = State.symbolic(symbols.s)
     wrench = ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment)
-    rotors = ca.mtimes(vehicle.unmixing(law.e3), wrench)
-    seen = observed(symbols.t, state, rotors, vehicle, law.reference, criterion, law.e3)
     return Problem(
-        rates=lower(ca.Function("rates", inputs, [symbols.rates])),
+        rates=lower(ca.Function("rates", inputs, [symbols.rates, ca.densify(wrench)])),
         project=lower(_projection()),
         margin=_margin(symbols, law, inputs),
-        observe=lower(ca.Function("observe", inputs, [ca.densify(seen)])),
-        reductions=REDUCTIONS,
+        judging=_judging(vehicle, law, criterion),
     )
+
+
+def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion) -> Judging:
+    """Return `criterion` as gauges of the state, and the rotor forces of a wrench."""
+    t, s, s_dot = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("s_dot", SIZE)
+    state, rates = State.symbolic(s), State.symbolic(s_dot)
+    gauges, tolerances = gauged(t, state, vehicle, law.reference, criterion, law.e3)
+    # Position, attitude and rod direction, which alone enter a gauge, have rates that the state itself holds.
+    along = Rates(state.x_dot, rates.x_dot, state.R @ hat(state.omega), rates.omega, state.y_dot, rates.y_dot)
+    first = lie_derivative(gauges, state, along, t)
+    outputs = [gauges, first, lie_derivative(first, state, along, t), tolerances]
+    wrench = ca.SX.sym("w", 4)
+    forces = _shared(vehicle.unmixing(law.e3), wrench)
+    both = ca.vertcat(ca.sumsqr(forces) / forces.numel(), ca.mmax(forces))
+    return Judging(
+        gauges=lower(ca.Function("gauges", [t, s, s_dot], [ca.densify(ca.SX(output)) for output in outputs])),
+        bounds=gauge_bounds(criterion),
+        forces=lower(ca.Function("forces", [wrench], [both])),
+    )
+
+
+def _shared(matrix: NDArray[np.float64], vector: Any) -> Any:
+    """Return `matrix` · `vector` with one product where a column repeats a magnitude, up to roundoff."""
+    rows = [ca.SX(0) for _ in matrix]
+    for column, factor in zip(matrix.T, ca.vertsplit(vector), strict=True):
+        digits = np.round(column, 14 - int(np.ceil(np.log10(np.max(np.abs(column))))))
+        products = {size: size * factor for size in np.unique(np.abs(digits)) if size}
+        for i, entry in enumerate(digits):
+            if entry:
+                rows[i] += products[abs(entry)] if entry > 0 else -products[abs(entry)]
+    return ca.vertcat(*rows)
 
 
 def _margin(symbols: SymbolicLoop, law: BoundLaw, inputs: list[Any]) -> Program | None:

@@ -73,8 +73,6 @@ def tangent_problem(closed: Loop) -> Problem:
     return Problem(
         rates=lower(ca.Function("rates", inputs, rates)),
         project=lower(_projection(both)),
-        observe=lower(ca.Function("observe", inputs, [ca.SX(0, 1)])),  # there is no criterion
-        reductions=(),
         margin=margin,
     )
 

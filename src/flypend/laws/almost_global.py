@@ -4,9 +4,9 @@ The world has e₃ up. The bob p = x + l y is a thrust vehicle whose thrust axis
 
     p̈ = −g e₃ + a y,   (M+m) a = f z·y − M l |ẏ|²,        ÿ + |ẏ|² y = −P_y (f z)/(M l)
 
-A cascade of three: position → demand A on the bob → rod along A (Lemma S) → force F → thrust axis along F (Lemma S). V of
-all three falls along every solution; the closed loop has one equilibrium. The wrench is assumed to act as commanded,
-without limits: for rotors, see `inverted`.
+A cascade of three: position → demand A on the bob → rod along A (Lemma S) → force F → thrust axis along F (Lemma S).
+V of all three falls along every solution; the closed loop has one equilibrium. The wrench is assumed to act as
+commanded, without limits: for rotors, see `inverted`.
 """
 
 from __future__ import annotations
@@ -29,8 +29,7 @@ from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, li
 OUTSIDE = Guard(
     signal="domain",
     threshold=1e-12,
-    reason="outside the domain of Theorem B: y = -d, the rod points opposite to its target, or z = -z_d, the thrust axis "
-    "does",
+    reason="outside the domain of Theorem B: y = -d or z = -z_d, rod or thrust axis point opposite to their target",
 )
 
 
@@ -70,6 +69,11 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     )
 
 
+def _least(rod: Any, axis: Any) -> Any:
+    """Return the lesser of 1 + c_y and 1 + c; where the first is 0, the second is not a number."""
+    return ca.if_else(rod < OUTSIDE.threshold, rod, ca.fmin(rod, axis))
+
+
 class Outer(NamedTuple):
     """The outer loops: the force F (3, 1), N, the terms of their V, ζ_y, 1 + c_y, and their claimed part of V̇."""
 
@@ -106,7 +110,7 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> C
         lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
         signals={
             "V_rate_claimed": outer.decay + u.decay,  # (B9)
-            "domain": ca.fmin(outer.domain, 1 + c),
+            "domain": _least(outer.domain, 1 + c),
             "axis_error": norm(z - z_d),
         },
     )

@@ -32,52 +32,52 @@ GAINS = table(
             "position_stiffness", _scaled(0.288, 0, -2), "1/s²", "k_x: stiffness of the bob's horizontal position",
             POSITIVE, label="position",
         ),
-        Gain("position_reach", _scaled(2.65, 1, 0), "m", "L: position error from which the pull no longer grows", POSITIVE),
+        Gain("position_reach", _scaled(2.65, 1, 0), "m", "L: error beyond which the pull hardly grows", POSITIVE),
         Gain(
             "position_damping", _scaled(1.08, 0, -1), "1/s", "k_v: damping of the bob's horizontal velocity", POSITIVE,
             label="position damping",
         ),
         Gain(
-            "position_speed", _scaled(0.765, 1, -1), "m/s", "L_v: horizontal speed from which its damping no longer grows",
-            POSITIVE,
+            "position_speed", _scaled(0.765, 1, -1), "m/s", "L_v: speed beyond which it hardly grows", POSITIVE,
         ),
         Gain(
-            "height_stiffness", _scaled(0.346, 0, -2), "1/s²", "k_z: stiffness of the bob's height", POSITIVE, label="height",
+            "height_stiffness", _scaled(0.346, 0, -2), "1/s²", "k_z: stiffness of the bob's height", POSITIVE,
+            label="height",
         ),
-        Gain("height_reach", _scaled(0.885, 1, 0), "m", "L_z: height error from which the pull no longer grows", POSITIVE),
+        Gain("height_reach", _scaled(0.885, 1, 0), "m", "L_z: error beyond which the pull hardly grows", POSITIVE),
         Gain(
             "height_damping", _scaled(0.84, 0, -1), "1/s", "k_vz: damping of the bob's vertical velocity", POSITIVE,
             label="height damping",
         ),
         Gain(
-            "height_speed", _scaled(0.353, 1, -1), "m/s", "L_vz: vertical speed from which this damping no longer grows",
-            POSITIVE,
+            "height_speed", _scaled(0.353, 1, -1), "m/s", "L_vz: speed beyond which it hardly grows", POSITIVE,
         ),
         Gain(
-            "fall_damping", _scaled(0.24, 0, -1), "1/s", "k_f: damping of falling, without limit; of climbing, limited to "
-            "k_f b", NOT_NEGATIVE,
+            "fall_damping", _scaled(0.24, 0, -1), "1/s", "k_f: damping that grows without limit in a fall only",
+            NOT_NEGATIVE,
         ),
         Gain("fall_speed", _scaled(0.425, 1, -1), "m/s", "b: speed over which k_f fades in", POSITIVE),
         Gain(
-            "shear", 0.2, "", "s: share of the height error that pulls sideways, which moves -d off the rod that hangs at "
-            "rest", Bounds(-1.0, 1.0),
+            "shear", 0.2, "", "s: share of the height error that pulls sideways; moves -d off the rod at rest",
+            Bounds(-1.0, 1.0),
         ),
         Gain("rod_stiffness", _scaled(2.88, 0, -2), "1/s²", "k_y/ρ_y: spring of the rod", POSITIVE, label="rod"),
         Gain("rod_alignment", _scaled(0.84, 0, -1), "1/s", "Damping of the rod's direction", POSITIVE),
         Gain("rod_damping", _scaled(1.92, 0, -1), "1/s", "Damping of the rod's rate", POSITIVE, label="rod damping"),
         Gain("rod_weight", _scaled(6.3, 2, 0), "m²", "ρ_y: weight of the rod's rate in V", POSITIVE),
         Gain("rod_barrier", 0.1, "", "Share of the potential that bars y = -d", POSITIVE_SHARE),
-        Gain("rod_fade", 0.5, "", "1: the rod always carries its full demand; 0.5: none near y = -d", FADE),
+        Gain("rod_fade", 0.5, "", "1: the rod carries its full demand always; 0.5: none near y = -d", FADE),
         Gain(
             "axis_stiffness", _scaled(14.4, 0, -2), "1/s²", "k_1/ρ: spring of the thrust axis", POSITIVE, label="axis",
         ),
         Gain("axis_alignment", _scaled(2.88, 0, -1), "1/s", "Damping of the thrust axis's direction", POSITIVE),
         Gain(
-            "axis_damping", _scaled(5.76, 0, -1), "1/s", "Damping of the thrust axis's rate", POSITIVE, label="axis damping",
+            "axis_damping", _scaled(5.76, 0, -1), "1/s", "Damping of the thrust axis's rate", POSITIVE,
+            label="axis damping",
         ),
         Gain("axis_weight", _scaled(6.3, 2, 0), "m²", "ρ: weight of the thrust axis's rate in V", POSITIVE),
         Gain("axis_barrier", 0.25, "", "Share of the potential that bars z = -z_d", POSITIVE_SHARE),
-        Gain("axis_fade", 0.5, "", "1: the thrust always has its full length; 0.5: it fades near z = -z_d", FADE),
+        Gain("axis_fade", 0.5, "", "1: full thrust always; 0.5: thrust fades near z = -z_d", FADE),
         Gain("yaw_damping", _scaled(1.2, 0, -1), "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
     )
 )  # fmt: skip
@@ -97,7 +97,8 @@ def demand_stays_upward(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[s
     """Raise InputError unless the largest downward part of σ_p + σ_v is below g, so that A·e₃ > 0. Prepares nothing."""
     most = largest_descent(gains)
     if most >= vehicle.gravity:
-        raise InputError("gains", f"|shear| k_x L + k_z L_z + k_vz L_vz + k_f b < g = {vehicle.gravity:g} m/s²", f"{most:.4g}")
+        bound = f"|shear| k_x L + k_z L_z + k_vz L_vz + k_f b < {vehicle.gravity:g} m/s², gravity"
+        raise InputError("gains", bound, f"{most:.4g} m/s²")
     return {}
 
 

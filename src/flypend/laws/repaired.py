@@ -43,18 +43,18 @@ def _of_frequency(factor: float, power: int) -> Callable[[Vehicle], float]:
 
     return value
 
+
+PART = Bounds(0.0, 0.99, open_low=True)
 GAINS = table(
     (
         Gain("k_d", _of_frequency(0.2, 1), "1/s", "Damping of the rod at low speed", POSITIVE, label="k_d"),
-        Gain(
-            "damping_share", 0.6, "", "D: the damping of the rod stays below this share of k_p", Bounds(0.0, 0.99, True),
-        ),
+        Gain("damping_share", 0.6, "", "D: the damping of the rod stays below this share of k_p", PART),
         Gain("k_1", _of_frequency(0.2, 2), "1/s²", "Stiffness of the thrust axis", POSITIVE, label="k_1"),
         Gain("k_2", _of_frequency(0.4, 1), "1/s", "Damping of the thrust axis's rate", POSITIVE, label="k_2"),
         Gain("k_e", _of_frequency(0.4, 1), "1/s", "Damping of the thrust axis's direction", POSITIVE, label="k_e"),
-        Gain("axis_weight", 8.0, "", "ρ: weight of the thrust axis's rate in V; small couples it strongly to the rod", POSITIVE),
+        Gain("axis_weight", 8.0, "", "ρ: weight of the axis in V; the smaller, the more it serves the rod", POSITIVE),
         Gain("axis_barrier", 0.25, "", "ε: share of the potential that bars z = -z_d", POSITIVE_SHARE),
-        Gain("yaw_damping", 0.0, "1/s", "Decay of the yaw rate; (setmu) leaves it free", NOT_NEGATIVE),
+        Gain("yaw_damping", _of_frequency(0.4, 1), "1/s", "Decay of the yaw rate, free in (setmu)", NOT_NEGATIVE),
     )
 )  # fmt: skip
 

@@ -1,8 +1,8 @@
 """Lemma S: one backstepping step on S², with a Lyapunov function that falls along every solution.
 
-A unit vector φ obeys φ̈ = −|φ̇|² φ + u; the tangent force u is the input. It is to point along d(t) ∈ S², which turns at
-ω_d = d × ḋ. Behind it stands an outer system with V̇_X = −Q_X + N G·(ς φ − d): the share ς of a force N along φ acts where
-N d was asked for. With c = φ·d, e = d − c φ and
+A unit vector φ obeys φ̈ = −|φ̇|² φ + u; the tangent force u is the input. It is to point along d(t) ∈ S², which turns
+at ω_d = d × ḋ. Behind it stands an outer system with V̇_X = −Q_X + N G·(ς φ − d): the share ς of a force N along φ acts
+where N d was asked for. With c = φ·d, e = d − c φ and
 
     ς = c + χ (1 − c),   Ψ(c) = (1 − ε)(1 − c) − 2ε ln((1 + c)/2),   g = −Ψ' = (1 − ε) + 2ε/(1 + c)
     v_* = k_e e + N (χ (G·φ) e − (1 + c) P_φ G) / (k ((1 − ε)(1 + c) + 2ε))                                   (S1)

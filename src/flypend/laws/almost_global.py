@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 
 from flypend.geometry import E3, cross, dot, norm, scale
+from flypend.laws.almost_global_bounds import theorem_b
 from flypend.laws.almost_global_gains import GAINS, axis_step, demand_stays_upward, rod_step
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import Control, Guard
@@ -66,6 +67,7 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
         reference=followed,
         path=carrying(followed),
         prepare=demand_stays_upward,
+        theorem=theorem_b,
     )
 
 
@@ -75,12 +77,12 @@ def _least(rod: Any, axis: Any) -> Any:
 
 
 class Outer(NamedTuple):
-    """The outer loops: the force F (3, 1), N, the terms of their V, ζ_y, 1 + c_y, and their claimed part of V̇."""
+    """The outer loops: the force F (3, 1), N, the terms of their V, ζ_y, c_y, and their claimed part of V̇."""
 
     force: Any
     terms: tuple[Any, Any, Any]
     rate_error: Any
-    domain: Any
+    cosine: Any
     decay: Any
 
 
@@ -110,7 +112,9 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> C
         lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
         signals={
             "V_rate_claimed": outer.decay + u.decay,  # (B9)
-            "domain": _least(outer.domain, 1 + c),
+            "domain": _least(1 + outer.cosine, 1 + c),
+            "rod_cosine": outer.cosine,
+            "axis_cosine": c,
             "axis_error": norm(z - z_d),
         },
     )
@@ -139,7 +143,7 @@ def _outer(t: Any, state: State, vehicle: Vehicle, k: Any, path: Path) -> Outer:
 
     F = ((M + m) * a_d + M * l * dot(y_dot, y_dot)) * y - M * l * u.force  # (B6)
     terms = (U + dot(v, v) / 2, u.potential, u.kinetic)
-    return Outer(F, terms, u.rate_error, 1 + aimed.cosine, u.decay - dot(v, sigma_v))
+    return Outer(F, terms, u.rate_error, aimed.cosine, u.decay - dot(v, sigma_v))
 
 
 def spring(e: Any, k: Any) -> tuple[Any, Any]:

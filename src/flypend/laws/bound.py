@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType, SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import casadi as ca
 import numpy as np
@@ -16,6 +16,9 @@ from flypend.laws.gain import Gain, check_gain, is_number
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED, E3Direction
+
+if TYPE_CHECKING:
+    from flypend.laws.guarantee import Guarantee
 
 # Maps (thrust, moment) between the e₃-down and the e₃-up frame, either way.
 FLIP_WRENCH = np.array([-1.0, 1.0, -1.0, -1.0])
@@ -102,6 +105,8 @@ class BoundLaw:
         Lead, prediction and observer around the law in a sampled flight.
     fixed : tuple of str
         Gains that exported code holds as constants.
+    theorem : callable, optional
+        As in `Law`.
     """
 
     name: str
@@ -117,6 +122,7 @@ class BoundLaw:
     reference: Reference | None = None
     path: Path | None = None
     fixed: tuple[str, ...] = ()
+    theorem: Callable[[BoundLaw, State], Guarantee] | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
@@ -126,6 +132,15 @@ class BoundLaw:
         if vehicle != self.vehicle:
             raise errors.InputError("law", f"one bound to {vehicle.name}", f"{self.name} bound to {self.vehicle.name}")
         return self
+
+    def guarantee(self, start: State) -> Guarantee:
+        """Return what the law's theorem says of a single `start`, in the law's frame: see `laws.guarantee.Guarantee`.
+
+        Raises InputError if the law has no theorem, or `start` is a batch.
+        """
+        if self.theorem is None:
+            raise errors.InputError("law", "one with a theorem: repaired or almost_global", self.name)
+        return self.theorem(self, start)
 
     @property
     def numbers(self) -> dict[str, float]:

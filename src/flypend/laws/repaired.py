@@ -9,6 +9,7 @@ The paper's frame: e₃ along gravity, f < 0. docs/laws/theorem.md, Theorem A. A
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -17,8 +18,9 @@ import casadi as ca
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
-from flypend.laws.bound import Control, Guard
+from flypend.laws.bound import BoundLaw, Control, Guard
 from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, documented, table
+from flypend.laws.guarantee import IDEAL, Guarantee, outside, saturated, signals_at
 from flypend.laws.law import Law
 from flypend.laws.step import Step, aim, push
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
@@ -79,10 +81,16 @@ def repaired(**gains: float) -> Law:
     InputError
         If a gain is unknown or out of bounds.
     """
-    return Law(name="repaired", e3="down", gains=GAINS, given=gains, control=_control, guard=OUTSIDE)
+    return Law(
+        name="repaired", e3="down", gains=GAINS, given=gains, control=repaired_control, guard=OUTSIDE, theorem=theorem_a
+    )
 
 
-def _control(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
+def repaired_control(t: Any, state: State, vehicle: Vehicle, k: Any, *, cancelled: float = 1.0) -> Control:
+    """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `repaired`.
+
+    `cancelled` is the share of the cross term that v_* cancels: 1 in the theorem, less only to show what it is for.
+    """
     y, y_dot, z = state.y, state.y_dot, state.z
     k_p = stiffness(vehicle)  # (A1)
     speed_squared = dot(y_dot, y_dot)
@@ -95,8 +103,8 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
     # The moment does not appear in these rates: if it did, building the closed loop would fail.
     rates = equations_of_motion(state, Wrench(f, ca.SX.sym("moment", 3)), vehicle, "down")
     turn = scale(1 / N**2, cross(f_p, lie_derivative(f_p, state, rates)))  # z_d × ż_d
-    step = Step(k.k_1, k.k_e, k.k_2, k.axis_weight, k.axis_barrier)
-    aimed = aim(z, z_d, turn, N, y_dot, step)
+    step = axis_step(k)
+    aimed = aim(z, z_d, turn, N, cancelled * y_dot, step)
     u = push(z, axis_rate(state), aimed, lie_derivative(aimed.rate, state, rates), step)  # Lemma S
 
     return Control(
@@ -109,6 +117,32 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
         signals={
             "V_rate_claimed": u.decay - dot(y_dot, sigma),  # (A5)
             "domain": 1 + aimed.cosine,
+            "axis_cosine": aimed.cosine,
             "axis_error": norm(z - z_d),
         },
+    )
+
+
+def axis_step(k: Any) -> Step:
+    """Return the gains of Lemma S for the thrust axis."""
+    return Step(k.k_1, k.k_e, k.k_2, k.axis_weight, k.axis_barrier)
+
+
+def theorem_a(law: BoundLaw, start: State) -> Guarantee:
+    """Return what Theorem A says of `start`; every start with V(0) < 2 k_p hangs."""
+    found = signals_at(law, start)
+    excluded = outside(law, found, {"axis_cosine": "z = -z_d"})
+    if excluded is not None:
+        return excluded
+    k_p, force_per_stiffness = float(stiffness(law.vehicle)), law.vehicle.M * law.vehicle.l
+    rate = math.sqrt(2 * found["V"])
+    sigma = saturated(law.gains["k_d"], law.gains["damping_share"] * k_p / law.gains["k_d"], rate)
+    saddle = "the stable manifold of the saddle y = -e3, z = e3, at rest: a set of codimension 2"
+    return Guarantee(
+        covered=True,
+        exceptions=saddle if found["V"] >= 2 * k_p else "",
+        V=found["V"],
+        thrust=(force_per_stiffness * (k_p - sigma), force_per_stiffness * (k_p + sigma)),
+        rod_rate=rate,
+        assumes=IDEAL,
     )

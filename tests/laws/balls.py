@@ -50,7 +50,9 @@ class RateCheck:
     def numbers(self, rng):
         """Time, and parameters and gains up to 20 % off those of the vehicle."""
         params, gains = params_of(self.vehicle), np.array(list(self.law.numbers.values()))
-        return rng.uniform(0, 10), *(values * np.exp(rng.uniform(-0.2, 0.2, values.shape)) for values in (params, gains))
+        return rng.uniform(0, 10), *(
+            values * np.exp(rng.uniform(-0.2, 0.2, values.shape)) for values in (params, gains)
+        )
 
     def __call__(self, rng, speed=12.0):
         """Return the ball of the difference at a random state, over the sum of the sizes of the terms."""

@@ -123,9 +123,9 @@ def run(
     if html is not None:
         check_file(html, (".html",))
     trajectory = fly(flight)
-    # Only the corrected law is flown for longer: a law that drives the rod would spin it up without bound.
+    # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
-    settled = fly(longer) if trajectory.law == "corrected" else None
+    settled = fly(longer) if trajectory.law in ("corrected", "repaired") else None
     from flypend.report.flight import write_flight
     from flypend.report.text import judgement, summary_table
 

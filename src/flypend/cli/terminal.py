@@ -12,7 +12,9 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 console = Console()
-LAW_HELP = "a name (inverted, lqr, corrected, printed, detuned), file.py:function or module:function"
+LAW_HELP = (
+    "a name (inverted, almost_global, repaired, lqr, corrected, printed, detuned), file.py:function or module:function"
+)
 
 
 @contextmanager

@@ -13,7 +13,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import casadi as ca
 
 from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
-from flypend.laws.guarantee import IDEAL, Guarantee, least_distance, least_share, outside, rate_bound, saturated, signals_at
+from flypend.laws.guarantee import (
+    IDEAL,
+    Guarantee,
+    least_distance,
+    least_share,
+    outside,
+    rate_bound,
+    saturated,
+    signals_at,
+)
 from flypend.laws.step import Step
 from flypend.model import State
 

@@ -25,6 +25,8 @@ FACTORIES: Mapping[str, Callable[..., Law]] = {
     "inverted": inverted,
     "lqr": lqr,
 }
+# The laws of the paper's theorem: they accept its gains, bring the rod to their e₃ and control no position.
+THEOREM_1 = ("printed", "corrected", "repaired")
 SHAPES: Mapping[str, Callable[..., Reference]] = {
     "hover": references.hover,
     "line": references.line,

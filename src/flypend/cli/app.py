@@ -15,7 +15,7 @@ from rich.console import Console
 from typer.exceptions import TyperException
 
 from flypend import __version__
-from flypend.cli import examples, studies, viewing
+from flypend.cli import examples, studies, theorem, viewing
 from flypend.cli.terminal import LAW_HELP, bold, console, counter, progress, tell_how
 from flypend.cli.viewing import Style
 from flypend.errors import InputError
@@ -27,6 +27,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="rich",
 )
+app.add_typer(theorem.app)
 app.add_typer(viewing.app)
 app.add_typer(studies.app)
 app.add_typer(examples.app)
@@ -68,6 +69,7 @@ def paper(
     with counter() as tell:
         result = reproduce(out, quick=quick, style=style, progress=tell)
     console.print(summary_table(result.verdicts))
+    console.print(summary_table(result.repaired, title="Theorem 1 repaired: which claim holds after 30 s"))
     console.print(findings_table(result.findings))
     console.print(f"One swing-up by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
     console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; start with report.md.")
@@ -125,8 +127,8 @@ def run(
     trajectory = fly(flight)
     # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
-    settled = fly(longer) if trajectory.law in ("corrected", "repaired") else None
-    from flypend.report.flight import write_flight
+    settled = fly(longer) if trajectory.law in ("corrected", "repaired", "almost_global") else None
+    from flypend.report.flight import THEOREMS, write_flight
     from flypend.report.text import judgement, summary_table
 
     verdicts = write_flight(
@@ -144,7 +146,8 @@ def run(
     console.print(f"{trajectory.law} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False)
     console.print(f"inverted: {judgement(trajectory)}")
     if verdicts:
-        console.print(summary_table({(trajectory.law, what): verdicts}))
+        title = f"{THEOREMS.get(trajectory.law, 'Theorem 1')}: which claim holds"
+        console.print(summary_table({(trajectory.law, what): verdicts}, title=title))
     console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
 
 

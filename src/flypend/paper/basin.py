@@ -40,7 +40,7 @@ class Basin:
 
     @property
     def edge(self) -> float:
-        """1 + cosine at one step of the grid from an exceptional set."""
+        """1 + cosine one step of the grid away from an exceptional set."""
         return float(1 - np.cos(self.angles[1] - self.angles[0]))
 
 

@@ -15,6 +15,7 @@ from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.pictures.style import style_named
 
 STYLES = ((INK, "-"), (RED, "--"), (GREEN, "-."), (BLUE, ":"), (ORANGE, (0, (5, 1))), (PINK, (0, (1, 1))))
+MOST_SPELT = 4  # more terms do not fit into a legend
 LEAST = 1e-8  # of the largest V: below it, roundoff
 
 
@@ -22,7 +23,7 @@ def lyapunov_curves(ax: Any, run: Trajectory) -> list[str]:
     """Plot V and its terms V_1, V_2, … along `run` on a logarithmic axis; return the names of the terms."""
     terms = [name for name in run.signals if name.startswith("V_") and name[2:].isdigit()]
     for name, (color, style) in zip(["V", *terms], STYLES, strict=False):
-        label = "$V = " + " + ".join(terms) + "$" if name == "V" and terms else f"${name}$"
+        label = "$V = " + " + ".join(terms) + "$" if name == "V" and 0 < len(terms) < MOST_SPELT else f"${name}$"
         values = np.where(run.signals[name] > 0, run.signals[name], np.nan)
         marker = "." if len(run.t) < 3 else None
         ax.plot(run.t, values, color=color, linestyle=style, label=label, linewidth=1.2, marker=marker)
@@ -50,8 +51,8 @@ def descent_figure(groups: Mapping[str, Mapping[str, Trajectory]], until: float,
             ax.grid(visible=True, color="#e3e3e3", linewidth=0.5)
             if run.outcome.status != "completed":
                 ax.axvline(run.outcome.time, color=RED, linewidth=1.0, linestyle=":")
-    most = max(rows.flat, key=lambda ax: len(ax.lines))
-    figure.legend(*most.get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=SMALL, frameon=False)
+    entries = max((ax.get_legend_handles_labels() for ax in rows.flat), key=lambda found: len(found[0]))
+    figure.legend(*entries, loc="outside lower center", ncols=6, fontsize=SMALL, frameon=False)
     for ax in rows[-1]:
         ax.set_xlabel("time (s)", fontsize=LABEL)
     return figure
@@ -66,8 +67,13 @@ def basin_figure(panels: Sequence[Basin], *, style: str = "paper") -> Figure:
     figure = new_figure(form.full[0], 0.52 * form.full[0], form.dpi)
     for ax, basin in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
         degrees = np.degrees(basin.angles)
-        shown = ax.pcolormesh(degrees, degrees, basin.settling, cmap="viridis", shading="nearest", rasterized=True)
-        figure.colorbar(shown, ax=ax, location="bottom", shrink=0.9).set_label("settling time (s)", fontsize=SMALL)
+        most = np.nanpercentile(basin.settling, 99)
+        shown = ax.pcolormesh(
+            degrees, degrees, basin.settling, cmap="viridis", shading="nearest", rasterized=True, vmin=0, vmax=most
+        )
+        bar = figure.colorbar(shown, ax=ax, location="bottom", shrink=0.9, extend="max")
+        bar.set_label("settling time (s)", fontsize=SMALL)
+        bar.ax.tick_params(labelsize=SMALL)
         ax.contourf(degrees, degrees, basin.domain, levels=[-1.0, basin.edge], colors=[RED])
         ax.set_title(f"{basin.law} law; red: the exceptional set", fontsize=SMALL)
         ax.set_xlabel(r"rod from its goal ($^\circ$)", fontsize=LABEL)

@@ -17,7 +17,7 @@ import casadi as ca
 
 from flypend.geometry import E3, cross, dot, norm, scale
 from flypend.laws.almost_global_bounds import theorem_b
-from flypend.laws.almost_global_gains import GAINS, axis_step, demand_stays_upward, rod_step
+from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import Control, Guard
 from flypend.laws.gain import documented
@@ -64,6 +64,7 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
         given=gains,
         control=_control,
         guard=OUTSIDE,
+        computer=computer_of,
         reference=followed,
         path=carrying(followed),
         prepare=demand_stays_upward,

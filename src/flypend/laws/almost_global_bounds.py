@@ -8,26 +8,16 @@ from __future__ import annotations
 
 import math
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import casadi as ca
 
 from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
-from flypend.laws.guarantee import (
-    IDEAL,
-    Guarantee,
-    least_distance,
-    least_share,
-    outside,
-    rate_bound,
-    saturated,
-    signals_at,
-)
+from flypend.laws.bound import BoundLaw
+from flypend.laws.covering import outside, signals_at
+from flypend.laws.guarantee import IDEAL, Guarantee, least_distance, least_share, rate_bound, saturated
 from flypend.laws.step import Step
 from flypend.model import State
-
-if TYPE_CHECKING:
-    from flypend.laws.bound import BoundLaw
 
 MOVING = "the reference has six bounded derivatives, and p_ref'' stays above the demand's margin to free fall"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType, SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -13,12 +13,10 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.laws.gain import Gain, check_gain, is_number
+from flypend.laws.guarantee import Guarantee
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED, E3Direction
-
-if TYPE_CHECKING:
-    from flypend.laws.guarantee import Guarantee
 
 # Maps (thrust, moment) between the e₃-down and the e₃-up frame, either way.
 FLIP_WRENCH = np.array([-1.0, 1.0, -1.0, -1.0])

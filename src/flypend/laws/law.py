@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.gain import Gain, check_gain, checked, table
+from flypend.laws.guarantee import Guarantee
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
-
-if TYPE_CHECKING:
-    from flypend.laws.guarantee import Guarantee
 
 Values = Mapping[str, Any]
 

@@ -19,8 +19,9 @@ from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
+from flypend.laws.covering import outside, signals_at
 from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, documented, table
-from flypend.laws.guarantee import IDEAL, Guarantee, outside, saturated, signals_at
+from flypend.laws.guarantee import IDEAL, Guarantee, saturated
 from flypend.laws.law import Law
 from flypend.laws.step import Step, aim, push
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative

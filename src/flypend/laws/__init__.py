@@ -16,6 +16,7 @@ from flypend.laws.named import law_from_dict, law_names
 from flypend.laws.own import LawError, from_function
 from flypend.laws.printed import printed
 from flypend.laws.repaired import repaired
+from flypend.laws.supervised import supervised
 
 AnyLaw = Law | BoundLaw | Controller
 
@@ -39,4 +40,5 @@ __all__ = [
     "lqr",
     "printed",
     "repaired",
+    "supervised",
 ]

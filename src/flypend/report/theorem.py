@@ -33,7 +33,7 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True)
 class Proof:
-    """Result of `check_theorems`: verdicts by (law, start) for each theorem, and one row of `Descent` per law."""
+    """Result of `check_theorems`: verdicts by (theorem, start), and one row of `Descent` per law."""
 
     repaired: Mapping[Column, list[Verdict]]
     almost_global: Mapping[Column, list[Verdict]]
@@ -41,10 +41,10 @@ class Proof:
 
 
 def judged(
-    runs: Mapping[str, Trajectory], law: str, claims: Callable[[Trajectory], list[Verdict]]
+    runs: Mapping[str, Trajectory], theorem: str, claims: Callable[[Trajectory], list[Verdict]]
 ) -> dict[Column, list[Verdict]]:
-    """Return the verdicts of `claims` on `runs` of `law`, by (law, name of the start)."""
-    return {(law, name): claims(run) for name, run in runs.items()}
+    """Return the verdicts of `claims` on `runs` by (`theorem`, name of the start)."""
+    return {(theorem, name): claims(run) for name, run in runs.items()}
 
 
 def check_theorems(
@@ -73,9 +73,7 @@ def check_theorems(
         progress("flying the experiments", 0, 1)
         hanging, inverted = fly_repaired(), fly_swing_ups()
         descents = [descend(name, runs, seed, progress=partial(progress, f"flying {name}")) for name in laws()]
-        result = Proof(
-            judged(hanging, "repaired", theorem_a_claims), judged(inverted, "almost_global", theorem_b_claims), descents
-        )
+        result = Proof(judged(hanging, "A", theorem_a_claims), judged(inverted, "B", theorem_b_claims), descents)
         progress("drawing", 0, 1)
         _draw(hanging, inverted, folder, style)
         _write(result, folder, runs, seed)
@@ -152,9 +150,9 @@ def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
     ]
     (folder / "report.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
     claims = [
-        {"law": law, "start": start, "claims": row}
+        {"theorem": theorem, "start": start, "claims": row}
         for verdicts in (result.repaired, result.almost_global)
-        for (law, start), row in verdicts.items()
+        for (theorem, start), row in verdicts.items()
     ]
     content = {
         "flypend": __version__, "claims": claims, "runs": runs, "seed": seed,

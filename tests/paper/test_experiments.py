@@ -89,7 +89,9 @@ def test_a_row_gives_both_laws_with_its_gains():
 def test_an_unknown_experiment_or_law_is_refused_with_the_nearest_name():
     with pytest.raises(fp.InputError, match=r"^experiment: expected one of 1, 2, .* got '2-project' \(did you mean"):
         experiment("2-project")
-    with pytest.raises(fp.InputError, match=r"^law: expected one of printed, corrected, got 'correct' \(did you mean"):
+    with pytest.raises(
+        fp.InputError, match=r"^law: expected one of printed, corrected, repaired, got 'correct' \(did you mean"
+    ):
         experiment("2").law("correct")
 
 

@@ -590,9 +590,13 @@ def test_the_defects_of_the_report_follow_from_the_runs_on_disk(reproduced, runs
 
 def test_the_report_for_people_says_the_same(reproduced, report):
     told = (reproduced[0] / "report.md").read_text(encoding="utf-8")
-    verdicts, *evidence = tables(told)
-    for table in (verdicts, *evidence):
+    verdicts, repaired, *evidence = tables(told)
+    for table in (verdicts, repaired, *evidence):
         well_formed(table)
+    for row, entry in zip(repaired[4:], report["repaired"], strict=True):
+        assert row[1].strip() == entry["experiment"]
+        assert all(cell.strip().endswith("**holds**") for cell in row[3:])
+        assert all(claim["holds"] for claim in entry["claims"])
     assert len(evidence) == 16
     for row, entry in zip(verdicts[4:], report["claims"], strict=True):
         assert [cell.strip() for cell in row[:3]] == [entry["law"], entry["experiment"], entry["run"]]
@@ -614,6 +618,9 @@ def test_the_tables_of_the_terminal_fit_and_lose_nothing(reproduced):
     for (law, name), row in result.verdicts.items():
         wanted = [part for v in row for part in (text.number(v.value), "✓" if v.holds else "✗")]
         assert [*law.split(), name, *wanted] in lines
+    told = printed(text.summary_table(result.repaired))
+    assert "…" not in told
+    assert told.count("✓") == 6 * len(experiment_names())
     told = printed(text.findings_table(result.findings))
     assert "…" not in told
     assert max(len(line.rstrip()) for line in told.splitlines()) <= 80
@@ -664,7 +671,9 @@ def test_a_picture_that_fails_leaves_nothing_of_the_reproduction(runs, tmp_path,
     monkeypatch.setattr(paper, "_pictures", lambda *_: [("one that fails", task)])
     monkeypatch.setattr(paper, "figure_tasks", lambda *_, **__: [])
     key = ("corrected", "1")
-    monkeypatch.setattr(paper, "_judge", lambda _, swing_up: Reproduction({key: [verdict()]}, {key: ""}, [], swing_up))
+    monkeypatch.setattr(
+        paper, "_judge", lambda _, swing_up: Reproduction({key: [verdict()]}, {key: ""}, [], swing_up, {})
+    )
     with pytest.raises(error):
         reproduce(out, quick=True)
     assert content(tmp_path) == before

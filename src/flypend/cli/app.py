@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import examples, listing, studies, viewing
+from flypend.cli import examples, listing, studies, theorem, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.errors import InputError
@@ -56,6 +56,7 @@ def paper(out: Path, quick: bool, style: str) -> None:
     with counter() as tell:
         result = reproduce(out, quick=quick, style=style, progress=tell)
     console.print(summary_table(result.verdicts))
+    console.print(summary_table(result.repaired, title="Theorem 1 repaired: which claim holds after 30 s"))
     console.print(findings_table(result.findings))
     console.print(f"One swing-up by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
     console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; start with report.md.")
@@ -115,10 +116,10 @@ def run(
     if html is not None:
         check_file(html, (".html",))
     trajectory = fly(flight)
-    # Only the corrected law is flown for longer: a law that drives the rod would spin it up without bound.
+    # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
-    settled = fly(longer) if trajectory.law == "corrected" else None
-    from flypend.report.flight import write_flight
+    settled = fly(longer) if trajectory.law in ("corrected", "repaired", "almost_global") else None
+    from flypend.report.flight import THEOREMS, write_flight
     from flypend.report.text import judgement, summary_table
 
     verdicts = write_flight(
@@ -138,7 +139,8 @@ def run(
     )
     console.print(f"inverted: {judgement(trajectory)}")
     if verdicts:
-        console.print(summary_table({(trajectory.law, what): verdicts}))
+        title = f"{THEOREMS.get(trajectory.law, 'Theorem 1')}: which claim holds"
+        console.print(summary_table({(trajectory.law, what): verdicts}, title=title))
     console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
     if trajectory.outcome.status != "completed":
         sys.exit(1)
@@ -294,7 +296,7 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
-for _command in (*studies.COMMANDS, *viewing.COMMANDS, *listing.COMMANDS, *examples.COMMANDS):
+for _command in (theorem.theorem, *studies.COMMANDS, *viewing.COMMANDS, *listing.COMMANDS, *examples.COMMANDS):
     app.add_command(_command)
 
 

@@ -9,7 +9,9 @@ from typing import Any, TypeVar
 import click
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
-LAW_HELP = "a name (inverted, lqr, corrected, printed, detuned), file.py:function or module:function"
+LAW_HELP = (
+    "a name (inverted, almost_global, repaired, lqr, corrected, printed, detuned), file.py:function or module:function"
+)
 
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")

@@ -56,12 +56,12 @@ def integrate(
     After each accepted step the state is projected onto the manifold, and the drift before projection is recorded. If
     `margin(t, state)` stops being positive, the run ends as singular, with `margin_reason`.
     """
+    if margin is not None and margin(0.0, start) <= 0:
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, margin_reason))
+
     if not np.all(np.isfinite(rates(0.0, start))):
         reason = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
         return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, reason))
-
-    if margin is not None and margin(0.0, start) <= 0:
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, margin_reason))
 
     knots: list[float] = [0.0]
     interpolants: list[Any] = []

@@ -4,6 +4,7 @@ A custom law is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wr
 Lyapunov function, a reference or a frame, build a `Law` directly.
 """
 
+from flypend.laws.almost_global import almost_global
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.controller import Controller
 from flypend.laws.corrected import corrected
@@ -14,6 +15,8 @@ from flypend.laws.lqr import lqr
 from flypend.laws.named import law_from_dict, law_names
 from flypend.laws.own import LawError, from_function
 from flypend.laws.printed import printed
+from flypend.laws.repaired import repaired
+from flypend.laws.supervised import supervised
 
 AnyLaw = Law | BoundLaw | Controller
 
@@ -28,6 +31,7 @@ __all__ = [
     "Guard",
     "Law",
     "LawError",
+    "almost_global",
     "corrected",
     "from_function",
     "inverted",
@@ -35,4 +39,6 @@ __all__ = [
     "law_names",
     "lqr",
     "printed",
+    "repaired",
+    "supervised",
 ]

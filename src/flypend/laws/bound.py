@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.laws.gain import Gain, check_gain, is_number
+from flypend.laws.guarantee import Guarantee
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import FLIP_PACKED, E3Direction
@@ -102,6 +103,8 @@ class BoundLaw:
         Lead, prediction and observer around the law in a sampled flight.
     fixed : tuple of str
         Gains that exported code holds as constants.
+    theorem : callable, optional
+        As in `Law`.
     """
 
     name: str
@@ -117,6 +120,7 @@ class BoundLaw:
     reference: Reference | None = None
     path: Path | None = None
     fixed: tuple[str, ...] = ()
+    theorem: Callable[[BoundLaw, State], Guarantee] | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
@@ -130,6 +134,15 @@ class BoundLaw:
         if vehicle != self.vehicle:
             raise errors.InputError("law", f"one bound to {vehicle.name}", f"{self.name} bound to {self.vehicle.name}")
         return self
+
+    def guarantee(self, start: State) -> Guarantee:
+        """Return what the law's theorem says of a single `start`, in the law's frame: see `laws.guarantee.Guarantee`.
+
+        Raises InputError if the law has no theorem, or `start` is a batch.
+        """
+        if self.theorem is None:
+            raise errors.InputError("law", "one with a theorem: repaired or almost_global", self.name)
+        return self.theorem(self, start)
 
     @property
     def numbers(self) -> dict[str, float]:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.gain import Gain, check_gain, checked, table
+from flypend.laws.guarantee import Guarantee
 from flypend.laws.references import Path, Reference
-from flypend.model import Vehicle, Wrench
+from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
 
 Values = Mapping[str, Any]
@@ -54,6 +55,8 @@ class Law:
         `check(gains)` raises InputError if gain values are inconsistent.
     fixed : tuple of str
         Gains that determine the amount of computation; exported code holds them as constants.
+    theorem : callable, optional
+        `theorem(bound, start)` returns what is proved of a start: see `BoundLaw.guarantee`. None for a law without one.
     """
 
     name: str
@@ -69,6 +72,7 @@ class Law:
     prepare: Callable[[Vehicle, Values], Values] | None = None
     check: Callable[[Values], None] | None = None
     fixed: tuple[str, ...] = ()
+    theorem: Callable[[BoundLaw, State], Guarantee] | None = None
     _bound: dict[Vehicle, BoundLaw] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -156,4 +160,5 @@ class Law:
             reference=self.reference,
             path=self.path,
             fixed=self.fixed,
+            theorem=self.theorem,
         )

@@ -8,19 +8,25 @@ from typing import Any
 
 from flypend import errors
 from flypend.laws import references
+from flypend.laws.almost_global import almost_global
 from flypend.laws.corrected import corrected
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
 from flypend.laws.lqr import lqr
 from flypend.laws.printed import printed
 from flypend.laws.references import Reference
+from flypend.laws.repaired import repaired
 
 FACTORIES: Mapping[str, Callable[..., Law]] = {
     "printed": printed,
     "corrected": corrected,
+    "repaired": repaired,
+    "almost_global": almost_global,
     "inverted": inverted,
     "lqr": lqr,
 }
+# The laws of the paper's theorem: they accept its gains, bring the rod to their e₃ and control no position.
+THEOREM_1 = ("printed", "corrected", "repaired")
 SHAPES: Mapping[str, Callable[..., Reference]] = {
     "hover": references.hover,
     "line": references.line,

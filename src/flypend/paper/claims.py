@@ -60,12 +60,11 @@ def upright_since(run: Trajectory, threshold: float = 0.99) -> float:
     return float(run.t[below[-1] + 1]) if below[-1] + 1 < len(run.t) else float("nan")
 
 
-def _claim(
-    run: Trajectory, claim: str, measured: str, value: float, bound: float, above: bool, why: str = ""
-) -> Verdict:
+def claim(run: Trajectory, what: str, measured: str, value: float, bound: float, above: bool, why: str = "") -> Verdict:
+    """Return the verdict on the claim `what` about `run`: a `measured` `value` at or `above` (or below) a `bound`."""
     met = value >= bound if above else value <= bound
     return Verdict(
-        claim=claim,
+        claim=what,
         measured=measured,
         value=float(value),
         criterion=f"{'≥' if above else '≤'} {bound:g}{f' ({why})' if why else ''}",
@@ -74,27 +73,27 @@ def _claim(
 
 
 def _rod(run: Trajectory, _: Trajectory) -> Verdict:
-    return _claim(run, "y → e₃", f"y₃ at {run.t[-1]:.4g} s", run.y[-1, 2], 0.998, above=True)
+    return claim(run, "y → e₃", f"y₃ at {run.t[-1]:.4g} s", run.y[-1, 2], 0.998, above=True)
 
 
 def _thrust_axis(run: Trajectory, _: Trajectory) -> Verdict:
-    return _claim(run, "z → e₃", f"z₃ at {run.t[-1]:.4g} s", run.z[-1, 2], 0.9999, above=True)
+    return claim(run, "z → e₃", f"z₃ at {run.t[-1]:.4g} s", run.z[-1, 2], 0.9999, above=True)
 
 
 def _lyapunov(run: Trajectory, _: Trajectory) -> Verdict:
     rise = largest_rise(run.signals["V"]) / (run.signals["V"][0] or 1.0)  # avoids 0/0 for a run that starts at its goal
-    return _claim(run, "V falls", "largest rise of V over V(0) at the samples", rise, 1e-6, above=False)
+    return claim(run, "V falls", "largest rise of V over V(0) at the samples", rise, 1e-6, above=False)
 
 
 def _zero_dynamics(run: Trajectory, settled: Trajectory) -> Verdict:
     value = norm(pivot_acceleration(settled)[-1])
     measured = f"|ẍ| in m/s² at {settled.t[-1]:.4g} s"
-    return _claim(run, "ẍ → 0", measured, value, 0.1, above=False, why="the speed floor leaves g s/(1+s)")
+    return claim(run, "ẍ → 0", measured, value, 0.1, above=False, why="the speed floor leaves g s/(1+s)")
 
 
 def _thrust(run: Trajectory, _: Trajectory) -> Verdict:
     value = np.max(np.abs(run.thrust)) / run.vehicle.weight
-    return _claim(run, "f bounded", "largest |f| over (M+m)g", value, 2.0, above=False)
+    return claim(run, "f bounded", "largest |f| over (M+m)g", value, 2.0, above=False)
 
 
 CLAIMS: tuple[Callable[[Trajectory, Trajectory], Verdict], ...] = (
@@ -112,4 +111,4 @@ def theorem_claims(run: Trajectory, settled: Trajectory | None = None) -> list[V
     The limit ẍ → 0 is measured on `settled`, the same flight over a longer duration; default `run` itself.
     """
     with np.errstate(all="ignore"):  # a diverged run may hold huge values, which meet no criterion
-        return [claim(run, settled or run) for claim in CLAIMS]
+        return [judge(run, settled or run) for judge in CLAIMS]

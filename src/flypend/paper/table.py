@@ -13,7 +13,9 @@ from flypend import errors, laws
 from flypend.laws import Law
 from flypend.model import State, Vehicle, vehicle
 
-_FACTORIES: Mapping[str, Callable[..., Law]] = {"printed": laws.printed, "corrected": laws.corrected}
+_FACTORIES: Mapping[str, Callable[..., Law]] = {
+    "printed": laws.printed, "corrected": laws.corrected, "repaired": laws.repaired
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Experiment:
     reading: str = ""
 
     def law(self, name: str = "corrected", **options: Any) -> Law:
-        """Return the law `name` ("printed" or "corrected") with this row's gains and additional `options`."""
+        """Return the law `name` (printed, corrected, repaired) with this row's gains and additional `options`."""
         return _FACTORIES[errors.one_of("law", name, _FACTORIES)](**self.gains, **options)
 
 

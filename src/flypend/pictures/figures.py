@@ -14,13 +14,16 @@ from matplotlib.figure import Figure
 from flypend import geometry
 from flypend.files.whole import save_figure
 from flypend.flight.trajectory import Trajectory
+from flypend.laws.named import THEOREM_1
 from flypend.palette import BLUE, GREEN, GREY, INK, RED
 from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
+from flypend.pictures.descent import lyapunov_curves
 from flypend.pictures.stop_motion import snapshot_times, stop_motion
 from flypend.pictures.style import style_named
 
 __all__ = ["full_figure", "paper_figure", "save_figure", "snapshot_times", "stop_motion"]
 
+LYAPUNOV_UNITS = {**dict.fromkeys(THEOREM_1, "1/s²"), "almost_global": "m²/s²"}
 COMPONENTS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))  # vector components; line styles distinguish them in greyscale
 
 
@@ -114,16 +117,10 @@ def _components(ax: Any, t: Any, name: str, values: Any, unit: str, word: str = 
 
 
 def _lyapunov(ax: Any, run: Trajectory) -> None:
-    """Plot V and its terms V_1, V_2, ... on a logarithmic axis, cut off where they vanish to roundoff."""
-    terms = [name for name in run.signals if name.startswith("V_") and name[2:].isdigit()]
-    styles = ((INK, "-"), (RED, "--"), (GREEN, "-."), (BLUE, ":"))
-    for name, (color, style) in zip(["V", *terms], styles, strict=False):
-        label = "$V = " + " + ".join(terms) + "$" if name == "V" and terms else f"${name}$"
-        values = np.where(run.signals[name] > 0, run.signals[name], np.nan)
-        ax.plot(run.t, values, color=color, linestyle=style, label=label, **_line(run.t))
-    ax.set_yscale("log")
-    ax.set_ylim(bottom=max(ax.get_ylim()[0], 1e-8 * np.nanmax(run.signals["V"], initial=1e-8)))
-    ax.set_ylabel("Lyapunov function (1/s²)", fontsize=LABEL)
+    """Plot V and its terms, in the unit of the law's V where that is known."""
+    lyapunov_curves(ax, run)
+    unit = LYAPUNOV_UNITS.get(run.law, "")
+    ax.set_ylabel(f"Lyapunov function{unit and f' ({unit})'}", fontsize=LABEL)
 
 
 def _clip_spikes(ax: Any, values: Any, unit: str) -> None:

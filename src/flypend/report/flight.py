@@ -12,11 +12,13 @@ from flypend.files import whole
 from flypend.files.staging import staged
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
-from flypend.paper.claims import Verdict, theorem_claims
+from flypend.paper.claims import Verdict
+from flypend.paper.proved import claims_of
 from flypend.report import text
 
 VIEWS = ("side", "axis")
 MOVIE_SPEED = 0.25
+THEOREMS = {"repaired": "Theorem A", "almost_global": "Theorem B"}  # of docs/laws/theorem.md; else the paper's
 Task = Callable[[], Any]
 
 
@@ -82,7 +84,7 @@ def write_flight(
     out : path
         The folder; created if it does not exist.
     settled : Trajectory, optional
-        The same flight over a longer duration, on which the limit ẍ → 0 is measured; default `run`.
+        The same flight over a longer duration, on which limits are measured; default `run`.
     with_figures, with_movies : bool
         Whether to draw figures and make movies.
     style : "paper" or "slides"
@@ -93,7 +95,7 @@ def write_flight(
     Returns
     -------
     list of Verdict
-        The claims of Theorem 1 on this run; empty for a law without a Lyapunov function.
+        The claims of the law's theorem on this run; empty for a law without a Lyapunov function.
 
     Raises
     ------
@@ -103,7 +105,7 @@ def write_flight(
     if with_movies:
         check_movies()
     ideal = run.interpolant is not None  # the theorem knows of no rotors
-    verdicts = theorem_claims(run, settled) if ideal and "V" in run.signals else []
+    verdicts = claims_of(run, settled or run) if ideal and "V" in run.signals else []
     with staged(out) as folder:
         run.save(folder / "run.nc")
         tasks = figure_tasks(run, folder, style=style) if with_figures else []
@@ -117,7 +119,7 @@ def write_flight(
         lines = [f"# A run of {run.law} on {run.vehicle.name}", "", f"Outcome: {run.outcome}.", ""]
         if verdicts:
             lines += [
-                "## Claims of Theorem 1",
+                f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}",
                 "",
                 text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)}),
                 "",

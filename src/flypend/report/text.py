@@ -49,9 +49,9 @@ def mark(holds: bool) -> str:
     return "holds" if holds else "fails"
 
 
-def summary_table(verdicts: Mapping[Column, Sequence[Verdict]]) -> Table:
+def summary_table(verdicts: Mapping[Column, Sequence[Verdict]], title: str = "Theorem 1: which claim holds") -> Table:
     """Return the verdicts as a table for the terminal: one row per (law, experiment), one column per claim."""
-    table = Table(title="Theorem 1: which claim holds", title_justify="left", box=SIMPLE, padding=0)  # 80 columns
+    table = Table(title=title, title_justify="left", box=SIMPLE, padding=0)  # 80 columns
     first = next(iter(verdicts.values()))
     table.add_column("law", overflow="fold")
     table.add_column("start", overflow="fold")

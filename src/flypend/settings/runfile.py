@@ -16,6 +16,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import Controller, Law
+from flypend.laws.named import THEOREM_1
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import read_toml
@@ -115,7 +116,7 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
         out["start"] = start | table_at(out, "start")
         law = table_at(out, "law")
         law = law if "function" in law else {"name": "corrected"} | law
-        if law.get("name") in ("printed", "corrected"):
+        if law.get("name") in THEOREM_1:
             law["gains"] = dict(row.gains) | table_at(law, "gains", "law.gains")
         out["law"] = law
         out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")

@@ -148,8 +148,9 @@ class _Step:
         size, slope = (jnp.sum((rows / scale) ** 2, axis=0) for rows in (starts, rate))
         h = jnp.clip(0.01 * jnp.sqrt(size / jnp.maximum(slope, 1e-10)), 1e-6, 1e-2)
         defined = jnp.isfinite(rate).all(axis=0)
-        code = jnp.where(self._allowed(t, starts, parameters), FLYING, SINGULAR)
-        code = jnp.where(defined, code, UNDEFINED)
+        code = jnp.where(defined, FLYING, UNDEFINED)
+        if self._margin is not None:  # the guard says why, also where a rate is not finite
+            code = jnp.where(self._margin(t[None], starts, parameters)[0][0] <= 0, SINGULAR, code)
         none = jnp.zeros(n, dtype=bool)
         steps, judged = jnp.zeros(n, dtype=int), self.judge.begin(starts, wrench, setting.times)
         return Lanes(run, t, jnp.where(defined, h, 1e-2), starts, rate, wrench, code, steps, none, judged)

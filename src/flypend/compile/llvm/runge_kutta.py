@@ -130,7 +130,7 @@ class _Kernel:
             if self.margin is not None:
                 margin = code.reserve(1)
                 code.call(self.margin, self.t, self.S, self.P, margin)
-                code.store(code.select(new & ~(code.load(margin) > 0.0), 1.0, 0.0), self.low)
+                code.store(code.select(new & (code.load(margin) <= 0.0), 1.0, 0.0), self.low)
             code.store(0.0, size)
             code.store(0.0, rate)
             with code.count(n) as i:
@@ -209,10 +209,11 @@ class _Kernel:
         value = code.select(stuck, float(TOO_SMALL), value)
         if guarded is not None:
             value = code.select(stuck & guarded, float(SINGULAR), value)
-            value = code.select(code.load(self.low) > 0.0, float(SINGULAR), value)
         value = code.select(lost, float(DIVERGED), value)
         value = code.select(accepted & (t >= self.duration), float(COMPLETED), value)
         value = code.select(self._first_rate_undefined(), float(UNDEFINED), value)
+        if guarded is not None:  # the guard says why, also where a rate is not finite
+            value = code.select(code.load(self.low) > 0.0, float(SINGULAR), value)
         value = code.select(active, value, -1.0)
         code.store(value, status)
         with code.when(code.any(value >= 0.0)):

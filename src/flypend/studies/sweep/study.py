@@ -16,6 +16,7 @@ from flypend.files.toml import toml_text
 from flypend.flight.criterion import Criterion
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
 from flypend.laws import BoundLaw, Controller
+from flypend.laws.named import THEOREM_1
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import read_toml
 from flypend.plants import AnyPlant, Ideal, Sampled
@@ -291,7 +292,7 @@ def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, du
     By default the paper's laws have 6.5 s to bring the rod to their e₃, at any position, and all others have 10 s to
     invert it at their reference.
     """
-    papers = law in ("printed", "corrected")
+    papers = law in THEOREM_1
     return {
         "vehicle": vehicle or ("nayak2018" if papers else "hehn2011"),
         "law": table_of(law),

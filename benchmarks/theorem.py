@@ -1,0 +1,67 @@
+"""The counts of docs/laws/theorem.md: `python -m benchmarks.theorem starts` or `... LAW [runs] [seed]`.
+
+`starts` flies the random starts of seed 2024, a minute. LAW is a row of `flypend theorem`: repaired, almost_global, or
+one of the laws that lack a part of the proof; it is flown from 100,000 wide starts, some ten minutes.
+"""
+
+import sys
+
+import numpy as np
+
+import flypend as fp
+from flypend.flight.metrics import wilson
+from flypend.paper.descent import RISES, descend
+
+SEED = 2024
+HANGING = fp.Criterion(target="e3", position=np.inf)
+ROWS = (
+    ("repaired", "nayak2018", "ideal", 2000, 12.0),
+    ("almost_global", "hehn2011", "ideal", 2000, 15.0),
+    ("almost_global", "hehn2011", "rotors", 2000, 15.0),
+    ("almost_global", "nayak2018", "ideal", 500, 15.0),
+    ("almost_global", "crazyflie", "ideal", 500, 15.0),
+    ("almost_global", "crazyflie", "rotors", 500, 15.0),
+    ("almost_global", "nayak2018", "rotors", 300, 20.0),
+)
+
+
+def descents(name, runs, seed):
+    """Print how many wide flights converge under law `name`, and the largest rise of V."""
+    found = descend(name, runs, seed)
+    low, high = wilson(found.converged, found.runs)
+    print(
+        f"{name}: {found.converged} of {found.runs} converge (95 %: {low:.4%} to {high:.4%}), {found.ended} end early; "
+        f"V rises by more than {RISES:g} V(0) in {found.rising}, at most by {found.worst_rise:.2g} V(0)"
+    )
+
+
+def starts():
+    """Print one line per row: successes, settling time and largest distance (median, 95 %, all)."""
+    for name, machine, plant, runs, duration in ROWS:
+        law = getattr(fp.laws, name)()
+        first = fp.random_starts(runs, SEED).seen(law.e3)
+        target = HANGING if law.e3 == "down" else fp.Criterion()
+        flown = fp.simulate_ensemble(fp.vehicle(machine), law, first, duration, plant=plant, criterion=target)
+        low, high = flown.interval
+        settling, far = (
+            " / ".join(f"{flown.percentile(key, q):.3g}" for q in (50, 95, 100)) for key in ("settling", "excursion")
+        )
+        print(
+            f"{name} on {machine}, {plant}: {flown.success.sum()} of {runs} (95 %: {low:.2%} to {high:.2%}), "
+            f"settling {settling} s, distance {far} m",
+            flush=True,
+        )
+
+
+def main():
+    """Fly what the command line asks for."""
+    name = sys.argv[1] if len(sys.argv) > 1 else "starts"
+    if name == "starts":
+        starts()
+    else:
+        runs, seed = (int(text) for text in (*sys.argv[2:4], *("100000", "4242")[len(sys.argv[2:4]) :]))
+        descents(name, runs, seed)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,167 @@
+"""The inverted pendulum from almost every start, with position and with a proof: Theorem B of docs/laws/theorem.md.
+
+The world has e₃ up. The bob p = x + l y is a thrust vehicle whose thrust axis is the rod:
+
+    p̈ = −g e₃ + a y,   (M+m) a = f z·y − M l |ẏ|²,        ÿ + |ẏ|² y = −P_y (f z)/(M l)
+
+A cascade of three: position → demand A on the bob → rod along A (Lemma S) → force F → thrust axis along F (Lemma S).
+V of all three falls along every solution; the closed loop has one equilibrium. The wrench is assumed to act as
+commanded, without limits: for rotors, see `inverted`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from flypend.geometry import E3, cross, dot, norm, scale
+from flypend.laws.almost_global_bounds import theorem_b
+from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
+from flypend.laws.axis import axis_moment, axis_rate
+from flypend.laws.bound import Control, Guard
+from flypend.laws.gain import documented
+from flypend.laws.law import Law
+from flypend.laws.references import Path, Reference, hover
+from flypend.laws.step import Push, aim, push, share
+from flypend.laws.throw import carrying, derivatives
+from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, lie_derivative
+
+OUTSIDE = Guard(
+    signal="domain",
+    threshold=1e-12,
+    reason="outside the domain of Theorem B: y = -d or z = -z_d, rod or thrust axis point opposite to their target",
+)
+
+
+@documented(GAINS)
+def almost_global(reference: Reference | None = None, **gains: float) -> Law:
+    """Build the law of Theorem B about a `reference` for the pivot. V falls along every solution.
+
+    Every start reaches the reference but those with y = -d or z = -z_d, a set of measure zero on which the law is not
+    defined. It assumes that the wrench acts as commanded, without limits.
+
+    Parameters
+    ----------
+    reference : callable, optional
+        Pivot position (3,), m, as a CasADi function of time, with six bounded derivatives; default hover at the origin.
+        See `laws.references`.
+    **gains : float
+        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
+
+    {gains}
+
+    Raises
+    ------
+    InputError
+        If a gain is unknown or out of bounds; and from `bind`, if the demand on the bob could point downward.
+    """
+    followed = reference or hover()
+    return Law(
+        name="almost_global",
+        e3="up",
+        gains=GAINS,
+        given=gains,
+        control=_control,
+        guard=OUTSIDE,
+        computer=computer_of,
+        reference=followed,
+        path=carrying(followed),
+        prepare=demand_stays_upward,
+        theorem=theorem_b,
+    )
+
+
+def _least(rod: Any, axis: Any) -> Any:
+    """Return the lesser of 1 + c_y and 1 + c; where the first is 0, the second is not a number."""
+    return ca.if_else(rod < OUTSIDE.threshold, rod, ca.fmin(rod, axis))
+
+
+class Outer(NamedTuple):
+    """The outer loops: the force F (3, 1), N, the terms of their V, ζ_y, c_y, and their claimed part of V̇."""
+
+    force: Any
+    terms: tuple[Any, Any, Any]
+    rate_error: Any
+    cosine: Any
+    decay: Any
+
+
+def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> Control:
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    y, z, step = state.y, state.z, axis_step(k)
+    outer = _outer(t, state, vehicle, k, path)
+    N = norm(outer.force)
+    z_d = scale(1 / N, outer.force)
+    c = dot(z, z_d)
+    f = N * share(c, step)  # (B7)
+
+    # Δ = f z − F enters v̇ and ÿ, and so V₃, by G·Δ. At fixed y and ẏ, ∂/∂v = ∂/∂ẋ.
+    V_3 = sum(outer.terms)
+    along_v = ca.gradient(V_3, state.x_dot)
+    G = scale(dot(y, along_v) / (M + m), y) - outer.rate_error * (rod_step(k).weight / (M * l))  # (B8)
+
+    # The moment does not appear in these rates: if it did, building the closed loop would fail.
+    rates = equations_of_motion(state, Wrench(f, ca.SX.sym("moment", 3)), vehicle, "up")
+    turn = scale(1 / N**2, cross(outer.force, lie_derivative(outer.force, state, rates, t)))  # z_d × ż_d
+    aimed = aim(z, z_d, turn, N, G, step)
+    u: Push = push(z, axis_rate(state), aimed, lie_derivative(aimed.rate, state, rates, t), step)  # Lemma S
+
+    terms = (*outer.terms, u.potential, u.kinetic)
+    return Control(
+        wrench=Wrench(f, axis_moment(state, vehicle, u.force, k.yaw_damping)),
+        lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
+        signals={
+            "V_rate_claimed": outer.decay + u.decay,  # (B9)
+            "domain": _least(1 + outer.cosine, 1 + c),
+            "rod_cosine": outer.cosine,
+            "axis_cosine": c,
+            "axis_error": norm(z - z_d),
+        },
+    )
+
+
+def _outer(t: Any, state: State, vehicle: Vehicle, k: Any, path: Path) -> Outer:
+    """Return position and rod: the force F that turns the rod towards A and carries the bob."""
+    M, m, l, g = vehicle.M, vehicle.m, vehicle.l, vehicle.g
+    y, y_dot, step = state.y, state.y_dot, rod_step(k)
+    _, p_ref, _ = path(t, vehicle, ca.SX.zeros(3))
+    v_ref, a_ref = derivatives(p_ref, t, 2)
+    v = state.x_dot + l * y_dot - v_ref
+    U, sigma_p = spring(state.x + l * y - p_ref, k)
+    sigma_v = damper(v, k)
+    A = g * E3 + a_ref - sigma_p - sigma_v  # (B3)
+    size = norm(A)
+    d = scale(1 / size, A)
+    a_d = size * share(dot(y, d), step)  # (B4)
+
+    # The ideal bob: p̈ = −g e₃ + a_d y, ẏ given. What is differentiated depends on p, v, y and t only.
+    none = ca.SX.zeros(3)
+    ideal = Rates(state.x_dot, a_d * y - g * E3, ca.SX.zeros(3, 3), none, y_dot, none)
+    turn = scale(1 / size**2, cross(A, lie_derivative(A, state, ideal, t)))  # ω_d = d × ḋ
+    aimed = aim(y, d, turn, size, v, step)
+    u = push(y, y_dot, aimed, lie_derivative(aimed.rate, state, ideal, t), step)  # Lemma S
+
+    F = ((M + m) * a_d + M * l * dot(y_dot, y_dot)) * y - M * l * u.force  # (B6)
+    terms = (U + dot(v, v) / 2, u.potential, u.kinetic)
+    return Outer(F, terms, u.rate_error, aimed.cosine, u.decay - dot(v, sigma_v))
+
+
+def spring(e: Any, k: Any) -> tuple[Any, Any]:
+    """Return U, m²/s², and σ_p = ∇U (3, 1), m/s², at position error `e` of the bob, m: (B1)."""
+    sheared = ca.vertcat(e[0] + k.shear * e[2], e[1], e[2])
+    L, L_z = k.position_reach, k.height_reach
+    level = ca.sqrt(1 + (sheared[0] ** 2 + sheared[1] ** 2) / L**2)
+    upright = ca.sqrt(1 + sheared[2] ** 2 / L_z**2)
+    U = k.position_stiffness * L**2 * (level - 1) + k.height_stiffness * L_z**2 * (upright - 1)
+    pull = k.position_stiffness / level * sheared[:2]
+    lift = k.height_stiffness / upright * sheared[2]
+    return U, ca.vertcat(pull, lift + k.shear * pull[0])
+
+
+def damper(v: Any, k: Any) -> Any:
+    """Return σ_v (3, 1), m/s², at velocity error `v` of the bob, m/s: σ_v·v > 0 for v ≠ 0. (B2)."""
+    level = k.position_damping / ca.sqrt(1 + (v[0] ** 2 + v[1] ** 2) / k.position_speed**2) * v[:2]
+    upright = k.height_damping / ca.sqrt(1 + v[2] ** 2 / k.height_speed**2) * v[2]
+    b = k.fall_speed
+    return ca.vertcat(level, upright + k.fall_damping * (v[2] + b - ca.sqrt(v[2] ** 2 + b**2)))

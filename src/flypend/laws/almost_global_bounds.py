@@ -1,0 +1,118 @@
+"""What Theorem B guarantees of a start: bounds on all motion and on the thrust that follow from V ≤ V(0).
+
+Each line is a triangle inequality; docs/laws/theorem.md, section 6, derives them. They hold for a reference that stands
+still, and they are conservative: the thrust flown is smaller by orders of magnitude.
+"""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
+from flypend.laws.bound import BoundLaw
+from flypend.laws.covering import outside, signals_at
+from flypend.laws.guarantee import IDEAL, Guarantee, least_distance, least_share, rate_bound, saturated
+from flypend.laws.step import Step
+from flypend.model import State
+
+MOVING = "the reference has six bounded derivatives, and p_ref'' stays above the demand's margin to free fall"
+
+
+class Bob(NamedTuple):
+    """Bounds on the outer loop: |e_p| (m), |v| (m/s), |A| (m/s²) from below and above, |Ȧ| (m/s³)."""
+
+    error: float
+    speed: float
+    least: float
+    most: float
+    rate: float
+
+
+def theorem_b(law: BoundLaw, start: State) -> Guarantee:
+    """Return what Theorem B says of `start`."""
+    found = signals_at(law, start)
+    excluded = outside(law, found, {"rod_cosine": "y = -d", "axis_cosine": "z = -z_d"})
+    if excluded is not None:
+        return excluded
+    if law.reference is None or not _stands(law.reference):
+        return Guarantee(covered=True, V=found["V"], assumes=(*IDEAL, MOVING))
+    k, V, l = SimpleNamespace(**law.gains), found["V"], law.vehicle.l
+    rod, bob = rod_step(k), bob_bounds(V, k, law.vehicle.g)
+    turn = bob.rate / bob.least
+    rod_rate = rate_bound(V, turn, bob.most, bob.speed, rod)
+    return Guarantee(
+        covered=True,
+        V=V,
+        thrust=thrust_bounds(V, k, law.vehicle, bob, rod_rate),
+        rod_rate=rod_rate,
+        speed=bob.speed + l * rod_rate,
+        excursion=bob.error + 2 * l,
+        assumes=IDEAL,
+    )
+
+
+def _stands(reference: Any) -> bool:
+    t = ca.SX.sym("t")
+    return not ca.depends_on(ca.simplify(reference(t)), t)
+
+
+def bob_bounds(V: float, k: Any, g: float) -> Bob:
+    """Return the bounds on the outer loop while U + ½|v|² ≤ `V`, from the gains `k` and gravity `g`."""
+    level = _farthest(V, k.position_stiffness, k.position_reach)
+    upright = _farthest(V, k.height_stiffness, k.height_reach)
+    v, s = math.sqrt(2 * V), abs(k.shear)
+    pull = saturated(k.position_stiffness, k.position_reach, level)
+    lift = saturated(k.height_stiffness, k.height_reach, upright)
+    drag = saturated(k.position_damping, k.position_speed, v)
+    brake = saturated(k.height_damping, k.height_speed, v) + 2 * k.fall_damping * v
+    most = math.hypot(pull + drag, g + s * pull + lift + brake)
+    # |∇σ_p| ≤ max(k_x, k_z)(1 + s)², |∇σ_v| ≤ max(k_v, k_vz + 2 k_f); the ideal bob has |v̇| ≤ g + |A|.
+    gradient_p = max(k.position_stiffness, k.height_stiffness) * (1 + s) ** 2
+    gradient_v = max(k.position_damping, k.height_damping + 2 * k.fall_damping)
+    error = math.hypot(level + s * upright, upright)
+    return Bob(error, v, g - largest_descent(vars(k)), most, gradient_p * v + gradient_v * (g + most))
+
+
+def _farthest(V: float, k: float, reach: float) -> float:
+    """Return the error at which k L² (√(1 + r²/L²) − 1) = `V`."""
+    return reach * math.sqrt((1 + V / (k * reach**2)) ** 2 - 1)
+
+
+def thrust_bounds(V: float, k: Any, vehicle: Any, bob: Bob, rod_rate: float) -> tuple[float, float]:
+    """Return bounds on f = |F| ς: F·y = (M+m) a_d + M l |ẏ|² from below, |F| from above, N."""
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    rod, axis = rod_step(k), axis_step(k)
+    near, near_axis = least_distance(V, rod), least_distance(V, axis)
+    carried = (M + m) * bob.least * least_share(near, rod)
+    g = (1 - rod.barrier) + 2 * rod.barrier / near
+    push = rod.stiffness * g + rod.damping * math.sqrt(2 * V / rod.weight)  # |e| ≤ 1
+    push += _feedforward(k, vehicle.g, bob, rod, rod_rate, near)
+    most = math.hypot(M * l * push, (M + m) * bob.most + M * l * rod_rate**2)
+    return carried * least_share(near_axis, axis), most
+
+
+def _feedforward(k: Any, g: float, bob: Bob, rod: Step, rod_rate: float, near: float) -> float:
+    """Return a bound on |d/dt(ω_d × y + v_*)| along the ideal bob, 1/s²; `near` is the least 1 + c_y."""
+    turn, fall, v = bob.rate / bob.least, g + bob.most, bob.speed
+    swing = rod_rate + turn  # |ċ| and ½|ė| stay below it
+    # Ä = −σ_p″[v, v] − σ_p′ v̇ − σ_v″[v̇, v̇] − σ_v′ v̈. A saturation k r/√(1 + r²/L²) has |″| ≤ 2 k/L.
+    gradient_p = max(k.position_stiffness, k.height_stiffness) * (1 + abs(k.shear)) ** 2
+    gradient_v = max(k.position_damping, k.height_damping + 2 * k.fall_damping)
+    bend_p = (
+        2 * (k.position_stiffness / k.position_reach + k.height_stiffness / k.height_reach) * (1 + abs(k.shear)) ** 3
+    )
+    bend_v = 2 * (k.position_damping / k.position_speed + k.height_damping / k.height_speed)
+    bend_v += k.fall_damping / k.fall_speed
+    jerk = bob.rate + bob.most * ((1 - rod.fade) * swing + rod_rate)
+    bending = bend_p * v**2 + gradient_p * fall + bend_v * fall**2 + gradient_v * jerk
+    turn_rate = bending / bob.least + 2 * turn * bob.rate / bob.least
+    # v_* = k_e e + |A| h/(k W), |h| ≤ 2|v|, W = (1−ε)(1+c) + 2ε.
+    W, weight = (1 - rod.barrier) * near + 2 * rod.barrier, rod.weight * rod.stiffness
+    h_rate = 3 * (fall + rod_rate * v + v * swing)
+    coupling = (bob.rate * 2 * v + bob.most * h_rate) / (weight * W)
+    coupling += bob.most * 2 * v * (1 - rod.barrier) * swing / (weight * W**2)
+    return float(turn_rate + turn * rod_rate + 2 * rod.alignment * swing + coupling)

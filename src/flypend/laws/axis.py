@@ -1,0 +1,27 @@
+"""The moment that moves the thrust axis on S², the paper's (setmu) solved for the rotation normal to the axis."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from flypend.geometry import E3, apply, cross
+from flypend.model import State, Vehicle
+
+
+def axis_rate(state: State) -> Any:
+    """Return ż = R (ω × e₃) (3, 1), 1/s."""
+    return apply(state.R, cross(state.omega, E3))
+
+
+def axis_moment(state: State, vehicle: Vehicle, u: Any, yaw_damping: Any) -> Any:
+    """Return the moment (3, 1), N m, under which z̈ = −|ż|² z + `u` and ω̇₃ = −`yaw_damping` ω₃.
+
+    `u` is tangent at z, 1/s²; `vehicle` has its inertia in the body frame of `state` (see `Vehicle.seen`).
+
+    z̈ = R (ω̇ × e₃) + ω₃ R (ω₁, ω₂, 0) − |ż|² z, so R (ω̇₁, ω̇₂, 0) = z × u + ω₃ ż. (setmu) leaves ω̇₃ free.
+    """
+    turn = apply(state.R.T, cross(state.z, u) + state.omega[2] * axis_rate(state))
+    alpha = ca.vertcat(turn[0], turn[1], -yaw_damping * state.omega[2])
+    return apply(vehicle.I, alpha) + cross(state.omega, apply(vehicle.I, state.omega))

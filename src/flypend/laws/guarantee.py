@@ -1,0 +1,81 @@
+"""What a theorem says of one start: whether it covers it, and the bounds that follow from V ≤ V(0)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from flypend.laws.step import Step
+
+
+@dataclass(frozen=True, kw_only=True)
+class Guarantee:
+    """What the theorem of a law says of one start. Every bound holds for all times and is conservative.
+
+    Parameters
+    ----------
+    covered : bool
+        Whether the start lies in the domain of the theorem.
+    reason : str
+        Why not, in one line; empty for a covered start.
+    exceptions : str
+        Which starts with this V(0) are covered and yet may not converge; empty if all do.
+    V : float
+        V(0), in the unit of the law's V; inf outside the domain.
+    thrust : (float, float)
+        Bounds on |f|, N.
+    rod_rate : float
+        Bound on |ẏ|, 1/s.
+    speed : float
+        Bound on |ẋ|, m/s, relative to the reference; inf if position is not controlled.
+    excursion : float
+        Bound on |x − x_ref|, m; inf if position is not controlled.
+    assumes : tuple of str
+        What the theorem assumes and the start does not show.
+    """
+
+    covered: bool
+    V: float
+    reason: str = ""
+    exceptions: str = ""
+    thrust: tuple[float, float] = (0.0, math.inf)
+    rod_rate: float = math.inf
+    speed: float = math.inf
+    excursion: float = math.inf
+    assumes: tuple[str, ...] = ()
+
+
+IDEAL = ("the wrench acts as commanded, without limits, lag or delay", "mass, inertia and rod length are as told")
+
+
+def least_distance(V: float, step: Step) -> float:
+    """Return 1 + c at which k Ψ(c) = `V`, by bisection in its logarithm: 1 + c is never less while V falls."""
+    k, spread = step.weight * step.stiffness, 1 - step.barrier
+    low, high = -V / (2 * k * step.barrier) - 1.0, math.log(2.0)
+    for _ in range(200):
+        middle = (low + high) / 2
+        value = k * (spread * (2 - math.exp(middle)) - 2 * step.barrier * (middle - math.log(2.0)))
+        low, high = (middle, high) if value > V else (low, middle)
+    return math.exp(low)
+
+
+def least_share(distance: float, step: Step) -> float:
+    """Return ς at 1 + c = `distance`, without cancellation near the antipode."""
+    return float((1 - step.fade) * distance + 2 * step.fade - 1)
+
+
+def rate_bound(V: float, turn: float, force: float, gradient: float, step: Step) -> float:
+    """Return a bound on |φ̇| while V ≤ `V`: |φ̇| ≤ |ω_d| + |v_*| + |ζ|.
+
+    `turn`, `force` and `gradient` bound |ω_d| (1/s), N and |G|. |v_*| ≤ k_e + κ N |G|/k with κ = 1/(2√(ε(1−ε))) for
+    ε ≤ ½, else 1.
+    """
+    k, eps = step.weight * step.stiffness, step.barrier
+    kappa = 1 / (2 * math.sqrt(eps * (1 - eps))) if eps <= 0.5 else 1.0
+    return float(turn + step.alignment + kappa * force * gradient / k + math.sqrt(2 * V / step.weight))
+
+
+def saturated(k: Any, reach: Any, size: float) -> float:
+    """Return k r/√(1 + r²/L²) at r = `size`, for the stiffness `k` and the reach L."""
+    return float(k * size / math.sqrt(1 + (size / reach) ** 2))

@@ -1,0 +1,90 @@
+"""A supervisor: the inverted law first, the almost global law from a given time on, for good.
+
+A law has no memory of having handed over; time has. From every state in which the first law leaves the system inside
+the domain of Theorem B, the second converges: docs/laws/theorem.md, section 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import casadi as ca
+
+from flypend.laws.almost_global import almost_global
+from flypend.laws.bound import Computer, Control
+from flypend.laws.gain import NOT_NEGATIVE, Bounds, Gain, documented, table
+from flypend.laws.inverted import inverted
+from flypend.laws.law import Law
+from flypend.laws.references import Reference, hover
+from flypend.model import State, Vehicle, Wrench
+
+
+def _as_inverted(name: str) -> Callable[[Vehicle], float]:
+    return lambda vehicle: float(inverted().gains_for(vehicle)[name])
+
+
+GAINS = table(
+    (
+        Gain("handover", 6.0, "s", "Time from which the almost global law flies", NOT_NEGATIVE, label="handover"),
+        Gain("lead", _as_inverted("lead"), "", "As in the inverted law", Bounds(low=1.0)),
+        Gain("latency", _as_inverted("latency"), "s", "As in the inverted law", NOT_NEGATIVE),
+        Gain("observer", _as_inverted("observer"), "1/s", "As in the inverted law, as long as it flies", NOT_NEGATIVE),
+    )
+)
+
+
+@documented(GAINS)
+def supervised(reference: Reference | None = None, **gains: float) -> Law:
+    """Build the law that flies `inverted` until `handover` and `almost_global` from then on, about one `reference`.
+
+    It depends on time, so it cannot be exported as C.
+
+    Parameters
+    ----------
+    reference : callable, optional
+        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
+    **gains : float
+        Any of the gains below, in the stated unit. Both laws have their defaults for the vehicle.
+
+    {gains}
+
+    Raises
+    ------
+    InputError
+        If a gain is unknown or out of bounds; and from `bind`, as in either law.
+    """
+    followed = reference or hover()
+    return Law(
+        name="supervised",
+        e3="up",
+        gains=GAINS,
+        given=gains,
+        control=_control,
+        computer=_computer_of,
+        uses_forces=True,
+        reference=followed,
+        prepare=partial(_both, followed),
+    )
+
+
+def _both(reference: Reference, vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:
+    return {"first": inverted(reference).bind(vehicle), "second": almost_global(reference).bind(vehicle)}
+
+
+def _computer_of(gains: Mapping[str, Any]) -> Computer:
+    return Computer(lead=gains["lead"], latency=gains["latency"], observer=gains["observer"])
+
+
+def _control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
+    first = k.first.evaluate(t, state, vehicle, forces).wrench
+    second = k.second.evaluate(t, state, vehicle)
+    early = t < k.handover
+    domain = second.signals["domain"]
+    return Control(
+        wrench=Wrench(
+            ca.if_else(early, first.thrust, second.wrench.thrust), ca.if_else(early, first.moment, second.wrench.moment)
+        ),
+        signals={"domain": domain, "V_almost_global": sum(second.lyapunov.values())},
+    )

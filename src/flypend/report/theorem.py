@@ -1,0 +1,161 @@
+"""The two theorems, flown: claims, V along many flights, V(t) with its terms, and the basin."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+
+from rich.box import SIMPLE
+from rich.table import Table
+
+from flypend import __version__
+from flypend.files import whole
+from flypend.files.staging import staged
+from flypend.flight.metrics import wilson
+from flypend.flight.simulate import simulate
+from flypend.flight.trajectory import Trajectory
+from flypend.laws import almost_global, repaired
+from flypend.model import vehicle
+from flypend.paper import experiment, experiment_names
+from flypend.paper.basin import basin
+from flypend.paper.claims import Verdict
+from flypend.paper.descent import Descent, descend, laws
+from flypend.paper.proved import fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
+from flypend.pictures.style import style_named
+from flypend.report import text
+from flypend.report.text import Column
+
+POINTS = 61  # of the basin's grid, per axis
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class Proof:
+    """Result of `check_theorems`: verdicts by (theorem, start), and one row of `Descent` per law."""
+
+    repaired: Mapping[Column, list[Verdict]]
+    almost_global: Mapping[Column, list[Verdict]]
+    descents: list[Descent]
+
+
+def judged(
+    runs: Mapping[str, Trajectory], theorem: str, claims: Callable[[Trajectory], list[Verdict]]
+) -> dict[Column, list[Verdict]]:
+    """Return the verdicts of `claims` on `runs` by (`theorem`, name of the start)."""
+    return {(theorem, name): claims(run) for name, run in runs.items()}
+
+
+def check_theorems(
+    out: str | Path, *, runs: int, seed: int, style: str = "paper", progress: Progress = lambda *_: None
+) -> Proof:
+    """Fly both theorems and their negative controls; write figures, report.md and report.json into the folder `out`.
+
+    Parameters
+    ----------
+    out : path
+        The folder; created if it does not exist. If anything fails, nothing is written to it.
+    runs, seed : int
+        Random flights of each law, and their seed.
+    style : "paper" or "slides"
+        Format of the figures.
+    progress : callable
+        Called with `(task, done, total)` as the work proceeds.
+
+    Raises
+    ------
+    InputError
+        If `out` is not writable or the style is unknown.
+    """
+    style_named(style)
+    with staged(out) as folder:
+        progress("flying the experiments", 0, 1)
+        hanging, inverted = fly_repaired(), fly_swing_ups()
+        descents = [descend(name, runs, seed, progress=partial(progress, f"flying {name}")) for name in laws()]
+        result = Proof(judged(hanging, "A", theorem_a_claims), judged(inverted, "B", theorem_b_claims), descents)
+        progress("drawing", 0, 1)
+        _draw(hanging, inverted, folder, style)
+        _write(result, folder, runs, seed)
+    return result
+
+
+def _draw(hanging: Mapping[str, Trajectory], inverted: Mapping[str, Trajectory], folder: Path, style: str) -> None:
+    from flypend.pictures.descent import basin_figure, descent_figure  # matplotlib is slow to import
+
+    first = experiment("1")
+    groups: dict[str, Mapping[str, Trajectory]] = {}
+    for law in ("printed", "corrected"):
+        rows = {name: experiment(name) for name in experiment_names()}
+        groups[law] = {
+            name: simulate(row.vehicle, row.law(law), row.start, row.duration, plant=row.plant, rtol=1e-10)
+            for name, row in rows.items()
+        }
+    groups["repaired"] = hanging
+    whole.save_both(descent_figure(groups, first.duration, style=style), folder / "V-experiments")
+    whole.save_both(descent_figure({"almost global": inverted}, 8.0, style=style), folder / "V-swing-ups")
+    panels = [basin(repaired(), first.vehicle, POINTS), basin(almost_global(), vehicle("hehn2011"), POINTS)]
+    whole.save_both(basin_figure(panels, style=style), folder / "basin")
+
+
+def descent_table(descents: list[Descent]) -> Table:
+    """Return the rows of `descents` as a table for the terminal."""
+    table = Table(title="Does V fall? Wide random starts, ideal plant", title_justify="left", box=SIMPLE, padding=0)
+    for name, end in (("law", "left"), ("converge", "right"), ("end early", "right"), ("V rises", "right")):
+        table.add_column(name, justify=end)  # type: ignore[arg-type]
+    table.add_column("largest rise over V(0), median / worst", justify="right")
+    for row in descents:
+        colour = "red" if row.rising else "green"
+        table.add_row(
+            row.law, f"{row.converged} of {row.runs}", str(row.ended), f"[{colour}]{row.rising} of {row.runs}",
+            f"{row.median_rise:.2g} / {row.worst_rise:.2g}",
+        )  # fmt: skip
+    return table
+
+
+def _markdown(descents: list[Descent]) -> str:
+    lines = [
+        "| law | converge (95 %, Wilson) | end early | V rises | largest rise over V(0), median / worst |",
+        "|---|---|---|---|---|",
+    ]
+    for row in descents:
+        low, high = wilson(row.converged, row.runs)
+        lines.append(
+            f"| {row.law} | {row.converged} of {row.runs} ({low:.2%} to {high:.2%}) | {row.ended} | {row.rising} | "
+            f"{row.median_rise:.2g} / {row.worst_rise:.2g} |"
+        )
+    return "\n".join(lines)
+
+
+def claims_markdown(verdicts: Mapping[Column, list[Verdict]]) -> str:
+    """Return the verdicts on a theorem as a Markdown table."""
+    return text.verdicts_markdown(verdicts, dict.fromkeys(verdicts, "completed"))
+
+
+def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
+    parts = [
+        "# Two theorems that are true",
+        f"Flown by flypend {__version__} in the ideal plant: the wrench acts as commanded. docs/laws/theorem.md has "
+        "the statements and the proofs.",
+        "## Theorem A: the paper's experiments under the repaired law, 30 s",
+        claims_markdown(result.repaired),
+        "## Theorem B: hehn2011 under the almost global law, 30 s",
+        claims_markdown(result.almost_global),
+        "## Does V fall?",
+        f"{runs} flights of each law, seed {seed}: |ω|, |ẏ| ≤ 12 rad/s, |ẋ| ≤ 5 m/s, and |x_i| ≤ 10 m where position "
+        "is controlled. V rises if it exceeds an earlier value by more than 1e-6 V(0) at samples 0.05 s apart. Only "
+        "the first two laws have a proof; the others lack a part of it.",
+        _markdown(result.descents),
+        "Figures: V-experiments, V-swing-ups, and basin, the settling time over planar starts at rest.",
+    ]
+    (folder / "report.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+    claims = [
+        {"theorem": theorem, "start": start, "claims": row}
+        for verdicts in (result.repaired, result.almost_global)
+        for (theorem, start), row in verdicts.items()
+    ]
+    content = {
+        "flypend": __version__, "claims": claims, "runs": runs, "seed": seed,
+        "descents": [asdict(row) for row in result.descents],
+    }  # fmt: skip
+    text.write_json(folder / "report.json", content)

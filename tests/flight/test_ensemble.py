@@ -62,7 +62,8 @@ def is_the_single_run(result, i, law, start, duration, plant):
         # Forces come from the steps: those of a run that is sampled finely. Between steps, a distance is a quintic.
         fine = metrics(fp.simulate(VEHICLE, law, start, duration, plant=plant, times=np.linspace(0, duration, 20_001)))
         single = dataclasses.replace(single, effort=fine.effort, peak_force=fine.peak_force)
-        accuracy = {"excursion": 1e-6, "effort": 1e-6, "peak_force": 1e-3}
+        # The stages of a step lie some milliseconds apart, so the top of a peak may fall between them.
+        accuracy = {"excursion": 1e-6, "effort": 1e-6, "peak_force": 5e-3}
     for name in FIELDS:
         got, wanted = np.asarray(getattr(result, name))[i].item(), getattr(single, name)
         # A kernel judges in fused operations, `metrics` in NumPy's: the same numbers up to roundoff.

@@ -57,13 +57,13 @@ def test_the_clearance_of_an_ensemble_is_the_least_of_a_run():
 
 
 def test_the_lower_bound_bounds_and_most_often_spares_the_search():
-    bound, look = as_numpy(room(HUB, 0.002)), as_numpy(touching(HUB, 0.002))
+    bound, look = as_numpy(room(HUB)), as_numpy(touching(HUB))
     spared = []
     for seed in range(3):
         states = with_forces(flown(fp.vehicle("hehn2011"), fp.random_starts(1, seed)[0]))
         pairs = list(pairwise(states))
-        low = np.array([bound(*pair) for pair in pairs]).ravel()
-        least = np.array([look(*pair)[0] for pair in pairs])
+        low = np.array([bound(*pair, 0.002) for pair in pairs]).ravel()
+        least = np.array([look(*pair, 0.002)[0] for pair in pairs])
         assert np.all(low <= least + 1e-12)
         spared.append(np.mean(low[1:] >= np.minimum.accumulate(least)[:-1]))
     assert np.mean(spared) > 0.8
@@ -71,17 +71,17 @@ def test_the_lower_bound_bounds_and_most_often_spares_the_search():
 
 def test_between_two_ticks_a_rod_is_seen_to_pass_through_a_disc():
     """Turning at 20 rad/s in the plane of an arm, its tip passes the discs' plane within a tick."""
-    rate, half = 20.0, 0.001
+    rate, half, look = 20.0, 0.001, as_numpy(touching(HUB))
 
     def state(angle):
         y = np.array([np.cos(angle), 0, np.sin(angle)])
         return np.append(fp.State(y=y, y_dot=rate * np.array([-y[2], 0, y[0]])).packed(), np.ones(4))
 
-    least, share, part = as_numpy(touching(HUB, 2 * half))(state(-rate * half), state(rate * half))
+    least, share, part = look(state(-rate * half), state(rate * half), 2 * half)
     assert least < -HUB.body.rod_radius
     assert share == 0.25
     assert part_names(HUB)[int(part)] in ("disc 1", "arm 1")
-    least, share, part = as_numpy(touching(HUB, 2 * half))(state(0.6), state(0.6 + 2 * rate * half))
+    least, share, part = look(state(0.6), state(0.6 + 2 * rate * half), 2 * half)
     assert (share, part) == (NEVER, -1)
     assert least > 0
 

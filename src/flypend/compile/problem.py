@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from flypend.compile.program import Program, needed
+from flypend.compile.touch import Touch
 
 # Operations with kinks or jumps.
 PIECEWISE = frozenset(
@@ -66,12 +67,15 @@ class Problem:
         What is reduced over a run.
     margin : Program, optional
         (t, s, p) → a scalar that is positive where the law is defined.
+    touch : Touch, optional
+        What ends a flight as collided.
     """
 
     rates: Program
     project: Program
     judging: Judging | None = None
     margin: Program | None = None
+    touch: Touch | None = None
 
     @property
     def size(self) -> int:

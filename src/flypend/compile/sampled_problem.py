@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from flypend.compile.program import Program
 from flypend.compile.routine import Routine
+from flypend.compile.touch import Touch
 
 GUSTS = 18  # place of the first number for the gusts among the random numbers of a tick
 
@@ -48,23 +49,6 @@ class MujocoProblem:
     seen: Program
     filtered: bool
     largest: float
-
-
-@dataclass(frozen=True)
-class Touch:
-    """What the rod can touch; see `flypend.flight.touch`.
-
-    Parameters
-    ----------
-    room : Program
-        (state before, state after a tick) → a lower bound of the distances in between.
-    touching : Program
-        (before, after) → (least distance, share of the tick until the rod touches, part); the share is > 1 if it does
-        not.
-    """
-
-    room: Program
-    touching: Program
 
 
 @dataclass(frozen=True)

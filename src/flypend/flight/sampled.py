@@ -69,8 +69,8 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
     states, forces = [engine.packed], [engine.rotors]
     commands, segments = Commands(idle_command(loop, begin)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
-    watch, there = watcher(true, period), np.append(engine.packed, engine.rotors)
-    if (touch := watch(there, there)) is not None:
+    watch, there = watcher(true), np.append(engine.packed, engine.rotors)
+    if (touch := watch(there, there, period)) is not None:
         outcome, ticks = Outcome("collided", 0.0, touch.reason), 0
     with np.errstate(all="ignore"):
         for k in range(ticks):
@@ -87,7 +87,7 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
                 outcome = Outcome("diverged", k * period, LEFT)
                 break
             here = np.append(engine.packed, engine.rotors)
-            if (touch := watch(there, here)) is not None:
+            if (touch := watch(there, here, period)) is not None:
                 outcome = Outcome("collided", (k + touch.share) * period, touch.reason)
                 break
             there = here

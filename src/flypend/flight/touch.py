@@ -13,7 +13,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.geometry import dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, part_names, rod_in_body
-from flypend.model.state import SIZE
+from flypend.model.state import SIZE, E3Direction
 
 # Points within a control period at which the rod is looked at. At 500 Hz they are 0.5 ms apart: the tip of a rod of
 # half a metre at 15 rad/s moves 4 mm, less than the thickness of the rod.
@@ -21,34 +21,34 @@ POINTS = 4
 NEVER = 2.0  # the share of an interval in which the rod touches nothing
 
 
-def touching(vehicle: Vehicle, period: float) -> ca.Function:
-    """Build (before, after) → (clearance, share, part), for states with rotor forces (24 + n,), e₃ up.
+def touching(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> ca.Function:
+    """Build (before, after, period) → (clearance, share, part) for two states in the frame `e3`, `period` (s) apart.
 
-    Between the states, `period` (s) apart, the rod moves in the body frame along the cubic through directions and rates
+    Each state is followed by the rotor forces, (24 + n,), or unless `by_rotors` by the thrust, (25,). In between the rod moves in the body frame along the cubic through directions and rates
     at both ends, and is looked at in `POINTS` equally spaced shares of the interval. `clearance` is the smallest
     distance there, m, `share` the first at which a margin of `model.mount` is negative, `NEVER` if none is, and `part`
     the place of that margin in `part_names`.
     """
-    before, after, ends = _ends(vehicle)
+    before, after, period, ends = _ends(vehicle, e3, by_rotors)
     least, share, part = ca.SX(np.inf), ca.SX(NEVER), ca.SX(-1)
     for k in range(POINTS, 0, -1):
         smallest, place, clearance = least_margin(*_between(ends, period, k / POINTS), vehicle)
         least = ca.fmin(least, clearance)
         share = ca.if_else(smallest < 0, k / POINTS, share)
         part = ca.if_else(smallest < 0, place, part)
-    return ca.Function("touching", [before, after], [ca.cse(ca.vertcat(least, share, part))])
+    return ca.Function("touching", [before, after, period], [ca.cse(ca.vertcat(least, share, part))])
 
 
-def room(vehicle: Vehicle, period: float) -> ca.Function:
-    """Build (before, after) → a lower bound of every distance in between, m, much cheaper than `touching`.
+def room(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> ca.Function:
+    """Build (before, after, period), as in `touching`, → a lower bound of every distance in between, m, much cheaper.
 
     A point of a disc at height h and radius ρ is at least ρ |u₃| − |h| from a rod u in the body frame, one of an arm at
     least 2 ρ sin(ε/2), sin ε = |u₃|. In between, |u₃| changes by at most |u̇| for half the interval. In a cup nothing is
     bounded: the result is negative.
     """
-    before, after, ((u_0, rate_0, _), (u_1, rate_1, _)) = _ends(vehicle)
+    before, after, period, ((u_0, rate_0, _), (u_1, rate_1, _)) = _ends(vehicle, e3, by_rotors)
     if vehicle.mount != "hub":
-        return ca.Function("room", [before, after], [ca.SX(-1)])
+        return ca.Function("room", [before, after, period], [ca.SX(-1)])
     body, centres = vehicle.body, vehicle.rotor_positions
     inner = float(np.min(np.linalg.norm(centres[:, :2], axis=1))) - body.disc_radius
     speed = ca.fmax(ca.sqrt(dot(rate_0, rate_0)), ca.sqrt(dot(rate_1, rate_1)))
@@ -57,7 +57,7 @@ def room(vehicle: Vehicle, period: float) -> ca.Function:
     discs = inner * up - float(np.max(np.abs(centres[:, 2]))) - body.rod_radius
     chord = ca.sqrt(2 * up**2 / (1 + ca.sqrt(ca.fmax(1 - up**2, 0))))  # 2 sin(ε/2) without cancellation
     arms = body.hub_radius * chord - body.arm_radius - body.rod_radius
-    return ca.Function("room", [before, after], [ca.cse(ca.fmin(discs, arms))])
+    return ca.Function("room", [before, after, period], [ca.cse(ca.fmin(discs, arms))])
 
 
 def touched(vehicle: Vehicle, part: int) -> str:
@@ -75,15 +75,18 @@ class Touch(NamedTuple):
     reason: str
 
 
-@lru_cache(maxsize=64)
-def watcher(vehicle: Vehicle, period: float) -> Callable[[Any, Any], Touch | None]:
-    """Return (before, after) → the first touch between two states (24 + n,), `period` (s) apart, None for none."""
-    if vehicle.mount == "gimbal":
-        return lambda before, after: None
-    look = as_numpy(touching(vehicle, period))
+Watch = Callable[[Any, Any, float], Touch | None]
 
-    def watch(before: Any, after: Any) -> Touch | None:
-        _, share, part = look(before, after)
+
+@lru_cache(maxsize=64)
+def watcher(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> Watch:
+    """Return (before, after, period) → the first touch between two states; arguments as in `touching`."""
+    if vehicle.mount == "gimbal":
+        return lambda *_: None
+    look = as_numpy(touching(vehicle, e3, by_rotors=by_rotors))
+
+    def watch(before: Any, after: Any, period: float) -> Touch | None:
+        _, share, part = look(before, after, period)
         return Touch(float(share), touched(vehicle, int(part))) if share <= 1 else None
 
     return watch
@@ -92,20 +95,21 @@ def watcher(vehicle: Vehicle, period: float) -> Callable[[Any, Any], Touch | Non
 _End = tuple[Any, Any, Any]
 
 
-def _ends(vehicle: Vehicle) -> tuple[Any, Any, tuple[_End, _End]]:
-    """Symbols of both states; and for each, the rod in the body frame, its rate, and its push on the vehicle."""
-    n = len(vehicle.rotor_spins)
-    before, after = ca.SX.sym("before", SIZE + n), ca.SX.sym("after", SIZE + n)
+def _ends(vehicle: Vehicle, e3: E3Direction, by_rotors: bool) -> tuple[Any, Any, Any, tuple[_End, _End]]:
+    """Symbols of states and period; and per state, the rod in the body frame, its rate, its push on the vehicle."""
+    n = len(vehicle.rotor_spins) if by_rotors else 1
+    before, after, period = ca.SX.sym("before", SIZE + n), ca.SX.sym("after", SIZE + n), ca.SX.sym("period")
+    to_thrust = ca.DM(vehicle.mixing(e3)[:1]) if by_rotors else ca.DM(1)
 
     def end(packed: Any) -> _End:
         state = State.symbolic(packed[:SIZE])
-        thrust = ca.sum1(packed[SIZE:])
-        return (*rod_in_body(state, "up"), -rod_tension(state, Wrench(thrust, ca.SX(3, 1)), vehicle))
+        thrust = ca.mtimes(to_thrust, packed[SIZE:])
+        return (*rod_in_body(state, e3), -rod_tension(state, Wrench(thrust, ca.SX(3, 1)), vehicle))
 
-    return before, after, (end(before), end(after))
+    return before, after, period, (end(before), end(after))
 
 
-def _between(ends: tuple[_End, _End], period: float, share: float) -> tuple[Any, Any]:
+def _between(ends: tuple[_End, _End], period: Any, share: float) -> tuple[Any, Any]:
     """Rod in the body frame and its push at a `share` of the interval."""
     (u_0, rate_0, push_0), (u_1, rate_1, push_1) = ends
     s, r = share, 1 - share

@@ -147,7 +147,7 @@ class _Kernel:
         code.store(ticks * self.problem.period, self.end)
         code.builder.store(ir.Constant(I64, 0), self.cursor)
         if self.touching is not None:
-            self._end_runs(self.touching.begin(state), COLLIDED, code.value(0.0))
+            self._end_runs(self.touching.begin(state, code.load(self.alive) > 0.0), COLLIDED, code.value(0.0))
 
     def _copy(self, rows: ir.Value, row: ir.Value, memory: ir.Value, lane: ir.Value, length: int) -> None:
         code, builder = self.code, self.code.builder
@@ -195,7 +195,7 @@ class _Kernel:
         with code.when(code.any(self._far(after))):
             self._end_runs(self._lost(after), DIVERGED, time)
         if self.touching is not None:
-            touched, share = self.touching.between(state, after, code.load(self.alive) > 0.0)
+            touched, share = self.touching.between(state, after, problem.period, code.load(self.alive) > 0.0)
             self._end_runs(touched, COLLIDED, time + share * problem.period)
         with code.when(code.any(code.load(self.alive) <= 0.0)):
             self._keep_ended(state, after)

@@ -1,4 +1,4 @@
-"""Whether the rod touches what its mount lets it touch, in the lanes of a kernel of sampled flights."""
+"""Whether the rod touches what its mount lets it touch, in the lanes of a kernel."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from llvmlite import ir
 
 from flypend.compile.llvm.emit import define
 from flypend.compile.llvm.vector import I64, Code, Value
-from flypend.compile.sampled_problem import Touch
+from flypend.compile.touch import Touch
 
 INFINITY = float("inf")
 
@@ -21,27 +21,31 @@ class Touching:
         self._code, self._at = code, at
         self._room, self._touching = define(code.lanes, touch.room), define(code.lanes, touch.touching)
         self._bound, self._found = code.reserve(1), code.reserve(3)  # distance, share of the tick, part
-        self._least, self._part = code.reserve(1), code.reserve(1)
+        self._least, self._part, self._interval = (code.reserve(1) for _ in range(3))
+        for memory in (self._least, self._part):  # also for lanes that never receive a run
+            code.store(INFINITY, memory)
 
-    def begin(self, state: ir.Value) -> Value:
-        """Start new flights at `state`; return which of them touch there."""
+    def begin(self, state: ir.Value, new: Value) -> Value:
+        """Start the flights of the lanes `new` at `state`; return which of them touch there."""
         code = self._code
-        code.store(INFINITY, self._least)
-        code.store(-1.0, self._part)
-        code.call(self._touching, state, state, self._found)
-        return self._recorded(code.load(self._part) < 0.0)
+        code.store(code.select(new, INFINITY, code.load(self._least)), self._least)
+        code.store(code.select(new, -1.0, code.load(self._part)), self._part)
+        code.store(0.0, self._interval)
+        code.call(self._touching, state, state, self._interval, self._found)
+        return self._recorded(new)
 
-    def between(self, before: ir.Value, after: ir.Value, alive: Value) -> tuple[Value, Value]:
-        """Record the distances between two states in the lanes `alive`.
+    def between(self, before: ir.Value, after: ir.Value, interval: Value | float, alive: Value) -> tuple[Value, Value]:
+        """Record the distances between two states, `interval` (s) apart, in the lanes `alive`.
 
         Returns which of them touch, and at which share of the interval; the share is valid for them alone.
         """
         code = self._code
-        code.call(self._room, before, after, self._bound)
+        code.store(interval, self._interval)
+        code.call(self._room, before, after, self._interval, self._bound)
         near = alive & (code.load(self._bound) < code.load(self._least))
         code.store(INFINITY, self._found)
         with code.when(code.any(near)):
-            code.call(self._touching, before, after, self._found)
+            code.call(self._touching, before, after, self._interval, self._found)
         return self._recorded(near), code.load(self._found, 1)
 
     def _recorded(self, here: Value) -> Value:

@@ -19,15 +19,15 @@ from flypend.compile.llvm.sampled import INTEGERS, arguments, write_kernel
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
-from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch, Touch
+from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
 from flypend.flight.kernels.stopping import Word
+from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.flight.touch import room, touching
-from flypend.model import State, Vehicle
+from flypend.model import State
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import rotor_step
@@ -276,14 +276,8 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
         timing=TIMING_SIZE if plant.engine == "equations" else 1,
         period=1 / plant.rate,
         random=is_random(plant),
-        touch=_touch(true, 1 / plant.rate),
+        touch=touch_of(true, "up", by_rotors=True),
     )
-
-
-def _touch(vehicle: Vehicle, period: float) -> Touch | None:
-    if vehicle.mount == "gimbal":
-        return None
-    return Touch(lower(room(vehicle, period)), lower(touching(vehicle, period)))
 
 
 def _begin(loop: Loop) -> Program:

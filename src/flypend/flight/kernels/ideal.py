@@ -38,8 +38,8 @@ SHORT, LONG = 64, 128
 OPERATIONS_OF_LONG = 800
 BYTES = {"double": 8, "float": 4}
 MAX_STEPS = 1_000_000
-# Share of a time by which single precision may move it.
-ROUNDING = 1e-5
+# Share by which single precision may move the place of a time in a table: two roundings, and a margin.
+ROUNDING = 5e-7
 
 
 class Moments(NamedTuple):

@@ -26,6 +26,28 @@ def with_forces(run):
     return np.concatenate([run.packed, run.rotor_forces], axis=1)
 
 
+@pytest.mark.parametrize(("mount", "e3"), [("hub", "up"), ("cup", "up"), ("hub", "down")])
+def test_in_the_ideal_plant_kernel_and_scipy_end_at_the_same_touch(mount, e3):
+    name, law = ("hehn2011", fp.laws.inverted()) if e3 == "up" else ("nayak2018", fp.laws.corrected())
+    vehicle, starts = fp.vehicle(name).replace(mount=mount), fp.random_starts(10, 31)
+    starts = starts if e3 == "up" else starts.flipped()
+    ends, statuses = fp.simulate_ensemble(vehicle, law, starts, 2.0, plant="ideal"), set()
+    for i in range(len(ends)):
+        single = fp.simulate(vehicle, law, starts[i], 2.0, plant="ideal")
+        other = fp.simulate(vehicle, law, starts[i], 2.0, plant="ideal", engine="scipy")
+        assert (single.outcome.status, single.outcome.reason) == (other.outcome.status, other.outcome.reason)
+        assert single.outcome.time == ends.end[i]
+        assert (ends.cause[i] == "collided") == (single.outcome.status == "collided")
+        np.testing.assert_array_equal(ends.final.packed()[i], single.packed[-1])
+        # The steps differ, and the rod is looked at every half millisecond or less of each.
+        assert single.outcome.time == pytest.approx(other.outcome.time, abs=0.6e-3)
+        # The trajectory has a sample every 10 ms; in between the rod may come closer.
+        assert ends.clearance[i] <= single.clearance.min() + 1e-9
+        statuses.add(single.outcome.status)
+    assert "collided" in statuses
+    assert mount == "cup" or "completed" in statuses
+
+
 @pytest.mark.parametrize(("vehicle", "plant"), [(HUB, "rotors"), (CUP, "rotors"), (HUB, "mujoco")])
 def test_kernel_and_reference_end_at_the_same_touch(vehicle, plant):
     starts, duration = fp.random_starts(8, 21), 1.5

@@ -50,11 +50,13 @@ def integrate(
     atol: float,
     margin: Margin | None = None,
     margin_reason: str = "",
+    touch: Callable[[Any], tuple[float, str] | None] = lambda _: None,
 ) -> Integration:
     """Integrate `rates` from the packed state `start` over `duration` seconds; a run that fails does not raise.
 
     After each accepted step the state is projected onto the manifold, and the drift before projection is recorded. If
-    `margin(t, state)` stops being positive, the run ends as singular, with `margin_reason`.
+    `margin(t, state)` stops being positive, the run ends as singular, with `margin_reason`; if `touch`, given the
+    interpolant of a step or, at the start, of none, returns a time and a reason, it ends then as collided.
     """
     if margin is not None and margin(0.0, start) <= 0:
         return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, margin_reason))
@@ -62,6 +64,9 @@ def integrate(
     if not np.all(np.isfinite(rates(0.0, start))):
         reason = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
         return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, reason))
+
+    if (hit := touch(None)) is not None:
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("collided", *hit))
 
     knots: list[float] = [0.0]
     interpolants: list[Any] = []
@@ -79,7 +84,10 @@ def integrate(
             solver.y, drift = project(solver.y)
             solver.f = rates(solver.t, solver.y)
             drifts.append(drift)
-            if margin is not None and margin(solver.t, solver.y) <= 0:
+            if (hit := touch(interpolants[-1])) is not None:
+                knots[-1] = hit[0]
+                outcome = Outcome("collided", *hit)
+            elif margin is not None and margin(solver.t, solver.y) <= 0:
                 knots[-1] = _crossing(margin, interpolants[-1])
                 outcome = Outcome("singular", knots[-1], margin_reason)
             elif solver.status == "finished":

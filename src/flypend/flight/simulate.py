@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants
+from flypend.compile.llvm.step_touching import LONGEST
 from flypend.compile.numeric import as_numpy
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.signals import signals_along
+from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
-from flypend.model.state import seen_packed, split
+from flypend.model.state import project, seen_packed, split
 from flypend.plants import AnyPlant, Ideal, Sampled
 
 if TYPE_CHECKING:
@@ -142,8 +146,33 @@ def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
     exact, rates = flight.tolerances, as_numpy(loop.rates)
     return integrate(
         rates, flight.starts.packed(), flight.duration, rtol=exact.rtol, atol=exact.absolute, margin=margin,
-        margin_reason=reason,
+        margin_reason=reason, touch=_touch(flight, loop),
     )  # fmt: skip
+
+
+def _touch(flight: Flight, loop: ClosedLoop) -> Callable[[Any], tuple[float, str] | None]:
+    """Return what looks for a touch in the interpolant of a step, every two milliseconds; at the start, in None."""
+    if flight.vehicle.mount == "gimbal":
+        return lambda _: None
+    watch, start = watcher(flight.vehicle, flight.law.e3, by_rotors=False), flight.starts.packed()
+    outputs = as_numpy(loop.outputs)
+
+    def state(interpolant: Any, t: float) -> Any:
+        packed = project(interpolant(t))[0]
+        return np.append(packed, outputs(t, packed)[0])
+
+    def look(interpolant: Any) -> tuple[float, str] | None:
+        if interpolant is None:
+            begin = np.append(start, outputs(0.0, start)[0])
+            touch = watch(begin, begin, 0.0)
+            return None if touch is None else (0.0, touch.reason)
+        times = np.linspace(interpolant.t_old, interpolant.t, 2 + int((interpolant.t - interpolant.t_old) / LONGEST))
+        for a, b in pairwise(times):
+            if (touch := watch(state(interpolant, a), state(interpolant, b), b - a)) is not None:
+                return float(a + touch.share * (b - a)), touch.reason
+        return None
+
+    return look
 
 
 def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:

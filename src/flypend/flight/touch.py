@@ -24,10 +24,10 @@ NEVER = 2.0  # the share of an interval in which the rod touches nothing
 def touching(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> ca.Function:
     """Build (before, after, period) → (clearance, share, part) for two states in the frame `e3`, `period` (s) apart.
 
-    Each state is followed by the rotor forces, (24 + n,), or unless `by_rotors` by the thrust, (25,). In between the rod moves in the body frame along the cubic through directions and rates
-    at both ends, and is looked at in `POINTS` equally spaced shares of the interval. `clearance` is the smallest
-    distance there, m, `share` the first at which a margin of `model.mount` is negative, `NEVER` if none is, and `part`
-    the place of that margin in `part_names`.
+    Each state is followed by the rotor forces, (24 + n,), or unless `by_rotors` by the thrust, (25,). In between the
+    rod moves in the body frame along the cubic through directions and rates at both ends, and is looked at in `POINTS`
+    equally spaced shares of the interval. `clearance` is the smallest distance there, m, `share` the first at which a
+    margin of `model.mount` is negative, `NEVER` if none is, and `part` the place of that margin in `part_names`.
     """
     before, after, period, ends = _ends(vehicle, e3, by_rotors)
     least, share, part = ca.SX(np.inf), ca.SX(NEVER), ca.SX(-1)

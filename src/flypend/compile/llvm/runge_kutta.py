@@ -8,6 +8,7 @@ not depend on its neighbours.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from llvmlite import ir
 
@@ -18,6 +19,7 @@ from flypend.compile.llvm.judging import Judge
 from flypend.compile.llvm.rows import as_double, copy_lane
 from flypend.compile.llvm.sampling import Sampler
 from flypend.compile.llvm.stages import Stages
+from flypend.compile.llvm.step_touching import StepTouching
 from flypend.compile.llvm.stopping import not_stopped
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
 from flypend.compile.methods import Method
@@ -34,7 +36,7 @@ SHORTEST = 1e-13
 ARGUMENTS = (
     "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps",
     "times", "time_count", "judge_times", "bins", "bin_count", "bin_rate",
-    "samples", "reductions", "final", "end", "status", "steps", "knots", "stop",
+    "samples", "reductions", "final", "end", "status", "steps", "knots", "clearance", "part", "stop",
 )  # fmt: skip
 INTEGERS = ("runs", "max_steps", "time_count")
 REALS = ("duration", "rtol", "atol", "bin_count", "bin_rate")
@@ -67,7 +69,8 @@ class _Kernel:
         self.sampler = Sampler(code, self.dense, self.at, self.run)
         grid = Grid(code, self.at)
         self.judge = Judge(code, method, problem.judging, stages, self.dense, grid) if problem.judging else None
-        self.low = code.reserve(1)
+        self.touching = StepTouching(code, problem.touch, stages, self.dense, self.at) if problem.touch else None
+        self.low, self.touched = code.reserve(1), code.reserve(1)
 
     def write(self) -> None:
         code, builder = self.code, self.code.builder
@@ -78,7 +81,8 @@ class _Kernel:
                 code.store(0.0, memory, i)
         for memory in (self.t, self.h, self.count):
             code.store(0.0, memory)
-        code.store(0.0, self.active)
+        for memory in (self.active, self.touched):
+            code.store(0.0, memory)
         with code.count(self.lanes.width) as lane:
             code.put(ir.Constant(I64, -1), self.run, lane)
             self._load_next(lane)
@@ -115,7 +119,7 @@ class _Kernel:
             code.call(self.margin, self.when, self.Y, self.P, margin)
             guarded = accepted & ~(code.load(margin) > 0.0)
             accepted = accepted & ~guarded
-        accepted = accepted & ~(code.load(self.low) > 0.0)
+        accepted = accepted & ~(code.load(self.low) > 0.0) & ~(code.load(self.touched) > 0.0)
         lost = accepted & ~(largest < MAX_STATE)
         self._finish_step(t, h, t_new, error, accepted & ~lost, guarded, lost, active)
 
@@ -167,8 +171,17 @@ class _Kernel:
             self.stages.evaluate(t_new, self.method.stages)
         step = Step(self.stages, t, h, t_new)
         self.dense.begin()
-        self.sampler.take(step, accepted)
+        if self.touching is not None:
+            touched, t_new = self.touching.take(step, accepted)
+            code.store(code.select(touched, 1.0, code.load(self.touched)), self.touched)
+        self.sampler.take(replace(step, t_new=t_new), accepted)
         self._if_judged(lambda judge: judge.take(step, accepted, self.rtol + self.atol))
+        if self.touching is not None:
+            with code.when(code.any(touched)):
+                self.dense.evaluate(step, t_new)
+                with code.count(n) as i:
+                    state = code.select(touched, code.load(self.dense.state, i), code.load(self.Y, i))
+                    code.store(state, self.Y, i)
         with code.count(n) as i:
             code.store(code.select(accepted, code.load(self.Y, i), code.load(self.S, i)), self.S, i)
         self.stages.carry(accepted)
@@ -211,6 +224,7 @@ class _Kernel:
             value = code.select(stuck & guarded, float(SINGULAR), value)
         value = code.select(lost, float(DIVERGED), value)
         value = code.select(accepted & (t >= self.duration), float(COMPLETED), value)
+        value = code.select(code.load(self.touched) > 0.0, float(COLLIDED), value)
         value = code.select(self._first_rate_undefined(), float(UNDEFINED), value)
         if guarded is not None:  # the guard says why, also where a rate is not finite
             value = code.select(code.load(self.low) > 0.0, float(SINGULAR), value)
@@ -227,6 +241,11 @@ class _Kernel:
         new = self.code.load(self.h) <= 0.0
         self.stages.start(self.t, new)
         self._if_judged(lambda judge: judge.begin(new, self.t))
+        if self.touching is not None:
+            code = self.code
+            self.dense.begin()
+            touched = code.select(self.touching.begin(new), 1.0, 0.0)
+            code.store(code.select(new, touched, code.load(self.touched)), self.touched)
 
     def _max_steps(self) -> Value:
         code = self.code
@@ -250,6 +269,8 @@ class _Kernel:
         code.put(builder.fptosi(code.scalar(self.count, lane), I64), self.at["steps"], run)
         self.sampler.finish(lane)
         self._if_judged(lambda judge: judge.store(lane, run, code.scalar(self.t, lane)))
+        if self.touching is not None:
+            self.touching.touching.store(lane, run)
 
     def _if_judged(self, emit: Callable[[Judge], None]) -> None:
         """Emit code that runs if the caller wants reductions, of a problem that has any."""

@@ -165,6 +165,10 @@ class Code:
         wanted = (number - one) * exponent + one
         return Value(self, builder.bitcast(builder.fptosi(wanted.raw, kind), lanes.vector))
 
+    def floor(self, value: Value) -> Value:
+        """Largest integer not above."""
+        return Value(self, self.builder.call(self.lanes.intrinsic("floor"), [value.raw]))
+
     def fabs(self, value: Value) -> Value:
         """Absolute value."""
         return Value(self, self.builder.call(self.lanes.intrinsic("fabs"), [value.raw]))

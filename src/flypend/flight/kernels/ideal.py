@@ -23,6 +23,7 @@ from flypend.errors import one_of
 from flypend.flight.criterion import Criterion, gauge_bounds, gauged
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
 from flypend.flight.kernels.stopping import Word, heard
+from flypend.flight.kernels.touching import touch_of
 from flypend.flight.request import Flight
 from flypend.geometry import hat
 from flypend.laws import BoundLaw
@@ -131,7 +132,9 @@ class IdealKernel:
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
         samples = None if keep_at is None else (len(moments.kept) - 1, SIZE)
-        out = Flown.of_size(len(starts), SIZE, samples=samples, steps=True, judged=judge)
+        out = Flown.of_size(
+            len(starts), SIZE, samples=samples, steps=True, judged=judge, touching=self.loop.vehicle.mount != "gimbal"
+        )
 
         def fly(queue: Any, stop: Word) -> None:
             call(self.function, starts, values, setting, moments, out, stop, queue=queue)
@@ -159,14 +162,17 @@ def integrate(
     setting: tuple[float, float, float, int],
     times: ArrayLike,
     knots: NDArray[np.float64] | None = None,
+    *,
+    touching: bool = False,
 ) -> Flown:
     """Fly one run by a compiled ideal kernel from `start` (24,), keeping the states at increasing `times`.
 
     `values` (1, k) are the parameter values, `setting` as in `call`. `knots` receives the number of accepted steps
-    and four numbers for each: its time, and the drift (3,) before projection.
+    and four numbers for each: its time, and the drift (3,) before projection. `touching` says whether the rod can touch
+    anything.
     """
     moments = Moments.of(keep_at=times)
-    out = Flown.of_size(1, SIZE, samples=(len(moments.kept) - 1, SIZE), steps=True, judged=False)
+    out = Flown.of_size(1, SIZE, samples=(len(moments.kept) - 1, SIZE), steps=True, judged=False, touching=touching)
     heard([lambda stop: call(function, start[None], values, setting, moments, out, stop, knots)])
     return out
 
@@ -194,7 +200,7 @@ def call(
         address(moments.kept), len(moments.kept) - 1,
         address(moments.judged), address(moments.bins), len(moments.bins), moments.rate,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
-        address(out.steps), address(knots), address(stop),
+        address(out.steps), address(knots), address(out.clearance), address(out.part), address(stop),
     )  # fmt: skip
 
 
@@ -255,6 +261,7 @@ def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
         project=lower(_projection()),
         margin=_margin(symbols, law, inputs),
         judging=_judging(vehicle, law, criterion),
+        touch=touch_of(vehicle, law.e3, by_rotors=False),
     )
 
 

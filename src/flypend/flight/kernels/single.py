@@ -41,14 +41,16 @@ class Solution:
         self._values = inputs_of(kernel.loop, None if parameters is None else np.asarray(parameters)[None], 1)
         room = np.empty(1 + 4 * self._setting[-1])
         room[0] = 0
+        self._touching = flight.vehicle.mount != "gimbal"
         flown = self._fly(np.zeros(0), room)
         steps = room[1 : 1 + 4 * int(room[0])].reshape(-1, 4)
         self.knots, self.drift = np.append(0.0, steps[:, 0]), steps[:, 1:].copy()
         self._final = flown.final[0]
-        self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), kernel)
+        part = int(flown.part[0]) if self._touching else -1
+        self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), part, kernel)
 
     def _fly(self, times: NDArray[np.float64], room: NDArray[np.float64] | None = None) -> Flown:
-        return integrate(self._function, self._start, self._values, self._setting, times, room)
+        return integrate(self._function, self._start, self._values, self._setting, times, room, touching=self._touching)
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
         """Return the states (len(t), 24) at times within the run, from the method's dense output, projected."""
@@ -60,7 +62,9 @@ class Solution:
         return samples[np.searchsorted(times, wanted)]
 
 
-def _judge(code: int, end: float, kernel: IdealKernel) -> Outcome:
+def _judge(code: int, end: float, part: int, kernel: IdealKernel) -> Outcome:
+    if code == runge_kutta.COLLIDED:
+        return Outcome("collided", end, touched(kernel.loop.vehicle, part))
     guard = kernel.loop.symbolic.guard
     reason = guard.reason if code == runge_kutta.SINGULAR and guard is not None else REASONS.get(code, "")
     return Outcome(str(STATUS[code]), end, reason)  # type: ignore[arg-type]

@@ -88,6 +88,8 @@ def fly_on_jax(flight: Flight) -> Flown:
     law = flight.loop.symbolic
     if not isinstance(flight.plant, Ideal):
         raise errors.InputError("plant", "'ideal', with the engine jax", "a sampled plant")
+    if flight.vehicle.mount != "gimbal":
+        raise errors.InputError("vehicle.mount", "'gimbal', with the engine jax", repr(flight.vehicle.mount))
     if flight.times is not None:
         raise errors.InputError("times", "nothing, with the engine jax", f"{len(flight.times)} of them")
     if flight.tolerances.precision != "double":

@@ -165,7 +165,7 @@ def test_a_run_with_overrides_is_that_of_the_library(call, tmp_path):
     assert code == 1  # it has not flown to its end
     assert written.outcome.status == flown.outcome.status == "singular"
     assert written.outcome.time == pytest.approx(flown.outcome.time, rel=1e-6)
-    assert "printed, k_d 2, k_1 9 on nayak2018: singular at 0.1068 s" in told
+    assert "printed, k_d 2, k_1 12, k_2 5 on nayak2018: singular at 0.1068 s" in told
 
 
 def test_a_file_of_ones_own_is_flown(call, tmp_path):

@@ -32,7 +32,8 @@ SHORT = {
     "criterion": {"target": "e3", "position": float("inf"), "rod": 1.0, "axis": 0.5},
     "vary": {"start": {"y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 2.0}}},
 }
-LONG = SHORT | {"runs": 4000, "chunk": 20, "duration": 2.0, "rtol": 1e-9}
+SMALL = SHORT | {"runs": 20}
+LONG = SHORT | {"runs": 800, "chunk": 20, "duration": 6.0, "rtol": 1e-9}
 # A process that has imported and compiled everything forks one for every command: they start within a millisecond.
 FORKS = """
 import json, os, sys
@@ -168,7 +169,7 @@ def attack_kills(number, seed, folder):
             os.kill(process, signal.SIGKILL)
             code = forks.end(process)
             assert code in (0, -signal.SIGKILL), told.read_text(encoding="utf-8")
-            if path.exists() and sum(existing(path).marked(k) for k in range(200)) == 200:
+            if path.exists() and sum(existing(path).marked(k) for k in range(40)) == 40:
                 finished += 1
                 fp.sweep(LONG, path, workers=1)
                 assert content(path) == sound
@@ -219,8 +220,8 @@ def mutate(store, rng):
 
 def attack_stores(number, seed, folder):
     """Read and mend mutated stores: nothing but InputError, no wrong number, and after a sweep all numbers."""
-    rng, ends = random.Random(seed), Counter()
-    fp.sweep(SHORT, folder / "sound.zarr", workers=1)
+    rng, ends, study = random.Random(seed), Counter(), fp.study(SMALL)
+    fp.sweep(study, folder / "sound.zarr", workers=1)
     numbers = read(folder / "sound.zarr")
     path = folder / "a.zarr"
     for k in range(number):
@@ -234,7 +235,7 @@ def attack_stores(number, seed, folder):
         except fp.InputError:
             ends["refused by readers"] += 1
         try:
-            fp.sweep(SHORT, path, workers=1)
+            fp.sweep(study, path, workers=1)
             assert right(read(path), numbers), (seed, k)
             assert len(read(path)) == len(numbers), (seed, k)
             ends["mended by sweep"] += 1

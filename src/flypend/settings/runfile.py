@@ -132,16 +132,8 @@ def vehicle_table(value: Any) -> dict[str, Any]:
     """Return all fields of a vehicle, given by name or as a table on top of `base`. Raises InputError."""
     chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
     if "base" in chosen:
-        own = vehicle(chosen.pop("base")).to_dict()
-        changed = [f"{name} {_short(value)}" for name, value in chosen.items() if own.get(name) != value]
-        named = {"name": ", ".join([own["name"], *changed])} if changed and "name" not in chosen else {}
-        chosen = own | chosen | named
+        chosen = vehicle(chosen.pop("base")).to_dict() | chosen
     return chosen
-
-
-def _short(value: Any) -> str:
-    """Format a value for a name."""
-    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def start_of(table: dict[str, Any]) -> State:

@@ -550,7 +550,10 @@ def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
         sent = time.monotonic()
         process.send_signal(number)
         told = process.communicate(timeout=60)[1]
-        assert time.monotonic() - sent < 1.0
+        took = time.monotonic() - sent
+    begin = time.monotonic()
+    subprocess.run([sys.executable, "-c", "pass"], check=True)
+    assert took < 0.5 + 10 * (time.monotonic() - begin)  # the second term is for the end of the process itself
     assert process.returncode == 128 + number
     assert "flypend sweep study.toml -o 'my runs.zarr'\n" in told
     assert "Traceback" not in told

@@ -177,7 +177,7 @@ def test_a_run_with_overrides_is_that_of_the_library(call, tmp_path):
     assert code == 1  # it has not flown to its end
     assert written.outcome.status == flown.outcome.status == "singular"
     assert written.outcome.time == pytest.approx(flown.outcome.time, rel=1e-6)
-    assert "printed, k_d 2, k_1 9 on nayak2018: singular at 0.1068 s" in told
+    assert "printed, k_d 2, k_1 12, k_2 5 on nayak2018: singular at 0.1068 s" in told
 
 
 def test_a_file_of_ones_own_is_flown(call, tmp_path):
@@ -562,7 +562,10 @@ def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
         sent = time.monotonic()
         process.send_signal(number)
         told = process.communicate(timeout=60)[1]
-        assert time.monotonic() - sent < 1.0
+        took = time.monotonic() - sent
+    begin = time.monotonic()
+    subprocess.run([sys.executable, "-c", "pass"], check=True)
+    assert took < 0.5 + 10 * (time.monotonic() - begin)  # the second term is for the end of the process itself
     assert process.returncode == 128 + number
     assert "flypend sweep study.toml -o 'my runs.zarr'\n" in told
     assert "Traceback" not in told

@@ -232,6 +232,7 @@ def test_what_xarray_opens_is_the_dataset(how, tmp_path):
     run = _ended(how)
     run.save(tmp_path / "run.nc")
     with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as opened:
+        del opened.attrs["digest"]
         xarray.testing.assert_identical(
             opened.load().drop_vars(["drift", "drift_of"], errors="ignore"), run.to_xarray()
         )
@@ -402,3 +403,18 @@ def test_a_file_that_is_no_run_says_what_it_is(harm, said, run, tmp_path):
     with pytest.raises(fp.InputError) as caught:
         fp.load(path)
     assert str(caught.value).startswith(f"{path}: expected a run saved by flypend, got {said}")
+
+
+def test_a_changed_number_is_noticed_and_can_be_meant(run, tmp_path):
+    """One bit of one position: nothing else in a NetCDF file would tell."""
+    path = tmp_path / "run.nc"
+    run.save(path)
+    with xarray.open_dataset(path, engine="scipy") as opened:
+        data = opened.load()
+    data["x"][3, 1] += 1e-9
+    data.to_netcdf(path, engine="scipy")
+    with pytest.raises(fp.InputError, match="got one that was damaged or changed since"):
+        fp.load(path)
+    del data.attrs["digest"]
+    data.to_netcdf(path, engine="scipy")
+    assert fp.load(path).x[3, 1] == run.x[3, 1] + 1e-9

@@ -210,7 +210,7 @@ WRONG = [
     (asked("inverse"), "law.name"),
     (asked(gains={"rod_bandwith": 1}), "law.gains.rod_bandwith"),
     (asked(gains={"rod_bandwidth": float("nan")}), "law.gains.rod_bandwidth"),
-    (asked(gains={"rod_bandwidth": 60.0}), "law.gains.bandwidths"),
+    (asked(gains={"rod_bandwidth": 60.0}), "law.gains.attitude_bandwidth"),
     (asked(gains={"rod_bandwidth": 1e9}), "law.gains.rod_bandwidth"),
     (asked("lqr", gains={"rod_error": 1e-300}), "law.gains.rod_error"),
     (asked(gains={"latency": 1e9}), "law.gains.latency"),

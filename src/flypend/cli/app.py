@@ -99,6 +99,7 @@ def run(
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
     from flypend.flight.simulate import fly
+    from flypend.model.vehicle import told as vehicle_told
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
     from flypend.report.flight import check_movies
@@ -135,7 +136,7 @@ def run(
     if html is not None:
         trajectory.to_html(html)
     console.print(
-        f"{told(flight.law, flight.vehicle)} on {trajectory.vehicle.name}: {trajectory.outcome}", markup=False
+        f"{told(flight.law, flight.vehicle)} on {vehicle_told(flight.vehicle)}: {trajectory.outcome}", markup=False
     )
     console.print(f"inverted: {judgement(trajectory)}")
     if verdicts:

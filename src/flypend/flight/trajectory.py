@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -179,7 +180,8 @@ class Trajectory:
         """
         with whole_file(path, [".nc"]) as partial:
             labels = {name: Variable((name,), np.array(values)) for name, values in AXES.items()}
-            write_netcdf(partial, {**labels, **self._variables(), **self._drift()}, self._attributes())
+            digest = {"digest": self._digest()}
+            write_netcdf(partial, {**labels, **self._variables(), **self._drift()}, {**self._attributes(), **digest})
 
     def _drift(self) -> dict[str, Variable]:
         """Return the drift, if there is any: an array without rows would leave a data frame of the file none."""
@@ -188,6 +190,15 @@ class Trajectory:
         labels = Variable(("drift_of",), np.array(_DRIFT_OF))
         about = {"long_name": "before projection, per step"}
         return {"drift_of": labels, "drift": Variable(("step", "drift_of"), np.array(self.drift), about)}
+
+    def _digest(self) -> str:
+        """Return a digest of all numbers and attributes, by which `load` knows a file that was damaged or changed."""
+        digest = hashlib.sha256(json.dumps(self._attributes(), sort_keys=True).encode())
+        for name, entry in sorted({**self._variables(), "drift": Variable((), self.drift)}.items()):
+            values = np.ascontiguousarray(entry.values, dtype="<f8")
+            digest.update(f"{name} {values.shape}".encode())
+            digest.update(values.data)
+        return digest.hexdigest()
 
     def _variables(self) -> dict[str, Variable]:
         """Return the sampled arrays with their dimensions and units."""
@@ -278,8 +289,8 @@ def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any])
     if missing:
         raise ValueError(f"NetCDF that flypend has not written: no {', '.join(missing)}")
     arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
-    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))  # written by xarray
-    return Trajectory(
+    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))
+    run = Trajectory(
         **arrays,
         signals={name: variables[name].values for name in json.loads(attributes["signals"])},
         outcome=Outcome(attributes["outcome"], float(attributes["outcome_time"]), attributes["outcome_reason"]),
@@ -288,3 +299,8 @@ def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any])
         law=attributes["law"],
         gains=json.loads(attributes["gains"]),
     )
+    if attributes.get("digest", found := run._digest()) != found:
+        raise ValueError(
+            "one that was damaged or changed since (without its attribute digest it is loaded all the same)"
+        )
+    return run

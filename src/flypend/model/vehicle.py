@@ -258,6 +258,18 @@ def vehicle(name: str | Path) -> Vehicle:
         return Vehicle.from_toml(path)
 
 
+def told(machine: Vehicle) -> str:
+    """Return the name of a vehicle with what differs from the shipped vehicle of that name: "hehn2011, mass 0.6"."""
+    if machine.name not in vehicle_names():
+        return machine.name
+    own, shipped = machine.to_dict(), vehicle(machine.name).to_dict()
+    changed = {name: value for name, value in own.items() if value != shipped[name]}
+    numbers = [
+        f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in changed.items()
+    ]
+    return ", ".join([machine.name, *numbers])
+
+
 def _inertia(value: Any) -> Any:
     matrix = np.array(value, dtype=object)
     matrix = (

@@ -12,6 +12,7 @@ from flypend.files import whole
 from flypend.files.staging import staged
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
+from flypend.model.vehicle import told
 from flypend.paper.claims import Verdict
 from flypend.paper.proved import claims_of
 from flypend.report import text
@@ -116,7 +117,7 @@ def write_flight(
             for _, task in tasks:
                 task()
         key = (run.law, str(settings.get("experiment", "own start")))
-        lines = [f"# A run of {run.law} on {run.vehicle.name}", "", f"Outcome: {run.outcome}.", ""]
+        lines = [f"# A run of {run.law} on {told(run.vehicle)}", "", f"Outcome: {run.outcome}.", ""]
         if verdicts:
             lines += [
                 f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}",

@@ -136,18 +136,8 @@ def vehicle_table(value: Any) -> dict[str, Any]:
         base = vehicle(chosen.pop("base"))
         if "body" in chosen and base.body is not None:
             chosen["body"] = base.body.to_dict() | table_at(chosen, "body", "vehicle.body")
-        own = base.to_dict()
-        changed = [f"{name} {_short(value)}".strip() for name, value in chosen.items() if own.get(name) != value]
-        named = {"name": ", ".join([own["name"], *changed])} if changed and "name" not in chosen else {}
-        chosen = own | chosen | named
+        chosen = base.to_dict() | chosen
     return chosen
-
-
-def _short(value: Any) -> str:
-    """Format a value for a name; nothing for an array or a table."""
-    if isinstance(value, list | dict):
-        return ""
-    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def start_of(table: dict[str, Any]) -> State:

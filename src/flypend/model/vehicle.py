@@ -263,11 +263,15 @@ def told(machine: Vehicle) -> str:
     if machine.name not in vehicle_names():
         return machine.name
     own, shipped = machine.to_dict(), vehicle(machine.name).to_dict()
-    changed = {name: value for name, value in own.items() if value != shipped[name]}
-    numbers = [
-        f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in changed.items()
-    ]
-    return ", ".join([machine.name, *numbers])
+    changed = {name: value for name, value in own.items() if value != shipped.get(name)}
+    return ", ".join([machine.name, *(f"{name} {_short(value)}".strip() for name, value in changed.items())])
+
+
+def _short(value: Any) -> str:
+    """Format a value for a line; nothing for a table."""
+    if isinstance(value, dict):
+        return ""
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _inertia(value: Any) -> Any:

@@ -65,7 +65,8 @@ def test_replay_of_two_runs(call, runs, tmp_path):
     assert call("replay", runs / "5.nc", runs / "4.nc", *options)[0] == 0
     data = embedded(tmp_path / "x.html")
     assert (data["title"], data["layout"], data["speed"]) == ("Four and five", "beside", 0.25)
-    assert [run["detail"] for run in data["runs"]] == ["k_d = 1, k_1 = 9, k_2 = 4", "k_d = 1, k_1 = 12, k_2 = 5"]
+    gains = [", ".join(f"{name} = {value}" for name, value in run["gains"]) for run in data["runs"]]
+    assert gains == ["k_d = 1, k_1 = 9, k_2 = 4", "k_d = 1, k_1 = 12, k_2 = 5"]
 
 
 def test_a_run_writes_its_replay_as_well(call, tmp_path):

@@ -49,6 +49,7 @@ export class Viewer {
     const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
     this.clock.span(Math.min(...starts), Math.max(...ends));
     legend(this.parts.legend, this.flights);
+    this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
     plots(this.flights).forEach((options, i) => {
       if (this.plots[i]) this.plots[i].load(options);
       else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));

@@ -9,7 +9,7 @@ INK, GREY = "#1a1a1a", "#8c8c8c"
 BLUE, RED, GREEN, ORANGE, SKY, PINK = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#56b4e9", "#cc79a7"
 SERIES = (BLUE, RED, GREEN, PINK, ORANGE, SKY, "#000000")  # one per law or run in a comparison
 REAR = "#d9d9d9"  # rear rotors; front rotors are orange
-ALARM = "#b04a00"  # red for words: 4.5 to 1 on white, which the red of lines is not
+ALARM, GOOD = "#b04a00", "#007a58"  # red and green for words: 4.5 to 1 on white, which those of lines are not
 # One colour per cause of failure, in every picture.
 CAUSES = {
     "rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK, "collided": SKY,
@@ -19,7 +19,7 @@ _LIGHT = {
     "paper": "#ffffff", "panel": "#ffffff", "sky": "#f3f5f7", "ink": INK, "muted": "#5f6368", "line": "#e1e4e8",
     "grid": "#8a94a0", "body": "#3a3f45", "front": ORANGE, "rear": "#9aa1a9", "rod": RED, "thrust": GREEN,
     "trail": BLUE, "reference": "#a0568a", "ghost": "#4b6a88",
-    "rotor1": BLUE, "rotor2": RED, "rotor3": GREEN, "rotor4": PINK, "alarm": ALARM, "good": "#007a58",
+    "rotor1": BLUE, "rotor2": RED, "rotor3": GREEN, "rotor4": PINK, "alarm": ALARM, "good": GOOD,
     "barred": "#f6e3d8",
 }  # fmt: skip
 _DARK = {

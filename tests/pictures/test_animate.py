@@ -10,12 +10,15 @@ from matplotlib.textpath import TextPath
 from PIL import Image
 
 import flypend as fp
+from flypend import palette
+from flypend.flight.verdict import verdict
 from flypend.paper import experiment
 from flypend.pictures import animate, drawing, frames, lettering
 
-ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces")
+ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
 SMALL = {"size": (192, 160), "speed": 1.0, "fps": 20.0}
 RED, GREEN = (213, 94, 0), (0, 158, 115)  # of rod and bob, and of the thrust
+ALARM = tuple(int(palette.ALARM[i : i + 2], 16) for i in (1, 3, 5))  # of a verdict
 
 
 @pytest.fixture(scope="module")
@@ -184,12 +187,24 @@ def test_a_gif_has_the_frames_and_the_duration_asked_for(short, tmp_path):
             gif.seek(i)
             lasts.append(gif.info["duration"])
         last = np.array(gif.convert("RGB")).astype(int)
-    assert sum(lasts) == 1230  # ms: 37 frames at 30 per second
+    assert sum(lasts) == 1230 + 1500  # ms: 37 frames at 30 per second, and the last one held
     drawn = pictures(short, animate.frame_times(short, speed=0.5, fps=30), size=(192, 160))[-1]
     assert np.abs(last - drawn).mean() < 4
 
 
 @pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+def test_the_last_frame_stays_with_the_verdict(short, tmp_path):
+    """In red for a flight that has not stood for a second; the frame before it has no words there."""
+    animate.movie(short, tmp_path / "a.mp4")
+    frames, _ = decode(tmp_path / "a.mp4")
+    flown, last = frames[-46], frames[-1]
+    assert not verdict(short)["good"]
+    above = np.s_[85:130, 120:520]
+    red = [np.sum(np.abs(picture[above].astype(int) - ALARM).max(axis=-1) < 60) for picture in (flown, last)]
+    assert red[0] < 20 < 100 < red[1]
+    np.testing.assert_array_equal(frames[-2], last)
+
+
 def test_a_run_that_ended_early_stays_with_its_outcome(singular, tmp_path, suffix):
     assert singular.outcome.time < 0.015
     path = tmp_path / f"a{suffix}"
@@ -210,7 +225,7 @@ def test_a_run_that_ended_early_stays_with_its_outcome(singular, tmp_path, suffi
         assert len(frames) == 48
         flown, last = frames[2], frames[-1]
     above = np.s_[85:115, 120:520]  # between head and bob
-    red = [np.sum(np.abs(picture[above].astype(int) - RED).max(axis=-1) < 60) for picture in (flown, last)]
+    red = [np.sum(np.abs(picture[above].astype(int) - ALARM).max(axis=-1) < 60) for picture in (flown, last)]
     assert red[0] == 0
     assert red[1] > 100
 

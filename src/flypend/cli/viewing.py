@@ -64,6 +64,12 @@ def figures(
     run: Saved,
     out: Annotated[Path, typer.Option("--out", "-o", help="Output folder.")] = Path("figures-out"),
     style: Style = "paper",
+    font: Annotated[
+        str, typer.Option("--font", help="Font family, such as serif or 'Times New Roman'; embedded in the .pdf.")
+    ] = "",
+    titles: Annotated[
+        bool, typer.Option("--title/--no-title", help="Titles; a figure with a caption needs none.")
+    ] = True,
 ) -> None:
     """Draw the figures of a saved run, each as .pdf and .png."""
     from flypend.files.staging import check_writable, staged
@@ -71,11 +77,11 @@ def figures(
     from flypend.pictures.style import style_named
     from flypend.report.flight import figure_tasks
 
-    style_named(style)
+    form = style_named(style, font=font, titled=titles)
     flight = load(run)
     check_writable(out)
     with staged(out) as folder, progress() as bar:
-        for name, task in bar.track(figure_tasks(flight, folder, style=style), description="drawing"):
+        for name, task in bar.track(figure_tasks(flight, folder, style=form), description="drawing"):
             bar.update(bar.task_ids[0], description=f"drawing {name}")
             task()
     console.print(f"Figures are in {bold(out)}.")

@@ -1,11 +1,14 @@
 """The replay in a real browser without a screen: it opens from disk, plays, scrubs, shows the numbers of the run."""
 
 import dataclasses
+import gc
 import itertools
 import re
 import time
+import warnings
 from io import BytesIO
 
+import imageio_ffmpeg
 import numpy as np
 import pytest
 from PIL import Image
@@ -332,6 +335,36 @@ def test_keys(visit, up):
     assert page.get_by_role("button", name="Above").get_attribute("aria-pressed") == "true"
     page.keyboard.press("t")
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+def test_the_page_saves_a_movie_of_its_own_scene(visit, up, tmp_path):
+    page = visit(up, speed=2.0)
+    page.evaluate("flypend.seek(1.3)")
+    with page.expect_download(timeout=60_000) as waiting:
+        page.get_by_role("button", name="Movie").click()
+    download = waiting.value
+    assert download.suggested_filename == "inverted-law-on-hehn2011.webm"
+    download.save_as(tmp_path / "a.webm")
+    reader = imageio_ffmpeg.read_frames(str(tmp_path / "a.webm"))
+    width, height = next(reader)["size"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)  # read_frames leaves the pipes of an ended ffmpeg open
+        frames = [np.frombuffer(frame, np.uint8).reshape(height, width, 3) for frame in reader]
+        gc.collect()
+    box = page.locator(".picture").bounding_box()
+    assert (width, height) == pytest.approx((box["width"], box["height"]), abs=2)
+    assert len(frames) > 5  # software draws a dozen a second
+    assert np.abs(frames[0].astype(int) - frames[-1]).mean() > 1  # it moved
+    assert page.evaluate("flypend.time()") == 2
+    assert page.get_by_role("button", name="Movie").get_attribute("aria-pressed") == "false"
+
+
+def test_a_movie_can_be_given_up(visit, up):
+    page = visit(up, speed=0.1)
+    page.keyboard.press("m")
+    until(page, "flypend.playing()")
+    page.keyboard.press("m")
+    until(page, "document.querySelector('[data-name=movie]').getAttribute('aria-pressed') === 'false'")
 
 
 # Cameras -------------------------------------------------------------------------------------------------------------

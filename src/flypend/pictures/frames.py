@@ -66,9 +66,10 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
     ]
     told = verdict(run)
     words = told["words"].replace(", ", "\n")
-    style = {"color": GOOD if told["good"] else ALARM, "fontsize": 14, "ha": "center", "va": "top"}
+    style = {"color": GOOD if told["good"] else ALARM, "fontsize": 14, "ha": "center", "va": "center"}
     box = {"facecolor": "white", "edgecolor": "none", "pad": 3.0}
-    ending = scene.text(0, 0.94 * half[1], words, bbox=box, animated=True, **style)
+    side = -0.6 if states.y[-1, 2] > 0 else 0.78  # away from the bob
+    ending = scene.text(0, side * half[1], words, bbox=box, animated=True, **style)
     canvas.draw()
     background = canvas.copy_from_bbox(figure.bbox)
 

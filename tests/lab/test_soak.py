@@ -227,20 +227,23 @@ def resident(process):
 @pytest.mark.parametrize("seconds", [8, pytest.param(600, marks=pytest.mark.slow)], ids=["short", "ten minutes"])
 def test_a_page_is_answered_whatever_the_others_do(seconds):
     lab = Lab()
-    attack = Attack(lab, seconds)
-    problems = asyncio.run(attack.run())
-    assert problems == []
-    assert attack.admitted <= MOST_PAGES
-    assert attack.refused > 0  # in words; beyond the limit of connections they are cut off
-    assert len(attack.waits) >= 2
-    print(
-        f"{len(attack.waits)} answers, median {np.median(attack.waits):.2f} s, longest {max(attack.waits):.2f} s, "
-        f"alone {attack.alone:.2f} s"
-    )
-    assert max(attack.waits) < max(LONGEST_WAIT, TIMES_ALONE * attack.alone)
-    thirds = np.array_split(attack.memory, min(3, len(attack.memory)))
-    early, late = np.median(thirds[0]), np.median(thirds[-1])
-    print(f"memory {early:.0f} MB in the first third, {late:.0f} MB in the last")
-    assert late - early < 32  # flat; what leaks a reply of half a megabyte each time passes that in seconds
-    assert lab.calm()  # nothing is flown for pages that are closed
-    assert lab.stop() == (0, "")
+    try:
+        attack = Attack(lab, seconds)
+        problems = asyncio.run(attack.run())
+        assert problems == []
+        assert attack.admitted <= MOST_PAGES
+        assert attack.refused > 0  # in words; beyond the limit of connections they are cut off
+        assert attack.waits
+        print(
+            f"{len(attack.waits)} answers, median {np.median(attack.waits):.2f} s, longest {max(attack.waits):.2f} s, "
+            f"alone {attack.alone:.2f} s"
+        )
+        assert max(attack.waits) < max(LONGEST_WAIT, TIMES_ALONE * attack.alone)
+        thirds = np.array_split(attack.memory, min(3, len(attack.memory)))
+        early, late = np.median(thirds[0]), np.median(thirds[-1])
+        print(f"memory {early:.0f} MB in the first third, {late:.0f} MB in the last")
+        assert late - early < 32  # flat; what leaks a reply of half a megabyte each time passes that in seconds
+        assert lab.calm()  # nothing is flown for pages that are closed
+        assert lab.stop() == (0, "")
+    finally:
+        lab.process.kill()

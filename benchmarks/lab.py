@@ -61,6 +61,14 @@ async def over_socket(plant):
     return 1e3 * np.array(times[1:])
 
 
+OPTIONS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
 SHOWN = "() => window.flypend?.number() > 0 && flypend.shown() === flypend.number()"
 
 
@@ -70,19 +78,11 @@ def in_browser(pause):
     The slider rests for `pause` ms after each flight that is shown.
     """
     lab = [sys.executable, "-m", "flypend", "lab", "--no-browser"]
-    options = [
-        "--headless",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--use-gl=angle",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-    ]
     server = subprocess.Popen(lab, stdout=subprocess.PIPE, text=True)
     try:
         address = next(word for word in server.stdout.readline().split() if word.startswith("http"))
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=options)
+            browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=OPTIONS)
             page = browser.new_page(viewport={"width": 1280, "height": 800})
             page.goto(address)
             page.wait_for_function(SHOWN)

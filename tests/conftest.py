@@ -1,6 +1,8 @@
-"""What several test files share: a browser without a screen."""
+"""What several test files share: a browser without a screen, and a checker of what it shows."""
 
 import shutil
+import subprocess
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import sync_playwright
@@ -21,3 +23,24 @@ def chromium():
         browser = playwright.chromium.launch(executable_path=program, args=OPTIONS)
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="session")
+def axe(tmp_path_factory):
+    """Return a function from an open page to what axe-core finds wrong with it: (rule, elements)."""
+    web = Path(__file__).parents[1] / "web"
+    modules = web / "node_modules"
+    if not (modules / "axe-core").is_dir():
+        copy = tmp_path_factory.mktemp("web")
+        for name in ("package.json", "package-lock.json", ".npmrc"):
+            shutil.copy(web / name, copy)
+        subprocess.run(["npm", "ci", "--silent"], cwd=copy, check=True, timeout=300)
+        modules = copy / "node_modules"
+    program = (modules / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
+
+    def find(page):
+        page.evaluate(program)
+        found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
+        return [(one["id"], [node["html"][:120] for node in one["nodes"]]) for one in found["violations"]]
+
+    return find

@@ -67,7 +67,8 @@ def test_replay_of_two_runs(call, runs, tmp_path):
     assert call("replay", runs / "5.nc", runs / "4.nc", *options)[0] == 0
     data = embedded(tmp_path / "x.html")
     assert (data["title"], data["layout"], data["speed"]) == ("Four and five", "beside", 0.25)
-    assert [run["detail"] for run in data["runs"]] == ["k_d = 1, k_1 = 9, k_2 = 4", "k_d = 1, k_1 = 12, k_2 = 5"]
+    gains = [", ".join(f"{name} = {value}" for name, value in run["gains"]) for run in data["runs"]]
+    assert gains == ["k_d = 1, k_1 = 9, k_2 = 4", "k_d = 1, k_1 = 12, k_2 = 5"]
 
 
 def test_a_run_writes_its_replay_as_well(call, tmp_path):
@@ -97,7 +98,19 @@ def test_movie(call, runs, tmp_path, monkeypatch):
 def test_a_movie_is_really_written(call, runs, tmp_path):
     assert call("movie", runs / "4.nc", "--size", "160", "160", "--fps", "10", "-o", "a.mp4")[0] == 0
     assert left(tmp_path) == ["a.mp4"]
-    assert animate._frames_in(tmp_path / "a.mp4") == 5  # 0.1 s / 0.25, and the last instant
+    assert (
+        animate._frames_in(tmp_path / "a.mp4") == 5 + 15
+    )  # a second and a half with the verdict  # 0.1 s / 0.25, and the last instant
+
+
+def test_figures_take_a_font_and_leave_out_titles(call, runs, tmp_path):
+    assert call("figures", runs / "4.nc", "-o", "x", "--font", "STIXGeneral", "--no-title")[0] == 0
+    content = (tmp_path / "x" / "full.pdf").read_bytes()
+    assert b"STIXGeneral" in content
+    code, _, said = call("figures", runs / "4.nc", "-o", "y", "--font", "STIXGenera")
+    assert code == 2
+    assert said.startswith("flypend: --font: expected a font family that is installed, got 'STIXGenera'")
+    assert not (tmp_path / "y").exists()
 
 
 @pytest.mark.parametrize("style", list(STYLES))

@@ -22,10 +22,11 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.flight.metrics import metrics
 from flypend.flight.simulate import fly as fly_request
+from flypend.flight.verdict import verdict
 from flypend.geometry import cross, dot
 from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly, poked, verdict
+from flypend.lab.flying import fly, poked
 from flypend.lab.map import directions, region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Lanes, Slot, flights, read
@@ -132,16 +133,16 @@ def test_a_random_start_is_its_seed():
 
 def test_the_verdict_names_what_the_law_is_to_do():
     setting = setting_of(asked(duration=6.0))
-    told = verdict(fly(setting), tuned(setting))
+    told = verdict(fly(setting), tuned(setting).criterion)
     judged = metrics(fly(setting))
     assert told["good"] is judged.success is True
     assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])
-    told = verdict(fly(preset), tuned(preset))
+    told = verdict(fly(preset), tuned(preset).criterion)
     assert "which hangs" in told["words"]
     assert "upright" not in told["words"]
     singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
-    assert verdict(fly(singular), tuned(singular))["words"].startswith("singular after ")
+    assert verdict(fly(singular), tuned(singular).criterion)["words"].startswith("singular after ")
 
 
 # Pokes --------------------------------------------------------------------------------------------------------------
@@ -298,7 +299,7 @@ def test_a_map_is_made_of_the_flights():
     assert all(bool(cause) != one for cause, one in zip(chunk["cause"], good, strict=True))
     for i in (good.index(True), good.index(False)):
         setting = setting_of(wrong | {"start": START | {"y": chunk["y"][i], "y_dot": [0, 0, 0]}})
-        told = verdict(fly(setting), tuned(setting))
+        told = verdict(fly(setting), tuned(setting).criterion)
         assert told["good"] == good[i]
         if good[i]:
             assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)

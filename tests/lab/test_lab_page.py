@@ -8,10 +8,12 @@ import pytest
 from test_lab import Lab
 
 from flypend.flight.simulate import fly as fly_request
+from flypend.lab.controls import offer, sliders
 from flypend.lab.flying import fly
 from flypend.lab.setting import setting_of
 from flypend.settings.runfile import run_file
 
+OFFER = offer()
 WIDE, NARROW = {"width": 1000, "height": 620}, {"width": 390, "height": 844}
 
 
@@ -84,8 +86,8 @@ def test_it_opens_with_a_flight_and_its_verdict(visit):
     page = visit()
     run = expect_flight(page)
     assert run.law == "inverted"
-    assert page.locator(".verdict").inner_text() == page.evaluate("flypend.verdict().words")
-    assert page.locator(".verdict").inner_text().startswith("upright after")
+    assert page.locator("header > .verdict").inner_text() == page.evaluate("flypend.verdict().words")
+    assert page.locator("header > .verdict").inner_text().startswith("upright after")
     assert page.locator(".plot").count() == 4
     assert page.locator(".busy").is_hidden()
 
@@ -280,11 +282,105 @@ def test_what_cannot_be_flown_is_told_beside_its_control(visit):
     complaint = page.locator(".complaint")
     assert "each 1.5 times the one before" in complaint.inner_text()
     assert complaint.evaluate("e => e.previousElementSibling.dataset.path") == "law.gains.rod_bandwidth"
-    assert page.locator(".verdict").inner_text().startswith("not flown")
-    assert page.evaluate("flypend.pose(0).y") == good  # the last flight stays
+    assert page.locator("header > .verdict").inner_text() == "not flown"
+    assert page.evaluate("flypend.pose(0).y") == good  # the last flight stays, paler and at rest
+    assert page.locator(".plot").first.evaluate("e => getComputedStyle(e).opacity") == "0.35"
+    assert not page.evaluate("flypend.playing()")
+    assert page.locator(".notice").is_visible()
+    facts = {facts["path"]: facts for facts in sliders(setting_of(OFFER["first"]))}
+    bound = facts["law.gains.rod_bandwidth"]["allowed"]
+    assert f"rod may be {bound[0]:.3g} to {bound[1]:.3g} rad/s" in complaint.inner_text()
+    page.locator(".notice button").click()
+    shown(page)
+    assert setting(page)["law"]["gains"] == {}
+    assert page.locator(".plot").first.evaluate("e => getComputedStyle(e).opacity") == "1"
+    control.fill("399")
+    until(page, "document.querySelector('.complaint') !== null")
     control.fill("200")
     shown(page)
     until(page, "document.querySelector('.complaint') === null")
+
+
+def test_what_a_law_refuses_is_shaded_on_its_slider(visit):
+    page = visit()
+    most = slider(page, "law.gains.rod_bandwidth").evaluate("e => parseFloat(e.style.getPropertyValue('--most'))")
+    control = slider(page, "law.gains.rod_bandwidth")
+    control.fill(str(int(4 * most) - 4))  # of 400 steps; 1 % inside
+    shown(page)
+    assert page.locator("header > .verdict").inner_text() != "not flown"
+    control.fill(str(int(4 * most) + 4))
+    until(page, "document.querySelector('header > .verdict').textContent === 'not flown'")
+
+
+def test_changes_are_taken_back_and_made_again(visit):
+    page = visit()
+    first = setting(page)
+    control = slider(page, "law.gains.throw_speed")
+    for value in (210, 220, 230):  # one hand, one change
+        control.fill(str(value))
+    shown(page)
+    page.get_by_role("button", name="level").click()
+    shown(page)
+    last = setting(page)
+    page.keyboard.press("Control+z")
+    shown(page)
+    assert setting(page)["start"] == first["start"]
+    assert setting(page)["law"]["gains"] == last["law"]["gains"] != {}
+    page.get_by_role("button", name="undo").click()
+    shown(page)
+    assert setting(page) == first
+    expect_flight(page)
+    assert page.get_by_role("button", name="undo").is_disabled()
+    page.keyboard.press("Control+Shift+z")
+    page.get_by_role("button", name="redo").click()
+    shown(page)
+    assert setting(page) == last
+
+
+@pytest.mark.parametrize(
+    ("address", "words"),
+    [
+        ("#%7B%22law", "no setting that can be read"),
+        ("#" + json.dumps({"law": {"name": "gone"}, "start": {"y": [0, 0, 1]}}), "cannot be flown"),
+        ("#" + json.dumps(OFFER["first"] | {"duration": 100}), "duration: expected at most 30 s"),
+    ],
+    ids=["cut off", "unknown law", "out of bounds"],
+)
+def test_an_address_that_leads_nowhere_is_no_dead_end(visit, address, words):
+    page = visit(address)
+    until(page, "flypend.verdict()?.good")
+    assert setting(page)["law"] == OFFER["first"]["law"]
+    assert words in page.locator(".notice").inner_text()
+    slider(page, "law.gains.throw_speed").fill("230")
+    shown(page)
+    expect_flight(page)
+    until(page, "document.querySelector('.notice').hidden")
+
+
+def test_controls_come_before_the_picture_for_those_who_go_by_keys(visit):
+    page = visit()
+    page.locator("header button").last.focus()
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.closest('.panel') !== null")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [WIDE, NARROW], ids=["wide", "narrow"])
+def test_axe_finds_nothing(visit, axe, scheme, viewport):
+    page = visit(color_scheme=scheme, viewport=viewport)
+    assert axe(page) == []
+    slider(page, "law.gains.rod_bandwidth").fill("399")
+    until(page, "document.querySelector('.complaint') !== null")
+    page.get_by_role("button", name="TOML").click()
+    assert [one for one in axe(page) if one[0] != "color-contrast"] == []  # what is pale there is out of use
+    page.evaluate("flypend.tab('map')")
+    until(page, "document.querySelector('.share').textContent.startsWith('not computed')")
+    page.keyboard.press("Control+z")
+    until(page, "flypend.map().done > 0")
+    assert [one for one in axe(page) if one[0] != "color-contrast"] == []
+    page.evaluate("document.querySelector('.slider input').removeAttribute('aria-label')")
+    page.evaluate("document.querySelector('.slider .words').textContent = ''")
+    assert "label" in [rule for rule, _ in axe(page)]  # negative control
 
 
 def test_a_server_that_comes_back_is_found_again(chromium):

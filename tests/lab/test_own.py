@@ -6,9 +6,10 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.flight.simulate import fly as simulate_flight
+from flypend.flight.verdict import verdict
 from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly, verdict
+from flypend.lab.flying import fly
 from flypend.lab.map import region
 from flypend.lab.own import OwnLaws
 from flypend.lab.session import flights
@@ -98,7 +99,7 @@ def test_what_is_not_symbolic_is_mapped_a_few_rods_at_a_time(own):
     assert isinstance(tuned(setting), Stepped)
     chunk = next(region(setting))
     assert (chunk["total"], chunk["done"], len(chunk["y"])) == (96, 2, 2)
-    assert verdict(fly(setting), tuned(setting))["good"] is False
+    assert verdict(fly(setting), tuned(setting).criterion)["good"] is False
 
 
 def test_a_file_that_changes_is_flown_as_it_stands(own, tmp_path):

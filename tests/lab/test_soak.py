@@ -27,7 +27,9 @@ from flypend.lab.setting import setting_of
 STIFF = {"attitude_bandwidth": 1800.0, "attitude_damping": 70.0}
 TRYING = 200  # pages at once
 HALF_OPEN = 100
-LONGEST_WAIT = 10.0  # s for the answer to a usual request, on a machine that does other things too
+LONGEST_WAIT = 10.0  # s for the answer to a usual request
+# Alone on two idle cores it takes 0.05 s; a machine with other work, which slows everything, has so many times as long.
+TIMES_ALONE = 60
 
 
 def stiff(**more):
@@ -194,7 +196,15 @@ class Attack:
         for writer in writers:
             writer.close()
 
+    async def usual_wait(self):
+        """Return the median wait before anybody attacks, s."""
+        quiet = Attack(self.lab, 3)
+        await quiet.well_behaved()
+        return np.median(quiet.waits)
+
     async def run(self):
+        self.alone = await self.usual_wait()
+        self.end += 3
         await self.crowd()
         await asyncio.sleep(0.5)
         usual = [asked(gains={"throw_speed": 1 + 0.05 * i}) for i in range(20)]
@@ -217,17 +227,23 @@ def resident(process):
 @pytest.mark.parametrize("seconds", [8, pytest.param(600, marks=pytest.mark.slow)], ids=["short", "ten minutes"])
 def test_a_page_is_answered_whatever_the_others_do(seconds):
     lab = Lab()
-    attack = Attack(lab, seconds)
-    problems = asyncio.run(attack.run())
-    assert problems == []
-    assert attack.admitted <= MOST_PAGES
-    assert attack.refused > 0  # in words; beyond the limit of connections they are cut off
-    assert len(attack.waits) >= 2
-    print(f"{len(attack.waits)} answers, median {np.median(attack.waits):.2f} s, longest {max(attack.waits):.2f} s")
-    assert max(attack.waits) < LONGEST_WAIT
-    thirds = np.array_split(attack.memory, min(3, len(attack.memory)))
-    early, late = np.median(thirds[0]), np.median(thirds[-1])
-    print(f"memory {early:.0f} MB in the first third, {late:.0f} MB in the last")
-    assert late - early < 32  # flat; what leaks a reply of half a megabyte each time passes that in seconds
-    assert lab.calm()  # nothing is flown for pages that are closed
-    assert lab.stop() == (0, "")
+    try:
+        attack = Attack(lab, seconds)
+        problems = asyncio.run(attack.run())
+        assert problems == []
+        assert attack.admitted <= MOST_PAGES
+        assert attack.refused > 0  # in words; beyond the limit of connections they are cut off
+        assert attack.waits
+        print(
+            f"{len(attack.waits)} answers, median {np.median(attack.waits):.2f} s, longest {max(attack.waits):.2f} s, "
+            f"alone {attack.alone:.2f} s"
+        )
+        assert max(attack.waits) < max(LONGEST_WAIT, TIMES_ALONE * attack.alone)
+        thirds = np.array_split(attack.memory, min(3, len(attack.memory)))
+        early, late = np.median(thirds[0]), np.median(thirds[-1])
+        print(f"memory {early:.0f} MB in the first third, {late:.0f} MB in the last")
+        assert late - early < 32  # flat; what leaks a reply of half a megabyte each time passes that in seconds
+        assert lab.calm()  # nothing is flown for pages that are closed
+        assert lab.stop() == (0, "")
+    finally:
+        lab.process.kill()

@@ -14,6 +14,9 @@ import pytest
 
 import flypend as fp
 from flypend import geometry, palette
+from flypend.flight.criterion import Criterion
+from flypend.flight.metrics import metrics
+from flypend.flight.verdict import MISSED, verdict
 from flypend.pages import replay
 from flypend.paper import experiment
 
@@ -25,6 +28,10 @@ SINGLE = 2 * np.finfo(np.float32).eps  # relative, of a number kept in 32 bits
 def fly(name="4", law="corrected", duration=1.0, **options):
     case = experiment(name)
     return fp.simulate(case.vehicle, case.law(law, **options), case.start, duration, plant="ideal")
+
+
+def packed(run):
+    return replay.pack(run, verdict(run))
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +72,7 @@ def same(record, run, states, t):
 
 
 def test_the_dense_output_is_sampled_at_the_rate_of_a_screen(dense):
-    record = replay.pack(dense)
+    record = packed(dense)
     t = columns(record)["t"].astype(float)
     assert (t[0], t[-1]) == (0, pytest.approx(1.0))
     assert len(t) >= 101
@@ -76,7 +83,7 @@ def test_the_dense_output_is_sampled_at_the_rate_of_a_screen(dense):
 
 def test_of_a_sampled_flight_samples_are_kept(sampled):
     run = sampled
-    record = replay.pack(run)
+    record = packed(run)
     t = columns(record)["t"]
     kept = [int(np.argmin(np.abs(run.t - time))) for time in t]
     np.testing.assert_allclose(run.t[kept], t, atol=1e-6)
@@ -89,38 +96,76 @@ def test_of_many_samples_as_many_are_kept_as_a_screen_shows(sampled):
     start = fp.State(y=(0, 0, 1))
     fine = fp.simulate(vehicle, fp.laws.inverted(), start, 1.0, plant="rotors", times=np.linspace(0, 1, 501))
     assert len(fine.t) == 501
-    assert len(columns(replay.pack(fine))["t"]) == 101
+    assert len(columns(packed(fine))["t"]) == 101
 
 
 def test_a_rod_that_spins_is_sampled_finer():
     run = fly("1", "printed", 3.5, beta="off")
     rate = geometry.norm(run.y_dot)
     assert rate.max() > 30
-    kept = columns(replay.pack(run))
+    kept = columns(packed(run))
     turn = geometry.norm(kept["y_dot"][:-1]) * np.diff(kept["t"])
     assert turn.max() < 2 * replay.FINEST
     assert len(kept["t"]) > 1.2 * 350
 
 
 def test_facts_of_the_run(dense, sampled):
-    down, up = replay.pack(dense), replay.pack(sampled)
+    down, up = packed(dense), packed(sampled)
     assert (down["e3"], up["e3"], down["law"], up["law"]) == ("down", "up", "corrected", "inverted")
-    assert down["outcome"] == {"status": "completed", "time": 1.0, "text": "completed at 1 s", "reason": ""}
+    assert down["completed"] is True
+    assert down["verdict"]["good"] is metrics(dense, Criterion(target="e3", position=np.inf)).success
     vehicle = up["vehicle"]
     assert (vehicle["name"], vehicle["rod_length"]) == ("hehn2011", sampled.vehicle.rod_length)
     assert vehicle["weight"] == pytest.approx(sampled.vehicle.weight)
     assert np.linalg.norm(up["direction"]) == pytest.approx(1)
-    assert "k_1 = 12" in down["detail"]
+    assert ["k_1", "12"] in down["gains"]
+    assert up["vehicle"]["rotor_limits"] == list(sampled.vehicle.rotor_limits)
+
+
+def test_the_verdict_is_that_of_the_studies():
+    """A flight that ends with its rod whirling is completed, and does not stand."""
+    vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(1.0, 0, 0))
+    run = fp.simulate(vehicle, fp.laws.lqr(), start, 3.0)
+    one = fp.State(y=np.array([[1.0, 0, 0]]))
+    ensemble = fp.simulate_ensemble(vehicle, fp.laws.lqr(), one, 3.0)
+    (record,) = embedded(run.to_html())["runs"]
+    assert record["completed"]
+    assert record["verdict"]["good"] is bool(ensemble.success[0]) is False
+    assert record["verdict"]["words"].startswith(MISSED[str(ensemble.cause[0])])
+
+
+def fly_from(y, gains=None, vehicle="hehn2011"):
+    start = fp.State(y=np.array(y) / np.linalg.norm(y))
+    return fp.simulate(fp.vehicle(vehicle), fp.laws.inverted(**(gains or {})), start, 0.1)
+
+
+def test_equal_legends_are_told_apart():
+    usual, wide = fly_from((0, 0, 1)), fly_from((0, 0, 1), {"rod_damping": 0.5})
+    level, other = fly_from((1, 0, 0)), fly_from((0, 0, 1), vehicle="nayak2018")
+
+    def shown(*runs):
+        return [(name["title"], tuple(map(tuple, name["gains"]))) for name in replay.names(runs)]
+
+    assert shown(usual) == [("inverted law", ())]
+    assert shown(usual, wide) == [
+        ("inverted law", (("rod_damping", "0.4"),)),
+        ("inverted law", (("rod_damping", "0.5"),)),
+    ]
+    assert [title for title, _ in shown(usual, level)] == ["inverted law, rod from 0°", "inverted law, rod from 90°"]
+    assert [title for title, _ in shown(usual, other)] == ["inverted law, hehn2011", "inverted law, nayak2018"]
+    assert [title for title, _ in shown(usual, usual)] == ["inverted law, 1", "inverted law, 2"]
+    for runs in ((usual, wide, level), (usual, usual, wide), (usual, other, wide, level)):
+        assert len(set(shown(*runs))) == len(runs)
 
 
 def test_the_direction_of_the_flight_does_not_depend_on_the_frame(dense):
-    np.testing.assert_allclose(replay.pack(dense)["direction"], replay.pack(dense.flipped())["direction"], atol=1e-9)
+    np.testing.assert_allclose(packed(dense)["direction"], packed(dense.flipped())["direction"], atol=1e-9)
 
 
 def test_numbers_that_a_float_of_a_screen_cannot_hold_are_clipped(dense):
     thrust, forces = dense.thrust.copy(), dense.rotor_forces.copy()
     thrust[-1], forces[-1, 0] = 1e200, np.nan
-    kept = columns(replay.pack(dataclasses.replace(dense, thrust=thrust, rotor_forces=forces)))
+    kept = columns(packed(dataclasses.replace(dense, thrust=thrust, rotor_forces=forces)))
     assert all(np.all(np.isfinite(values)) for values in kept.values())
     assert kept["thrust"].max() == np.finfo(np.float32).max
 
@@ -159,7 +204,7 @@ def test_names_cannot_break_out(dense):
     assert "alert(1)" not in text.replace("\\u003cscript\\u003ealert(1)", "").replace("&lt;script&gt;alert(1)", "")
     data = embedded(text)
     assert data["runs"][0]["law"] == EVIL
-    assert data["runs"][0]["outcome"]["reason"] == EVIL
+    assert data["runs"][0]["verdict"]["reason"] == EVIL
     assert html.unescape(re.search("<title>(.*?)</title>", text, re.S)[1]) == data["title"] == f"{EVIL} law on {EVIL}"
 
 

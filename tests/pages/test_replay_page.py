@@ -1,15 +1,21 @@
 """The replay in a real browser without a screen: it opens from disk, plays, scrubs, shows the numbers of the run."""
 
 import dataclasses
+import gc
 import itertools
+import re
 import time
+import warnings
 from io import BytesIO
 
+import imageio_ffmpeg
 import numpy as np
 import pytest
 from PIL import Image
 
 import flypend as fp
+from flypend import geometry
+from flypend.flight.verdict import verdict
 from flypend.pages import replay
 from flypend.paper import experiment
 
@@ -166,6 +172,78 @@ def test_rotors_turn_by_their_force(visit, up):
     assert turns[0] > 2 * np.pi  # more than a turn per second in hover
 
 
+@pytest.fixture(scope="module")
+def fallen():
+    """The LQR, from a level rod: it flies on and never stands."""
+    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(1, 0, 0)), 3.0)
+
+
+@pytest.fixture(scope="module")
+def still():
+    """Upright from the start: nothing moves but the last digits."""
+    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 2.0, plant="ideal")
+
+
+def told(page):
+    """What the plots say to those who do not see them: ranges, limits, what is cut off."""
+    return [canvas.get_attribute("aria-label") for canvas in page.locator(".plot canvas").all()]
+
+
+def test_a_flight_that_never_stands_is_not_called_completed(visit, fallen, up):
+    page = visit(fallen, ghost=up)
+    said = page.locator(".legend .verdict")
+    assert "completed" not in page.locator("header").inner_text()
+    assert said.nth(0).inner_text() == verdict(fallen)["words"]
+    assert "bad" in said.nth(0).get_attribute("class")
+    assert "not settled" in said.nth(0).inner_text()
+
+
+def test_curves_of_one_plot_differ_by_more_than_colour(visit, up):
+    page = visit(up)
+    for plot in page.locator(".plot").all():
+        marks = plot.locator(".mark > :last-child").evaluate_all("all => all.map((one) => one.outerHTML)")
+        assert len(set(marks)) == len(marks) >= 1
+
+
+def test_limits_of_the_rotors_are_shaded_where_a_flight_comes_near(visit, up, still):
+    assert "no rotor gives more than 3.5 N" in told(visit(up))[2]
+    assert "more than" not in told(visit(still))[2]  # not where it stays far below
+
+
+def test_roundoff_does_not_fill_an_axis(visit, still):
+    assert geometry.norm(still.x).max() < 1e-3
+    low, high = re.search(r"time, (\S+) to (\S+) m", told(visit(still))[3]).groups()
+    assert (float(low), float(high) >= 0.05) == (0, True)
+
+
+def test_a_spike_flattens_no_plot_and_is_told(visit, singular, down):
+    assert np.abs(singular.rotor_forces).max() > 5e4
+    for run, others in ((singular, []), (down, [singular])):
+        label = told(visit(run, ghost=others))[2]
+        low, high = re.search(r"time, (\S+) to (\S+) N", label.replace("−", "-")).groups()
+        assert float(high) - float(low) < 40
+        assert "cut off, peak 63 kN" in label
+
+
+def test_symbols_are_written_as_symbols(visit, down):
+    text = visit(down).locator("main").inner_html()
+    assert "x_ref" not in text
+    assert "k_1" not in text
+    assert "<i>k</i><sub>1</sub> = 12" in text
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [WIDE, NARROW], ids=["wide", "narrow"])
+def test_axe_finds_nothing(visit, axe, up, singular, scheme, viewport):
+    page = visit(up, ghost=singular, setting={"color_scheme": scheme, "viewport": viewport})
+    page.evaluate("flypend.seek(1)")
+    screen(page)
+    assert axe(page) == []
+    assert verdict(singular)["words"] in page.locator(".picture").get_attribute("aria-label")
+    page.evaluate("document.querySelector('.line').removeAttribute('aria-label')")
+    assert [rule for rule, _ in axe(page)] == ["label"]  # negative control
+
+
 # It plays and scrubs ------------------------------------------------------------------------------------------------
 
 
@@ -259,6 +337,36 @@ def test_keys(visit, up):
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
 
 
+def test_the_page_saves_a_movie_of_its_own_scene(visit, up, tmp_path):
+    page = visit(up, speed=2.0)
+    page.evaluate("flypend.seek(1.3)")
+    with page.expect_download(timeout=60_000) as waiting:
+        page.get_by_role("button", name="Movie").click()
+    download = waiting.value
+    assert download.suggested_filename == "inverted-law-on-hehn2011.webm"
+    download.save_as(tmp_path / "a.webm")
+    reader = imageio_ffmpeg.read_frames(str(tmp_path / "a.webm"))
+    width, height = next(reader)["size"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)  # read_frames leaves the pipes of an ended ffmpeg open
+        frames = [np.frombuffer(frame, np.uint8).reshape(height, width, 3) for frame in reader]
+        gc.collect()
+    box = page.locator(".picture").bounding_box()
+    assert (width, height) == pytest.approx((box["width"], box["height"]), abs=2)
+    assert len(frames) > 5  # software draws a dozen a second
+    assert np.abs(frames[0].astype(int) - frames[-1]).mean() > 1  # it moved
+    assert page.evaluate("flypend.time()") == 2
+    assert page.get_by_role("button", name="Movie").get_attribute("aria-pressed") == "false"
+
+
+def test_a_movie_can_be_given_up(visit, up):
+    page = visit(up, speed=0.1)
+    page.keyboard.press("m")
+    until(page, "flypend.playing()")
+    page.keyboard.press("m")
+    until(page, "document.querySelector('[data-name=movie]').getAttribute('aria-pressed') === 'false'")
+
+
 # Cameras -------------------------------------------------------------------------------------------------------------
 
 
@@ -340,6 +448,44 @@ def test_the_mouse_turns_and_zooms_and_a_double_click_resets(visit, up):
     np.testing.assert_allclose(screen(page), before, atol=0.1)
 
 
+@pytest.mark.parametrize("viewport", [SMALL, NARROW], ids=["wide", "narrow"])
+def test_it_opens_with_a_machine_that_fills_a_third_of_the_picture(visit, up, viewport):
+    page = visit(up, setting={"viewport": viewport})
+    assert page.get_by_role("button", name="Follow").get_attribute("aria-pressed") == "true"
+    page.evaluate("flypend.seek(2)")
+    size = page.locator(".picture").bounding_box()
+    pivot, bob = screen(page)
+    seen = np.linalg.norm(bob - pivot)  # with bob and rotors it is a fifth longer; foreshortened by 17° of elevation
+    assert 0.25 < seen / min(size["width"], size["height"]) < 0.5
+
+
+def test_the_rod_is_seen_in_hover(visit, up):
+    """The sum of the thrusts points along the rod; drawn solid, it would hide two thirds of it."""
+    page = visit(up)
+    page.evaluate("flypend.camera('side'), flypend.seek(2)")
+    pivot, bob = screen(page)
+    seen = picture(page)
+    for share in (0.3, 0.45, 0.6):
+        x, y = (pivot + share * (bob - pivot)).astype(int)
+        around = seen[y - 2 : y + 3, x - 2 : x + 3].reshape(-1, 3)
+        red, green, _ = around[np.argmax(around[:, 0] - around[:, 1])]
+        assert red > green + 60, share
+
+
+def test_whoever_wants_little_motion_gets_no_glide(visit, up):
+    page = visit(up, setting={"reduced_motion": "reduce"})
+    page.evaluate("flypend.camera('overview')")
+    first = page.evaluate("flypend.screen(0)")
+    page.evaluate("flypend.camera('axis')")
+    np.testing.assert_array_equal(page.evaluate("flypend.screen(0).bob"), page.evaluate("flypend.screen(0).bob"))
+    assert page.evaluate("flypend.screen(0)") != first
+    page = visit(up)  # negative control: otherwise it glides
+    page.evaluate("flypend.camera('overview')")
+    screen(page)
+    page.evaluate("flypend.camera('axis')")
+    assert page.evaluate("flypend.screen(0).bob") != page.evaluate("flypend.screen(0).bob")
+
+
 # Two runs ------------------------------------------------------------------------------------------------------------
 
 
@@ -396,27 +542,27 @@ def test_how_a_run_ended_is_said_when_it_has(visit, singular, down):
     assert said.inner_text() == ""
     page.evaluate("t => flypend.seek(t)", end + 0.1)
     screen(page)
-    assert said.inner_text() == f"singular at {end:.4g} s"
+    assert said.inner_text() == f"singular after {end:.3g} s"
     np.testing.assert_allclose(pose(page, 1.0)["x"], singular.x[-1], atol=1e-5)
 
 
 def test_other_runs_can_be_put_into_the_page(visit, up, lqr, down):
     page = visit(up, ghost=lqr, layout="beside")
     page.evaluate("flypend.camera('side'), flypend.seek(1.7)")
-    memory = []
+    memory = {down: [], up: []}  # each has gains of its own to tell
     for run in [down, up] * 3:
-        page.evaluate("run => flypend.load([run])", replay.pack(run))
+        page.evaluate("run => flypend.load([run])", replay.pack(run, verdict(run)))
         assert page.evaluate("flypend.time()") == 1.7
         np.testing.assert_allclose(pose(page, 1.7)["y"], run.y[170], atol=1e-5)
         box = page.locator(".picture").bounding_box()
         np.testing.assert_allclose(screen(page)[0], [box["width"] / 2, box["height"] / 2], atol=0.6)
-        memory.append(page.locator("main *").count())
+        memory[run].append(page.locator("main *").count())
     assert page.locator(".legend p").count() == page.locator(".view").count() == 1
     assert page.get_by_role("button", name="Side by side").is_hidden()
-    assert len(set(memory)) == 1  # nothing is left behind
-    page.evaluate("runs => flypend.load(runs)", [replay.pack(up), replay.pack(lqr)])
+    assert all(len(set(counts)) == 1 for counts in memory.values())  # nothing is left behind
+    page.evaluate("runs => flypend.load(runs)", [replay.pack(up, verdict(up)), replay.pack(lqr, verdict(lqr))])
     page.get_by_role("button", name="Side by side").click()
-    page.evaluate("run => flypend.load([run])", replay.pack(lqr))
+    page.evaluate("run => flypend.load([run])", replay.pack(lqr, verdict(lqr)))
     assert page.evaluate("[flypend.time(), flypend.duration()]") == [1.5, 1.5]
     told = page.locator(".values output").first.inner_text()
     assert float(told.replace("−", "-")) == pytest.approx(lqr.y[-1, 2], abs=0.00501)
@@ -460,7 +606,7 @@ def test_names_are_text(visit, up):
     page = visit(run, ghost=run)
     assert page.title() == f"{evil} law on {evil}"
     assert page.locator("h1").inner_text() == f"{evil} law on {evil}"
-    assert page.locator(".legend strong").first.inner_text() == f"{evil} law"
+    assert page.locator(".legend strong").first.inner_text() == f"{evil} law, 1"
     assert page.evaluate("window.broken") is None
 
 

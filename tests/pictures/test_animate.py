@@ -10,12 +10,15 @@ from matplotlib.textpath import TextPath
 from PIL import Image
 
 import flypend as fp
+from flypend import palette
+from flypend.flight.verdict import verdict
 from flypend.paper import experiment
 from flypend.pictures import animate, drawing, frames, lettering
 
-ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces")
+ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
 SMALL = {"size": (192, 160), "speed": 1.0, "fps": 20.0}
 RED, GREEN = (213, 94, 0), (0, 158, 115)  # of rod and bob, and of the thrust
+ALARM = tuple(int(palette.ALARM[i : i + 2], 16) for i in (1, 3, 5))  # of a verdict
 
 
 @pytest.fixture(scope="module")
@@ -159,34 +162,47 @@ def test_a_movie_has_the_frames_size_and_format_asked_for(short, tmp_path, view)
     path = tmp_path / "a.mp4"
     animate.movie(short, path, view=view, progress=lambda done, total: seen.append((done, total)), **SMALL)
     frames, about = decode(path)
-    assert frames.shape == (13, 160, 192, 3)
+    assert frames.shape == (43, 160, 192, 3)
     assert (about["codec"], about["fps"]) == ("h264", 20.0)
     assert about["pix_fmt"].startswith("yuv420p")
-    assert seen == [(i + 1, 13) for i in range(13)]
+    assert seen == [(i + 1, 43) for i in range(43)]
     assert list(tmp_path.iterdir()) == [path]
     drawn = pictures(short, animate.frame_times(short, speed=1.0, fps=20.0), view, (192, 160))
-    assert np.abs(frames.astype(int) - drawn).mean() < 4  # of 255: the encoder's loss
+    assert np.abs(frames[:13].astype(int) - drawn).mean() < 4  # of 255: the encoder's loss
 
 
 def test_a_movie_of_a_loaded_run(short, tmp_path):
     short.save(tmp_path / "run.nc")
     animate.movie(fp.load(tmp_path / "run.nc"), tmp_path / "a.mp4", **SMALL)
-    assert len(decode(tmp_path / "a.mp4")[0]) == 13
+    assert len(decode(tmp_path / "a.mp4")[0]) == 43  # and one and a half seconds with the verdict
 
 
 def test_a_gif_has_the_frames_and_the_duration_asked_for(short, tmp_path):
     path = tmp_path / "a.GIF"
     animate.movie(short, path, size=(192, 160), speed=0.5, fps=30)
     with Image.open(path) as gif:
-        assert (gif.n_frames, gif.size) == (37, (192, 160))
+        assert (gif.n_frames, gif.size) == (38, (192, 160))
         lasts = []
         for i in range(gif.n_frames):
             gif.seek(i)
             lasts.append(gif.info["duration"])
+        gif.seek(36)
         last = np.array(gif.convert("RGB")).astype(int)
-    assert sum(lasts) == 1230  # ms: 37 frames at 30 per second
+    assert sum(lasts) == 1230 + 1500  # ms: 37 frames at 30 per second, and the last one held
     drawn = pictures(short, animate.frame_times(short, speed=0.5, fps=30), size=(192, 160))[-1]
     assert np.abs(last - drawn).mean() < 4
+
+
+def test_the_last_frame_stays_with_the_verdict(short, tmp_path):
+    """In red for a flight that has not stood for a second; the frame before it has no words there."""
+    animate.movie(short, tmp_path / "a.mp4")
+    frames, _ = decode(tmp_path / "a.mp4")
+    flown, last = frames[-46], frames[-1]
+    assert not verdict(short)["good"]
+    around = np.s_[85:500, 120:520]
+    red = [np.sum(np.abs(picture[around].astype(int) - ALARM).max(axis=-1) < 60) for picture in (flown, last)]
+    assert red[1] > red[0] + 300  # a line of words; the rod is red, too
+    np.testing.assert_array_equal(frames[-2], last)
 
 
 @pytest.mark.parametrize("suffix", [".mp4", ".gif"])
@@ -209,10 +225,9 @@ def test_a_run_that_ended_early_stays_with_its_outcome(singular, tmp_path, suffi
         frames, _ = decode(path)
         assert len(frames) == 48
         flown, last = frames[2], frames[-1]
-    above = np.s_[85:115, 120:520]  # between head and bob
-    red = [np.sum(np.abs(picture[above].astype(int) - RED).max(axis=-1) < 60) for picture in (flown, last)]
-    assert red[0] == 0
-    assert red[1] > 100
+    above = np.s_[85:500, 120:520]
+    red = [np.sum(np.abs(picture[above].astype(int) - ALARM).max(axis=-1) < 60) for picture in (flown, last)]
+    assert red[1] > red[0] + 300  # a line of words; the rod is red, too
 
 
 def test_a_run_that_ended_where_it_started(singular, tmp_path):
@@ -274,10 +289,10 @@ def test_an_interrupted_movie_leaves_the_old_one(short, tmp_path, suffix, interr
 def test_frames_in_a_file_are_counted(short, tmp_path):
     path = tmp_path / "a.mp4"
     animate.movie(short, path, **SMALL)
-    assert animate._frames_in(path) == 13
+    assert animate._frames_in(path) == 43
     content = path.read_bytes()
     path.write_bytes(content[: len(content) // 2])
-    assert animate._frames_in(path) != 13
+    assert animate._frames_in(path) != 43
     path.write_bytes(b"")
     assert animate._frames_in(path) == 0
 

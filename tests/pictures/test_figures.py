@@ -15,12 +15,13 @@ from matplotlib.patches import Circle
 
 import flypend as fp
 from flypend import geometry, palette
+from flypend.laws.references import circle
 from flypend.model import gravity_vector
 from flypend.paper import experiment
 from flypend.pictures import canvas, drawing, figures
-from flypend.pictures.style import STYLES
+from flypend.pictures.style import STYLES, style_named
 
-ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces")
+ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
 
 
 def fly(name, law="corrected", duration=6.5, **options):
@@ -214,7 +215,7 @@ def test_a_run_that_did_not_complete_is_marked(singular):
 
 
 def test_the_full_figure_shows_everything_with_units(run):
-    y, z, x, f, tau, v = figures.full_figure(run).axes
+    y, z, x, away, f, rotors, tau, v = figures.full_figure(run).axes
     for ax, name, values in ((y, "y", run.y), (z, "z", run.z), (x, "x", run.x), (tau, r"\tau", run.moment)):
         for i in range(3):
             np.testing.assert_array_equal(curves(ax)[f"${name}_{i + 1}$"], values[:, i])
@@ -222,8 +223,82 @@ def test_the_full_figure_shows_everything_with_units(run):
     np.testing.assert_allclose(curves(f)["hover"], -run.vehicle.weight)
     total, one, two = (curves(v)[name] for name in ("$V = V_1 + V_2$", "$V_1$", "$V_2$"))
     np.testing.assert_allclose(total, one + two, rtol=1e-9)
-    units = [ax.get_ylabel().split("(")[1] for ax in (y, z, x, f, tau, v)]
-    assert units == ["–)", "–)", "m)", "N)", "N m)", "1/s²)"]
+    (distance,) = (line for line in away.get_lines() if not line.get_label().startswith("_"))
+    np.testing.assert_allclose(distance.get_ydata(), geometry.norm(run.x - run.x_ref))
+    units = [ax.get_ylabel().split("(")[1] for ax in (y, z, x, away, f, rotors, tau, v)]
+    assert units == ["–)", "–)", "m)", "m)", "N)", "N)", "N m)", "1/s²)"]
+
+
+def panel(figure, words):
+    (found,) = (ax for ax in figure.axes if words in ax.get_ylabel())
+    return found
+
+
+@pytest.mark.parametrize("style", list(STYLES))
+def test_rotor_forces_are_shown_with_the_limits_of_the_rotors(run, style):
+    """The ideal plant gives what no rotor can: the curves enter what is shaded."""
+    least, most = run.vehicle.rotor_limits
+    assert run.rotor_forces.min() < least
+    ax = panel(figures.full_figure(run, style=style), "rotor forces")
+    shown = curves(ax)
+    for k, force in enumerate(run.rotor_forces.T):
+        np.testing.assert_array_equal(shown[f"$f_{k + 1}$"], force)
+    levels = {line.get_ydata()[0] for line in ax.get_lines() if len(set(line.get_ydata())) == 1}
+    assert {least, most} <= levels
+    below = [patch for patch in ax.patches if patch.get_extents().y1 <= ax.transData.transform((0, least))[1] + 1]
+    assert below
+    assert ax.get_ylim()[0] < least
+
+
+def test_the_reference_is_drawn_beside_the_position():
+    around = fp.laws.inverted(reference=circle(0.5, 0.3))
+    flown = fp.simulate(fp.vehicle("hehn2011"), around, fp.State(x=(0.3, 0, 0), y=(0, 0, 1)), 1.0)
+    ax = panel(figures.full_figure(flown), "position")
+    drawn = [line.get_ydata() for line in ax.get_lines() if "reference" in line.get_label()]
+    np.testing.assert_array_equal(np.transpose(drawn), flown.x_ref)
+
+
+def test_widths_are_those_of_ieee_columns(run):
+    """88.9 mm and 182 mm."""
+    assert 25.4 * figures.paper_figure(run).get_size_inches()[0] == pytest.approx(88.9)
+    for figure in (figures.full_figure(run), figures.stop_motion(run)):
+        assert 25.4 * figure.get_size_inches()[0] == pytest.approx(181.9, abs=0.1)
+
+
+FONT = "STIXGeneral"  # comes with matplotlib
+
+
+@pytest.mark.parametrize("figure", [figures.paper_figure, figures.full_figure, figures.stop_motion])
+def test_a_font_is_that_of_all_text_and_titles_can_be_left_out(run, figure):
+    usual, plain = figure(run), figure(run, style=style_named("paper", font=FONT, titled=False))
+    for drawn in (usual, plain):
+        drawn.canvas.draw()
+    families = {text.get_fontfamily()[0] for text in plain.findobj(matplotlib.text.Text) if text.get_text()}
+    assert families == {FONT}
+    assert any("corrected law" in word for word in words(usual))
+    assert not any("corrected law" in word for word in words(plain))
+
+
+@pytest.mark.parametrize("suffix", [".pdf", ".svg"])
+def test_fonts_are_in_the_file(run, tmp_path, suffix):
+    """As TrueType in a PDF, which publishers demand; as outlines in an SVG, which then needs none."""
+    path = tmp_path / f"a{suffix}"
+    figures.save_figure(figures.paper_figure(run, style=style_named("paper", font=FONT)), path)
+    content = path.read_bytes()
+    if suffix == ".pdf":
+        assert content.count(b"/FontFile2") >= 1
+        assert b"/Type3" not in content
+        assert FONT.encode() in content
+    else:
+        assert b"<text" not in content
+        assert b"font-family" not in content
+
+
+def test_a_font_that_is_not_there_is_refused():
+    with pytest.raises(
+        fp.InputError, match=r"--font: expected a font family that is installed, got 'STIXGenerl'.*STIXG"
+    ):
+        style_named("paper", font="STIXGenerl")
 
 
 def test_a_law_without_lyapunov_functions_shows_the_rate_of_the_rod(run):
@@ -408,7 +483,7 @@ def test_a_style_sets_the_format_and_nothing_is_cut_off(run, figure, style):
     drawn, form = figure(run, style=style), STYLES[style]
     width, height = drawn.get_size_inches()
     assert width == pytest.approx(form.half[0] if figure is figures.paper_figure else form.full[0])
-    if style == "slides" and figure is figures.full_figure:
+    if style == "slides" and figure is not figures.paper_figure:
         assert width / height == pytest.approx(16 / 9, rel=1e-3)
     drawn.canvas.draw()
     used = drawn.get_tightbbox()
@@ -457,7 +532,7 @@ def test_lines_and_words_of_a_page_stand_out_from_its_background(theme, ground):
         return (high + 0.05) / (low + 0.05)
 
     assert contrast("ink") > 7  # the levels of WCAG: enhanced, and for small letters
-    assert contrast("muted") > 4.5
+    assert min(contrast(role) for role in ("muted", "alarm", "good")) > 4.5
     # Graphics; green and pink of Okabe and Ito are a little paler on white than the 3 of WCAG.
     assert min(contrast(role) for role in ("rod", "trail", "thrust", "reference", "ghost", "rotor1", "rotor2")) > 3
     assert min(contrast(role) for role in ("rotor3", "rotor4")) > 2.5

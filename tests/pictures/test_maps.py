@@ -9,9 +9,10 @@ import pytest
 from scipy.stats import binomtest
 
 import flypend as fp
+from flypend import palette
 from flypend.cli import app as cli
 from flypend.flight.metrics import wilson, wilson_bounds
-from flypend.pictures.maps import CAUSE_COLOURS, map_figure
+from flypend.pictures.maps import FAILED, map_figure
 from flypend.studies.sweep import bins, cube
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.store import existing, opened
@@ -131,7 +132,15 @@ def test_the_picture_shows_what_was_counted(store):
     assert any(axis.collections[-1].get_hatch() for axis in figure.axes[:3])  # few runs to a cell
     assert not any(axis.collections[-1].get_hatch() for axis in figure.axes[3:6])
     labels = [text.get_text() for text in figure.axes[-1].get_yticklabels()]
-    assert [label.split()[0] for label in labels] == ["none", *CAUSE_COLOURS] == ["none", *CAUSES[1:]]
+    assert [label.split()[0] for label in labels] == ["none", *CAUSES[1:]]
+    assert [palette.CAUSES[name] for name in CAUSES[1:]] == FAILED
+    assert len(set(FAILED)) == len(FAILED)
+
+
+def test_angles_have_ticks_every_45_degrees(store):
+    plane = map_figure(store, x="tilt", y="rate", cells=9).axes[2]
+    ticks = plane.get_xticks()
+    np.testing.assert_array_equal(np.unique(np.diff(ticks)), [45.0])
 
 
 def test_unfinished_stores_are_drawn_and_empty_ones_refused(store, tmp_path):

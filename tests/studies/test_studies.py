@@ -589,7 +589,7 @@ def test_a_report_where_a_file_stands_is_refused(wides, tmp_path):
 
 
 def test_the_figure_of_a_comparison_counts_those_that_stand():
-    """Of ten runs, eight stand: the curve rises by 10 % at each of their times and ends at 80 %."""
+    """Of ten runs, eight stand: from 0, the curve rises by 10 % at each of their times, and goes on at 80 %."""
     times = np.array([3.0, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 8.0, np.nan, np.nan])
     result = made(np.isfinite(times), settling=times, excursion=np.nan_to_num(times, nan=0.1) / 10)
     nobody = made([False] * 3, "b", settling=np.full(3, np.nan), excursion=np.ones(3))
@@ -598,10 +598,10 @@ def test_the_figure_of_a_comparison_counts_those_that_stand():
     for axes, unit in zip(figure.axes, (1.0, 0.1), strict=True):
         one, none = axes.get_lines()[:2]
         x, y = np.array(one.get_data())
-        shown = np.isfinite(x)
-        np.testing.assert_allclose(x[shown], unit * np.arange(1, 9))
-        np.testing.assert_allclose(y[shown], 10 * np.arange(1, 9))
-        assert not np.any(np.isfinite(none.get_xdata()))  # who does not stand is on no curve
+        right = axes.get_xlim()[1]
+        np.testing.assert_allclose(x, [*(unit * np.arange(9)), right])
+        np.testing.assert_allclose(y, [*(10 * np.arange(9)), 80])
+        np.testing.assert_allclose(none.get_data(), [[0, right], [0, 0]])  # who does not stand is counted by no step
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels == ["a: 80.0 % of 10", "b: 0.0 % of 3"]
 

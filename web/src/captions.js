@@ -3,7 +3,7 @@
 import { norm } from "./numbers.js";
 import { Compass } from "./scene/compass.js";
 
-const KEY = [["front", "front rotor"], ["thrust", "thrust"], ["trail", "bob"], ["ink", "vehicle"], ["reference", "reference"]];
+const KEY = [["front", "front rotor"], ["thrust", "rotor thrusts, their sum in outline"], ["trail", "bob"], ["ink", "vehicle"], ["reference", "reference"]];
 
 export class Captions {
   /** Over the element `parent`. */
@@ -43,7 +43,7 @@ export class Captions {
       const rise = (x[2] - stage.flyers[i].pivots[0][2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
       const name = this.several ? `${flight.title}: ` : "";
       put(view.motion, `${name}height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
-      put(view.ended, t >= flight.end && flight.outcome.status !== "completed" ? flight.outcome.text : "");
+      put(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
     put(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);

@@ -11,6 +11,8 @@ import { Link } from "./lab/link.js";
 import { Map as Disc } from "./lab/map.js";
 import { Panel } from "./lab/panel.js";
 import { Setting } from "./lab/setting.js";
+import { judge } from "./layout.js";
+import { calm } from "./motion.js";
 import { unit } from "./numbers.js";
 import { Viewer } from "./viewer.js";
 
@@ -35,6 +37,8 @@ class Laboratory {
     this.viewer.drew = () => this.handle.show();
     this.link = new Link((reply) => this.#told(reply), (open) => this.#say(open ? "" : "no connection to the server"));
     keys({ p: () => this.panel.poke("bob") });
+    this.#undoKeys();
+    if (this.setting.unreadable) this.#notice("The address holds no setting that can be read. This is the usual start.");
     this.#changed();
   }
 
@@ -45,14 +49,38 @@ class Laboratory {
     Object.assign(this.words, { className: "verdict", ariaLive: "polite" });
     header.append(this.words);
     this.busy = document.createElement("p");
-    this.busy.className = "busy";
+    Object.assign(this.busy, { className: "busy", role: "status" });
     this.viewer.parts.scene.append(this.busy);
+    this.note = document.createElement("p");
+    Object.assign(this.note, { className: "notice", hidden: true });
+    this.note.setAttribute("role", "alert");
+    this.viewer.parts.scene.append(this.note);
     this.tabs.show("flight");
   }
 
   #say(words) {
     this.busy.textContent = words;
     this.busy.hidden = !words;
+  }
+
+  /** Say `words` over the picture until the next flight, with a button that does `action`, if there is one. */
+  #notice(words, [name, action] = []) {
+    this.note.textContent = words;
+    this.note.hidden = !words;
+    if (!name) return;
+    const button = document.createElement("button");
+    Object.assign(button, { type: "button", textContent: name });
+    button.addEventListener("click", action);
+    this.note.append(" ", button);
+  }
+
+  #undoKeys() {
+    document.addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.closest("textarea")) return;
+      event.preventDefault();
+      if (event.shiftKey) this.setting.redo();
+      else this.setting.undo();
+    });
   }
 
   // What the controls do -----------------------------------------------------------------------------------------
@@ -162,22 +190,25 @@ class Laboratory {
     else if (reply.kind === "map" && reply.number === this.mapped) this.disc.add(reply);
     else if (reply.kind === "compiling" && reply.number >= this.shown) this.#say("compiling…");
     else if (reply.kind === "error" && reply.number === this.asked) this.#error(reply);
+    else if (reply.kind === "error" && reply.number === this.mapped) this.disc.refuse(reply.message);
   }
 
   #flight(reply) {
     if (reply.number < this.shown) return;
     this.shown = reply.number;
+    this.main.classList.remove("stale");
+    if (this.flew) this.#notice("");
+    this.flew = true;
     // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
     this.steady ??= reply.run.direction;
     this.viewer.load([{ ...reply.run, direction: this.steady }]);
     this.verdict = reply.verdict;
-    this.words.textContent = reply.verdict.words;
-    this.words.className = `verdict ${reply.verdict.good ? "good" : "bad"}`;
+    judge(this.words, reply.verdict);
     if (reply.number === this.asked) {
       this.#say("");
       this.#adopt(reply.start);
       this.panel.flight(reply);
-      if (this.follow) this.viewer.clock.play();
+      if (this.follow && !calm()) this.viewer.clock.play();
       this.follow = false;
     }
     const begun = this.clock.get(reply.number);
@@ -200,8 +231,20 @@ class Laboratory {
     this.#say("");
     this.panel.complain(message, field, this.touched);
     this.verdict = { words: message, good: false };
-    this.words.textContent = `not flown: ${message}`;
-    this.words.className = "verdict bad";
+    judge(this.words, { words: "not flown", good: false, reason: message });
+    this.viewer.clock.pause();
+    if (!this.flew) this.#begin(message);
+    else {
+      this.main.classList.add("stale");
+      const undo = this.setting.past.length ? ["Undo", () => this.setting.undo()] : [];
+      this.#notice(`Not flown. ${message}. The picture is of the last flight.`, undo);
+    }
+  }
+
+  /** Nothing has been flown yet: an address that leads to no flight is no dead end. */
+  #begin(message) {
+    this.#notice(`The setting of the address cannot be flown (${message}). This is the usual start.`);
+    this.setting.replace(this.offer.first);
   }
 
   provide() {

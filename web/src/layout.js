@@ -1,6 +1,7 @@
 // The parts of the page, and the legend that tells the flights apart.
 
 import { DASHES } from "./series.js";
+import { writeSymbol } from "./words.js";
 
 /** Build the page into its body with the style sheet `css`; returns its parts by name. */
 export function frame(css, title) {
@@ -10,8 +11,8 @@ export function frame(css, title) {
   const main = document.createElement("main");
   main.innerHTML = `
     <header><h1></h1><div class="legend"></div></header>
-    <section class="scene" aria-label="Flight"><canvas class="picture"></canvas><p class="note"></p></section>
-    <section class="plots" aria-label="Plots"></section>
+    <section class="scene" aria-label="Flight"><canvas class="picture" role="img"></canvas><p class="note"></p></section>
+    <section class="plots" aria-label="Plots" tabindex="0"></section>
     <footer><div class="player"></div><div class="choices"></div></footer>`;
   document.body.append(main);
   const find = (selector) => main.querySelector(selector);
@@ -21,21 +22,30 @@ export function frame(css, title) {
   };
 }
 
-/** One line for each flight: how its curves are drawn, its name, how it ended. */
+/** One line for each flight: how its curves are drawn, its name, its gains, how it ended. */
 export function legend(parent, flights) {
   parent.replaceChildren();
   flights.forEach((flight, i) => {
     const entry = document.createElement("p");
     entry.innerHTML = `<svg width="30" height="10" aria-hidden="true"><line x1="1" x2="29" y1="5" y2="5"/></svg>
-      <strong></strong> <span class="detail"></span> &ensp;<em></em>`;
+      <strong></strong> <span class="detail"></span> <em class="verdict"></em>`;
     const find = (selector) => entry.querySelector(selector);
     find("line").setAttribute("stroke-dasharray", DASHES[i].join(" "));
     entry.className = flights.length === 1 ? "only" : i ? "ghost" : "";
     find("strong").textContent = flight.title;
-    find(".detail").textContent = flight.detail;
-    find("em").textContent = flight.outcome.text;
-    find("em").title = flight.outcome.reason;
-    find("em").className = flight.outcome.status;
+    flight.gains.forEach(([name, value], k) => {
+      if (k) find(".detail").append(", ");
+      writeSymbol(find(".detail"), name);
+      find(".detail").append(` = ${value}`);
+    });
+    judge(find("em"), flight.verdict);
     parent.append(entry);
   });
+}
+
+/** Write a verdict, with a dot that says whether it is good. */
+export function judge(element, { words, good, reason }) {
+  element.textContent = words;
+  element.title = reason ?? "";
+  element.className = `verdict ${good ? "good" : "bad"}`;
 }

@@ -1,13 +1,19 @@
 // Quantities over time on a canvas, with a cursor that follows the clock and that one can drag.
 
+import { drawMark, markIcon } from "./marks.js";
 import { clamp, indexBefore, mix, roundUp } from "./numbers.js";
+import { large, reading, tick } from "./words.js";
 
 const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins, CSS pixels
+const APART = 92; // pixels between two marks of a curve
+const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut off at four times that
 
 /**
- * One plot. `options`: title, unit, `lines` ([{label, role, dash, width, t, values}], a role being a key of the theme),
- * and optionally `range` ([low, high]), `names` ([[value, word], ...] at the right edge), `levels` ([[value, word]]:
- * dotted lines), `end` (time that all share). `seek` is called with a time when the plot is touched.
+ * One plot. `options`: title (of this program, may hold tags; `plain` without), unit, `lines` ([{label, role, mark, dash,
+ * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]
+ * at the right edge), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
+ * `scale` (the usual size of a value), `least` (the shortest axis), `end` (time that all share). `seek` is called with a
+ * time when the plot is touched.
  */
 export class Plot {
   constructor(parent, options, seek) {
@@ -27,20 +33,27 @@ export class Plot {
 
   /** Show something else, with options as for a new plot; `draw` puts it on the canvas. */
   load(options) {
-    Object.assign(this, { names: [], levels: [], range: null, ...options });
-    this.root.querySelector(".what").textContent = options.unit ? `${options.title} (${options.unit})` : options.title;
-    this.canvas.setAttribute("aria-label", `${options.title} over time`);
+    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, ...options });
+    this.root.querySelector(".what").innerHTML = options.unit ? `${options.title} (${options.unit})` : options.title;
     const values = this.root.querySelector(".values");
     values.replaceChildren();
     this.readings = options.lines.filter((line) => line.label).map((line) => this.#reading(values, line));
-    [this.span, this.peak] = options.range ? [options.range, null] : range(options.lines, this.levels);
+    [this.span, this.peak] = options.range ? [options.range, null] : range(this);
+    this.canvas.setAttribute("aria-label", this.#told());
+  }
+
+  /** What is drawn, for those who do not see it. */
+  #told() {
+    const { plain, unit, span: [low, high], limits: [least, most], peak } = this;
+    const of = (value) => `${tick(value)}${unit && ` ${unit}`}`;
+    const beyond = most !== null && most < high ? `; no rotor gives more than ${of(most)}` : least !== null && least > low ? `; no rotor gives less than ${of(least)}` : "";
+    return `${plain} over time, ${tick(low)} to ${of(high)}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
   }
 
   #reading(parent, line) {
     const chip = document.createElement("span");
     chip.style.setProperty("--tone", `var(--${line.role})`);
-    chip.innerHTML = "<b></b> <output></output>";
-    chip.querySelector("b").textContent = line.label;
+    chip.innerHTML = `${markIcon(line.mark)}<b>${line.label}</b> <output></output>`;
     parent.append(chip);
     return { line, output: chip.querySelector("output") };
   }
@@ -77,12 +90,38 @@ export class Plot {
     context.rect(LEFT, TOP - 2, width - LEFT - RIGHT, height - TOP - BOTTOM + 4);
     context.clip();
     for (const line of this.lines) curve(context, place, line, colours);
+    this.#marks(context, place, colours);
     context.restore();
     this.#words(context, place, colours);
   }
 
+  /** Marks along the curves, each in turn, so that curves on top of each other show which they are. */
+  #marks(context, place, colours) {
+    const marked = this.lines.filter((line) => line.mark), across = this.width - LEFT - RIGHT;
+    marked.forEach((line, i) => {
+      for (let x = (i + 0.5) * APART / marked.length; x < across; x += APART) {
+        const t = mix(this.start, this.end, x / across);
+        if (t > line.t[line.t.length - 1]) break;
+        drawMark(context, line.mark, LEFT + x, place.y(valueAt(line, t)), colours[line.role], colours.paper);
+      }
+    });
+  }
+
+  /** What no rotor can do, shaded. */
+  #beyond(context, place, colours) {
+    const { width, height, span: [low, high], limits: [least, most] } = this;
+    const shade = (from, to) => {
+      const top = Math.max(place.y(to), TOP), bottom = Math.min(place.y(from), height - BOTTOM);
+      context.fillStyle = colours.barred;
+      if (bottom > top) context.fillRect(LEFT, top, width - LEFT - RIGHT, bottom - top);
+    };
+    if (most !== null && most < high) shade(most, high);
+    if (least !== null && least > low) shade(low, least);
+  }
+
   #axes(context, place, colours) {
     const { width, height, span: [low, high] } = this;
+    this.#beyond(context, place, colours);
     context.font = "11px system-ui, sans-serif";
     Object.assign(context, { lineWidth: 1, textBaseline: "middle" });
     const line = (x0, y0, x1, y1, colour, dash = []) => {
@@ -98,28 +137,46 @@ export class Plot {
     context.textAlign = "right";
     for (const value of ticks(low, high, this.range ? 3 : Math.max(2, Math.floor(height / 34)))) {
       line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.line);
-      context.fillText(words(value), LEFT - 7, place.y(value));
+      context.fillText(tick(value), LEFT - 7, place.y(value));
     }
     context.textBaseline = "alphabetic";
     for (const value of ticks(this.start, this.end, Math.max(3, Math.floor(width / 75)))) {
       line(place.x(value), TOP, place.x(value), height - BOTTOM, colours.line);
       const last = place.x(value) > width - RIGHT - 14;
       context.textAlign = last ? "right" : "center";
-      context.fillText(last ? `${words(value)} s` : words(value), last ? width - 2 : place.x(value), height - 5);
+      context.fillText(last ? `${tick(value)} s` : tick(value), last ? width - 2 : place.x(value), height - 5);
     }
     for (const [value] of this.levels) line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.muted, [2, 3]);
   }
 
   /** Words at the right edge, over the curves and with a rim that keeps them legible. */
   #words(context, place, colours) {
-    const { width, span: [low, high] } = this;
+    const { width, height, span: [low, high] } = this;
     Object.assign(context, { textAlign: "right", textBaseline: "alphabetic", lineWidth: 4, strokeStyle: colours.paper, fillStyle: colours.muted });
     const write = (word, y) => {
       context.strokeText(word, width - RIGHT - 4, y);
       context.fillText(word, width - RIGHT - 4, y);
     };
-    for (const [value, word] of this.levels) write(word, place.y(value) - 6);
-    if (this.peak) write(`off the scale: ${this.peak.toPrecision(2)} ${this.unit}`, TOP + 12);
+    const taken = [];
+    const free = (y) => y > TOP + 8 && y < height - BOTTOM - 2 && taken.every((other) => Math.abs(other - y) > 13);
+    const label = (word, places, behind = colours.paper) => {
+      const y = places.find(free);
+      if (y === undefined) return;
+      taken.push(y);
+      context.strokeStyle = y === places[0] ? behind : colours.paper;
+      write(word, y);
+      context.strokeStyle = colours.paper;
+    };
+    const [least, most] = this.limits;
+    if (most !== null && most < high) label(`no rotor gives more than ${tick(most)} ${this.unit}`, [place.y(most) - 5, place.y(most) + 14], colours.barred);
+    else if (least !== null && least > low) label(`no rotor gives less than ${tick(least)} ${this.unit}`, [place.y(least) + 14], colours.barred);
+    for (const [value, word] of this.levels) label(word, [place.y(value) - 6, place.y(value) + 14]);
+    if (this.peak) {
+      context.textAlign = "left";
+      context.strokeText(`cut off, peak ${large(this.peak)}${this.unit}`, LEFT + 6, TOP + 10);
+      context.fillText(`cut off, peak ${large(this.peak)}${this.unit}`, LEFT + 6, TOP + 10);
+      context.textAlign = "right";
+    }
     for (const [value, word] of this.names) write(word, place.y(value) + (value > (low + high) / 2 ? 15 : -7));
   }
 
@@ -151,30 +208,31 @@ function valueAt({ t, values }, time) {
 }
 
 /** Low and high of what is drawn, and the height of a spike, in which a singular law ends, that is cut off. */
-function range(lines, levels) {
-  const sizes = lines.flatMap((line) => Array.from(line.values, Math.abs)).sort((a, b) => a - b);
-  const usual = sizes[Math.floor(0.95 * (sizes.length - 1))], peak = sizes[sizes.length - 1];
-  const limit = peak > 10 * usual && usual > 0 ? 4 * usual : Infinity;
-  let [low, high] = [Infinity, -Infinity];
+function range({ lines, levels, limits, scale, least }) {
+  const peak = Math.max(...lines.map((line) => line.values.reduce((size, value) => Math.max(size, Math.abs(value)), 0)));
+  const usual = scale || usually(lines);
+  const limit = peak > SPIKE * usual && usual > 0 ? KEPT * usual : Infinity;
+  let [low, high] = [0, least];
   const include = (value) => {
     low = Math.min(low, clamp(value, -limit, limit));
     high = Math.max(high, clamp(value, -limit, limit));
   };
   lines.forEach((line) => line.values.forEach(include));
   levels.forEach(([value]) => include(value));
-  include(0);
+  if (limits[1] !== null && limits[1] < 1.6 * high) include(1.12 * limits[1]); // what is shaded is seen where it is near
   const room = 0.06 * (high - low) || 1;
   return [[low < 0 ? low - room : low, high + room], Number.isFinite(limit) ? peak : null];
+}
+
+/** What the sizes of values stay below for 95 % of the time, however densely a spike is sampled. */
+function usually(lines) {
+  const sizes = lines.flatMap(({ t, values }) =>
+    Array.from(values, (value, i) => [Math.abs(value), i ? t[i] - t[i - 1] : 0])).sort((a, b) => a[0] - b[0]);
+  let left = 0.95 * sizes.reduce((sum, [, span]) => sum + span, 0);
+  return (sizes.find(([, span]) => (left -= span) <= 0) ?? sizes[0])[0];
 }
 
 function ticks(low, high, count) {
   const step = roundUp((high - low) / count || 1), first = Math.ceil(low / step - 1e-9);
   return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
-}
-
-const words = (value) => String(+value.toPrecision(4)).replace("-", "−");
-
-function reading(value) {
-  const digits = Math.abs(value) >= 1000 ? 0 : Math.abs(value) >= 100 ? 1 : 2;
-  return (Math.abs(value) >= 1e5 ? value.toExponential(1) : value.toFixed(digits)).replace("-", "−");
 }

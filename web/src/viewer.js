@@ -12,6 +12,7 @@ import { Flight } from "./flight.js";
 import { frame, legend } from "./layout.js";
 import { matrix } from "./numbers.js";
 import { Plot } from "./plots.js";
+import { Recorder, movieKind, save } from "./record.js";
 import { plots } from "./series.js";
 import { steer } from "./scene/pointers.js";
 import { PRESETS } from "./scene/rig.js";
@@ -23,6 +24,7 @@ const STEP = 1 / 30; // s, of the arrow keys
 export class Viewer {
   constructor({ runs, palette, title, layout, speed }, style = css) {
     this.parts = frame(style, title);
+    this.title = title;
     this.drawn = { count: 0, cost: [] };
     this.clock = new Clock(0, 0, () => this.wake());
     this.clock.speed = speed;
@@ -49,6 +51,7 @@ export class Viewer {
     const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
     this.clock.span(Math.min(...starts), Math.max(...ends));
     legend(this.parts.legend, this.flights);
+    this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
     plots(this.flights).forEach((options, i) => {
       if (this.plots[i]) this.plots[i].load(options);
       else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
@@ -91,6 +94,9 @@ export class Viewer {
     this.cameras = new Choice(this.parts.choices, "Camera", cameras, (name) => this.camera(name));
     const layouts = [["overlay", "Overlay", "One picture, the others as ghosts (g)"], ["beside", "Side by side", "A picture for each (g)"]];
     this.layouts = new Choice(this.parts.choices, "Layout", layouts, (name) => this.layout(name));
+    this.movies = new Choice(this.parts.choices, "Movie", [["movie", "Movie", "Play once and save what is seen as a movie (m)"]], () => this.film());
+    this.movies.root.hidden = !movieKind();
+    this.movies.show("");
     const themes = [["toggle", "◐", "Light or dark (t)"]];
     this.themes = new Choice(this.parts.choices, "Theme", themes, () => this.theme.toggle());
   }
@@ -107,8 +113,23 @@ export class Viewer {
       End: () => clock.seek(clock.end),
       g: () => this.layout(this.stage?.layout === "overlay" ? "beside" : "overlay"),
       t: () => this.theme.toggle(),
+      m: () => this.film(),
       ...Object.fromEntries(PRESETS.map((name, i) => [String(i + 1), () => this.camera(name)])),
     });
+  }
+
+  /** Play once and save a movie of it, or stop doing so. */
+  film() {
+    if (this.recorder) this.recorder.stop();
+    else if (this.stage && movieKind()) {
+      this.recorder = new Recorder(this, (movie) => {
+        this.recorder = null;
+        this.movies.show("");
+        if (movie) save(movie, this.title.replaceAll(/[^\p{L}\p{N}]+/gu, "-"));
+      });
+      this.movies.show("movie");
+      this.recorder.start();
+    }
   }
 
   camera(name) {
@@ -171,6 +192,7 @@ export class Viewer {
       stage.show(this.flights.map((flight) => flight.at(clock.time)));
       moving = stage.render(elapsed || 1 / 60);
       this.captions.show(stage, clock.time, this.theme.colours);
+      this.recorder?.frame();
     }
     this.player.show();
     for (const plot of this.plots) plot.show(clock.time);

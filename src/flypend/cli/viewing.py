@@ -57,18 +57,20 @@ def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tup
 @click.argument("run", type=path)
 @out_option("figures-out")
 @style_option
-def figures(run: Path, out: Path, style: str) -> None:
+@click.option("--font", default="", help="Font family, such as serif or 'Times New Roman'; embedded in the .pdf.")
+@click.option("--title/--no-title", "titles", default=True, help="Titles; a figure with a caption needs none.")
+def figures(run: Path, out: Path, style: str, font: str, titles: bool) -> None:
     """Draw the figures of RUN, a file saved by flypend (.nc), each as .pdf and .png."""
     from flypend.files.staging import check_writable, staged
     from flypend.flight.trajectory import load
     from flypend.pictures.style import style_named
     from flypend.report.flight import figure_tasks
 
-    style_named(style)
+    form = style_named(style, font=font, titled=titles)
     flight = load(run)
     check_writable(out)
     with staged(out) as folder:
-        draw(figure_tasks(flight, folder, style=style))
+        draw(figure_tasks(flight, folder, style=form))
     console.print(f"Figures are in {bold(out)}.")
 
 

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from flypend.flight.criterion import PARTS, Criterion, lean
-from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.model import Vehicle
+
+Trajectory = Any  # flypend.Trajectory, not imported: its module judges runs for the replay
 
 # Tolerance for roundoff in times, s.
 SAME = 1e-9

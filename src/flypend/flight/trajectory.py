@@ -251,12 +251,14 @@ class Trajectory:
             If there are more than four runs, the layout is unknown, the speed is not positive, or the file is not
             writable.
         """
-        from flypend.pages import replay  # imported here: most runs are never shown
+        from flypend.flight.verdict import verdict  # imported here: most runs are never shown
+        from flypend.pages import replay
 
         others = [ghost] if isinstance(ghost, Trajectory) else ghost
         if not (isinstance(others, Sequence) and all(isinstance(other, Trajectory) for other in others)):
             raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
-        text = replay.page([self, *others], title=title, layout=layout, speed=speed)
+        runs = [self, *others]
+        text = replay.page(runs, [verdict(run) for run in runs], title=title, layout=layout, speed=speed)
         if path is not None:
             with whole_file(path, (".html",)) as partial:
                 partial.write_text(text, encoding="utf-8")

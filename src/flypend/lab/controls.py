@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
+from flypend.errors import InputError
 from flypend.lab.gains import sliders_of
 from flypend.lab.own import OwnLaws
 from flypend.lab.setting import LONGEST, Setting, plain
-from flypend.laws import law_names
+from flypend.laws import Controller, Law, law_names
 from flypend.model import State, Vehicle
 from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
@@ -16,6 +18,7 @@ from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 
 PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
+BISECTIONS = 12  # to a fifth of a per cent of a slider with a range of a factor of four either way
 FACTOR = 4.0  # a gain's slider spans its default divided and multiplied by this
 
 
@@ -65,10 +68,38 @@ def sliders(setting: Setting) -> list[dict[str, Any]]:
         value, usual, gain = given[name], proposed[name], law.table[name]
         low, high, log = _reach(usual)
         reach = (max(low, gain.bounds.low), min(high, gain.bounds.high))
-        out.append(_slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, *reach, log=log))
+        slider = _slider(f"law.gains.{name}", "gains", gain.label, gain.unit, value, *reach, log=log)
+        out.append(slider | {"allowed": _allowed(law, given, name, slider["low"], slider["high"])})
     if isinstance(flight.plant, Sampled):
         out += _plant_sliders(flight.plant, flight.vehicle)
     return [*out, _slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
+
+
+def _allowed(law: Law | Controller, given: dict[str, Any], name: str, low: float, high: float) -> list[float]:
+    """Between `low` and `high`, how far the gain `name` may go while the others stay as `given`."""
+    check = law.check if isinstance(law, Law) else None
+    if check is None:
+        return [low, high]
+
+    def refused(value: float) -> bool:
+        try:
+            check({**given, name: value})
+        except InputError:
+            return True
+        return False
+
+    return [_last_good(refused, given[name], end) for end in (low, high)]
+
+
+def _last_good(refused: Callable[[float], bool], good: float, end: float) -> float:
+    """Where, on the way from a `good` value to `end`, values begin to be `refused`; `end` if none is. By bisection."""
+    if not refused(end):
+        return end
+    bad = end
+    for _ in range(BISECTIONS):
+        middle = (good + bad) / 2
+        good, bad = (good, middle) if refused(middle) else (middle, bad)
+    return good
 
 
 def _reach(usual: float) -> tuple[float, float, bool]:
@@ -117,5 +148,5 @@ def _slider(
     """
     return {
         "path": path, "group": group, "words": words, "unit": unit, "value": float(value),
-        "low": float(min(low, value)), "high": float(max(high, value)), "log": log, "put": put,
+        "low": float(min(low, value)), "high": float(max(high, value)), "log": log, "put": put, "allowed": None,
     }  # fmt: skip

@@ -11,7 +11,6 @@ import numpy as np
 from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels import IdealKernel, SampledKernel
 from flypend.flight.kernels.single import REASONS, Solution, sampled_samples
-from flypend.flight.metrics import metrics
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise
@@ -76,23 +75,6 @@ def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
         x=state.x, x_dot=state.x_dot + hit.x_ddot - free.x_ddot, R=state.R, omega=state.omega, y=state.y,
         y_dot=state.y_dot + hit.y_ddot - free.y_ddot,
     )  # fmt: skip
-
-
-def verdict(run: Trajectory, machine: Tuned | Stepped) -> dict[str, Any]:
-    """Evaluate `run` by the criterion of its law: a line of text, success, settling time (s) and excursion (m)."""
-    judged = metrics(run, machine.criterion)
-    distance = f"excursion {round(judged.excursion, 2):.3g} m"
-    if run.outcome.status != "completed":
-        words = f"{run.outcome.status} after {run.outcome.time:.3g} s"
-    elif judged.success:
-        pose = "upright" if run.e3 == "up" else "rod along e₃, which hangs,"
-        words = f"{pose} after {judged.settling:.1f} s, {distance}"
-    else:
-        missed = {"rod": "rod not settled", "axis": "vehicle not level", "position": "off its reference"}
-        words = f"{missed.get(judged.cause, judged.cause)} during the last second, {distance}"
-    settling = judged.settling if judged.success else None
-    excursion = judged.excursion if np.isfinite(judged.excursion) else None
-    return {"words": words, "good": bool(judged.success), "settling": settling, "excursion": excursion}
 
 
 def _after(

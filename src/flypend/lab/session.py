@@ -15,10 +15,11 @@ from threading import Lock
 from typing import Any
 
 from flypend.errors import InputError
+from flypend.flight.verdict import verdict
 from flypend.lab.budget import Abandoned
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly, verdict
+from flypend.lab.flying import fly
 from flypend.lab.map import region
 from flypend.lab.own import NONE, OwnLaws
 from flypend.lab.setting import plain, setting_of
@@ -143,12 +144,12 @@ def flights(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _alw
     try:
         setting = setting_of(message.get("setting"), own)
         run = fly(setting, tell, wanted)
-        machine = tuned(setting)
+        told = verdict(run, tuned(setting).criterion)
         yield {
             "kind": "flight",
             "number": number,
-            "run": replay.pack(run),
-            "verdict": verdict(run, machine),
+            "run": replay.pack(run, told),
+            "verdict": told,
             "sliders": sliders(setting),
             "start": plain(setting.start),
             "toml": toml(setting),

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
+from flypend.flight.verdict import goal
 from flypend.lab.gains import sliders_of
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw, Controller, Law
@@ -83,7 +84,7 @@ def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
     """Return the closed loop of `setting`; `tell` is called before a compilation, which takes about a second."""
     flight, law = setting.flight, setting.law
     if isinstance(law, Controller):
-        return Stepped(flight.vehicle, law.bind(flight.vehicle), goal(law))
+        return Stepped(flight.vehicle, law.bind(flight.vehicle), goal(law.e3))
     fixed = {name: value for name, value in law.given.items() if not law.gains[name].label}
     kept = repr(structure(flight.plant)) if isinstance(flight.plant, Sampled) else "ideal"
     key = json.dumps(
@@ -111,7 +112,7 @@ def _make(setting: Setting, asked: Law, fixed: dict[str, Any]) -> Tuned:
         names = tuple(tunable.gains)
     law = tunable.bind(flight.vehicle)
     loop = replace(flight.replace(law=law).loop, parameters=names)
-    kernel = kernel_for(loop, goal(asked), flight.tolerances)
+    kernel = kernel_for(loop, goal(asked.e3), flight.tolerances)
     symbols = symbolic_loop(loop.vehicle, law, names)
     wrench = ca.densify(ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment))
     return Tuned(kernel, ca.Function("wrench", [symbols.t, symbols.s, symbols.p], ca.cse([wrench])))
@@ -127,8 +128,3 @@ def values(setting: Setting) -> NDArray[np.float64]:
             return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
     gains = law.gains_for(vehicle)
     return np.array([float(gains[name]) for name in sliders_of(law)])
-
-
-def goal(law: Law | Controller) -> Criterion:
-    """Return the criterion of `law`: inverted at the reference if e₃ is up, else y → e₃ at any position."""
-    return Criterion() if law.e3 == "up" else Criterion(target="e3", position=np.inf)

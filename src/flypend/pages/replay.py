@@ -54,6 +54,7 @@ PAGE = """<!doctype html>
 
 def page(
     runs: Sequence[Run],
+    verdicts: Sequence[dict[str, Any]],
     *,
     title: str | None = None,
     layout: str = "overlay",
@@ -66,6 +67,8 @@ def page(
     runs : sequence of Trajectory
         One to four runs, in either frame; the camera follows the first. Gravity always points down the screen, and
         numbers are in the frame of the run.
+    verdicts : sequence of dict
+        How each run ended, as `flypend.flight.verdict.verdict` returns it.
     title : str, optional
         Page title; default: laws and vehicles.
     layout : "overlay" or "beside"
@@ -85,7 +88,10 @@ def page(
         "layout": errors.one_of("layout", layout, ("overlay", "beside")),
         "speed": errors.number("speed", speed, above=0),
         "palette": palette.PAGE,
-        "runs": [pack(run, MOST // len(runs)) for run in runs],
+        "runs": [
+            {**pack(run, verdict, MOST // len(runs)), **name}
+            for run, verdict, name in zip(runs, verdicts, names(runs), strict=True)
+        ],
     }
     return PAGE.format(
         policy=html.escape(POLICY), title=html.escape(str(data["title"])), data=embedded(data), program=program()
@@ -98,8 +104,8 @@ def frame(text: str, height: int = 640) -> str:
     return f'<iframe srcdoc="{html.escape(text)}" sandbox="allow-scripts" style="{style}"></iframe>'
 
 
-def pack(run: Run, most: int = MOST) -> dict[str, Any]:
-    """Pack `run` for the page: metadata, and base64 columns of at most `most` samples."""
+def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
+    """Pack `run` for the page: metadata with its `verdict`, and base64 columns of at most `most` samples."""
     t, states = _sampled(run, most)
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
     columns = {
@@ -113,24 +119,19 @@ def pack(run: Run, most: int = MOST) -> dict[str, Any]:
         "rotor_forces": np.stack([np.interp(t, run.t, force) for force in rotors.T], axis=-1),
         "x_ref": np.stack([np.interp(t, run.t, along) for along in np.asarray(run.x_ref).T], axis=-1),
     }
-    vehicle, outcome = run.vehicle, run.outcome
-    gains = [f"{name} = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
+    vehicle = run.vehicle
     return {
-        "title": f"{run.law} law",
-        "detail": ", ".join(gains),
+        **names([run])[0],
         "law": run.law,
         "e3": run.e3,
-        "outcome": {
-            "status": outcome.status,
-            "time": outcome.time,
-            "text": f"{outcome.status} at {outcome.time:.4g} s",
-            "reason": outcome.reason,
-        },
+        "completed": run.outcome.status == "completed",
+        "verdict": verdict,
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
         "vehicle": {
             "name": vehicle.name,
             "rod_length": vehicle.rod_length,
             "weight": vehicle.weight,
+            "rotor_limits": _finite(vehicle.rotor_limits),
             "rotor_positions": np.asarray(vehicle.rotor_positions).tolist(),
             "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
             "rotor_radius": sketch.disc_radius(vehicle),
@@ -138,6 +139,43 @@ def pack(run: Run, most: int = MOST) -> dict[str, Any]:
         },
         "columns": {name: _base64(values) for name, values in columns.items()},
     }
+
+
+def names(runs: Sequence[Run]) -> list[dict[str, Any]]:
+    """Name each of `runs` for a legend: `title`, and `gains`, pairs of name and value. Equal titles are told apart.
+
+    What tells them apart is the vehicle, else the gains that differ, else the rod at the start, else a number.
+    """
+    titles = [f"{run.law} law" for run in runs]
+    gains = [{name: value for name, value in run.gains.items() if name.startswith("k_")} for run in runs]
+    for title in {title for title in titles if titles.count(title) > 1}:
+        alike = [i for i, other in enumerate(titles) if other == title]
+        given = [runs[i].gains for i in alike]
+        differing = [name for name in given[0] if len({repr(own.get(name)) for own in given}) > 1]
+        machines = [runs[i].vehicle.name for i in alike]
+        rods = [f"rod from {_tilt(runs[i]):.0f}°" for i in alike]
+        choices = (machines, differing and [str([own[name] for name in differing]) for own in given], rods)
+        found = next((choice for choice in choices if len(set(choice)) == len(alike)), None)
+        for number, i in enumerate(alike):
+            gains[i] |= {name: given[number][name] for name in differing}
+            if found is None or found is machines or found is rods:
+                titles[i] = f"{title}, {found[number] if found else number + 1}"
+    return [{"title": title, "gains": _pairs(own)} for title, own in zip(titles, gains, strict=True)]
+
+
+def _pairs(gains: dict[str, Any]) -> list[list[str]]:
+    return [[name, f"{value:g}" if isinstance(value, float | int) else str(value)] for name, value in gains.items()]
+
+
+def _tilt(run: Run) -> float:
+    """Angle of the rod from upright at the start of `run`, degrees."""
+    up = 1.0 if run.e3 == "up" else -1.0
+    return float(np.degrees(np.arccos(np.clip(up * run.y[0][2], -1.0, 1.0))))
+
+
+def _finite(limits: Sequence[float]) -> list[float | None]:
+    """Limits as JSON has them: None where there is none."""
+    return [float(limit) if np.isfinite(limit) else None for limit in limits]
 
 
 def _title(runs: Sequence[Run]) -> str:

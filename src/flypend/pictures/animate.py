@@ -19,7 +19,7 @@ from flypend.pictures.frames import Frame, stage
 Progress = Callable[[int, int], None]
 
 MAX_FRAMES = 100_000
-HOLD = 1.5  # s of playback for which the last frame of an incomplete run is held, with the outcome
+HOLD = 1.5  # s of playback for which the last frame is held, with the verdict
 
 
 def movie(
@@ -37,7 +37,7 @@ def movie(
     Parameters
     ----------
     run : Trajectory
-        In either frame. If it ends early, the last frame is held for 1.5 s with the outcome.
+        In either frame. The last frame is held for 1.5 s with the verdict of the studies.
     path : str or Path
         Path ending in .mp4 (H.264, yuv420p) or .gif.
     view : "side" or "axis"
@@ -65,7 +65,7 @@ def movie(
     if shape.shape != (2,) or np.any(shape < 160) or np.any(shape % 2):
         raise errors.InputError("size", "two even numbers of pixels, at least 160", size)
     width, height = (int(side) for side in shape)
-    hold = 0 if run.outcome.status == "completed" else round(HOLD * fps)
+    hold = round(HOLD * fps)
     with whole_file(path, (".mp4", ".gif")) as partial:
         frames = _frames(stage(run, times, view, speed, (width, height)), len(times), hold, progress)
         if gif:
@@ -95,7 +95,7 @@ def frame_times(run: Trajectory, *, speed: float, fps: float) -> Any:
 
 
 def _frames(render: Callable[[int, bool], Frame], count: int, hold: int, progress: Progress | None) -> Iterator[Frame]:
-    """Yield all frames: `count` of the flight, then the last one `hold` times with the outcome written on it."""
+    """Yield all frames: `count` of the flight, then the last one `hold` times with the verdict written on it."""
     for i in range(count + hold):
         if i <= count:
             frame = render(min(i, count - 1), i >= count)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -24,8 +26,13 @@ def title(run: Trajectory, between: str = ", ") -> str:
     usual = FACTORIES[run.law]().values if run.law in FACTORIES else {}
     chosen = {name: value for name, value in run.gains.items() if isinstance(value, str) and value != usual.get(name)}
     options = [f"{name} {value}" for name, value in chosen.items()]
-    gains = [f"${name}$ = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
+    gains = [f"{symbol(name)} = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
     return between.join(filter(None, [", ".join([f"{run.law} law", *options]), ", ".join(gains)]))
+
+
+def symbol(name: str) -> str:
+    """How figures write the gain `name`: k_1 as a letter with its index, rod_damping in words."""
+    return f"${name}$" if re.fullmatch(r"[a-zA-Z]_\w", name) else name.replace("_", " ")
 
 
 def decimals(run: Trajectory) -> int:

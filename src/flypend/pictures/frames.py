@@ -20,9 +20,10 @@ from matplotlib.patches import Polygon
 
 from flypend import geometry
 from flypend.flight.trajectory import Trajectory
+from flypend.flight.verdict import verdict
 from flypend.model import State
 from flypend.pages.sketch import Sketch
-from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
+from flypend.palette import ALARM, BLUE, GOOD, GREEN, INK, ORANGE, REAR, RED
 from flypend.pictures import drawing, lettering
 from flypend.pictures.camera import Camera, depth, magnification, project
 
@@ -63,9 +64,12 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
         _readout(head, times, states),
         _cursor(strip, times),
     ]
-    words = f"{run.outcome.status} at {run.outcome.time:.4g} s"
-    box = {"facecolor": "white", "edgecolor": "none", "pad": 2.0}
-    ending = scene.text(0, 0.85 * half[1], words, color=RED, fontsize=14, ha="center", bbox=box, animated=True)
+    told = verdict(run)
+    words = told["words"].replace(", ", "\n")
+    style = {"color": GOOD if told["good"] else ALARM, "fontsize": 14, "ha": "center", "va": "center"}
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 3.0}
+    side = -0.6 if states.y[-1, 2] > 0 else 0.78  # away from the bob
+    ending = scene.text(0, side * half[1], words, bbox=box, animated=True, **style)
     canvas.draw()
     background = canvas.copy_from_bbox(figure.bbox)
 

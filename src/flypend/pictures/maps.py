@@ -11,21 +11,23 @@ import numpy as np
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch
+from matplotlib.ticker import MultipleLocator
 
+from flypend import palette
 from flypend.errors import InputError
 from flypend.flight.metrics import wilson
-from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED, SKY
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.palette import INK
+from flypend.pictures.canvas import LABEL, SMALL, new_figure, symbol
+from flypend.pictures.style import PAGE
 from flypend.studies.sweep.bins import EDGE, Cells, Runs, default_plane, label, plane, side, sphere
 from flypend.studies.sweep.chunk import CAUSES
 
-WIDTH = 7.16  # two-column width of a paper, in
-# One colour per cause of failure; success is white.
-CAUSE_COLOURS = {"rod": BLUE, "axis": ORANGE, "position": GREEN, "diverged": RED, "singular": PINK, "collided": SKY}
+FAILED = [palette.CAUSES[name] for name in CAUSES[1:]]  # success is white
 EMPTY = "#e4e4e4"
 # Cells with a wider confidence interval are hatched.
 WIDE = 0.2
 RINGS = (30, 60)
+DEGREES = 45  # between the ticks of an angle
 HATCH = "//////"
 
 
@@ -69,7 +71,7 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     """
     runs = Runs(store)
     panels, names = _panels(runs, x, y, cells)
-    figure = new_figure(WIDTH if len(panels) > 1 else 0.6 * WIDTH, 9.2)
+    figure = new_figure(PAGE if len(panels) > 1 else 0.6 * PAGE, 9.2)
     figure.suptitle(_headline(runs, panels[-1].cells), fontsize=LABEL + 1)
     rows = figure.subplots(4, len(panels), squeeze=False, width_ratios=[1] * (len(panels) - 1) + [1.15])
     total = panels[-1].cells
@@ -174,7 +176,7 @@ def _unsure(panel: _Panel) -> Any:
 
 def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -> None:
     """Draw the most frequent cause of failure in each cell; white where no run failed."""
-    colours = ListedColormap(["#ffffff", *CAUSE_COLOURS.values()])
+    colours = ListedColormap(["#ffffff", *FAILED])
     image = None
     for axis, panel in zip(axes, panels, strict=True):
         failures = panel.cells.causes[1:]
@@ -207,9 +209,12 @@ def _frame(axis: Any, panel: _Panel, names: tuple[str, str] | None, *, last: boo
     if panel.part is None:
         assert names is not None
         axis.set_facecolor(EMPTY)
-        axis.set_ylabel(label(names[1]), fontsize=LABEL)
+        axis.set_ylabel(_label(names[1]), fontsize=LABEL)
         if last:
-            axis.set_xlabel(label(names[0]), fontsize=LABEL)
+            axis.set_xlabel(_label(names[0]), fontsize=LABEL)
+        for line, name in ((axis.xaxis, names[0]), (axis.yaxis, names[1])):
+            if "°" in label(name):
+                line.set_major_locator(MultipleLocator(DEGREES))
         return
     axis.set(xlim=(-1.03 * EDGE, 1.03 * EDGE), ylim=(-1.03 * EDGE, 1.03 * EDGE), aspect="equal")
     axis.axis("off")
@@ -224,6 +229,11 @@ def _frame(axis: Any, panel: _Panel, names: tuple[str, str] | None, *, last: boo
     axis.plot(0, 0, "+", color="white", markersize=6, markeredgewidth=2.2)
     axis.plot(0, 0, "+", color=INK, markersize=5, markeredgewidth=0.9)
     _note(axis, 0.0, 0.17, "inverted" if panel.part == 0 else "hanging")
+
+
+def _label(name: str) -> str:
+    """The axis label of a quantity; a gain as figures write it."""
+    return symbol(name.removeprefix("gains.")) if name.startswith("gains.") else label(name)
 
 
 def _note(axis: Any, x: float, y: float, words: str) -> None:

@@ -15,12 +15,12 @@ from flypend.pictures import drawing
 from flypend.pictures.camera import project
 from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
 from flypend.pictures.drawing import THRUST, TRAIL
-from flypend.pictures.style import style_named
+from flypend.pictures.style import Style, letter, style_of
 
 PICTURES = 0.726  # fraction of the figure width for the stop-motion pictures
 
 
-def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: str = "paper") -> Figure:
+def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: str | Style = "paper") -> Figure:
     """Draw `run` as `count` stop-motion pictures, and their positions on its path; two columns wide.
 
     The vehicle may travel a hundred metres while a half-metre rod turns over, so the pictures follow the pivot. Each
@@ -36,7 +36,7 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
         Number of pictures, >= 1. A run of zero length has one.
     view : "side" or "axis"
         Camera of the pictures; see `flypend.pictures.drawing.camera_for`.
-    style : "paper" or "slides"
+    style : "paper", "slides" or Style
         Figure format.
 
     Raises
@@ -44,7 +44,7 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
     InputError
         If the view or style is unknown, or the count is below 1.
     """
-    form = style_named(style)
+    form = style_of(style)
     count = int(errors.number("count", count, at_least=1))
     reach = drawing.reach(run.vehicle)
     camera = drawing.camera_for(run, view, distance=drawing.EYE * reach)
@@ -53,7 +53,8 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
     rows = -(-len(times) // columns)
     width, height = 2.3 * reach, 2.55 * reach
     inch = columns * width / (PICTURES * form.full[0])  # m of the drawing per inch of paper
-    figure = new_figure(form.full[0], max(2.8, rows * height / inch + 0.6), form.dpi)
+    needed = rows * height / inch + 0.6
+    figure = new_figure(form.full[0], form.full[1] if form.fixed else max(2.8, needed), form.dpi)
     path, pictures = figure.subplots(1, 2, width_ratios=(1 - PICTURES, PICTURES))
     pictures.set_axis_off()
     pictures.set(xlim=(0, columns * width), ylim=(-rows * height - 0.4 * inch, 0), aspect="equal", anchor="N")
@@ -70,8 +71,9 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
     _key(pictures, run, view, -rows * height - 0.22 * inch, columns * width)
     _path(path, run, times)
     seen = "seen from above" if view == "axis" else "seen from the side"
-    pictures.set_title(f"{title(run)}, {seen}", fontsize=LABEL)
-    return figure
+    if form.titled:
+        pictures.set_title(f"{title(run)}, {seen}", fontsize=LABEL)
+    return letter(figure, form)
 
 
 def snapshot_times(run: Trajectory, count: int) -> Any:

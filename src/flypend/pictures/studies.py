@@ -9,38 +9,49 @@ from matplotlib.figure import Figure
 
 from flypend.palette import SERIES
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.style import PAGE
 from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
 
 MARKERS = "osD^vPX"
-WIDTH = 7.16  # two-column width of a paper, in
 
 
 def comparison_figure(comparison: Comparison) -> Figure:
     """Cumulative distributions of settling time and excursion over all runs, one curve per law of `comparison`."""
-    figure = new_figure(WIDTH, 2.9)
+    figure = new_figure(PAGE, 2.9)
     axes = figure.subplots(1, 2, sharey=True)
     for i, (name, ensemble) in enumerate(comparison.ensembles.items()):
         label = f"{name}: {100 * ensemble.rate:.1f} % of {len(ensemble)}"
         for axis, field in zip(axes, ("settling", "excursion"), strict=True):
-            values = np.sort(np.where(ensemble.success, getattr(ensemble, field), np.inf))
-            share = 100 * np.arange(1, len(values) + 1) / len(values)
-            axis.step(values, share, where="post", color=SERIES[i % len(SERIES)], label=label, ls=_dash(i))
+            values = np.sort(getattr(ensemble, field)[ensemble.success])
+            share = 100 * np.arange(len(values) + 1) / len(ensemble)
+            steps = axis.step(np.append(0.0, values), share, where="post", color=SERIES[i % len(SERIES)], ls=_dash(i))
+            steps[0].set_label(label)
     axes[0].set(xlabel="time (s)", ylabel="runs settled by then (%)", ylim=(0, 102))
     axes[1].set(xlabel="largest distance from the reference (m)", ylabel="runs settled within (%)")
     figure.legend(
         *axes[0].get_legend_handles_labels(), fontsize=SMALL, loc="outside upper left", ncols=2, frameon=False
     )
     for axis in axes:
-        axis.set_xlim(left=0)
+        _extend(axis)
     _finish(axes)
     return figure
+
+
+def _extend(axis: Any) -> None:
+    """Begin `axis` at 0, and go on with every curve to its right edge: what has not settled by then does not."""
+    lines = axis.get_lines()
+    right = 1.04 * max(line.get_xdata()[-1] for line in lines) or 1.0
+    for line in lines:
+        x, y = line.get_data()
+        line.set_data(np.append(x, right), np.append(y, y[-1]))
+    axis.set_xlim(0, right)
 
 
 def ladder_figure(ladder: Ladder) -> Figure:
     """Success rate with its Wilson interval (95 %), and 95th percentile of the excursion, per rung of `ladder`."""
     rungs = list(ladder.rungs)
-    figure = new_figure(WIDTH, 4.6)
+    figure = new_figure(PAGE, 4.6)
     axes = figure.subplots(2, 1, sharex=True)
     laws = list(next(iter(ladder.rungs.values())).ensembles)
     for i, law in enumerate(laws):

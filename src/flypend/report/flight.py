@@ -15,6 +15,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.model.vehicle import told
 from flypend.paper.claims import Verdict
 from flypend.paper.proved import claims_of
+from flypend.pictures.style import Style
 from flypend.report import text
 
 VIEWS = ("side", "axis")
@@ -24,7 +25,7 @@ Task = Callable[[], Any]
 
 
 def figure_tasks(
-    run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True, style: str = "paper"
+    run: Trajectory, folder: Path, prefix: str = "", stop_motion: bool = True, style: str | Style = "paper"
 ) -> list[tuple[str, Task]]:
     """Return named tasks that draw the figures of `run` in `style` into `folder`; `prefix` starts each file name."""
     from flypend.pictures import figures  # imports matplotlib, which is slow and not needed without figures
@@ -58,7 +59,7 @@ def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[s
     ]
 
 
-def draw(figure: Callable[..., Any], run: Trajectory, path: Path, style: str = "paper") -> None:
+def draw(figure: Callable[..., Any], run: Trajectory, path: Path, style: str | Style = "paper") -> None:
     """Draw one `figure` of `run` in `style` to `path` as .pdf and .png."""
     whole.save_both(figure(run, style=style), path)
 

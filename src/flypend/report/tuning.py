@@ -13,11 +13,11 @@ from flypend.files.staging import staged
 from flypend.files.toml import toml_text
 from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.canvas import LABEL, SMALL, new_figure, symbol
+from flypend.pictures.style import PAGE
 from flypend.report.text import write_json
 from flypend.studies.tune import Tuned
 
-WIDTH = 7.16  # in, two columns of a paper
 STYLES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (ORANGE, ":"), (GREY, (0, (5, 1, 1, 1, 1, 1))))
 
 
@@ -53,7 +53,7 @@ def told(report: dict[str, Any]) -> str:
 
 def history_figure(result: Tuned) -> Figure:
     """Draw cost against runs flown, with the cost before and after on the study's starts, and the central gains."""
-    figure = new_figure(WIDTH, 2.9)
+    figure = new_figure(PAGE, 2.9)
     left, right = figure.subplots(1, 2)
     runs = np.array([entry["runs"] for entry in result.history])
     left.plot(runs, [entry["best"] for entry in result.history], color=BLUE, label="best so far, tuning starts")
@@ -64,7 +64,7 @@ def history_figure(result: Tuned) -> Figure:
     for i, name in enumerate(result.gains):
         colour, style = STYLES[i % len(STYLES)]
         values = np.array([entry["centre"][name] for entry in result.history]) / result.before["gains"][name]
-        right.plot(runs, values, color=colour, ls=style, label=f"{name} = {result.gains[name]:g}")
+        right.plot(runs, values, color=colour, ls=style, label=f"{symbol(name)} = {result.gains[name]:g}")
     right.axhline(1.0, color=GREY, lw=0.6)
     right.set_ylabel("gain over initial gain (–)", fontsize=LABEL)
     for axis in (left, right):

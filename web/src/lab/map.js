@@ -37,6 +37,11 @@ export class Map {
     this.draw();
   }
 
+  /** Say why there is no map. */
+  refuse(message) {
+    this.share.textContent = `not computed: ${message}`;
+  }
+
   get good() {
     return this.points.filter((point) => point.settling !== null).length;
   }

@@ -6,7 +6,8 @@ const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
 const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
 
 const HTML = `
-  <section><h2>Flight</h2>
+  <section><h2>Flight <button type="button" class="small undo" title="Take back the last change (Ctrl+Z)" disabled>undo</button>
+    <button type="button" class="small redo" title="Do it again (Ctrl+Shift+Z)" disabled>redo</button></h2>
     <label class="row">Vehicle <select data-path="vehicle.base"></select></label>
     <label class="row">Law <select data-path="law.name"></select></label>
     <label class="row">Plant <select data-path="plant.base"></select></label>
@@ -20,8 +21,8 @@ const HTML = `
     <label class="row">Direction <select class="way" aria-label="Direction"></select></label>
     <div class="strength"></div>
     <button type="button" class="unpoke" hidden>Remove pokes</button></section>
-  <section class="has-gains"><h2>Gains <button type="button" class="reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
-  <section class="has-plant"><h2>Plant <button type="button" class="reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
+  <section class="has-gains"><h2>Gains <button type="button" class="small reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
+  <section class="has-plant"><h2>Plant <button type="button" class="small reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
   <section><h2>Export</h2>
     <div class="row two"><button type="button" data-export="toml">TOML</button><button type="button" data-export="python">Python</button></div>
     <div class="export" hidden><textarea readonly rows="9" spellcheck="false" aria-label="Export"></textarea>
@@ -31,9 +32,9 @@ export class Panel {
   /** `lab` has setting, offer, and what the buttons do. */
   constructor(parent, lab) {
     this.lab = lab;
-    this.root = document.createElement("aside");
+    this.root = document.createElement("section");
     Object.assign(this.root, { className: "panel", innerHTML: HTML, ariaLabel: "Controls" });
-    parent.append(this.root);
+    parent.querySelector("header").after(this.root); // before the picture, for those who go by keys
     this.groups = Object.fromEntries(["gains", "plant", "flight"].map((name) =>
       [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
     this.#choices();
@@ -55,6 +56,8 @@ export class Panel {
       select.addEventListener("change", () => this.lab.choose(what, select.value));
       return select;
     });
+    this.#find(".undo").addEventListener("click", () => this.lab.setting.undo());
+    this.#find(".redo").addEventListener("click", () => this.lab.setting.redo());
     this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
     this.#find(".has-plant .reset").addEventListener("click", () => this.lab.reset("plant"));
   }
@@ -128,6 +131,8 @@ export class Panel {
 
   /** Show the setting, as far as it says so itself. */
   setting(value) {
+    this.#find(".undo").disabled = !this.lab.setting.past.length;
+    this.#find(".redo").disabled = !this.lab.setting.future.length;
     for (const select of this.selects) {
       const [what, key] = select.dataset.path.split(".");
       select.value = value[what]?.[key];
@@ -153,16 +158,16 @@ export class Panel {
     this.complain("", "");
   }
 
-  /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */
-  complain(message, field, path) {
+  /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */  complain(message, field, path) {
     for (const old of this.root.querySelectorAll(".complaint")) old.remove();
     if (!message) return;
     const controls = [...this.root.querySelectorAll("[data-path]")];
     const own = controls.find((control) => control.dataset.path === field || field.startsWith(`${control.dataset.path}.`))
       ?? controls.find((control) => control.dataset.path === path);
     if (!own) return;
-    const words = document.createElement("p");
-    Object.assign(words, { className: "complaint", textContent: message, role: "alert" });
+    const words = document.createElement("p"), slider = this.groups.gains.sliders.find((other) => other.root === own);
+    const bound = slider?.bound() ?? "";
+    Object.assign(words, { className: "complaint", textContent: bound ? `${message}. ${bound}` : message, role: "alert" });
     (own.closest("label") ?? own).after(words);
   }
 }

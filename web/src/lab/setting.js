@@ -1,11 +1,14 @@
 // The setting of the laboratory: plain data that the server understands, kept in the address so that a reload keeps it.
 
 const HASH_DELAY = 250; // ms
+const PAUSE = 1500; // ms between two moves of a slider that are two changes
+const MOST = 200; // changes that can be taken back
 
 export class Setting {
   /** `first` is what to begin with unless the address has a setting; `changed` is called with it after every change. */
   constructor(first, changed) {
-    Object.assign(this, { first, changed, value: read() ?? structuredClone(first) });
+    Object.assign(this, { first, changed, value: read() ?? structuredClone(first), past: [], future: [] });
+    this.unreadable = location.hash.length > 1 && !read();
     addEventListener("pagehide", () => this.#keep());
     addEventListener("hashchange", () => {
       const value = read();
@@ -19,6 +22,7 @@ export class Setting {
 
   /** Put `value` at a path such as "law.gains.k_d". */
   put(path, value) {
+    this.#remember(path);
     const keys = path.split("."), last = keys.pop();
     let table = this.value;
     for (const key of keys) table = (table[key] ??= {});
@@ -32,8 +36,36 @@ export class Setting {
   }
 
   replace(value) {
+    this.#remember("");
     this.value = structuredClone(value);
     this.#tell();
+  }
+
+  /** Take back the last change; the moves of one slider, one after the other, are one change. */
+  undo() {
+    this.#step(this.past, this.future);
+  }
+
+  redo() {
+    this.#step(this.future, this.past);
+  }
+
+  #step(from, to) {
+    if (!from.length) return;
+    to.push(structuredClone(this.value));
+    this.value = from.pop();
+    this.moved = null;
+    this.#tell();
+  }
+
+  /** Keep what was before a change at `path`, unless the same slider has just been moved. */
+  #remember(path) {
+    const now = performance.now();
+    const same = path && this.moved?.path === path && now - this.moved.time < PAUSE;
+    this.moved = { path, time: now };
+    if (same) return;
+    this.past = [...this.past.slice(1 - MOST), structuredClone(this.value)];
+    this.future = [];
   }
 
   /** Take the numbers of a start that was asked for in other words; nothing changes by it. */

@@ -1,9 +1,14 @@
 // One slider with its words, its value and a place for what the server has against it.
 
+import { tick } from "../words.js";
+
 const STEPS = 400;
 
 export class Slider {
-  /** Of `facts` { path, words, unit, value, low, high, log }, appended to `parent`; `moved` is told the value. */
+  /**
+   * Of `facts` { path, words, unit, value, low, high, log, allowed }, appended to `parent`; `moved` is told the value.
+   * Outside `allowed` ([low, high], if there is one) the track is shaded: the law refuses such a value beside the others.
+   */
   constructor(parent, facts, moved) {
     this.root = document.createElement("label");
     this.root.className = "slider";
@@ -29,10 +34,24 @@ export class Slider {
     if (this.held) return;
     this.facts = { ...facts };
     this.words.textContent = facts.words;
-    const { value, low, high, log } = facts;
-    const share = log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
-    this.input.value = Math.round(STEPS * share);
-    this.#write(value);
+    this.input.value = Math.round(STEPS * this.#share(facts.value));
+    const [least, most] = facts.allowed ?? [facts.low, facts.high];
+    this.input.style.setProperty("--least", `${100 * this.#share(least)}%`);
+    this.input.style.setProperty("--most", `${100 * this.#share(most)}%`);
+    this.#write(facts.value);
+  }
+
+  /** The range that the law allows, in words, or "" if all of it is allowed. */
+  bound() {
+    const { low, high, allowed, unit, words } = this.facts;
+    if (!allowed || (allowed[0] <= low && allowed[1] >= high)) return "";
+    return `With the other gains as they are, ${words} may be ${tick(+allowed[0].toPrecision(3))} to ${tick(+allowed[1].toPrecision(3))}${unit ? ` ${unit}` : ""}`;
+  }
+
+  /** Where on the slider a value is, from 0 to 1. */
+  #share(value) {
+    const { low, high, log } = this.facts;
+    return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
   }
 
   #value(share) {
@@ -42,10 +61,9 @@ export class Slider {
   }
 
   #write(value) {
-    const { unit, low, high, log } = this.facts;
-    const share = log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
-    this.input.style.setProperty("--done", `${100 * share}%`);
-    const words = `${String(+value.toPrecision(3)).replace("-", "−")}${unit ? ` ${unit}` : ""}`;
+    const { unit } = this.facts;
+    this.input.style.setProperty("--done", `${100 * this.#share(value)}%`);
+    const words = `${tick(+value.toPrecision(3))}${unit ? ` ${unit}` : ""}`;
     this.output.textContent = words;
     this.input.setAttribute("aria-valuetext", words);
   }

@@ -1,14 +1,41 @@
 // The machine: hub, arms, rotors, thrust arrows, rod and bob, as a group that takes poses with e3 up. Metres.
 
 import {
-  CircleGeometry, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial,
-  RingGeometry, Shape, ShapeGeometry, SphereGeometry, Vector3,
+  CircleGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial,
+  RingGeometry, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry, Vector3,
 } from "three";
 
 const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
 const Z = new Vector3(0, 0, 1);
 const HOVER_ARROW = 0.7, LONGEST_ARROW = 1.1; // lengths of the thrust arrow over the rod, as in the figures
 const ROTOR_ARROW = 0.32; // the same for one rotor that carries its share
+
+const RIM_VERTEX = `
+varying vec3 normalSeen, seen;
+void main() {
+  vec4 view = modelViewMatrix * vec4(position, 1.0);
+  normalSeen = normalMatrix * normal;
+  seen = -view.xyz;
+  gl_Position = projectionMatrix * view;
+}`;
+
+const RIM_FRAGMENT = `
+uniform vec3 color;
+uniform float opacity;
+varying vec3 normalSeen, seen;
+void main() {
+  float facing = abs(dot(normalize(normalSeen), normalize(seen)));
+  gl_FragColor = vec4(color, opacity * mix(0.08, 1.0, 1.0 - smoothstep(0.35, 0.62, facing)));
+  #include <colorspace_fragment>
+}`;
+
+/** Paint that shows the outline of a body, and lets be seen what is inside and behind. */
+function outline(opacity) {
+  return new ShaderMaterial({
+    vertexShader: RIM_VERTEX, fragmentShader: RIM_FRAGMENT, transparent: true, depthWrite: false,
+    uniforms: { color: { value: new Color() }, opacity: { value: opacity } },
+  });
+}
 
 /** Where the parts of the machine get their colours; a ghost is translucent, casts no shadow, and has one colour. */
 function paints(ghost) {
@@ -49,17 +76,17 @@ function rotor(radius, paint, ghost, height) {
 
 /** An arrow along +z of its group, of length 1 before `stretch`. */
 class Arrow extends Group {
-  constructor(width, paint, ghost) {
+  constructor(width, paint, ghost, { heads = 4.5, open = false } = {}) {
     super();
-    this.width = width;
-    this.shaft = solid(new CylinderGeometry(0.5, 0.5, 1, 14), paint, ghost);
-    this.head = solid(new ConeGeometry(1.5, 1, 20), paint, ghost);
+    Object.assign(this, { width, heads });
+    this.shaft = solid(new CylinderGeometry(0.5, 0.5, 1, 24, 1, open), paint, ghost);
+    this.head = solid(new ConeGeometry(open ? 1 : 1.5, 1, 32, 1, open), paint, ghost);
     this.add(this.shaft, this.head);
     for (const part of [this.shaft, this.head]) part.rotation.x = Math.PI / 2;
   }
 
   stretch(length) {
-    const size = Math.abs(length), head = Math.min(4.5 * this.width, 0.6 * size);
+    const size = Math.abs(length), head = Math.min(this.heads * this.width, 0.6 * size);
     this.visible = size > 0.4 * this.width;
     this.rotation.x = length < 0 ? Math.PI : 0;
     this.shaft.scale.set(this.width, Math.max(size - head, 1e-6), this.width);
@@ -79,7 +106,8 @@ export class Model extends Group {
     this.body = new Group();
     this.add(this.body, this.#rod(rod));
     this.#frame(span);
-    this.thrust = new Arrow(0.035 * rod, this.paint.thrust, ghost);
+    this.rim = outline(ghost ? 0.4 : 0.85);
+    this.thrust = new Arrow(0.085 * rod, this.rim, true, { heads: 1.8, open: true }); // wide enough for the rod to stand inside
     this.body.add(this.thrust);
   }
 
@@ -147,7 +175,7 @@ export class Model extends Group {
       paint.color.set(this.ghost ? colours.ghost : colours[role]);
       paint.side = DoubleSide;
     }
+    this.rim.uniforms.color.value.set(this.ghost ? colours.ghost : colours.thrust);
     for (const [side, glass] of Object.entries(this.glass)) glass.color.set(this.ghost ? colours.ghost : colours[side]);
   }
 }
-

@@ -41,7 +41,7 @@ export class Rig {
     }
     if (this.preset === "side") return { azimuth: side, elevation: 0.21, distance: 1.15 * near, follow: 1 };
     if (this.preset === "axis") return { azimuth: -Math.PI / 2, elevation: Math.PI / 2, distance: 1.15 * near, follow: 1 };
-    return { azimuth: side - 0.75, elevation: 0.34, distance: 1.5 * near, follow: 1 };
+    return { azimuth: side - 0.75, elevation: 0.3, distance: 1.2 * near, follow: 1 };
   }
 
   /** The distance from which the whole box is in the picture, with room for the machine. */

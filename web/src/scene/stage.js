@@ -2,6 +2,7 @@
 
 import { PerspectiveCamera, PCFShadowMap, Scene, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
 
+import { calm } from "../motion.js";
 import { norm, roundUp } from "../numbers.js";
 import { Flyer } from "./flyer.js";
 import { Rig } from "./rig.js";
@@ -38,7 +39,7 @@ export class Stage {
     if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box: this.holds.size ? this.rig.box : box });
     else {
       this.rig = new Rig(flights[0].direction, reach, box);
-      this.rig.choose(Math.max(...box.half) < 4 * reach ? "overview" : "follow");
+      this.rig.choose("follow");
     }
     this.scene.add(...this.#things());
     if (this.colours) this.colour(this.colours);
@@ -100,7 +101,7 @@ export class Stage {
     const { renderer, rig } = this;
     const ports = this.viewports();
     rig.aspect = ports[0].width / ports[0].height;
-    const moving = rig.glide(elapsed);
+    const moving = rig.glide(calm() ? Infinity : elapsed);
     renderer.setScissorTest(true);
     this.views = ports.map((port) => {
       const { left, top, width, height, main } = port;

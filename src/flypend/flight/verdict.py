@@ -1,0 +1,47 @@
+"""How a flight ended, in one line for a page: by the criterion that the studies use."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from flypend.flight.criterion import Criterion
+from flypend.flight.metrics import metrics
+from flypend.model.state import E3Direction
+
+MISSED = {"rod": "rod not settled", "axis": "vehicle not level", "position": "off its reference"}
+
+Run = Any  # flypend.Trajectory, not imported: its module imports this one
+
+
+def goal(e3: E3Direction) -> Criterion:
+    """Return the goal of a law: inverted at the reference if `e3` is up, else y → e₃ at any position."""
+    return Criterion() if e3 == "up" else Criterion(target="e3", position=np.inf)
+
+
+def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
+    """Judge `run` by `criterion`, by default the `goal` of its frame.
+
+    Returns
+    -------
+    dict
+        `words`, one line; `good`, whether it succeeded; `settling` (s) and `excursion` (m), or None; `reason` why a run
+        ended early, or "".
+    """
+    judged = metrics(run, criterion or goal(run.e3))
+    distance = f"excursion {round(judged.excursion, 2):.3g} m"
+    if run.outcome.status != "completed":
+        words = f"{run.outcome.status} after {run.outcome.time:.3g} s"
+    elif judged.success:
+        pose = "upright" if run.e3 == "up" else "rod along e₃, which hangs,"
+        words = f"{pose} after {judged.settling:.1f} s, {distance}"
+    else:
+        words = f"{MISSED.get(judged.cause, judged.cause)} during the last second, {distance}"
+    return {
+        "words": words,
+        "good": bool(judged.success),
+        "settling": judged.settling if judged.success else None,
+        "excursion": judged.excursion if np.isfinite(judged.excursion) else None,
+        "reason": run.outcome.reason,
+    }

@@ -9,6 +9,7 @@ from pathlib import Path
 from flypend.errors import InputError
 
 GIGABYTE = 1e9
+ALWAYS = 1e8  # bytes that are not worth asking for
 
 
 def free_memory() -> float:
@@ -32,6 +33,6 @@ def free_memory() -> float:
 
 def check_fits(field: str, needed: float, what: str) -> None:
     """Raise InputError, which blames `field`, if `what` takes more than the free memory; `needed` is in bytes."""
-    if needed > (free := free_memory()):
+    if needed > ALWAYS and needed > (free := free_memory()):
         told = f"{what}, which need {needed / GIGABYTE:.3g} GB"
         raise InputError(field, f"what fits the {free / GIGABYTE:.3g} GB of free memory", told)

@@ -24,6 +24,7 @@ from flypend.flight.criterion import Criterion, gauge_bounds, gauged
 from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.flight.kernels.touching import touch_of
+from flypend.flight.moments import distinct
 from flypend.flight.request import Flight
 from flypend.geometry import hat
 from flypend.laws import BoundLaw
@@ -289,7 +290,7 @@ def _shared(matrix: NDArray[np.float64], vector: Any) -> Any:
     rows = [ca.SX(0) for _ in matrix]
     for column, factor in zip(matrix.T, ca.vertsplit(vector), strict=True):
         digits = np.round(column, 14 - int(np.ceil(np.log10(np.max(np.abs(column))))))
-        products = {size: size * factor for size in np.unique(np.abs(digits)) if size}
+        products = {size: size * factor for size in distinct(np.abs(digits)) if size}
         for i, entry in enumerate(digits):
             if entry:
                 rows[i] += products[abs(entry)] if entry > 0 else -products[abs(entry)]

@@ -549,14 +549,16 @@ def test_a_terminal_that_lacks_the_signs_gets_something_else_for_them(tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
-    """Three runs of hours: below 64, nothing was heard. --force is not repeated, for it would start over."""
+    """Sixty runs of minutes: below 64, nothing was heard. --force is not repeated, for it would start over."""
     (tmp_path / "study.toml").write_text(
-        'vehicle = "hehn2011"\nlaw = { name = "lqr" }\nduration = 19000.0\njudge_period = 10.0\nruns = 3\nchunk = 3\n'
+        'vehicle = "hehn2011"\nlaw = { name = "lqr" }\nduration = 19000.0\njudge_period = 10.0\nruns = 60\nchunk = 60\n'
         '[vary.start]\nomega = { ball = 0.1 }\n[start]\ny = [0.0, 0.0, 1.0]\n',
         encoding="utf-8",
     )  # fmt: skip
     command = [sys.executable, "-m", "flypend", "sweep", "study.toml", "-o", "my runs.zarr", "--force"]
-    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+    # Whoever runs the tests in the background ignores SIGINT, and so would the process.
+    deaf = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, **deaf) as process:
         time.sleep(6)
         assert process.poll() is None
         sent = time.monotonic()

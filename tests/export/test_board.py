@@ -11,6 +11,7 @@ from flypend.board.computer import SteppedBoard
 from flypend.board.program import observer_memory
 from flypend.export import compiled, records, vectors
 from flypend.export.library import CompiledBoard, library
+from flypend.flight import request
 from flypend.laws.references import circle
 from flypend.model.state import FLIP_PACKED
 from flypend.plants.equations import EquationsEngine
@@ -140,7 +141,8 @@ def test_the_crazyflie_stands_inverted_by_the_exported_c_alone(plant):
     assert runs.rate == 1.0
 
 
-def test_a_refused_state_ends_a_flight_as_singular():
+def test_a_refused_state_ends_a_flight_as_singular(monkeypatch):
+    monkeypatch.setattr(request, "MOST_SPIN", np.inf)  # a flight refuses such a start before the C does
     start = fp.State(y=(0, 0, 1), omega=(1e20, 1e20, 0))  # ω × I ω overflows single precision
     run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), start, 0.1, plant="rotors")
     assert run.outcome.status == "singular"

@@ -24,8 +24,10 @@ CALLS = {
     "tangents": "fp.sensitivity(vehicle, law, start, 19_000.0)",
 }
 CODE = """
-import sys, flypend as fp, numpy as np
-vehicle, law = fp.vehicle("hehn2011"), fp.laws.lqr()
+import signal, sys, flypend as fp, numpy as np
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whoever runs the tests in the background ignores it
+from flypend.laws.references import circle
+vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted(circle(0.5, 1.0))
 start, starts = fp.State(y=(0, 0, 1.0)), fp.State(y=np.tile([0.0, 0.0, 1.0], (3, 1)))
 {warm}
 print("ready", flush=True)

@@ -280,7 +280,7 @@ def test_what_cannot_be_flown_is_told_beside_its_control(visit):
     control.fill("399")
     until(page, "document.querySelector('.complaint') !== null")
     complaint = page.locator(".complaint")
-    assert "each 1.5 times the one before" in complaint.inner_text()
+    assert "at least 1.5 times the rod_bandwidth" in complaint.inner_text()
     assert complaint.evaluate("e => e.previousElementSibling.dataset.path") == "law.gains.rod_bandwidth"
     assert page.locator("header > .verdict").inner_text() == "not flown"
     assert page.evaluate("flypend.pose(0).y") == good  # the last flight stays, paler and at rest

@@ -672,7 +672,9 @@ def test_a_picture_that_fails_leaves_nothing_of_the_reproduction(runs, tmp_path,
     monkeypatch.setattr(paper, "figure_tasks", lambda *_, **__: [])
     key = ("corrected", "1")
     monkeypatch.setattr(
-        paper, "_judge", lambda _, swing_up: Reproduction({key: [verdict()]}, {key: ""}, [], swing_up, {})
+        paper,
+        "_judge",
+        lambda _, swing_up: Reproduction({key: [verdict()]}, {key: ""}, [], swing_up, {key: [verdict()]}),
     )
     with pytest.raises(error):
         reproduce(out, quick=True)

@@ -4,8 +4,8 @@ import io
 import json
 
 import pytest
+from click.testing import CliRunner
 from rich.console import Console
-from typer.testing import CliRunner
 
 import flypend as fp
 from flypend.cli.app import app

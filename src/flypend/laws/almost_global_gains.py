@@ -51,7 +51,7 @@ GAINS = table(
             "position_speed", _scaled(3.7, 1, -1), "m/s", "L_v: speed beyond which it hardly grows", POSITIVE,
         ),
         Gain(
-            "height_stiffness", _scaled(0.565, 0, -2), "1/s²", "k_z: stiffness of the bob's height", POSITIVE,
+            "height_stiffness", _scaled(0.57, 0, -2), "1/s²", "k_z: stiffness of the bob's height", POSITIVE,
             label="height",
         ),
         Gain("height_reach", _scaled(0.82, 1, 0), "m", "L_z: error beyond which the pull hardly grows", POSITIVE),

@@ -139,7 +139,7 @@ def summary(ensemble: Ensemble) -> dict[str, Any]:
         "excursion_max": ensemble.percentile("excursion", 100),
         "effort_p50": ensemble.percentile("effort", 50),
         "peak_force_max": ensemble.percentile("peak_force", 100),
-        "clearance_p5": ensemble.percentile("clearance", 5),
+        **({"clearance_p5": ensemble.percentile("clearance", 5)} if ensemble.vehicle.mount != "gimbal" else {}),
         "causes": {str(cause): int((failed == cause).sum()) for cause in sorted(set(failed.tolist()))},
     }
 

@@ -162,8 +162,11 @@ export class Panel {
     for (const old of this.root.querySelectorAll(".complaint")) old.remove();
     if (!message) return;
     const controls = [...this.root.querySelectorAll("[data-path]")];
-    const own = controls.find((control) => control.dataset.path === field || field.startsWith(`${control.dataset.path}.`))
-      ?? controls.find((control) => control.dataset.path === path);
+    const moved = controls.find((control) => control.dataset.path === path);
+    const gains = [field, path ?? ""].every((name) => name.startsWith("law.gains."));  // the one that moved does not fit the other
+    const own = (gains ? moved : null)
+      ?? controls.find((control) => control.dataset.path === field || field.startsWith(`${control.dataset.path}.`))
+      ?? moved;
     if (!own) return;
     const words = document.createElement("p"), slider = this.groups.gains.sliders.find((other) => other.root === own);
     const bound = slider?.bound() ?? "";

@@ -8,7 +8,7 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.geometry import random_rotation, random_sphere
 from flypend.model.body import Body
-from flypend.model.mount import clearances, margins, part_names
+from flypend.model.mount import clearances, least_margin, margins, margins_of, part_names
 
 LENGTH = 0.565
 BODY = Body(disc_radius=0.0635, arm_radius=0.006, hub_radius=0.03, rod_radius=0.005)
@@ -64,6 +64,19 @@ def test_between_two_arms_the_rod_passes_and_along_an_arm_it_does_not():
         rod = np.array([np.cos(bearing), np.sin(bearing), 0.0])
         assert (clearances(rod, CENTRES, LENGTH, BODY).min() > 0) == passes
     assert np.degrees(room) == pytest.approx(21.2, abs=0.05)
+
+
+@pytest.mark.parametrize("height", [0.0, 0.02, -0.015])
+def test_the_nearest_part_is_found_without_a_look_at_the_others(height):
+    """Rotors of equal height and distance: the smallest margin and its place, from one disc and one arm."""
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub", rotor_positions=CENTRES + np.array([0, 0, height]))
+    u, push = ca.SX.sym("u", 3), ca.SX(0)
+    nearest = ca.Function("nearest", [u], [ca.vertcat(*least_margin(u, push, vehicle))])
+    for rod in rods(500, seed=6):
+        every = margins_of(rod, np.zeros(()), vehicle)
+        least, place, clearance = nearest(rod).full().ravel()
+        assert least == clearance == pytest.approx(every.min(), abs=1e-12)
+        assert every[int(place)] == pytest.approx(every.min(), abs=1e-12)
 
 
 @pytest.mark.parametrize("e3", ["up", "down"])

@@ -62,7 +62,8 @@ def least_margin(rod: Any, push: Any, vehicle: Vehicle) -> tuple[Any, Any, Any]:
 
 def _alike(centres: Any) -> bool:
     """Whether all rotors are as high, and as far from the pivot."""
-    return bool(np.allclose(centres[:, 2], centres[0, 2]) and np.allclose(np.ptp(np.linalg.norm(centres, axis=1)), 0))
+    distances = np.linalg.norm(centres, axis=1)
+    return bool(np.allclose(centres[:, 2], centres[0, 2]) and np.allclose(distances, distances[0]))
 
 
 def _smallest(values: Any) -> tuple[Any, Any]:

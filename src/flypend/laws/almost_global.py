@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E3, cross, dot, norm, scale
+from flypend.geometry import E3, apply, cross, dot, norm, scale
 from flypend.laws.almost_global_bounds import theorem_b
 from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
 from flypend.laws.axis import axis_moment, axis_rate
@@ -109,7 +109,7 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> C
 
     terms = (*outer.terms, u.potential, u.kinetic)
     return Control(
-        wrench=Wrench(f, axis_moment(state, vehicle, u.force, k.yaw_damping)),
+        wrench=Wrench(f, axis_moment(state, vehicle, apply(state.R.T, u.force), k.yaw_damping)),
         lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
         signals={
             "V_rate_claimed": outer.decay + u.decay,  # (B9)

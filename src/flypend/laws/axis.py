@@ -8,6 +8,7 @@ import casadi as ca
 
 from flypend.geometry import E3, apply, cross
 from flypend.model import State, Vehicle
+from flypend.model.dynamics import gyroscopic_moment
 
 
 def axis_rate(state: State) -> Any:
@@ -16,12 +17,14 @@ def axis_rate(state: State) -> Any:
 
 
 def axis_moment(state: State, vehicle: Vehicle, u: Any, yaw_damping: Any) -> Any:
-    """Return the moment (3, 1), N m, under which z̈ = −|ż|² z + `u` and ω̇₃ = −`yaw_damping` ω₃.
+    """Return the moment (3, 1), N m, under which z̈ = −|ż|² z + R `u` and ω̇₃ = −`yaw_damping` ω₃.
 
-    `u` is tangent at z, 1/s²; `vehicle` has its inertia in the body frame of `state` (see `Vehicle.seen`).
+    `u` is in the body frame and normal to e₃, 1/s²; `vehicle` has its inertia in the body frame of `state` (see
+    `Vehicle.seen`).
 
-    z̈ = R (ω̇ × e₃) + ω₃ R (ω₁, ω₂, 0) − |ż|² z, so R (ω̇₁, ω̇₂, 0) = z × u + ω₃ ż. (setmu) leaves ω̇₃ free.
+    z̈ = R (ω̇ × e₃) + ω₃ R (ω₁, ω₂, 0) − |ż|² z, so (ω̇₁, ω̇₂, 0) = e₃ × u + ω₃ ω × e₃. (setmu) leaves ω̇₃ free.
     """
-    turn = apply(state.R.T, cross(state.z, u) + state.omega[2] * axis_rate(state))
-    alpha = ca.vertcat(turn[0], turn[1], -yaw_damping * state.omega[2])
-    return apply(vehicle.I, alpha) + cross(state.omega, apply(vehicle.I, state.omega))
+    omega = state.omega
+    turn = cross(E3, u) + omega[2] * cross(omega, E3)
+    alpha = ca.vertcat(turn[0], turn[1], -yaw_damping * omega[2])
+    return apply(vehicle.I, alpha) + gyroscopic_moment(vehicle.I, omega)

@@ -19,6 +19,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.geometry import E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
+from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
 from flypend.laws.gain import documented
 from flypend.laws.inverted_gains import GAINS, computer_of, go_together
@@ -38,7 +39,6 @@ from flypend.laws.throw import (
     steering_force,
 )
 from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
-from flypend.model.dynamics import gyroscopic_moment
 
 # ε in the thrust axis's target F + ε (M+m) g e₃, which points along e₃ where the desired force F vanishes (free fall).
 AXIS_LIFT = 0.028
@@ -138,9 +138,6 @@ def inverted_control(
     # Limit the turn rate to what the vehicle can stop: the bare spring would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
 
-    # z̈ = −|ż|² z + u_z: the paper's (setmu) solved for the ω̇ normal to z. The yaw rate is damped.
-    turn = cross(E3, u_z) + state.omega[2] * z_dot
-    alpha = ca.vertcat(turn[0], turn[1], -k.yaw_damping * state.omega[2])
-    moment = apply(vehicle.I, alpha) + gyroscopic_moment(vehicle.I, state.omega)
+    moment = axis_moment(state, vehicle, u_z, k.yaw_damping)
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)

@@ -16,7 +16,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.errors import InputError
-from flypend.geometry import E3, cross, dot, norm, scale
+from flypend.geometry import E3, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
 from flypend.laws.covering import outside, signals_at
@@ -109,7 +109,7 @@ def repaired_control(t: Any, state: State, vehicle: Vehicle, k: Any, *, cancelle
     u = push(z, axis_rate(state), aimed, lie_derivative(aimed.rate, state, rates), step)  # Lemma S
 
     return Control(
-        wrench=Wrench(f, axis_moment(state, vehicle.seen("down"), u.force, k.yaw_damping)),
+        wrench=Wrench(f, axis_moment(state, vehicle.seen("down"), apply(state.R.T, u.force), k.yaw_damping)),
         lyapunov={
             "V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2,
             "V_2": u.potential,

@@ -9,14 +9,22 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend.flight.trajectory import Trajectory
+from flypend.laws.named import THEOREM_1
 from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED
 from flypend.paper.basin import Basin
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.pictures.style import style_named
 
 STYLES = ((INK, "-"), (RED, "--"), (GREEN, "-."), (BLUE, ":"), (ORANGE, (0, (5, 1))), (PINK, (0, (1, 1))))
+LYAPUNOV_UNITS = {**dict.fromkeys(THEOREM_1, "1/s²"), "almost_global": "m²/s²"}
 MOST_SPELT = 4  # more terms do not fit into a legend
 LEAST = 1e-8  # of the largest V: below it, roundoff
+
+
+def lyapunov_label(run: Trajectory, words: str) -> str:
+    """Return `words` with the unit of the Lyapunov function of `run`, where that of its law is known."""
+    unit = LYAPUNOV_UNITS.get(run.law, "")
+    return f"{words} ({unit})" if unit else words
 
 
 def lyapunov_curves(ax: Any, run: Trajectory) -> list[str]:
@@ -46,6 +54,7 @@ def descent_figure(groups: Mapping[str, Mapping[str, Trajectory]], until: float,
         for (name, run), ax in zip(runs.items(), column, strict=True):
             lyapunov_curves(ax, run)
             ax.set_title(f"{law}, {name}", fontsize=SMALL)
+            ax.set_ylabel(lyapunov_label(run, "$V$"), fontsize=SMALL)
             ax.set_xlim(0, until)
             ax.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
             ax.grid(visible=True, color="#e3e3e3", linewidth=0.5)

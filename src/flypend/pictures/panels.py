@@ -9,14 +9,12 @@ import numpy as np
 
 from flypend import geometry
 from flypend.flight.trajectory import Trajectory
-from flypend.laws.named import THEOREM_1
 from flypend.palette import BLUE, GREEN, GREY, INK, PAGE, PINK, RED
 from flypend.pictures.canvas import LABEL, SMALL
-from flypend.pictures.descent import lyapunov_curves
+from flypend.pictures.descent import lyapunov_curves, lyapunov_label
 
 COMPONENTS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))  # vector components; line styles distinguish them in greyscale
 ROTORS = (*COMPONENTS, (PINK, (0, (4, 1, 1, 1, 1, 1))))
-LYAPUNOV_UNITS = {**dict.fromkeys(THEOREM_1, "1/s²"), "almost_global": "m²/s²"}
 FAR = 1.6  # limits of the rotors up to this many times the largest force are shown
 CUT, KEPT = 10, 4  # a peak of more than ten times the usual is cut off at four times that
 
@@ -129,8 +127,7 @@ def _components(ax: Any, t: Any, name: str, values: Any, unit: str, word: str = 
 def _lyapunov(ax: Any, run: Trajectory) -> None:
     """Plot V and its terms, in the unit of the law's V where that is known."""
     lyapunov_curves(ax, run)
-    unit = LYAPUNOV_UNITS.get(run.law, "")
-    ax.set_ylabel(f"Lyapunov function{unit and f' ({unit})'}", fontsize=LABEL)
+    ax.set_ylabel(lyapunov_label(run, "Lyapunov function"), fontsize=LABEL)
 
 
 def _clip_spikes(ax: Any, values: Any, unit: str) -> None:

@@ -338,7 +338,7 @@ def test_keys(visit, up):
 
 
 def test_the_page_saves_a_movie_of_its_own_scene(visit, up, tmp_path):
-    page = visit(up, speed=2.0)
+    page = visit(up, speed=0.5)
     page.evaluate("flypend.seek(1.3)")
     with page.expect_download(timeout=60_000) as waiting:
         page.get_by_role("button", name="Movie").click()

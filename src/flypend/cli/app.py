@@ -178,7 +178,8 @@ def compare(
 ) -> None:
     """Compare laws, your own included, from the same starts: one table, one figure.
 
-    The starts of failed flights become run files in the folder failed of the output, for flypend run.
+    The starts of failed flights, of each law the first 100, become run files in the folder failed of the output, for
+    flypend run.
 
     A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the pivot stays within 0.2 m of
     its reference.

@@ -27,11 +27,11 @@ ROOT = Path(__file__).parents[1]
 TURNS = 3
 RECORDED = {
     "unjudged": 14_000.0, "judged": 2_650.0, "rotors": 568.0, "real": 236.0, "mujoco": 0.67,
-    "imported": 0.17, "own": 0.62, "run": 0.96, "compare": 8.6, "ladder": 3000.0, "map": 18.7,
+    "imported": 0.17, "own": 0.62, "run": 0.96, "compare": 8.6, "ladder": 3000.0, "map": 180.0, "map, ideal": 18.7,
 }  # fmt: skip
-# Runs with which `flypend ladder` of 0.1 is flown twice and extrapolated to 2,000: with MuJoCo they take an hour.
-FEW = (16, 48)
-ALL = 2000
+# Runs with which a study of 0.1 is flown twice and extrapolated, where all would take it long: an hour with MuJoCo.
+FEW = {"ladder": (16, 48), "map": (4_000, 20_000)}
+ALL = {"ladder": 2_000, "map": 200_000}
 
 
 class Version(NamedTuple):
@@ -135,23 +135,28 @@ def _cold(today: Version, old: Version | None) -> Iterator[Line]:
 def _studies(today: Version, old: Version | None) -> Iterator[Line]:
     """What studies take on the wall, all kernels compiled: the second of two."""
     for name, arguments in {
-        "compare": ("compare", "--runs", str(ALL)),
-        "map": ("map", "--law", "inverted", "--plant", "ideal", "--runs", "200000", "--force"),
+        "compare": ("compare", "--runs", "2000"),
+        "map, ideal": ("map", "--law", "inverted", "--plant", "ideal", "--runs", "200000", "--force"),
     }.items():
         new, before = (
             RECORDED[name] if version is None else min(version.command(*arguments)[1] for _ in range(2))
             for version in (today, old)
         )
         yield from _wall(" ".join(("flypend", *arguments)), new, before)
-    new = min(today.command("ladder", "--runs", str(ALL))[1] for _ in range(2))
-    yield from _wall(f"flypend ladder --runs {ALL}", new, extrapolated(old) if old else RECORDED["ladder"])
+    for name, arguments in {
+        "map": ("map", "--law", "inverted", "--plant", "rotors", "--force"),
+        "ladder": ("ladder",),
+    }.items():
+        new = min(today.command(*arguments, "--runs", str(ALL[name]))[1] for _ in range(2))
+        before = extrapolated(old, name, arguments) if old else RECORDED[name]
+        yield from _wall(f"flypend {' '.join(arguments)} --runs {ALL[name]}", new, before)
 
 
-def extrapolated(version: Version) -> float:
-    """Seconds of `flypend ladder` with all runs, from two with few."""
-    version.command("ladder", "--runs", "1")  # compiles
-    few, more = (version.command("ladder", "--runs", str(runs))[1] for runs in FEW)
-    return few + (more - few) / (FEW[1] - FEW[0]) * (ALL - FEW[0])
+def extrapolated(version: Version, name: str, arguments: tuple[str, ...]) -> float:
+    """Seconds of a study with all runs, from two with few."""
+    version.command(*arguments, "--runs", "1")  # compiles
+    few, more = (version.command(*arguments, "--runs", str(runs))[1] for runs in FEW[name])
+    return few + (more - few) / (FEW[name][1] - FEW[name][0]) * (ALL[name] - FEW[name][0])
 
 
 def _wall(what: str, new: float, before: float) -> Iterator[Line]:

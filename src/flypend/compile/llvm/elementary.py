@@ -153,7 +153,9 @@ def _series(code: Code, coefficients: tuple[float, ...], z: Value) -> Value:
 
 
 def _fma(code: Code, a: Value, b: Value, c: Value) -> Value:
-    """a b + c, rounded once."""
+    """a b + c, rounded once where the processor can."""
+    if not code.lanes.target.fuses:
+        return a * b + c
     return Value(code, code.builder.call(code.lanes.intrinsic("fma", 3), [a.raw, b.raw, c.raw]))
 
 

@@ -16,9 +16,10 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
-import llvmlite
 import llvmlite.binding as llvm
 from platformdirs import user_cache_path
+
+from flypend.compile.llvm.target import Target, native
 
 CACHE_VARIABLE = "FLYPEND_CACHE"
 _ENTRY = b"flypend object 2\n"
@@ -50,18 +51,6 @@ def _temporary() -> Path:
         "flypend: no home folder; compiled code is kept in %s until the end (set %s)", folder, CACHE_VARIABLE
     )
     return folder
-
-
-@lru_cache(maxsize=1)
-def _machine() -> tuple[Any, str]:
-    """The target machine of this processor, and a string that identifies it and the LLVM versions."""
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
-    cpu, features = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
-    target = llvm.Target.from_default_triple()
-    machine = target.create_target_machine(cpu=cpu, features=features, opt=2, jit=True, reloc="pic")
-    version = ".".join(map(str, llvm.llvm_version_info))
-    return machine, f"{target.triple} {cpu} {features} llvmlite {llvmlite.__version__} llvm {version}"
 
 
 @lru_cache(maxsize=1)
@@ -97,7 +86,7 @@ class Native:
 
 @lru_cache(maxsize=1)
 def _jit() -> Any:
-    return llvm.create_lljit_compiler(_machine()[0])
+    return llvm.create_lljit_compiler(native().machine)
 
 
 def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[Any]) -> Native:
@@ -106,19 +95,27 @@ def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[An
     `key` must determine the module. Processor, versions and the generators' source are added to the key here.
     `arguments` are the ctypes types of the function's arguments.
     """
-    entry = hashlib.sha256("\n".join([key, _machine()[1], source_digest()]).encode()).hexdigest()
+    return Native(build_object(key, module, native()), name, tuple(arguments))
+
+
+def build_object(key: str, module: Callable[[], Any], target: Target) -> bytes:
+    """Return the object file of the LLVM module built by `module()`, or of a valid cache entry; `key` as in `build`."""
+    entry = hashlib.sha256("\n".join([key, target.name, source_digest()]).encode()).hexdigest()
     path = cache_folder() / f"{entry}.o"
     code = _read(path, entry)
     if code is None:
-        code = compiled(module())
+        code = compiled(module(), target)
         _write(path, entry, code)
-    return Native(code, name, tuple(arguments))
+    return code
 
 
-def compiled(module: Any) -> bytes:
-    """Compile an LLVM `module` to an object file optimised for this processor."""
-    machine, _ = _machine()
+def compiled(module: Any, target: Target | None = None) -> bytes:
+    """Compile an LLVM `module` to an object file optimised for the `target`; default this processor."""
+    target = target or native()
+    machine = target.machine
     parsed = llvm.parse_assembly(str(module))
+    if not target.jit:
+        parsed.triple, parsed.data_layout = target.triple, str(machine.target_data)
     parsed.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=1)
     llvm.create_pass_builder(machine, options).getModulePassManager().run(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import lru_cache
 
-import llvmlite.binding as llvm
 from llvmlite import ir
+
+from flypend.compile.llvm.target import Target, native
 
 I1, I64, POINTER, VOID = ir.IntType(1), ir.IntType(64), ir.PointerType(), ir.VoidType()
 # Allow fused multiply-add, reassociation, ignoring the sign of zero, and shared reciprocals: 10 % faster, with the same
@@ -15,16 +15,11 @@ I1, I64, POINTER, VOID = ir.IntType(1), ir.IntType(64), ir.PointerType(), ir.Voi
 FLAGS = ("contract", "reassoc", "nsz", "arcp")
 
 
-@lru_cache(maxsize=1)
-def _estimates_roots() -> bool:
-    """Whether this processor has an instruction that estimates 1/√x for eight doubles."""
-    return bool(llvm.get_host_cpu_features().get("avx512f", False))
-
-
 class Lanes:
-    """Vector type of a module: `width` lanes of `precision` "double" or "float"."""
+    """Vector type of a module: `width` lanes of `precision` "double" or "float", by default on this processor."""
 
-    def __init__(self, module: ir.Module, width: int, precision: str = "double") -> None:
+    def __init__(self, module: ir.Module, width: int, precision: str = "double", target: Target | None = None) -> None:
+        self.target = target or native()
         self.module = module
         self.width = width
         self.precision = precision
@@ -32,7 +27,7 @@ class Lanes:
         self.vector = ir.VectorType(self.scalar, width)
         self.mask = ir.VectorType(I1, width)
         self.size = (8 if precision == "double" else 4) * width
-        self.estimates_roots = precision == "double" and width % 8 == 0 and _estimates_roots()
+        self.estimates_roots = precision == "double" and width % 8 == 0 and self.target.estimates_roots
 
     def constant(self, value: float) -> ir.Value:
         """`value` in every lane."""

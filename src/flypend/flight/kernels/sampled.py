@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from flypend.board.command import idle_command
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.sampled import INTEGERS, arguments, write_kernel
+from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, arguments, write_kernel
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
@@ -153,17 +153,19 @@ class SampledKernel:
     ) -> None:
         if out.samples is not None:
             out.samples[...] = np.nan
-        given = (
-            address(starts), address(values), address(numbers), address(seeds), len(starts), count,
-            address(ticks.ticks), len(ticks.ticks), address(ticks.judged), address(ticks.rows), int(ticks.rows[-1]),
-            address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
-            address(out.clearance), address(out.part), address(stop),
-        )  # fmt: skip
+        given = {
+            "starts": starts, "parameters": values, "plant": numbers, "seeds": seeds, "runs": len(starts),
+            "ticks": count, "sample_ticks": ticks.ticks, "sample_count": len(ticks.ticks), "judged": ticks.judged,
+            "rows": ticks.rows, "row_count": int(ticks.rows[-1]), "samples": out.samples,
+            "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
+            "clearance": out.clearance, "part": out.part, "stop": stop,
+        }  # fmt: skip
+        passed = [given[name] if name in INTEGERS else address(given[name]) for name in ARGUMENTS]
         if self.loop.sampled.engine == "equations":
-            self.function(*given)
+            self.function(*passed)
         else:
             with MuJoCoWorld.lent(self.loop) as world:
-                self.function(*given, *world.addresses(starts))
+                self.function(*passed, *world.addresses(starts))
 
 
 def structure(plant: Plant) -> Plant:

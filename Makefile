@@ -7,7 +7,7 @@ OLDEST := .venv-lowest
 FRESH := .venv-size
 OUT ?= paper-out
 
-.PHONY: setup paper lab test lowest size bench test-tools fuzz web lint lock clean
+.PHONY: setup paper lab docs test lowest size bench test-tools fuzz web lint lock clean
 
 setup: $(VENV)/.ready
 
@@ -37,6 +37,10 @@ test: lint test-tools
 bench: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
 	$(BIN)/python -m benchmarks bench-out
+
+# The site of the documentation, in docs/_build: open index.html there. Needs no network once set up.
+docs: setup
+	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
 # rebuilds the bundle of the pages.
@@ -90,4 +94,4 @@ size:
 	test $$(cut -f1 $(FRESH)/size) -le 700
 
 clean:
-	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out docs/_build .pytest_cache .mypy_cache .ruff_cache

@@ -1,0 +1,78 @@
+"""The documentation: the site builds without a warning or a dead link, and what its pages tell one to run runs."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
+BLOCK = re.compile(r"^```python\n(.*?)^```$", flags=re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The folder of the built site."""
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "docs", str(folder)]
+    built = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert built.returncode == 0, built.stderr
+    return folder
+
+
+def test_every_page_is_on_the_site(site):
+    pages = {path.relative_to(ROOT / "docs").with_suffix(".html") for path in PAGES if "_build" not in path.parts}
+    assert {path.relative_to(site) for path in site.rglob("*.html")} >= pages
+    assert len(pages) > 40
+
+
+def test_links_between_pages_hold_on_the_site(site):
+    ends = {path: set(re.findall(r'\bid="([^"]+)"', path.read_text(encoding="utf-8"))) for path in site.rglob("*.html")}
+    dead = []
+    for page in ends:
+        for link in re.findall(r'\bhref="([^"]+)"', page.read_text(encoding="utf-8")):
+            if re.match(r"[a-z]+:", link):
+                continue
+            path, _, place = link.partition("#")
+            target = (page.parent / path.split("?")[0]).resolve() if path else page
+            if not target.exists() or (place and target in ends and place not in ends[target]):
+                dead.append((page.name, link))
+    assert not dead
+
+
+def test_the_site_needs_no_network(site):
+    """Nothing is loaded from elsewhere; links may lead there."""
+    loaded = re.compile(r'<(?:script|img|link|iframe)[^>]*\b(?:src|href)="(https?:[^"]+)"')
+    found = [address for page in site.rglob("*.html") for address in loaded.findall(page.read_text(encoding="utf-8"))]
+    assert not found
+
+
+QUESTIONS = {
+    "install": "how-to/install", "gains": "reference/gains", "circle": "how-to/circle", "export": "how-to/export",
+    "failed": "how-to/why-failed", "default plant": "how-to/plant", "own law": "how-to/own-law", "map": "how-to/map",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_the_search_knows_where_questions_are_answered(site, question):
+    index = (site / "searchindex.js").read_text(encoding="utf-8")
+    assert f'"{QUESTIONS[question]}"' in index
+    for word in question.split():
+        assert re.search(rf'"?{word[:4]}\w*"?:', index)
+
+
+def blocks():
+    """The pages with Python in them."""
+    return [path for path in PAGES if BLOCK.search(path.read_text(encoding="utf-8"))]
+
+
+@pytest.mark.parametrize("path", blocks(), ids=lambda path: path.stem)
+def test_the_python_of_a_page_runs(path, tmp_path, monkeypatch, capsys):
+    """All blocks of a page one after the other, as a reader would type them into one session."""
+    monkeypatch.chdir(tmp_path)
+    session = {"__name__": "__main__"}
+    for i, code in enumerate(BLOCK.findall(path.read_text(encoding="utf-8"))):
+        exec(compile(code, f"{path.name}, block {i + 1}", "exec"), session)
+    assert session.keys() > {"fp"} or path.stem == "own"

@@ -55,7 +55,7 @@ def test_a_knock_changes_the_momentum_by_its_impulse_and_leaves_gusts_alone():
     law = fp.Controller(name="fall", function=fall)
     times = np.arange(0, 201) / RATE
     run = fp.simulate(vehicle, law, fp.State(y=(0, 0, 1)), 1.0, plant=plant, times=times)
-    gained = np.diff(linear_momentum(run.states, vehicle), axis=0) + [0, 0, vehicle.weight / RATE]
+    gained = np.diff(linear_momentum(run.states, vehicle), axis=0) + np.array([0, 0, vehicle.weight / RATE])
     size = np.linalg.norm(gained, axis=1)
     assert np.sum(size > 1e-9) == 1
     assert np.max(size) == pytest.approx(0.05, rel=1e-6)  # roundoff of a difference of momenta of order 5 N s

@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import examples, listing, studies, theorem, viewing
+from flypend.cli import check, examples, listing, studies, theorem, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.errors import InputError
@@ -298,7 +298,14 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
-for _command in (theorem.theorem, *studies.COMMANDS, *viewing.COMMANDS, *listing.COMMANDS, *examples.COMMANDS):
+for _command in (
+    theorem.theorem,
+    *studies.COMMANDS,
+    *check.COMMANDS,
+    *viewing.COMMANDS,
+    *listing.COMMANDS,
+    *examples.COMMANDS,
+):
     app.add_command(_command)
 
 

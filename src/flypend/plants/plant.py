@@ -14,7 +14,9 @@ from flypend.model import Vehicle
 
 Engine = Literal["equations", "mujoco"]
 Interface = Literal["wrench", "rates"]
-MISMATCHED = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_lag")
+MISMATCHED = (
+    "mass", "bob_mass", "rod_length", "rod_inertia", "inertia", "rotor_positions", "drag_ratio", "rotor_lag"
+)  # fmt: skip
 
 
 # Every command in transit is kept, and the prediction goes through them all: a delay in ms given as s would never end.
@@ -143,7 +145,8 @@ class Sampled:
     pivot_offset : (3,)
         Position of the ball joint relative to the centre of mass, body frame, m. The law does not know it.
     mismatch : dict
-        Ratio of true to nominal value for mass, bob_mass, rod_length, inertia, drag_ratio, rotor_lag.
+        Ratio of true to nominal value for mass, bob_mass, rod_length (and rod_end with it), rod_inertia, inertia,
+        rotor_positions, drag_ratio, rotor_lag.
     wind : Wind, optional
         External forces.
     interface : "wrench" or "rates"
@@ -206,6 +209,8 @@ class Sampled:
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
         """Return the true vehicle for the nominal `vehicle`, with `mismatch` and `lag` applied."""
         changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}
+        if vehicle.rod_end is not None and "rod_length" in changes:
+            changes["rod_end"] = vehicle.rod_end * self.mismatch["rod_length"]
         if self.lag is not None:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
         return vehicle.replace(**changes)

@@ -7,7 +7,10 @@ w: at most (α/w) e^{−wτ}/(1 + wT). From rest, s = w θ, so that no controlle
 
     θ_c = (α/w²) e^{−wτ}/(1 + wT).
 
-α/w² is the agility, α l/g for a light bob; wT and wτ are lag and delay against √(l/g).
+α/w² is the agility, α l/g for a light bob; wT and wτ are lag and delay against √(l/g). In a linear loop, a delay τ
+against a mode that grows with w makes the complementary sensitivity peak at e^{wτ} or more, whatever the controller. A
+lag counts like a delay: its inverse asks the rotors for more than they have, and for a model that nobody knows. With
+the customary limit of 2 on the peak, w (T + τ) may be ln 2.
 """
 
 from __future__ import annotations
@@ -16,11 +19,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from flypend.flight.request import Flight
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model import Vehicle
+from flypend.plants import Sampled
 
 # rad. What arrives upright from a swing-up, a gust or a noisy estimate leans by some degrees.
 LEAST_CATCH = 0.25
+LARGEST_PEAK = 2.0
 # A fifth of the weight is what is left to climb with and to stop a fall.
 LEAST_THRUST_RATIO = 1.2
 
@@ -78,16 +84,30 @@ def feasibility(vehicle: Vehicle, delay: float = 0.0) -> Feasibility:
     return found if impossible else Feasibility(**{**vars(found), "doubtful": _doubts(found, vehicle, delay)})
 
 
+def forewarned(flight: Flight) -> tuple[str, ...]:
+    """Return what is impossible or doubtful of `flight` before it is flown: if it is to stand the rod, by rotors."""
+    if not isinstance(flight.plant, Sampled) or not flight.plant.limits or flight.law.e3 == "down":
+        return ()
+    found = feasibility(flight.plant.true_vehicle(flight.vehicle), flight.plant.delay)
+    return (*found.impossible, *found.doubtful)
+
+
 def _doubts(found: Feasibility, vehicle: Vehicle, delay: float) -> tuple[str, ...]:
-    doubts = []
+    doubts, w = [], found.fall_rate
     if found.thrust_ratio < LEAST_THRUST_RATIO:
         doubts.append(
-            f"thrust is {found.thrust_ratio:.3g} times the weight; below {LEAST_THRUST_RATIO:g} little is left"
+            f"the largest thrust is {found.thrust_ratio:.3g} times the weight; it takes {LEAST_THRUST_RATIO:g} times"
         )
     if found.catch < LEAST_CATCH:
         doubts.append(
             f"no controller catches a rod that leans by more than {np.degrees(found.catch):.2g}° at rest (agility "
-            f"α l/g {found.agility:.3g}, lag and delay {found.lag_ratio + found.fall_rate * delay:.2g} √(l/g)): a "
-            f"longer rod, rotors further out or faster ones help"
+            f"α l/g {found.agility:.3g}); stronger rotors further out, less inertia or a longer rod help"
+        )
+    late = vehicle.rotor_lag + delay
+    if w * late > np.log(LARGEST_PEAK):
+        longest = np.log(LARGEST_PEAK) / w
+        doubts.append(
+            f"rotor lag and delay of {1e3 * late:.3g} ms are too long for a rod that falls with {w:.3g} 1/s: at most "
+            f"{1e3 * longest:.3g} ms, or a rod {(late / longest) ** 2:.3g} times as long"
         )
     return tuple(doubts)

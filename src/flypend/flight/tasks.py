@@ -22,20 +22,27 @@ TASKS: Mapping[str, str] = {
     "hanging": "rod hanging at rest, at any heading",
     "random": "any attitude and rod, rates up to 3 rad/s, speeds up to 2 m/s",
 }
-HEADINGS, AZIMUTHS = 16, 12
 LEANS = np.radians(np.arange(5.0, 61.0, 5.0))
 ASKEW = 0.02  # rad, how far a hanging rod is from straight down: none hangs better
 TICK = 0.02  # s, at which leans are sampled
 
 
-def task_starts(vehicle: Vehicle, runs: int, seed: int) -> dict[str, State]:
-    """Return the starts of each of `TASKS`, e₃ up; `runs` random ones from `seed`.
+def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) -> dict[str, State]:
+    """Return the starts of each of `TASKS`, e₃ up: `runs` random ones from `seed`, the others in some `directions`.
+
+    Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone.
 
     In a cup nothing swings up: the tasks are hover and lean, and random starts are level with the rod inside the cone.
     On a hub, random starts do not touch.
     """
     rng = np.random.default_rng(seed)
-    starts = {"hover": _hover(vehicle), "lean": _leans(vehicle), "hanging": _hanging(rng)}
+    most = vehicle.body.cup_angle if vehicle.mount == "cup" else np.pi
+    level = vehicle.l / 2 * _directions(directions, np.pi / 2)
+    starts = {
+        "hover": State(x=level, y=np.broadcast_to(E3, level.shape)),
+        "lean": State(y=np.concatenate([_directions(directions, lean) for lean in LEANS if lean < most])),
+        "hanging": _hanging(rng, directions),
+    }
     if vehicle.mount == "cup":
         return {"hover": starts["hover"], "lean": starts["lean"], "random": _in_cup(vehicle, rng, runs)}
     return starts | {"random": _free(vehicle, rng, runs)}
@@ -71,20 +78,9 @@ def touching(vehicle: Vehicle, starts: State) -> Any:
     return np.any(margins(starts, hover, vehicle, "up") < 0, axis=-1)
 
 
-def _hover(vehicle: Vehicle) -> State:
-    x = vehicle.l / 2 * _directions(HEADINGS, np.pi / 2)
-    return State(x=x, y=np.broadcast_to(E3, x.shape))
-
-
-def _leans(vehicle: Vehicle) -> State:
-    """`AZIMUTHS` leans of each of `LEANS`, in this order; in a cup, of those inside its cone."""
-    most = vehicle.body.cup_angle if vehicle.mount == "cup" else np.pi
-    return State(y=np.concatenate([_directions(AZIMUTHS, lean) for lean in LEANS if lean < most]))
-
-
-def _hanging(rng: np.random.Generator) -> State:
-    y = _directions(HEADINGS, np.pi - ASKEW)
-    return State(y=np.concatenate([[-E3], y]), R=_headings(rng.uniform(0, 2 * np.pi, HEADINGS + 1)))
+def _hanging(rng: np.random.Generator, directions: int) -> State:
+    y = np.concatenate([[-E3], _directions(directions, np.pi - ASKEW)])
+    return State(y=y, R=_headings(rng.uniform(0, 2 * np.pi, len(y))))
 
 
 def _in_cup(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:

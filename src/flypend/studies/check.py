@@ -8,22 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from flypend import plants
+from flypend import errors, plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble
 from flypend.flight.feasibility import Feasibility, feasibility
 from flypend.flight.kernels import has_kernel
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import AZIMUTHS, LEANS, fly_tasks, task_starts
+from flypend.flight.tasks import LEANS, fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
 
-# Random flights of a law with a kernel, and of one that is stepped in Python; and how many of them fly each value of a
-# margin.
-RUNS, STEPPED_RUNS, MARGIN_RUNS = 1000, 24, 200
+# Random flights, directions of the other tasks, and seconds a flight: of a law with a kernel, and of one that is stepped
+# in Python. And how many flights each value of a margin takes.
+COMPILED, STEPPED = (1000, 12, 30.0), (24, 3, 10.0)
+MARGIN_RUNS, STEPPED_MARGIN_RUNS = 200, 12
 LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
 
 Progress = Callable[[str, int, int], Any]
@@ -128,7 +129,7 @@ def check(
     plant: str | AnyPlant = "rotors",
     runs: int | None = None,
     seed: int = 1,
-    duration: float = 30.0,
+    duration: float | None = None,
     margins: bool | None = None,
     workers: int | None = None,
     progress: Progress = lambda *_: None,
@@ -151,7 +152,7 @@ def check(
     seed : int
         Seed of the random starts.
     duration : float
-        Seconds per flight.
+        Seconds per flight; default 30, or 10 for a law that is stepped in Python.
     margins : bool, optional
         Whether to search for margins; default for every law that compiles.
     workers : int, optional
@@ -178,26 +179,28 @@ def check(
         refusal = f"the {name} law refuses the vehicle: {error}"
         return Check(**about, reasons=(*found.doubtful, refusal))
     compiled = isinstance(bound, BoundLaw)
-    starts = task_starts(vehicle, runs or (RUNS if compiled else STEPPED_RUNS), seed)
-    tasks = fly_tasks(vehicle, bound, world, starts, duration, workers=workers, progress=progress)
+    usual, directions, seconds = COMPILED if compiled else STEPPED
+    seconds = seconds if duration is None else errors.number("duration", duration, above=0, unit="s")
+    starts = task_starts(vehicle, usual if runs is None else runs, seed, directions)
+    tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
     reasons = _failed(tasks)
-    about |= {"tasks": tasks, "catch": caught(tasks["lean"])}
+    about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
     if (compiled if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
-        flight = _of_margins(vehicle, bound, world, tasks["random"], duration)
+        flight = _of_margins(vehicle, bound, world, tasks["random"], seconds)
         about["margins"] = search(flight, quantities(vehicle, world), progress)
     if reasons:
         return Check(**about, reasons=(*reasons, *found.doubtful))
     return Check(**about, warnings=found.doubtful)
 
 
-def caught(leans: Ensemble) -> Catch:
-    """Return which of the flights of the task "lean" are catches."""
+def caught(leans: Ensemble, directions: int) -> Catch:
+    """Return which of the flights of the task "lean", in `directions` of each lean, are catches."""
     assert leans.samples is not None
     up = 1.0 if leans.e3 == "up" else -1.0
     low = np.nanmin(up * leans.samples.y[..., 2], axis=1)
-    direct = (leans.success & (low > 0)).reshape(-1, AZIMUTHS)
+    direct = (leans.success & (low > 0)).reshape(-1, directions)
     count = int(np.argmin([*direct.all(axis=1), False]))
-    excursion = leans.excursion.reshape(-1, AZIMUTHS)[:count]
+    excursion = leans.excursion.reshape(-1, directions)[:count]
     return Catch(
         lean=float(LEANS[count - 1]) if count else 0.0,
         excursion=float(excursion.max()) if count else float("nan"),
@@ -225,7 +228,7 @@ def _of_margins(
         vehicle=vehicle, law=law, starts=flown.starts[:MARGIN_RUNS],
         duration=float(min(duration, max(LEAST_DURATION, needed))), plant=plant,
     )  # fmt: skip
-    return flight if has_kernel(flight) else flight.replace(starts=flight.starts[: STEPPED_RUNS // 2])
+    return flight if has_kernel(flight) else flight.replace(starts=flight.starts[:STEPPED_MARGIN_RUNS])
 
 
 def _degrees(catch: Catch) -> str:

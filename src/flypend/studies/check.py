@@ -20,9 +20,10 @@ from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
+from flypend.studies.sweep.axes import integer
 
-# Random flights, directions of the other tasks, and seconds a flight: of a law with a kernel, and of one that is stepped
-# in Python. And how many flights each value of a margin takes.
+# Random flights, directions of the other tasks, and seconds a flight, of a law with a kernel and of one that is stepped
+# in Python; and how many flights each value of a margin takes.
 COMPILED, STEPPED = (1000, 12, 30.0), (24, 3, 10.0)
 MARGIN_RUNS, STEPPED_MARGIN_RUNS = 200, 12
 LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
@@ -179,9 +180,9 @@ def check(
         refusal = f"the {name} law refuses the vehicle: {error}"
         return Check(**about, reasons=(*found.doubtful, refusal))
     compiled = isinstance(bound, BoundLaw)
-    usual, directions, seconds = COMPILED if compiled else STEPPED
-    seconds = seconds if duration is None else errors.number("duration", duration, above=0, unit="s")
-    starts = task_starts(vehicle, usual if runs is None else runs, seed, directions)
+    usual, directions, long = COMPILED if compiled else STEPPED
+    seconds = long if duration is None else errors.number("duration", duration, above=0, unit="s")
+    starts = task_starts(vehicle, usual if runs is None else integer("runs", runs, 1), seed, directions)
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
     reasons = _failed(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}

@@ -52,3 +52,15 @@ def test_the_hanging_rod_hangs_and_the_hovering_one_stands():
     np.testing.assert_allclose(starts["hanging"].z, np.tile([0, 0, 1], (13, 1)), atol=1e-15)
     assert np.all(starts["hover"].y == [0, 0, 1])
     np.testing.assert_allclose(np.linalg.norm(starts["hover"].x, axis=1), HEHN.l / 2, rtol=1e-12)
+
+
+def test_a_machine_without_room_for_its_rod_is_told():
+    crowded = HEHN.replace(mount="hub", body={"arm_radius": 1.0})
+    with pytest.raises(fp.InputError, match=r"vehicle.body: expected a machine with room for its rod"):
+        task_starts(crowded, 1, 1)
+
+
+def test_a_narrow_cup_has_a_lean_too():
+    narrow = HEHN.replace(mount="cup", body={"cup_angle": 0.05})
+    leans = task_starts(narrow, 1, 1)["lean"]
+    np.testing.assert_allclose(leans.y[:, 2], np.cos(0.025), rtol=1e-12)

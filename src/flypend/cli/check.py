@@ -16,9 +16,9 @@ from flypend.cli.terminal import bold, console, counter, tell_how
 @laws_option
 @out_option("check-out")
 @click.option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
-@click.option("--runs", type=click.IntRange(min=1), help="Random starts; default 1000, 24 for a law without symbols.")
+@click.option("--runs", type=click.IntRange(min=1), help="Random starts; default 1000, 24 where flights are slow.")
 @click.option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
-@click.option("--margins/--no-margins", default=None, help="Search the margins; default for laws that compile.")
+@click.option("--margins/--no-margins", default=None, help="Search the margins; default where flights are fast.")
 @click.option("--trial", is_flag=True, help="Also fly a minute with 15 knocks, and sweep every number by ±25 %.")
 @click.option("--figures/--no-figures", default=True, help="Draw the figure.")
 def check(
@@ -62,7 +62,7 @@ def check(
         console.print(table)
     for line in verdicts(checks):
         console.print(line, markup=False)
-    console.print(f"Report{' and figure' if figures else ''} are in {bold(out)}.")
+    console.print(f"The report{' and its figure are' if figures else ' is'} in {bold(out)}.")
     if not all(each.ok for each in checks.values()):
         sys.exit(1)
 

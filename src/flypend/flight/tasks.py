@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.request import Flight
 from flypend.geometry import E3
 from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
+from flypend.model.state import SIZE
 from flypend.plants import Sampled
 
 # What each task asks, in words.
@@ -25,22 +27,25 @@ TASKS: Mapping[str, str] = {
 LEANS = np.radians(np.arange(5.0, 61.0, 5.0))
 ASKEW = 0.02  # rad, how far a hanging rod is from straight down: none hangs better
 TICK = 0.02  # s, at which leans are sampled
+MOST_DRAWS = 200  # as many random starts are drawn for each one that is wanted
 
 
 def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) -> dict[str, State]:
     """Return the starts of each of `TASKS`, e₃ up: `runs` random ones from `seed`, the others in some `directions`.
 
-    Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone.
+    Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone, or if none is,
+    of half its angle.
 
     In a cup nothing swings up: the tasks are hover and lean, and random starts are level with the rod inside the cone.
     On a hub, random starts do not touch.
     """
     rng = np.random.default_rng(seed)
     most = vehicle.body.cup_angle if vehicle.mount == "cup" else np.pi
+    leans = [lean for lean in LEANS if lean < most] or [most / 2]
     level = vehicle.l / 2 * _directions(directions, np.pi / 2)
     starts = {
         "hover": State(x=level, y=np.broadcast_to(E3, level.shape)),
-        "lean": State(y=np.concatenate([_directions(directions, lean) for lean in LEANS if lean < most])),
+        "lean": State(y=np.concatenate([_directions(directions, lean) for lean in leans])),
         "hanging": _hanging(rng, directions),
     }
     if vehicle.mount == "cup":
@@ -91,12 +96,17 @@ def _in_cup(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
 
 
 def _free(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
-    """Random states whose rod touches nothing: `runs` of them, in the order in which they are drawn."""
-    packed = np.empty((0, 24))
-    while len(packed) < runs:
+    """Random states whose rod touches nothing: `runs` of them, in the order in which they are drawn.
+
+    Raises InputError if there are hardly any.
+    """
+    packed = np.empty((0, SIZE))
+    for _ in range(MOST_DRAWS):
         drawn = State.random(rng, runs)
         packed = np.concatenate([packed, drawn.packed()[~touching(vehicle, drawn)]])
-    return State.trusted(packed[:runs])
+        if len(packed) >= runs:
+            return State.trusted(packed[:runs])
+    raise InputError("vehicle.body", "a machine with room for its rod", f"one it touches in {MOST_DRAWS * runs} poses")
 
 
 def _directions(count: int, tilt: float) -> Any:

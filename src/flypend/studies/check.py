@@ -12,20 +12,20 @@ from flypend import errors, plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble
 from flypend.flight.feasibility import Feasibility, feasibility
-from flypend.flight.kernels import has_kernel
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import LEANS, fly_tasks, task_starts
+from flypend.flight.tasks import fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
+from flypend.laws.own import LawError
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
 from flypend.studies.sweep.axes import integer
 
-# Random flights, directions of the other tasks, and seconds a flight, of a law with a kernel and of one that is stepped
-# in Python; and how many flights each value of a margin takes.
-COMPILED, STEPPED = (1000, 12, 30.0), (24, 3, 10.0)
-MARGIN_RUNS, STEPPED_MARGIN_RUNS = 200, 12
+# Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo and
+# for a law that is stepped in Python. And how many flights each value of a margin takes.
+USUAL, SLOW = (1000, 12, 30.0), (24, 3, 10.0)
+MARGIN_RUNS, SLOW_MARGIN_RUNS = 200, 12
 LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
 
 Progress = Callable[[str, int, int], Any]
@@ -149,13 +149,13 @@ def check(
     plant : str or Plant
         The sampled plant to fly through.
     runs : int, optional
-        Random starts; default 1000, or 24 for a law that is stepped in Python.
+        Random starts; default 1000, or 24 in MuJoCo and for a law that is stepped in Python.
     seed : int
         Seed of the random starts.
     duration : float
-        Seconds per flight; default 30, or 10 for a law that is stepped in Python.
+        Seconds per flight; default 30, or 10 where there are only 24.
     margins : bool, optional
-        Whether to search for margins; default for every law that compiles.
+        Whether to search for margins; default where there are 1000 random starts.
     workers : int, optional
         As in `simulate_ensemble`.
     progress : callable
@@ -176,17 +176,19 @@ def check(
         return Check(**about, reasons=found.impossible)
     try:
         bound = bound_to(vehicle, chosen)
+    except LawError:
+        raise
     except InputError as error:
         refusal = f"the {name} law refuses the vehicle: {error}"
         return Check(**about, reasons=(*found.doubtful, refusal))
-    compiled = isinstance(bound, BoundLaw)
-    usual, directions, long = COMPILED if compiled else STEPPED
+    quick = isinstance(bound, BoundLaw) and world.engine == "equations"
+    usual, directions, long = USUAL if quick else SLOW
     seconds = long if duration is None else errors.number("duration", duration, above=0, unit="s")
     starts = task_starts(vehicle, usual if runs is None else integer("runs", runs, 1), seed, directions)
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
     reasons = _failed(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
-    if (compiled if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
+    if (quick if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
         flight = _of_margins(vehicle, bound, world, tasks["random"], seconds)
         about["margins"] = search(flight, quantities(vehicle, world), progress)
     if reasons:
@@ -201,9 +203,10 @@ def caught(leans: Ensemble, directions: int) -> Catch:
     low = np.nanmin(up * leans.samples.y[..., 2], axis=1)
     direct = (leans.success & (low > 0)).reshape(-1, directions)
     count = int(np.argmin([*direct.all(axis=1), False]))
+    angles = np.arccos(np.clip(up * leans.starts.y[::directions, 2], -1, 1))
     excursion = leans.excursion.reshape(-1, directions)[:count]
     return Catch(
-        lean=float(LEANS[count - 1]) if count else 0.0,
+        lean=float(angles[count - 1]) if count else 0.0,
         excursion=float(excursion.max()) if count else float("nan"),
         swung=int(np.sum(leans.success & (low <= 0))),
     )
@@ -225,11 +228,11 @@ def _of_margins(
 ) -> Flight:
     """Return the flights of every value of a margin: the first random starts, no longer than they need to settle."""
     needed = 2 * flown.percentile("settling", 95)
-    flight = Flight(
-        vehicle=vehicle, law=law, starts=flown.starts[:MARGIN_RUNS],
+    quick = isinstance(law, BoundLaw) and plant.engine == "equations"
+    return Flight(
+        vehicle=vehicle, law=law, starts=flown.starts[: MARGIN_RUNS if quick else SLOW_MARGIN_RUNS],
         duration=float(min(duration, max(LEAST_DURATION, needed))), plant=plant,
     )  # fmt: skip
-    return flight if has_kernel(flight) else flight.replace(starts=flight.starts[:STEPPED_MARGIN_RUNS])
 
 
 def _degrees(catch: Catch) -> str:

@@ -33,8 +33,8 @@ MOST_DRAWS = 200  # as many random starts are drawn for each one that is wanted
 def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) -> dict[str, State]:
     """Return the starts of each of `TASKS`, e₃ up: `runs` random ones from `seed`, the others in some `directions`.
 
-    Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone, or if none is,
-    of half its angle.
+    Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone,
+    or if none is, of half its angle.
 
     In a cup nothing swings up: the tasks are hover and lean, and random starts are level with the rod inside the cone.
     On a hub, random starts do not touch.

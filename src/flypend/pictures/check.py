@@ -62,7 +62,7 @@ def _strays(axes: Any, checks: Mapping[str, Check]) -> None:
             continue
         flown = check.tasks["random"]
         values = np.sort(flown.excursion[flown.success])
-        share = 100 * np.arange(len(values) + 1) / len(flown)
+        share = 100 * np.arange(1, len(values) + 1) / len(flown)
         label = f"{law} on {check.vehicle.name}: {100 * flown.rate:.1f} % of {len(flown)}"
-        axes.step(np.append(0.0, values), share, where="post", color=SERIES[i % len(SERIES)], lw=1, label=label)
-    axes.set(xlabel="excursion from random starts (m)", ylabel="stand within (%)", ylim=(-4, 104))
+        axes.step(values, share, where="post", color=SERIES[i % len(SERIES)], lw=1, label=label)
+    axes.set(xlabel="excursion from random starts (m)", ylabel="stand within (%)", ylim=(-4, 104), xscale="log")

@@ -22,8 +22,8 @@ from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
 from flypend.studies.sweep.axes import integer
 
-# Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo and
-# for a law that is stepped in Python. And how many flights each value of a margin takes.
+# Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
+# and for a law that is stepped in Python. And how many flights each value of a margin takes.
 USUAL, SLOW = (1000, 12, 30.0), (24, 3, 10.0)
 MARGIN_RUNS, SLOW_MARGIN_RUNS = 200, 12
 LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle

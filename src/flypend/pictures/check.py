@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from flypend.palette import GREY, SERIES
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
@@ -65,4 +66,8 @@ def _strays(axes: Any, checks: Mapping[str, Check]) -> None:
         share = 100 * np.arange(1, len(values) + 1) / len(flown)
         label = f"{law} on {check.vehicle.name}: {100 * flown.rate:.1f} % of {len(flown)}"
         axes.step(values, share, where="post", color=SERIES[i % len(SERIES)], lw=1, label=label)
-    axes.set(xlabel="excursion from random starts (m)", ylabel="stand within (%)", ylim=(-4, 104), xscale="log")
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set(xlabel="excursion from random starts (m)", ylabel="stand within (%)", ylim=(-4, 104))

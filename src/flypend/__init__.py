@@ -28,10 +28,12 @@ if TYPE_CHECKING:
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle, vehicle
     from flypend.plants import Ideal, Noise, Plant, Wind
+    from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
     from flypend.studies.starts import random_starts
     from flypend.studies.sweep.run import sweep
     from flypend.studies.sweep.study import Study, study
+    from flypend.studies.trial import Trial, trial
     from flypend.studies.tune import Objective, Tuned, tune
 
 __version__ = "0.2.0.dev0"
@@ -54,9 +56,11 @@ _WHERE = {
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
     "plants": ("Ideal", "Noise", "Plant", "Wind"),
+    "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
     "studies.starts": ("random_starts",),
     "studies.sweep": ("Study", "study", "sweep"),
+    "studies.trial": ("Trial", "trial"),
     "studies.tune": ("Objective", "Tuned", "tune"),
 }
 _MODULES = {name: f"flypend.{module}" for module, names in _WHERE.items() for name in names}
@@ -64,6 +68,7 @@ _MODULES = {name: f"flypend.{module}" for module, names in _WHERE.items() for na
 __all__ = [
     "Body",
     "BoundLaw",
+    "Check",
     "Comparison",
     "Controller",
     "Criterion",
@@ -83,10 +88,12 @@ __all__ = [
     "Study",
     "Tolerances",
     "Trajectory",
+    "Trial",
     "Tuned",
     "Vehicle",
     "Wind",
     "Wrench",
+    "check",
     "compare",
     "export_c",
     "laws",
@@ -100,6 +107,7 @@ __all__ = [
     "simulate_ensemble",
     "study",
     "sweep",
+    "trial",
     "tune",
     "uniform_rod",
     "vehicle",

@@ -30,7 +30,7 @@ def exports(tmp_path_factory):
     def export(name, precision):
         if (name, precision) not in made:
             made[name, precision] = fp.export_c(
-                LAWS[name], VEHICLE, folder / f"{name}-{precision}", precision=precision
+                LAWS[name], VEHICLE, folder / f"{name}-{precision}", precision=precision, check=False
             )
         return made[name, precision]
 

@@ -280,6 +280,34 @@ def test_the_same_export_twice_is_byte_equal(tmp_path):
     assert everything.isascii()
 
 
+def test_the_header_tells_how_the_law_flies_and_the_code_does_not_depend_on_it(tmp_path):
+    told = fp.export_c(INVERTED, VEHICLE, tmp_path / "told")
+    bare = fp.export_c(INVERTED, VEHICLE, tmp_path / "bare", check=False)
+    header = (told / "flypend_law.h").read_text(encoding="ascii")
+    random = fp.check(VEHICLE, INVERTED, runs=200, margins=False).tasks["random"]
+    assert f"random: {int(random.success.sum())} of 200 stand after 30 s" in header
+    assert "POOR" not in header
+    begin, end = header.index("/* Flown before"), header.index("#ifndef FLYPEND_LAW_H")
+    assert header[:begin] + header[end:] == (bare / "flypend_law.h").read_text(encoding="ascii")
+    for name in ("flypend_law.c", "flypend_vectors.h", "README.md"):
+        assert (told / name).read_bytes() == (bare / name).read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("law", "vehicle", "words"),
+    [
+        (fp.laws.corrected(), VEHICLE, "hover: 0 of 12 stand after 30 s"),
+        (fp.laws.inverted(), VEHICLE.replace(mass=500.0), "the weight is 4905 N with mass 500 kg"),
+    ],
+)
+def test_a_law_that_flies_poorly_is_exported_with_a_warning(tmp_path, law, vehicle, words):
+    with pytest.warns(UserWarning, match="poorly: ") as said:
+        out = fp.export_c(law, vehicle, tmp_path)
+    assert words in str(said[0].message)
+    header = " ".join((out / "flypend_law.h").read_text(encoding="ascii").replace("*", " ").split())
+    assert "POOR: " + str(said[0].message).split("poorly: ")[1].split(";")[0] in header
+
+
 def _own(control, **more):
     return Law(name="own", e3="up", control=control, **more)
 

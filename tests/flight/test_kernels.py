@@ -313,6 +313,7 @@ PLANTS = {
     "delay": Plant(delay=0.013, rate=200.0),
     "noise": Plant(noise=NOISY, rate=200.0, seed=5),
     "gusts": Plant(wind=GUSTY, rate=200.0, seed=6),
+    "knocks": Plant(wind=Wind(knock_on_vehicle=0.1, knock_on_bob=0.02, knock_period=0.1), rate=200.0, seed=7),
     "rates": Plant(interface="rates", rate=50.0, delay=0.03),
     "mismatch": Plant(mismatch={"mass": 1.1, "rod_length": 0.9, "rotor_lag": 1.2}, rate=200.0),
     "pivot": Plant(pivot_offset=(0.0, 0.01, 0.02), rate=200.0),

@@ -21,6 +21,7 @@ PLANTS = {
     "another lag": MUJOCO.replace(lag=0.05),
     "delay within a period": MUJOCO.replace(delay=0.005, rate=200.0),
     "rates": MUJOCO.replace(interface="rates", rate=50.0, delay=0.03),
+    "knocks": MUJOCO.replace(wind=Wind(knock_on_vehicle=0.05, knock_on_bob=0.01, knock_period=0.1), seed=7),
     "noise and gusts": MUJOCO.replace(noise=MOTION_CAPTURE, wind=Wind(on_bob=(0.05, 0, 0), gust_on_vehicle=0.2)),
     "another vehicle": MUJOCO.replace(mismatch={"mass": 1.1, "inertia": 0.9}, pivot_offset=(0.01, 0.0, 0.02)),
 }

@@ -88,6 +88,8 @@ def final(run):
             "wind.on_vehicle: expected finite numbers, got 1 that are NaN or infinite",
         ),
         (lambda: Wind(gust_on_bob=-1), "wind.gust_on_bob: expected a finite number >= 0 N, got -1"),
+        (lambda: Wind(knock_on_bob=-1), "wind.knock_on_bob: expected a finite number >= 0 N s, got -1"),
+        (lambda: Wind(knock_period=0), "wind.knock_period: expected a finite number > 0 s, got 0"),
         (lambda: Wind(gust_time=0), "wind.gust_time: expected a finite number > 0 s, got 0"),
         (lambda: Plant(engine="mujaco"), "plant.engine: expected one of equations, mujoco, got 'mujaco'"),
         (lambda: Plant(interface="rate"), "plant.interface: expected one of wrench, rates, got 'rate'"),

@@ -6,6 +6,7 @@ import io
 import signal
 import sys
 import traceback
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import examples, listing, studies, theorem, viewing
+from flypend.cli import check, examples, listing, studies, theorem, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.errors import InputError
@@ -98,6 +99,7 @@ def run(
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
+    from flypend.flight.feasibility import forewarned
     from flypend.flight.simulate import fly
     from flypend.model.vehicle import told as vehicle_told
     from flypend.paper.claims import SETTLED
@@ -112,6 +114,8 @@ def run(
     chosen = run_file(what, changes, law)
     flight = chosen.flight
     tell_how(flight.law)
+    for doubt in forewarned(flight):
+        say(f"flypend: warning: {doubt}")
     style_named(style)
     check_writable(out)
     if html is not None:
@@ -279,7 +283,8 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...]) -> None:
 @click.option("--precision", default="double", help="double or float.")
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
-def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, light: bool) -> None:
+@click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and tell the result.")
+def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, light: bool, tested: bool) -> None:
     """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
@@ -294,11 +299,22 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", UserWarning)
+        write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate, check=tested)
+    for warning in said:
+        say(f"flypend: warning: {warning.message}")
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
-for _command in (theorem.theorem, *studies.COMMANDS, *viewing.COMMANDS, *listing.COMMANDS, *examples.COMMANDS):
+for _command in (
+    theorem.theorem,
+    *studies.COMMANDS,
+    *check.COMMANDS,
+    *viewing.COMMANDS,
+    *listing.COMMANDS,
+    *examples.COMMANDS,
+):
     app.add_command(_command)
 
 

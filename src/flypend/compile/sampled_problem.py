@@ -69,7 +69,7 @@ class SampledProblem:
     measure : Program, optional
         (state, draws, noise parameters) → measured state.
     gusts : Program, optional
-        (gust, draws, wind parameters) → (gust, wind).
+        (memory of gusts and knocks, draws, wind parameters) → (memory, forces).
     judge : Program
         (t, state with rotor forces, gains) → the values to reduce over the sample ticks.
     reductions : tuple of str
@@ -130,6 +130,11 @@ class SampledProblem:
         """Lengths of the inputs shared by all flights of a call: timings, noise parameters and wind parameters."""
         noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
         return self.timing * len(self.flown), noise, wind
+
+    @property
+    def gust(self) -> int:
+        """Length of the memory of gusts and knocks."""
+        return self.gusts.inputs[0] if self.gusts else 0
 
     @property
     def drawn(self) -> range:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 import zlib
 from collections.abc import Sequence
 from importlib import metadata, resources
@@ -18,12 +19,14 @@ from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
 from flypend.export.records import Record
 from flypend.export.source import ascii_of, functions, initializer, struct, unread
+from flypend.export.tested import tested
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
 
-CORE = ("flypend_law.h", "flypend_law.c")
+HEADER, GUARD = "flypend_law.h", "#ifndef FLYPEND_LAW_H\n"
+CORE = (HEADER, "flypend_law.c")
 BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")
 ADAPTERS = (
     "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c",
@@ -42,7 +45,13 @@ TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 
 def export_c(
-    law: Law | BoundLaw, vehicle: Vehicle, out: str | Path, *, precision: Precision = "double", rate: float = 500.0
+    law: Law | BoundLaw,
+    vehicle: Vehicle,
+    out: str | Path,
+    *,
+    precision: Precision = "double",
+    rate: float = 500.0,
+    check: bool = True,
 ) -> Path:
     """Write the flight computer of `law` on `vehicle` as C99 into the folder `out`.
 
@@ -63,6 +72,8 @@ def export_c(
         Type of every number.
     rate : float
         How often the flight computer will be called, Hz.
+    check : bool
+        Whether to fly the law for some seconds first, and tell the result in the header. A poor one is a warning.
 
     Returns
     -------
@@ -83,6 +94,11 @@ def export_c(
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     texts = files(interface(law, vehicle, rate), precision)
+    if check:
+        found = tested(law, vehicle, rate)
+        texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)
+        if found.poor:
+            warnings.warn(f"the exported law flies {vehicle.name} poorly: {found.poor}", stacklevel=2)
     with staged(out) as folder:
         for name, text in texts.items():
             path = folder / name

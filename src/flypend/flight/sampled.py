@@ -25,7 +25,7 @@ from flypend.laws import Controller
 from flypend.model.state import MAX_STATE, seen_packed
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
-from flypend.plants.measurement import GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
+from flypend.plants.measurement import GUST_MEMORY, GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import within_period
 
@@ -139,7 +139,7 @@ def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callab
         measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT], sigma)  # noqa: E731
     if plant.wind is None:
         return measure, lambda _: np.zeros(6)
-    blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(6)
+    blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(GUST_MEMORY)
     nothing = np.zeros(6)
 
     def next_wind(k: int) -> Any:
@@ -156,6 +156,4 @@ def _compiled(make: Callable[[], ca.Function]) -> Any:
 
 def is_random(plant: Plant) -> bool:
     """Whether flights through `plant` depend on its seed."""
-    return plant.noise is not None or (
-        plant.wind is not None and (plant.wind.gust_on_vehicle > 0 or plant.wind.gust_on_bob > 0)
-    )
+    return plant.noise is not None or (plant.wind is not None and plant.wind.random)

@@ -1,4 +1,4 @@
-"""Measurement noise and wind gusts as functions of standard normal draws.
+"""Measurement noise, wind gusts and knocks as functions of standard normal draws.
 
 The noise and wind parameters are inputs of the functions, so one compiled flight serves all values.
 """
@@ -19,7 +19,10 @@ from flypend.plants.plant import Noise, Wind
 
 # Each control tick draws 24 numbers: the first 18 are for the measurement, the other 6 for the gusts.
 MEASUREMENT, GUSTS = slice(0, 18), slice(18, 24)
-NOISE_SIZE, WIND_SIZE = 6, 9
+TINY = 1e-300  # keeps draws that are all zero, as without any randomness, from making NaN
+NOISE_SIZE, WIND_SIZE = 6, 12
+# What `gusts` remembers: the gust, ticks since the interval of a knock began, and the tick of its knock, not rounded.
+GUST_MEMORY = 8
 
 
 def noise_numbers(noise: Noise | None) -> Any:
@@ -28,17 +31,18 @@ def noise_numbers(noise: Noise | None) -> Any:
 
 
 def wind_numbers(wind: Wind | None, period: float) -> Any:
-    """Parameters (9,) of `wind` for `gusts`, with gusts held constant over a control `period`, s.
+    """Parameters (12,) of `wind` for `gusts`, with all forces held constant over a control `period`, s.
 
-    The decay of a gust over one period, the standard deviations (N) of its per-axis increments on vehicle and bob, and
-    the constant forces on both, N.
+    The decay of a gust over one period, the standard deviations (N) of its per-axis increments on vehicle and bob, the
+    constant forces on both, N; the forces of a knock on both, N, and the ticks of its interval.
     """
     if wind is None:
         return np.zeros(WIND_SIZE)
     decay = np.exp(-period / wind.gust_time)
     added = np.sqrt(1 - decay**2)
     gusty = (added * wind.gust_on_vehicle, added * wind.gust_on_bob)
-    return np.array([decay, *gusty, *wind.on_vehicle, *wind.on_bob])
+    knocking = (wind.knock_on_vehicle / period, wind.knock_on_bob / period, max(1, round(wind.knock_period / period)))
+    return np.array([decay, *gusty, *wind.on_vehicle, *wind.on_bob, *knocking])
 
 
 def measurement() -> ca.Function:
@@ -59,8 +63,26 @@ def measurement() -> ca.Function:
 
 
 def gusts() -> ca.Function:
-    """CasADi function (gust (6,), draws (6,), `wind_numbers`) → next gust (6,), wind force on vehicle and bob (6,)."""
-    gust, draws, numbers = ca.SX.sym("g", 6), ca.SX.sym("n", 6), ca.SX.sym("w", WIND_SIZE)
-    decay, on_vehicle, on_bob, constant = numbers[0], numbers[1], numbers[2], numbers[3:]
-    following = decay * gust + ca.vertcat(on_vehicle * draws[:3], on_bob * draws[3:])
-    return ca.Function("gusts", [gust, draws, numbers], [following, following + constant])
+    """CasADi function (memory (8,), draws (6,), `wind_numbers`) → memory, forces on vehicle and bob (6,), N."""
+    memory, draws, numbers = ca.SX.sym("g", GUST_MEMORY), ca.SX.sym("n", 6), ca.SX.sym("w", WIND_SIZE)
+    decay, on_vehicle, on_bob, constant = numbers[0], numbers[1], numbers[2], numbers[3:9]
+    gust = decay * memory[:6] + ca.vertcat(on_vehicle * draws[:3], on_bob * draws[3:])
+    clock, moment = memory[6], memory[7]
+    ticks = numbers[11]
+    moment = ca.if_else(clock < 1, ticks * _share(draws), moment)
+    hit = ca.logic_and(clock <= moment, moment < clock + 1)
+    knock = ca.vertcat(numbers[9] * _direction(draws[:3]), numbers[10] * _direction(draws[3:]))
+    following = ca.if_else(clock + 1 < ticks, clock + 1, 0)
+    outputs = [ca.vertcat(gust, following, moment), gust + constant + ca.if_else(hit, knock, 0)]
+    return ca.Function("gusts", [memory, draws, numbers], outputs)
+
+
+def _share(draws: Any) -> Any:
+    """Return a number uniform in (0, 1) from four normal ones: the share of two in the sum of squares; 0 from zeros."""
+    two = ca.sumsqr(draws[:2])
+    return two / ca.fmax(two + ca.sumsqr(draws[2:4]), TINY)
+
+
+def _direction(draws: Any) -> Any:
+    """Return a unit vector uniform on S² from three normal numbers; 0 from zeros."""
+    return draws / ca.sqrt(ca.fmax(ca.sumsqr(draws), TINY))

@@ -14,7 +14,9 @@ from flypend.model import Vehicle
 
 Engine = Literal["equations", "mujoco"]
 Interface = Literal["wrench", "rates"]
-MISMATCHED = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_lag")
+MISMATCHED = (
+    "mass", "bob_mass", "rod_length", "rod_inertia", "inertia", "rotor_positions", "drag_ratio", "rotor_lag"
+)  # fmt: skip
 
 
 # Every command in transit is kept, and the prediction goes through them all: a delay in ms given as s would never end.
@@ -62,7 +64,10 @@ MOTION_CAPTURE = Noise(x=1e-3, x_dot=1e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Wind:
-    """Wind forces on vehicle and bob, world frame with e₃ up, N.
+    """External forces on vehicle and bob: steady wind, gusts and knocks; world frame with e₃ up, N.
+
+    Of knocks, one comes in every interval of `knock_period`, at a random moment: an impulse on the vehicle and one on
+    the bob, each of fixed size and random direction, which act for one control period.
 
     Parameters
     ----------
@@ -72,6 +77,10 @@ class Wind:
         Standard deviation of a gust per axis; gusts are white noise through a first-order filter.
     gust_time : float
         Correlation time of a gust, s.
+    knock_on_vehicle, knock_on_bob : float
+        Size of the impulses of a knock, N s.
+    knock_period : float
+        Length of the intervals with one knock each, s.
     """
 
     on_vehicle: Any = (0.0, 0.0, 0.0)
@@ -79,13 +88,24 @@ class Wind:
     gust_on_vehicle: float = 0.0
     gust_on_bob: float = 0.0
     gust_time: float = 1.0
+    knock_on_vehicle: float = 0.0
+    knock_on_bob: float = 0.0
+    knock_period: float = 4.0
 
     def __post_init__(self) -> None:
         for name in ("on_vehicle", "on_bob"):
             object.__setattr__(self, name, tuple(errors.array(f"wind.{name}", getattr(self, name), (3,)).tolist()))
         for name in ("gust_on_vehicle", "gust_on_bob"):
             errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N")
-        errors.number("wind.gust_time", self.gust_time, above=0, unit="s")
+        for name in ("knock_on_vehicle", "knock_on_bob"):
+            errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N s")
+        for name in ("gust_time", "knock_period"):
+            errors.number(f"wind.{name}", getattr(self, name), above=0, unit="s")
+
+    @property
+    def random(self) -> bool:
+        """Whether there are gusts or knocks."""
+        return max(self.gust_on_vehicle, self.gust_on_bob, self.knock_on_vehicle, self.knock_on_bob) > 0
 
 
 _KINDS: tuple[tuple[str, Any, str], ...] = (
@@ -125,7 +145,8 @@ class Sampled:
     pivot_offset : (3,)
         Position of the ball joint relative to the centre of mass, body frame, m. The law does not know it.
     mismatch : dict
-        Ratio of true to nominal value for mass, bob_mass, rod_length, inertia, drag_ratio, rotor_lag.
+        Ratio of true to nominal value for mass, bob_mass, rod_length (and rod_end with it), rod_inertia, inertia,
+        rotor_positions, drag_ratio, rotor_lag.
     wind : Wind, optional
         External forces.
     interface : "wrench" or "rates"
@@ -134,7 +155,7 @@ class Sampled:
     rate_loop_rate, rate_loop_gain : float
         Frequency (Hz) and proportional gain (1/s) of that inner loop.
     seed : int
-        Seed of noise and gusts.
+        Seed of noise, gusts and knocks.
 
     Raises
     ------
@@ -188,6 +209,8 @@ class Sampled:
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
         """Return the true vehicle for the nominal `vehicle`, with `mismatch` and `lag` applied."""
         changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}
+        if vehicle.rod_end is not None and "rod_length" in changes:
+            changes["rod_end"] = vehicle.rod_end * self.mismatch["rod_length"]
         if self.lag is not None:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
         return vehicle.replace(**changes)

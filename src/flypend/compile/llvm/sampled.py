@@ -62,7 +62,8 @@ class _Kernel:
         self.states = code.reserve(2 * (1 + n + k))  # before and after a tick, in turn; each preceded by the time
         self.measured, self.none = code.reserve(1 + n), code.reserve(1)
         self.memory = code.reserve(self.strides * self.stride + problem.memory)
-        self.P, self.wind, self.gust = code.reserve(problem.gains), code.reserve(6), code.reserve(6)
+        self.P, self.wind = code.reserve(problem.gains), code.reserve(6)
+        self.gust = code.reserve(problem.gust)
         self.ring, self.draws = code.reserve(problem.depth * problem.command), code.reserve(PER_TICK)
         self.t, self.alive, self.status, self.end = (code.reserve(1) for _ in range(4))
         self.timings, self.noise, self.blowing = (code.reserve(length) for length in problem.inputs)
@@ -137,8 +138,8 @@ class _Kernel:
         code.call(self.call["begin"], code.vector_at(state, problem.size), memory, command)
         for slot in range(problem.depth):
             self._move(command, code.vector_at(self.ring, slot * problem.command), problem.command)
-        for memory in (self.gust, self.wind):
-            for i in range(6):
+        for memory, length in ((self.gust, problem.gust), (self.wind, 6)):
+            for i in range(length):
                 code.store(0.0, memory, i)
         self.world.begin(self.first, state)
         code.store(1.0, self.alive)

@@ -1,0 +1,70 @@
+"""The command that says what a vehicle can do under a law."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from flypend.cli.options import laws_option, out_option
+from flypend.cli.terminal import bold, console, counter, tell_how
+
+
+@click.command()
+@click.argument("vehicle")
+@laws_option
+@out_option("check-out")
+@click.option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
+@click.option("--runs", type=click.IntRange(min=1), help="Random starts; default 1000, 24 where flights are slow.")
+@click.option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
+@click.option("--margins/--no-margins", default=None, help="Search the margins; default where flights are fast.")
+@click.option("--trial", is_flag=True, help="Also fly a minute with 15 knocks, and sweep every number by ±25 %.")
+@click.option("--figures/--no-figures", default=True, help="Draw the figure.")
+def check(
+    vehicle: str,
+    law: tuple[str, ...],
+    out: Path,
+    plant: str,
+    runs: int | None,
+    seed: int,
+    margins: bool | None,
+    trial: bool,
+    figures: bool,
+) -> None:
+    """Find out whether VEHICLE, a name or a TOML file, can be flown: hover, lean, swing-up, random starts, margins.
+
+    Exit code 1, with the reason, if it cannot be flown by one of the laws; the default law is inverted.
+    """
+    from flypend import errors, model
+    from flypend.files.staging import check_writable
+    from flypend.plants import PRESETS
+    from flypend.report.check import check_tables, verdicts, write_check
+    from flypend.studies import law_named
+    from flypend.studies.check import check as examine
+    from flypend.studies.trial import trial as try_
+
+    machine = model.vehicle(vehicle)
+    errors.one_of("--plant", plant, [name for name in PRESETS if name != "ideal"])
+    laws = {name: law_named(name) for name in law or ("inverted",)}
+    for each in laws.values():
+        tell_how(each)
+    check_writable(out)
+    checks, trials = {}, {}
+    with counter() as tell:
+        for name, each in laws.items():
+            checks[name] = examine(machine, each, plant=plant, runs=runs, seed=seed, margins=margins, progress=tell)
+            if trial and checks[name].tasks:
+                trials[name] = try_(machine, each, plant=plant, seed=seed, progress=tell)
+    settings = {"vehicle": vehicle, "laws": list(laws), "plant": plant, "seed": seed}
+    write_check(checks, trials, settings, out, figures=figures)
+    for table in check_tables(checks, trials):
+        console.print(table)
+    for line in verdicts(checks):
+        console.print(line, markup=False)
+    console.print(f"The report{' and its figure are' if figures else ' is'} in {bold(out)}.")
+    if not all(each.ok for each in checks.values()):
+        sys.exit(1)
+
+
+COMMANDS = (check,)

@@ -1,0 +1,124 @@
+"""The tasks that a vehicle and its law are checked on: batches of starts, e₃ up, and their flights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from flypend.errors import InputError
+from flypend.flight.ensemble import Ensemble, fly_many
+from flypend.flight.request import Flight
+from flypend.geometry import E3
+from flypend.laws import BoundLaw, Controller
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.mount import margins
+from flypend.model.state import SIZE
+from flypend.plants import Sampled
+
+# What each task asks, in words.
+TASKS: Mapping[str, str] = {
+    "hover": "rod upright, half its length from the reference",
+    "lean": "level hover at rest, the rod leaning by up to 60°",
+    "hanging": "rod hanging at rest, at any heading",
+    "random": "any attitude and rod, rates up to 3 rad/s, speeds up to 2 m/s",
+}
+LEANS = np.radians(np.arange(5.0, 61.0, 5.0))
+ASKEW = 0.02  # rad, how far a hanging rod is from straight down: none hangs better
+TICK = 0.02  # s, at which leans are sampled
+MOST_DRAWS = 200  # as many random starts are drawn for each one that is wanted
+
+
+def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) -> dict[str, State]:
+    """Return the starts of each of `TASKS`, e₃ up: `runs` random ones from `seed`, the others in some `directions`.
+
+    Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone,
+    or if none is, of half its angle.
+
+    In a cup nothing swings up: the tasks are hover and lean, and random starts are level with the rod inside the cone.
+    On a hub, random starts do not touch.
+    """
+    rng = np.random.default_rng(seed)
+    most = vehicle.body.cup_angle if vehicle.mount == "cup" else np.pi
+    leans = [lean for lean in LEANS if lean < most] or [most / 2]
+    level = vehicle.l / 2 * _directions(directions, np.pi / 2)
+    starts = {
+        "hover": State(x=level, y=np.broadcast_to(E3, level.shape)),
+        "lean": State(y=np.concatenate([_directions(directions, lean) for lean in leans])),
+        "hanging": _hanging(rng, directions),
+    }
+    if vehicle.mount == "cup":
+        return {"hover": starts["hover"], "lean": starts["lean"], "random": _in_cup(vehicle, rng, runs)}
+    return starts | {"random": _free(vehicle, rng, runs)}
+
+
+def fly_tasks(
+    vehicle: Vehicle,
+    law: BoundLaw | Controller,
+    plant: Sampled,
+    starts: Mapping[str, State],
+    duration: float,
+    *,
+    workers: int | None = None,
+    progress: Callable[[str, int, int], Any] = lambda *_: None,
+) -> dict[str, Ensemble]:
+    """Fly `vehicle` under `law` through `plant` from the `starts` of each task, e₃ up, for `duration` s.
+
+    Leans are sampled every `TICK`. `workers` as in `simulate_ensemble`; `progress` is called with (task, done, total).
+    """
+    found = {}
+    for name, batch in starts.items():
+        times = np.arange(0.0, duration, TICK) if name == "lean" else None
+        flight = Flight(
+            vehicle=vehicle, law=law, starts=batch.seen(law.e3), duration=duration, plant=plant, times=times
+        )
+        found[name] = fly_many(flight, workers=workers, progress=lambda *a, name=name: progress(name, *a))
+    return found
+
+
+def touching(vehicle: Vehicle, starts: State) -> Any:
+    """Return whether the rod of each of `starts` (n,), e₃ up, is where the mount does not let it be."""
+    hover = Wrench(np.full(len(starts), vehicle.weight), np.zeros((len(starts), 3)))
+    return np.any(margins(starts, hover, vehicle, "up") < 0, axis=-1)
+
+
+def _hanging(rng: np.random.Generator, directions: int) -> State:
+    y = np.concatenate([[-E3], _directions(directions, np.pi - ASKEW)])
+    return State(y=y, R=_headings(rng.uniform(0, 2 * np.pi, len(y))))
+
+
+def _in_cup(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
+    """Level vehicles at rest with the rod anywhere within half the angle of the cone."""
+    cosine = rng.uniform(np.cos(vehicle.body.cup_angle / 2), 1.0, runs)
+    angle, sine = rng.uniform(0, 2 * np.pi, runs), np.sqrt(1 - cosine**2)
+    return State(y=np.stack([sine * np.cos(angle), sine * np.sin(angle), cosine], axis=-1))
+
+
+def _free(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
+    """Random states whose rod touches nothing: `runs` of them, in the order in which they are drawn.
+
+    Raises InputError if there are hardly any.
+    """
+    packed = np.empty((0, SIZE))
+    for _ in range(MOST_DRAWS):
+        drawn = State.random(rng, runs)
+        packed = np.concatenate([packed, drawn.packed()[~touching(vehicle, drawn)]])
+        if len(packed) >= runs:
+            return State.trusted(packed[:runs])
+    raise InputError("vehicle.body", "a machine with room for its rod", f"one it touches in {MOST_DRAWS * runs} poses")
+
+
+def _directions(count: int, tilt: float) -> Any:
+    """Unit vectors (count, 3) at `tilt` (rad) from e₃, all around."""
+    angle = 2 * np.pi * np.arange(count) / count
+    level = np.sin(tilt) * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return np.concatenate([level, np.full((count, 1), np.cos(tilt))], axis=-1)
+
+
+def _headings(angles: Any) -> Any:
+    """Rotations (n, 3, 3) about e₃."""
+    turned = np.broadcast_to(np.eye(3), (len(angles), 3, 3)).copy()
+    turned[:, 0, 0] = turned[:, 1, 1] = np.cos(angles)
+    turned[:, 1, 0], turned[:, 0, 1] = np.sin(angles), -np.sin(angles)
+    return turned

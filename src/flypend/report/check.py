@@ -1,0 +1,153 @@
+"""The output of `flypend check`: tables, their numbers, and a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.box import SIMPLE
+from rich.markup import escape
+from rich.table import Table
+
+from flypend import __version__
+from flypend.files.staging import staged
+from flypend.flight.tasks import TASKS
+from flypend.report.text import number, write_json
+from flypend.studies.check import Check
+from flypend.studies.trial import Trial
+
+COLUMNS = ("law", "task", "stands", "% (95 %)", "settle s", "exc. m", "clear mm", "failed")
+Cells = list[list[str]]
+
+
+def task_cells(checks: Mapping[str, Check]) -> Cells:
+    """Return the cells of the tasks, a row per law and task; settling, excursion: median/95 %, clearance: 5 %."""
+    return [
+        [
+            law, name, f"{row['successes']} of {row['runs']}",
+            f"{100 * row['success']:.4g} ({100 * row['wilson_low']:.1f}-{100 * row['wilson_high']:.1f})",
+            f"{_short(row['settling_p50'])}/{_short(row['settling_p95'])}",
+            f"{_short(row['excursion_p50'])}/{_short(row['excursion_p95'])}",
+            _short(1e3 * row["clearance_p5"]) if "clearance_p5" in row else "-",
+            ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "-",
+        ]
+        for law, check in checks.items()
+        for name, row in check.rows().items()
+    ]  # fmt: skip
+
+
+def margin_cells(checks: Mapping[str, Check]) -> Cells:
+    """Return the header and the cells of margins and catches: a row per quantity, a column per law."""
+    rows = [["leans caught directly", *(_caught(check) for check in checks.values())]]
+    names = list(dict.fromkeys(name for check in checks.values() for name in check.margins))
+    for name in names:
+        found = [check.margins.get(name) for check in checks.values()]
+        rows.append([name, *("-" if margin is None else margin.told() for margin in found)])
+    return [["90 % succeed", *checks], *rows]
+
+
+def trial_cells(trials: Mapping[str, Trial]) -> Cells:
+    """Return the header and the cells of trials: uptime under knocks and success in each sweep, a column per law."""
+    rows = [
+        ["up under knocks, median (5 %)", *(_uptime(trial) for trial in trials.values())],
+        ["standing after 60 s", *(f"{int(t.standing.sum())} of {len(t.standing)}" for t in trials.values())],
+    ]
+    for name in dict.fromkeys(name for trial in trials.values() for name in trial.sweeps):
+        cells = [trial.sweeps.get(name, {}) for trial in trials.values()]
+        rows.append([name, *("/".join(f"{100 * c / n:.0f}" for c, n in row.values()) for row in cells)])
+    rows.append(["mean of all sweeps", *(f"{100 * trial.robustness:.1f}" for trial in trials.values())])
+    return [["% of trial and of sweeps ×0.75/0.875/1.125/1.25", *trials], *rows]
+
+
+def check_tables(checks: Mapping[str, Check], trials: Mapping[str, Trial]) -> list[Table]:
+    """Return the tables for the terminal."""
+    cells = task_cells(checks)
+    tables = []
+    if cells:
+        several = len(checks) > 1
+        tables.append(_table([list(COLUMNS[0 if several else 1 :]), *(row[0 if several else 1 :] for row in cells)]))
+        tables.append(_table(margin_cells(checks)))
+    return [*tables, *([_table(trial_cells(trials))] if trials else [])]
+
+
+def verdicts(checks: Mapping[str, Check]) -> list[str]:
+    """Return a line per law, reason and warning."""
+    lines = []
+    for law, check in checks.items():
+        can = "can" if check.ok else "cannot"
+        lines.append(f"{check.vehicle.name} {can} be flown by {law}.")
+        lines += [f"  {reason}" for reason in (*check.reasons, *check.warnings)]
+    return lines
+
+
+def write_check(
+    checks: Mapping[str, Check],
+    trials: Mapping[str, Trial],
+    settings: Mapping[str, Any],
+    out: str | Path,
+    *,
+    figures: bool = True,
+) -> None:
+    """Write report.md, report.json (with `settings`) and check.pdf and .png of `checks` into the folder `out`.
+
+    `checks` and `trials` are keyed by law. Without `figures`, or if nothing was flown, there is no picture.
+    """
+    from flypend.files.whole import save_both
+
+    with staged(out) as folder:
+        (folder / "report.md").write_text(_markdown(checks, trials, settings), encoding="utf-8")
+        content = {
+            "flypend": __version__,
+            "settings": dict(settings),
+            "checks": {law: check.to_dict() for law, check in checks.items()},
+            "trials": {law: trial.to_dict() for law, trial in trials.items()},
+        }
+        write_json(folder / "report.json", content)
+        if figures and any(check.tasks for check in checks.values()):
+            from flypend.pictures.check import check_figure
+
+            save_both(check_figure(checks), folder / "check")
+
+
+def _markdown(checks: Mapping[str, Check], trials: Mapping[str, Trial], settings: Mapping[str, Any]) -> str:
+    told = "; ".join(f"{name}: {value}" for name, value in settings.items())
+    parts = ["# Check", f"{told}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
+    if cells := task_cells(checks):
+        meaning = "\n".join(f"- {name}: {words}" for name, words in TASKS.items())
+        parts += [_barred([list(COLUMNS), *cells]), meaning, _barred(margin_cells(checks))]
+    parts += [_barred(trial_cells(trials))] if trials else []
+    return "\n\n".join(parts) + "\n"
+
+
+def _table(cells: Cells) -> Table:
+    table = Table(box=SIMPLE, padding=(0, 0, 0, 1))
+    for i, name in enumerate(cells[0]):
+        table.add_column(escape(name), justify="left" if i == 0 else "right", overflow="fold")
+    for row in cells[1:]:
+        table.add_row(*(escape(cell) for cell in row))
+    return table
+
+
+def _barred(cells: Cells) -> str:
+    rows = [[cell.replace("|", "\\|") for cell in row] for row in cells]
+    return "\n".join(
+        ["| " + " | ".join(rows[0]) + " |", "|---" * len(rows[0]) + "|"]
+        + [f"| {' | '.join(row)} |" for row in rows[1:]]
+    )
+
+
+def _caught(check: Check) -> str:
+    if check.catch is None or not check.catch.lean:
+        return "none"
+    return f"up to {np.degrees(check.catch.lean):.0f}°, within {number(check.catch.excursion)} m"
+
+
+def _uptime(trial: Trial) -> str:
+    low, median = np.percentile(trial.uptime, (5, 50))
+    return f"{100 * median:.1f} ({100 * low:.1f})"
+
+
+def _short(value: float) -> str:
+    return "-" if np.isnan(value) else f"{value:.3g}"

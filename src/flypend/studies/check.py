@@ -1,0 +1,241 @@
+"""What a vehicle can do under a law, and how much may be wrong before it cannot: `flypend check`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from flypend import errors, plants
+from flypend.errors import InputError
+from flypend.flight.ensemble import Ensemble
+from flypend.flight.feasibility import Feasibility, feasibility
+from flypend.flight.request import Flight, bound_to
+from flypend.flight.tasks import fly_tasks, task_starts
+from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
+from flypend.laws.own import LawError
+from flypend.model import Vehicle
+from flypend.plants import AnyPlant, Sampled
+from flypend.studies.compare import summary
+from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
+from flypend.studies.sweep.axes import integer
+
+# Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
+# and for a law that is stepped in Python. And how many flights each value of a margin takes.
+USUAL, SLOW = (1000, 12, 30.0), (24, 3, 10.0)
+MARGIN_RUNS, SLOW_MARGIN_RUNS = 200, 12
+LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
+
+Progress = Callable[[str, int, int], Any]
+
+
+@dataclass(frozen=True)
+class Catch:
+    """Leans at rest that are caught directly: the rod is never below the horizon of its pivot.
+
+    Parameters
+    ----------
+    lean : float
+        The largest lean up to which every one is caught, whatever its direction, rad; 0 for none.
+    excursion : float
+        Largest distance from the reference while it is caught, m; NaN for none.
+    swung : int
+        Leans, of all, that end upright after the rod was below the horizon.
+    """
+
+    lean: float
+    excursion: float
+    swung: int
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Check:
+    """The result of `check`.
+
+    Parameters
+    ----------
+    vehicle, plant
+        What flew, and through which plant.
+    law : str
+        Name of the law.
+    feasibility : Feasibility
+        What the vehicle's numbers allow, whatever the law.
+    tasks : dict of Ensemble
+        Flights of each task: see `flypend.flight.tasks.TASKS`. Empty if there is nothing to fly.
+    catch : Catch, optional
+        Leans that are caught directly.
+    margins : dict of Margin
+        By name: delay, rotor lag, rod length, mass and noise. Empty if they were not searched.
+    reasons : tuple of str
+        Why the vehicle cannot be flown by this law; empty if it can.
+    warnings : tuple of str
+        What leaves little room, though flights succeed.
+    """
+
+    vehicle: Vehicle
+    plant: Sampled
+    law: str
+    feasibility: Feasibility
+    tasks: Mapping[str, Ensemble] = field(default_factory=dict)
+    catch: Catch | None = None
+    margins: Mapping[str, Margin] = field(default_factory=dict)
+    reasons: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        """Whether it hovers always, and stands from at least 90 % of the starts of every other task of its mount."""
+        return not self.reasons
+
+    def __repr__(self) -> str:
+        """Return verdict, tasks and margins, a line each."""
+        lines = [f"<Check of {self.law} on {self.vehicle.name}: {'can' if self.ok else 'cannot'} be flown"]
+        lines += [f"  {reason}" for reason in (*self.reasons, *self.warnings)]
+        for name, row in self.rows().items():
+            span = f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f} %"
+            lines.append(
+                f"  {name:7} {row['successes']} of {row['runs']} ({span}), "
+                f"excursion {row['excursion_p50']:.3g}/{row['excursion_p95']:.3g} m"
+            )
+        if self.catch is not None:
+            lines.append(f"  leans caught directly: {_degrees(self.catch)}")
+        lines += [f"  {name}: {margin.told()}" for name, margin in self.margins.items()]
+        return "\n".join(lines) + ">"
+
+    def rows(self) -> dict[str, dict[str, Any]]:
+        """Return success with its Wilson interval, settling, excursion, clearance and causes of failure, by task."""
+        return {name: summary(ensemble) for name, ensemble in self.tasks.items()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything but the single flights as plain numbers, lists and dicts."""
+        return {
+            "vehicle": self.vehicle.to_dict(),
+            "law": self.law,
+            "ok": self.ok,
+            "reasons": list(self.reasons),
+            "warnings": list(self.warnings),
+            "feasibility": asdict(self.feasibility),
+            "tasks": self.rows(),
+            "catch": None if self.catch is None else asdict(self.catch),
+            "margins": {name: asdict(margin) for name, margin in self.margins.items()},
+        }
+
+
+def check(
+    vehicle: Vehicle,
+    law: AnyLaw | None = None,
+    *,
+    plant: str | AnyPlant = "rotors",
+    runs: int | None = None,
+    seed: int = 1,
+    duration: float | None = None,
+    margins: bool | None = None,
+    workers: int | None = None,
+    progress: Progress = lambda *_: None,
+) -> Check:
+    """Find out whether `vehicle` can be flown by `law`, how well, and how much may be wrong before it cannot.
+
+    Hover, leans at rest, a swing-up from hanging, and random starts; then the margins of delay, rotor lag, rod length,
+    mass and noise, at which success from random starts drops below 90 % while the law still believes its vehicle.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        The vehicle, with its mount.
+    law : Law or Controller, optional
+        The law; default the inverted law.
+    plant : str or Plant
+        The sampled plant to fly through.
+    runs : int, optional
+        Random starts; default 1000, or 24 in MuJoCo and for a law that is stepped in Python.
+    seed : int
+        Seed of the random starts.
+    duration : float
+        Seconds per flight; default 30, or 10 where there are only 24.
+    margins : bool, optional
+        Whether to search for margins; default where there are 1000 random starts.
+    workers : int, optional
+        As in `simulate_ensemble`.
+    progress : callable
+        Called with `(what, done, total)`.
+
+    Raises
+    ------
+    InputError
+        For the ideal plant, which has no margins, a law that does not fly any vehicle, and numbers out of range. A
+        vehicle that cannot be flown is a result.
+    """
+    world = plants.sampled_plant(plant)
+    chosen = law if law is not None else inverted()
+    found = feasibility(vehicle, world.delay)
+    name = chosen.name
+    about: dict[str, Any] = {"vehicle": vehicle, "plant": world, "law": name, "feasibility": found}
+    if found.impossible:
+        return Check(**about, reasons=found.impossible)
+    try:
+        bound = bound_to(vehicle, chosen)
+    except LawError:
+        raise
+    except InputError as error:
+        refusal = f"the {name} law refuses the vehicle: {error}"
+        return Check(**about, reasons=(*found.doubtful, refusal))
+    quick = isinstance(bound, BoundLaw) and world.engine == "equations"
+    usual, directions, long = USUAL if quick else SLOW
+    seconds = long if duration is None else errors.number("duration", duration, above=0, unit="s")
+    starts = task_starts(vehicle, usual if runs is None else integer("runs", runs, 1), seed, directions)
+    tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
+    reasons = _failed(tasks)
+    about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
+    if (quick if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
+        flight = _of_margins(vehicle, bound, world, tasks["random"], seconds)
+        about["margins"] = search(flight, quantities(vehicle, world), progress)
+    if reasons:
+        return Check(**about, reasons=(*reasons, *found.doubtful))
+    return Check(**about, warnings=found.doubtful)
+
+
+def caught(leans: Ensemble, directions: int) -> Catch:
+    """Return which of the flights of the task "lean", in `directions` of each lean, are catches."""
+    assert leans.samples is not None
+    up = 1.0 if leans.e3 == "up" else -1.0
+    low = np.nanmin(up * leans.samples.y[..., 2], axis=1)
+    direct = (leans.success & (low > 0)).reshape(-1, directions)
+    count = int(np.argmin([*direct.all(axis=1), False]))
+    angles = np.arccos(np.clip(up * leans.starts.y[::directions, 2], -1, 1))
+    excursion = leans.excursion.reshape(-1, directions)[:count]
+    return Catch(
+        lean=float(angles[count - 1]) if count else 0.0,
+        excursion=float(excursion.max()) if count else float("nan"),
+        swung=int(np.sum(leans.success & (low <= 0))),
+    )
+
+
+def _failed(tasks: Mapping[str, Ensemble]) -> tuple[str, ...]:
+    """Why the flights of `tasks` are not good enough, most basic first; leans are told, not required."""
+    reasons = []
+    for name, ensemble in tasks.items():
+        least = {"hover": 1.0, "lean": 0.0}.get(name, LEAST_RATE)
+        if ensemble.rate < least:
+            causes = ", ".join(f"{cause} {count}" for cause, count in summary(ensemble)["causes"].items())
+            reasons.append(f"{name}: {int(ensemble.success.sum())} of {len(ensemble)} stand ({causes})")
+    return tuple(reasons)
+
+
+def _of_margins(
+    vehicle: Vehicle, law: BoundLaw | Controller, plant: Sampled, flown: Ensemble, duration: float
+) -> Flight:
+    """Return the flights of every value of a margin: the first random starts, no longer than they need to settle."""
+    needed = 2 * flown.percentile("settling", 95)
+    quick = isinstance(law, BoundLaw) and plant.engine == "equations"
+    return Flight(
+        vehicle=vehicle, law=law, starts=flown.starts[: MARGIN_RUNS if quick else SLOW_MARGIN_RUNS],
+        duration=float(min(duration, max(LEAST_DURATION, needed))), plant=plant,
+    )  # fmt: skip
+
+
+def _degrees(catch: Catch) -> str:
+    if not catch.lean:
+        return "none"
+    return f"up to {np.degrees(catch.lean):.0f}°, excursion {catch.excursion:.3g} m"

@@ -1,0 +1,214 @@
+"""How far a number of the world may be from what the law believes before success drops below a limit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from threading import Event
+from typing import Any
+
+import numpy as np
+
+from flypend.flight.ensemble import fly_many
+from flypend.flight.kernels import has_kernel
+from flypend.flight.metrics import wilson
+from flypend.flight.request import Flight
+from flypend.model import Vehicle
+from flypend.plants import MOTION_CAPTURE, Noise, Sampled
+from flypend.plants.plant import LONGEST_DELAY, MOST_IN_TRANSIT
+
+LEAST_RATE = 0.9  # success rate at which a margin ends
+# A search stops once the boundary is known to this share of it, or to be below this share of its first step.
+RESOLUTION, LEAST_STEP = 0.12, 1 / 16
+SEARCHES = 2  # searches at a time: while one compiles in Python, the other does in LLVM, or flies
+
+
+@dataclass(frozen=True)
+class Margin:
+    """Success against one number of the world.
+
+    Parameters
+    ----------
+    name, unit : str
+        What is varied, and the unit of `values`.
+    nominal : float
+        What the law believes.
+    values, successes : tuple of float, of int
+        Values flown, ascending, and how many of `runs` flights succeed at each.
+    runs : int
+        Flights at each value.
+    low, high : float
+        The range around `nominal` within which at least 90 % succeed, as far as it was flown; NaN on a side that was
+        not searched.
+    open_low, open_high : bool
+        Whether the search ended there before success dropped.
+    """
+
+    name: str
+    unit: str
+    nominal: float
+    values: tuple[float, ...]
+    successes: tuple[int, ...]
+    runs: int
+    low: float
+    high: float
+    open_low: bool
+    open_high: bool
+
+    def rate(self) -> Any:
+        """Return success rates (k,) and their Wilson bounds (2, k), 95 %."""
+        rates = np.array(self.successes) / self.runs
+        return rates, np.array([wilson(count, self.runs) for count in self.successes]).T
+
+    def told(self) -> str:
+        """Return the range in words: "0.62 to 1.31", "up to 34 ms", "up to more than 8"."""
+        high = f"{'more than ' if self.open_high else ''}{self.high:.3g}"
+        words = f"up to {high}"
+        if not np.isnan(self.low):
+            words = f"{'less than ' if self.open_low else ''}{self.low:.3g} to {high}"
+        return f"{words} {self.unit}".strip()
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of the world to vary.
+
+    Parameters
+    ----------
+    name, unit, nominal
+        As in `Margin`.
+    plant : callable
+        Value → plant in which the world has it.
+    value : callable
+        Signed distance from the nominal value, 0 at it → value.
+    step, most : float
+        First and largest distance.
+    both : bool
+        Whether distances below 0 are searched, too.
+    """
+
+    name: str
+    unit: str
+    nominal: float
+    plant: Callable[[float], Sampled]
+    value: Callable[[float], float]
+    step: float
+    most: float
+    both: bool = True
+
+
+def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
+    """Return the numbers whose margins are searched: delay, lag, rod length, mass and noise.
+
+    Delays start at a tenth of √(l/g) and end where the plant's queue does. Lag, rod length and mass (of vehicle and rod
+    together) are factors from 1/4 to 4; noise is a multiple of the plant's, or of motion capture's.
+    """
+    time = float(np.sqrt(vehicle.l / vehicle.g))
+    longest = min(LONGEST_DELAY, MOST_IN_TRANSIT / plant.rate)
+    noise, least = plant.noise or MOTION_CAPTURE, 1.0 if plant.noise else 0.0
+    return [
+        Quantity(
+            "delay", "ms", 1e3 * plant.delay, lambda ms: plant.replace(delay=ms / 1e3),
+            lambda d: 1e3 * (plant.delay + d), 0.1 * time, longest - plant.delay, both=False,
+        ),
+        _rotor_lag(plant, plant.true_vehicle(vehicle).rotor_lag, time),
+        Quantity("rod length", "of the believed", 1.0, _mismatched(plant, "rod_length"), _factor, 0.1, 3.0),
+        Quantity("mass", "of the believed", 1.0, _mismatched(plant, "mass", "bob_mass"), _factor, 0.2, 3.0),
+        Quantity(
+            "noise", "of the plant's" if plant.noise else "of motion capture's", least,
+            lambda k: plant.replace(noise=_scaled(noise, k)), lambda d: least + d, 1.0, 15.0, both=False,
+        ),
+    ]  # fmt: skip
+
+
+def _rotor_lag(plant: Sampled, lag: float, time: float) -> Quantity:
+    def changed(ms: float) -> Sampled:
+        return plant.replace(lag=ms / 1e3, mismatch={**plant.mismatch, "rotor_lag": 1.0})
+
+    if lag > 0:
+        return Quantity("rotor lag", "ms", 1e3 * lag, changed, lambda d: 1e3 * lag * _factor(d), 0.5, 3.0)
+    return Quantity("rotor lag", "ms", 0.0, changed, lambda d: 1e3 * d, 0.1 * time, time, both=False)
+
+
+def search(
+    flight: Flight, wanted: Sequence[Quantity], progress: Callable[[str, int, int], Any] = lambda *_: None
+) -> dict[str, Margin]:
+    """Return the margins of `wanted` by name; `flight` flies its starts at every value, the nominal one once for all.
+
+    `progress` is called with (name, done, total), in searches.
+    """
+    believed = _succeed(flight)
+    sides = [(quantity, sign) for quantity in wanted for sign in ((1.0, -1.0) if quantity.both else (1.0,))]
+    done, stop = 0, Event()
+    found: dict[tuple[str, float], dict[float, int]] = {}
+    progress("margins", 0, len(sides))
+    with ThreadPoolExecutor(SEARCHES if has_kernel(flight) else 1) as pool:
+        try:
+            jobs = [(quantity.name, sign, pool.submit(_side, flight, quantity, sign, stop)) for quantity, sign in sides]
+            for name, sign, job in jobs:
+                found[name, sign] = job.result()
+                progress(f"margin of {name}", done := done + 1, len(sides))
+        finally:
+            stop.set()
+            pool.shutdown(wait=True, cancel_futures=True)
+    return {quantity.name: _margin(quantity, believed, found, flight.runs) for quantity in wanted}
+
+
+def _side(flight: Flight, quantity: Quantity, sign: float, stop: Event) -> dict[float, int]:
+    """Successes by distance ≥ 0 on one side: from the first step out to where it fails, then in between.
+
+    Ends early once `stop` is set.
+    """
+    counts: dict[float, int] = {}
+    good, bad, distance = 0.0, np.inf, quantity.step
+    while bad - good > RESOLUTION * good and good < quantity.most and bad > LEAST_STEP * quantity.step:
+        if stop.is_set():
+            break
+        counts[distance] = _succeed(flight.through(quantity.plant(quantity.value(sign * distance))))
+        if counts[distance] >= LEAST_RATE * flight.runs:
+            good = distance
+        else:
+            bad = distance
+        distance = min(2 * distance, quantity.most) if np.isinf(bad) else (good + bad) / 2
+    return counts
+
+
+def _succeed(flight: Flight) -> int:
+    return int(fly_many(flight, workers=1 if has_kernel(flight) else None).success.sum())
+
+
+def _margin(
+    quantity: Quantity, believed: int, found: Mapping[tuple[str, float], Mapping[float, int]], runs: int
+) -> Margin:
+    """Gather the sides of a search; `believed` succeed at the nominal value."""
+    values = {quantity.nominal: believed}
+    ends, opened = {1.0: np.nan, -1.0: np.nan}, {1.0: False, -1.0: False}
+    for sign in (1.0, -1.0) if quantity.both else (1.0,):
+        counts = found[quantity.name, sign]
+        bad = min((d for d, count in counts.items() if count < LEAST_RATE * runs), default=np.inf)
+        good = max((d for d, count in counts.items() if count >= LEAST_RATE * runs and d < bad), default=0.0)
+        ends[sign], opened[sign] = quantity.value(sign * good), bool(np.isinf(bad))
+        values |= {quantity.value(sign * d): count for d, count in counts.items()}
+    ordered = sorted(values)
+    return Margin(
+        quantity.name, quantity.unit, quantity.nominal, tuple(ordered), tuple(values[value] for value in ordered), runs,
+        ends[-1.0], ends[1.0], opened[-1.0], opened[1.0],
+    )  # fmt: skip
+
+
+def _factor(distance: float) -> float:
+    """Return 1 + d, or 1/(1 + |d|) for d < 0."""
+    return 1 + distance if distance >= 0 else 1 / (1 - distance)
+
+
+def _mismatched(plant: Sampled, *names: str) -> Callable[[float], Sampled]:
+    def changed(factor: float) -> Sampled:
+        known = plant.mismatch
+        return plant.replace(mismatch={**known, **{name: known.get(name, 1.0) * factor for name in names}})
+
+    return changed
+
+
+def _scaled(noise: Noise, factor: float) -> Noise:
+    return Noise(**{name: factor * value for name, value in vars(noise).items()})

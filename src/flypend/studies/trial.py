@@ -1,0 +1,213 @@
+"""A sixty-second trial with fifteen knocks, and every number of the model swept by ±25 %.
+
+The protocol follows the one by which RealAIGym scores its pendula: uptime under random disturbances, and success
+against errors of the model, one number at a time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend import errors, plants
+from flypend.flight.ensemble import Ensemble, fly_many
+from flypend.flight.kernels import has_kernel
+from flypend.flight.metrics import wilson
+from flypend.flight.request import Flight, bound_to
+from flypend.flight.tasks import task_starts
+from flypend.laws import AnyLaw, inverted
+from flypend.model import Vehicle
+from flypend.plants import AnyPlant, Sampled, Wind
+from flypend.studies.margins import SEARCHES
+from flypend.studies.sweep.axes import integer
+
+DURATION, KNOCKS = 60.0, 15  # s
+UP = 0.95  # the rod counts as up while its bob is higher than this share of its length
+SAMPLE = 0.05  # s, at which that is looked at
+FACTORS = (0.75, 0.875, 1.125, 1.25)
+RUNS, STEPPED_RUNS = 100, 8
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trial:
+    """The result of `trial`.
+
+    Parameters
+    ----------
+    vehicle, law
+        What flew, and the name of the law.
+    knocked : Ensemble
+        The flights with knocks.
+    uptime : (n,)
+        Share of each of these flights with the rod up: the bob above 0.95 of its length.
+    standing : (n,)
+        Whether the rod is up for more than half of the last 4 s.
+    knock : float
+        Speed that one impulse gives to the bob or the vehicle if it were free, m/s.
+    sweeps : dict
+        By number of the model: factor → (successes, runs).
+    """
+
+    vehicle: Vehicle
+    law: str
+    knocked: Ensemble
+    uptime: NDArray[np.float64]
+    standing: NDArray[np.bool_]
+    knock: float
+    sweeps: Mapping[str, Mapping[float, tuple[int, int]]]
+
+    def __repr__(self) -> str:
+        """Return uptime and sweeps, a line each."""
+        lines = [f"<Trial of {self.law} on {self.vehicle.name}: {len(self.uptime)} of 60 s with 15 knocks"]
+        low, median = np.percentile(self.uptime, (5, 50))
+        lines.append(f"  up {100 * median:.1f} % of the time (median; 5 % of flights less than {100 * low:.1f} %)")
+        lines.append(f"  standing at the end: {int(self.standing.sum())} of {len(self.uptime)}")
+        for name, row in self.sweeps.items():
+            cells = ", ".join(f"×{factor:g} {100 * count / runs:.0f} %" for factor, (count, runs) in row.items())
+            lines.append(f"  {name}: {cells}")
+        return "\n".join(lines) + ">"
+
+    @property
+    def robustness(self) -> float:
+        """The mean success rate over all sweeps."""
+        return float(np.mean([count / runs for row in self.sweeps.values() for count, runs in row.values()]))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return uptimes and sweeps as plain numbers, lists and dicts, with Wilson intervals."""
+        stands = int(self.standing.sum())
+        low, high = wilson(stands, len(self.uptime))
+        return {
+            "vehicle": self.vehicle.to_dict(),
+            "law": self.law,
+            "knock": self.knock,
+            "uptime": self.uptime.tolist(),
+            "standing": {"successes": stands, "runs": len(self.uptime), "wilson_low": low, "wilson_high": high},
+            "robustness": self.robustness,
+            "sweeps": {
+                name: [{"factor": factor, "successes": count, "runs": runs} for factor, (count, runs) in row.items()]
+                for name, row in self.sweeps.items()
+            },
+        }
+
+
+def trial(
+    vehicle: Vehicle,
+    law: AnyLaw | None = None,
+    *,
+    plant: str | AnyPlant = "rotors",
+    runs: int | None = None,
+    seed: int = 1,
+    knock: float | None = None,
+    workers: int | None = None,
+    progress: Callable[[str, int, int], Any] = lambda *_: None,
+) -> Trial:
+    """Fly `vehicle` under `law` for a minute with fifteen random knocks, and sweep the numbers of the model.
+
+    A flight with knocks starts with the rod hanging at rest, in a cup with the rod inside. In each interval of 4 s the
+    vehicle and the bob are hit once, at a random moment, each in a random direction. In the sweeps, which fly from
+    random starts for 10 s, or for 30 s where that is not enough with the true model, the law believes `vehicle`, and
+    one number of the world is 0.75, 0.875, 1.125 or 1.25 times as large.
+
+    Parameters
+    ----------
+    vehicle, law, plant, seed, workers, progress
+        As in `check`.
+    runs : int, optional
+        Flights with knocks, and flights at each value; default 100, or 8 for a law that is stepped in Python.
+    knock : float, optional
+        Speed that one impulse gives to the bob or the vehicle if it were free, m/s; default 0.3 √(g l).
+
+    Raises
+    ------
+    InputError
+        For the ideal plant, a vehicle that the law refuses or that cannot be lifted, and numbers out of range.
+    """
+    world, bound = plants.sampled_plant(plant), bound_to(vehicle, law if law is not None else inverted())
+    speed = 0.3 * float(np.sqrt(vehicle.g * vehicle.l)) if knock is None else errors.number("knock", knock, at_least=0)
+    starts = task_starts(vehicle, RUNS if runs is None else integer("runs", runs, 1), seed)
+    random = starts["random"]
+    flight = Flight(vehicle=vehicle, law=bound, starts=random.seen(bound.e3), duration=10.0, plant=world)
+    if not has_kernel(flight) and runs is None:
+        flight = flight.replace(starts=flight.starts[:STEPPED_RUNS])
+    if fly_many(flight, workers=workers).rate < 0.9:
+        flight = flight.replace(duration=30.0)
+    again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
+    from_rest = starts.get("hanging", random)[again].seen(bound.e3)
+    knocked = _knocked(flight.replace(starts=from_rest), speed, workers)
+    progress("knocks", 1, 1)
+    up = 1.0 if bound.e3 == "up" else -1.0
+    assert knocked.samples is not None
+    high = up * np.nan_to_num(knocked.samples.y[..., 2], nan=-1.0) > UP  # down from the end of a flight on
+    return Trial(
+        vehicle=vehicle, law=bound.name, knocked=knocked, uptime=high.mean(axis=1),
+        standing=high[:, -round(DURATION / KNOCKS / SAMPLE) :].mean(axis=1) > 0.5, knock=speed,
+        sweeps=_swept(flight, swept(vehicle, world), progress),
+    )  # fmt: skip
+
+
+def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampled]]:
+    """Return factor → plant, for each number of the model that is not zero.
+
+    Rotors that push k times as hard move the machine exactly as the believed ones move one of 1/k its masses.
+    """
+    names = {
+        "mass": ("mass",), "bob_mass": ("bob_mass",), "rod_length": ("rod_length",), "rod_inertia": ("rod_inertia",),
+        "inertia": ("inertia",), "arm": ("rotor_positions",), "drag_ratio": ("drag_ratio",),
+    }  # fmt: skip
+    found = {
+        name: _scaled(plant, dict.fromkeys(fields, 1.0))
+        for name, fields in names.items()
+        if name != "rod_inertia" or vehicle.rod_inertia > 0
+    }
+    found["thrust"] = _scaled(plant, dict.fromkeys(("mass", "bob_mass", "rod_inertia", "inertia"), -1.0))
+    if plant.true_vehicle(vehicle).rotor_lag > 0:
+        found["rotor_lag"] = _scaled(plant, {"rotor_lag": 1.0})
+    if plant.delay > 0:
+        found["delay"] = lambda factor: plant.replace(delay=plant.delay * factor)
+    return found
+
+
+def _scaled(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
+    def changed(factor: float) -> Sampled:
+        known = plant.mismatch
+        return plant.replace(
+            mismatch={**known, **{name: known.get(name, 1.0) * factor**power for name, power in powers.items()}}
+        )
+
+    return changed
+
+
+def _knocked(flight: Flight, speed: float, workers: int | None) -> Ensemble:
+    """Fly `flight` for a minute, with a knock of `speed` on top of the wind of its plant in each interval."""
+    plant, vehicle = flight.plant, flight.vehicle
+    assert isinstance(plant, Sampled)
+    knocks = {"knock_on_vehicle": speed * vehicle.mass, "knock_on_bob": speed * vehicle.bob_mass}
+    wind = Wind(**{**vars(plant.wind or Wind()), **knocks, "knock_period": DURATION / KNOCKS})
+    times = np.arange(0.0, DURATION, SAMPLE)
+    return fly_many(flight.replace(plant=plant.replace(wind=wind), duration=DURATION, times=times), workers=workers)
+
+
+def _swept(
+    flight: Flight, worlds: Mapping[str, Callable[[float], Sampled]], progress: Callable[[str, int, int], Any]
+) -> dict[str, dict[float, tuple[int, int]]]:
+    compiled = has_kernel(flight)
+    cells = [(name, factor) for name in worlds for factor in FACTORS]
+
+    def fly(cell: tuple[str, float]) -> int:
+        flown = fly_many(flight.through(worlds[cell[0]](cell[1])), workers=1 if compiled else None)
+        return int(flown.success.sum())
+
+    found: dict[str, dict[float, tuple[int, int]]] = {name: {} for name in worlds}
+    with ThreadPoolExecutor(SEARCHES if compiled else 1) as pool:
+        try:
+            for done, (cell, count) in enumerate(zip(cells, pool.map(fly, cells), strict=True), 1):
+                found[cell[0]][cell[1]] = (count, flight.runs)
+                progress(f"sweep of {cell[0]}", done, len(cells))
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+    return found

@@ -1,0 +1,128 @@
+"""`flypend check`: what it writes, what it refuses, and what its exit code says."""
+
+import json
+import signal
+import sys
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend import cli
+from flypend.files.toml import toml_text
+
+QUICK = ("--runs", "16", "--no-margins", "--no-figures")
+
+
+@pytest.fixture
+def call(tmp_path, monkeypatch, capsys):
+    """The command in this process, in `tmp_path`: code, what it printed, and its complaints."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    handler = signal.getsignal(signal.SIGTERM)
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
+        with pytest.raises(SystemExit) as exit_:
+            cli.main()
+        return exit_.value.code, *capsys.readouterr()
+
+    yield run
+    signal.signal(signal.SIGTERM, handler)
+
+
+def written(folder, **changes):
+    """A TOML file of hehn2011 with `changes`."""
+    path = folder / "mine.toml"
+    path.write_text(toml_text({**fp.vehicle("hehn2011").to_dict(), "name": "mine", **changes}), encoding="utf-8")
+    return str(path)
+
+
+def test_a_vehicle_that_flies_exits_with_0_and_leaves_a_report(call, tmp_path):
+    code, out, said = call("check", "hehn2011", *QUICK, "-o", "found")
+    assert (code, said) == (0, "")
+    assert "hehn2011 can be flown by inverted." in out
+    assert {path.name for path in (tmp_path / "found").iterdir()} == {"report.md", "report.json"}
+    told = json.loads((tmp_path / "found" / "report.json").read_text(encoding="utf-8"))
+    found = fp.check(fp.vehicle("hehn2011"), runs=16, margins=False)
+    assert told["checks"]["inverted"]["tasks"]["random"]["successes"] == int(found.tasks["random"].success.sum())
+    assert told["settings"]["plant"] == "rotors"
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"mass": 500.0, "bob_mass": 50.0}, "the weight is 5396 N with mass 500 kg + bob_mass 50 kg (not g)"),
+        ({"gravity": 0.0}, "without gravity no pose of the rod is upright"),
+        ({"rotor_lag": 0.25}, "rotor lag and delay of 250 ms are too long"),
+        ({"rotor_lag": 0.25}, "the inverted law refuses the vehicle"),
+    ],
+)
+def test_a_vehicle_that_cannot_exits_with_1_and_the_reason(call, tmp_path, changes, words):
+    code, out, _ = call("check", written(tmp_path, **changes), *QUICK)
+    assert code == 1
+    assert words in " ".join(out.split())
+    assert words in (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"rotor_limits": [0.0, 0.0]}, "rotor_limits: expected 0 <= least < largest force in N, got [0.0, 0.0]"),
+        ({"mass": -0.5}, "mass: expected a finite number > 0 kg, got -0.5"),
+        ({"mount": "hub", "body": {}}, "body.disc_radius: expected a length in m, got nothing"),
+        ({"rotor_positions": [[0.1, 0, 0]] * 4}, "rotor_positions: expected rotors that produce every thrust"),
+    ],
+)
+def test_a_broken_vehicle_is_one_line_and_2(call, tmp_path, changes, words):
+    code, out, said = call("check", written(tmp_path, **changes), *QUICK)
+    assert (code, out) == (2, "")
+    assert words in said
+    assert said.count("\n") == 1
+    assert not (tmp_path / "check-out").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("check", "hehn"), ("check", "no.toml"), ("check", "hehn2011", "--law", "inverse"), ("check",),
+     ("check", "hehn2011", "--plant", "ideal"), ("check", "hehn2011", "--runs", "0")],
+)  # fmt: skip
+def test_what_cannot_be_asked_is_2(call, tmp_path, arguments):
+    code, _, said = call(*arguments)
+    assert code == 2
+    assert said.startswith("flypend: ") or "Usage" in said
+    assert not list(tmp_path.iterdir())
+
+
+def test_several_laws_stand_in_one_table_and_one_that_fails_decides(call):
+    code, out, _ = call("check", "hehn2011", "--law", "inverted", "--law", "detuned", *QUICK)
+    assert code == 1
+    assert "hehn2011 can be flown by inverted." in out
+    assert "hehn2011 cannot be flown by detuned." in out
+
+
+def test_a_trial_adds_its_table(call, tmp_path, monkeypatch):
+    from flypend.studies import trial
+
+    sweeps = trial.swept
+    monkeypatch.setattr(trial, "swept", lambda *given: {"mass": sweeps(*given)["mass"]})
+    monkeypatch.setattr(trial, "FACTORS", (1.25,))
+    monkeypatch.setattr(trial, "RUNS", 8)
+    assert call("check", "hehn2011", *QUICK, "--trial")[0] == 0
+    told = json.loads((tmp_path / "check-out" / "report.json").read_text(encoding="utf-8"))
+    assert len(told["trials"]["inverted"]["uptime"]) == 8
+    assert np.all(np.array(told["trials"]["inverted"]["uptime"]) > 0.5)
+    assert "mean of all sweeps" in (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+
+
+def test_run_warns_of_a_vehicle_that_is_too_slow_and_flies_it(call, tmp_path):
+    run = {
+        "vehicle": {"base": "hehn2011"}, "law": "lqr", "start": {"y": [0.0, 0.0, 1.0]}, "duration": 0.1,
+        "plant": {"lag": 0.3},
+    }  # fmt: skip
+    (tmp_path / "late.toml").write_text(toml_text(run), encoding="utf-8")
+    _, _, said = call("run", "late.toml", "--no-figures")
+    assert said.startswith("flypend: warning: rotor lag and delay of 300 ms are too long")
+    run["plant"] = "rotors"
+    (tmp_path / "late.toml").write_text(toml_text(run), encoding="utf-8")
+    assert "warning" not in call("run", "late.toml", "--no-figures")[2]

@@ -1,0 +1,98 @@
+"""A trial hits as hard as it says, scores what flies, and changes the number of the model that it names."""
+
+import json
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.plants import ROTORS
+from flypend.plants.equations import EquationsEngine
+from flypend.report.check import trial_cells
+from flypend.studies import trial as trials
+from flypend.studies.trial import KNOCKS, swept
+
+HEHN = fp.vehicle("hehn2011")
+
+
+@pytest.fixture(scope="module")
+def calm():
+    """A trial without knocks, with one factor of the sweeps: every one is another kernel."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(trials, "FACTORS", (1.125,))
+        return fp.trial(HEHN, runs=8, knock=0.0)
+
+
+def test_uptime_counts_from_the_swing_up_on(calm):
+    assert calm.standing.all()
+    settled = calm.knocked.settling
+    # Up is 18° from upright, which the rod passes before it settles within 3°.
+    assert np.all(calm.uptime >= 1 - settled / 60)
+    assert np.all(calm.uptime <= 1 - 0.3 * settled / 60)
+
+
+def test_knocks_cost_uptime_and_the_hardest_bring_it_down(calm, monkeypatch):
+    monkeypatch.setattr(trials, "swept", lambda *_: {})
+    few = {"runs": 8, "workers": 1}
+    some, many = fp.trial(HEHN, **few), fp.trial(HEHN, knock=8.0, **few)
+    assert calm.uptime.mean() > some.uptime.mean() > many.uptime.mean()
+    assert np.all((many.uptime >= 0) & (many.uptime <= 1))
+    assert some.knock == pytest.approx(0.3 * np.sqrt(HEHN.g * HEHN.l))
+    assert KNOCKS == 15
+
+
+def test_the_sweeps_score_success_by_number_and_factor(calm):
+    assert set(calm.sweeps) == {
+        "mass", "bob_mass", "rod_length", "inertia", "arm", "drag_ratio", "thrust", "rotor_lag"
+    }  # fmt: skip
+    for row in calm.sweeps.values():
+        assert tuple(row) == (1.125,)
+        assert all(0 <= count <= runs == 8 for count, runs in row.values())
+    lengths = calm.sweeps["rod_length"]
+    plant = ROTORS.replace(mismatch={"rod_length": 1.125})
+    starts = fp.random_starts(8, 1)
+    assert lengths[1.125][0] == fp.simulate_ensemble(HEHN, fp.laws.inverted(), starts, 10.0, plant=plant).success.sum()
+    assert 0 <= calm.robustness <= 1
+    told = json.loads(json.dumps(calm.to_dict(), default=float))
+    assert told["standing"]["successes"] == 8
+    assert len(trial_cells({"inverted": calm})) == 4 + len(calm.sweeps)
+    assert "standing at the end: 8 of 8" in repr(calm)
+
+
+def test_each_sweep_changes_what_it_names():
+    rod = HEHN.replace(**fp.rod_with_bob(0.03, 0.9, 0.05))
+    worlds = swept(rod, ROTORS.replace(delay=0.01))
+    for name, field in (("mass", "mass"), ("bob_mass", "bob_mass"), ("rod_inertia", "rod_inertia"),
+                        ("inertia", "inertia"), ("arm", "rotor_positions"), ("rotor_lag", "rotor_lag")):  # fmt: skip
+        true = worlds[name](1.25).true_vehicle(rod)
+        np.testing.assert_allclose(getattr(true, field), 1.25 * np.asarray(getattr(rod, field)))
+        same = {key: value for key, value in true.to_dict().items() if key != field}
+        assert same == {key: value for key, value in rod.to_dict().items() if key != field}
+    assert worlds["delay"](0.75).delay == pytest.approx(0.0075)
+    longer = worlds["rod_length"](1.25).true_vehicle(rod)
+    assert longer.rod_end == pytest.approx(1.25 * rod.rod_end)
+    assert "delay" not in swept(rod, ROTORS)
+    assert "rotor_lag" not in swept(rod.replace(rotor_lag=0.0), ROTORS)
+
+
+@pytest.mark.parametrize("factor", [0.75, 1.25])
+def test_weaker_rotors_move_the_machine_as_heavier_masses_do(factor):
+    """Forces of `factor` times those commanded on the true machine, and those commanded on the one of the sweep."""
+    rod = HEHN.replace(**fp.rod_with_bob(0.03, 0.9, 0.05))
+    other = swept(rod, ROTORS)["thrust"](factor).true_vehicle(rod)
+    own, theirs = EquationsEngine(rod), EquationsEngine(other)
+    packed = fp.random_starts(1, 3)[0].packed()
+    forces = np.array([1.0, 1.5, 0.7, 2.0])
+    own.reset(packed, factor * forces)
+    theirs.reset(packed, forces)
+    for _ in range(200):
+        own.step(factor * forces, 2e-3, np.zeros(6))
+        theirs.step(forces, 2e-3, np.zeros(6))
+    np.testing.assert_allclose(own.packed, theirs.packed, rtol=0, atol=1e-9)  # roundoff over 200 steps
+
+
+def test_a_vehicle_that_the_law_refuses_is_refused():
+    with pytest.raises(fp.InputError):
+        fp.trial(HEHN.replace(mass=500.0), runs=2)
+    with pytest.raises(fp.InputError, match="knock: expected a finite number >= 0"):
+        fp.trial(HEHN, knock=-1.0)

@@ -16,6 +16,7 @@ from flypend.flight.request import Flight
 from flypend.flight.simulate import fly
 from flypend.laws import law_from_dict, law_names
 from flypend.model.state import SHAPES
+from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, run_file
 
@@ -223,7 +224,7 @@ def test_a_key_below_something_that_is_no_table_is_refused(tmp_path):
         ("law.gains.beta=of", "law.gains.beta: expected one of off, regularized, got 'of' (did you mean 'off'?)"),
         (
             "vehicle=hehn",
-            "vehicle: expected one of crazyflie, hehn2011, nayak2018, got 'hehn' (did you mean 'hehn2011'?)",
+            f"vehicle: expected one of {', '.join(vehicle_names())}, got 'hehn' (did you mean 'hehn2011'?)",
         ),
         ("vehicle.base=nayak", "vehicle: expected .*, got 'nayak' (did you mean 'nayak2018'?)"),
         ("experiment=2-project", "experiment: expected .*, got '2-project' (did you mean '2-projected'?)"),
@@ -288,7 +289,7 @@ def test_gains_of_another_law_are_unknown():
         ("law.name=[1]", "law.name: expected one of .*, got [1]"),
         ("start=[1]", "start: expected a table, got [1]"),
         ("vehicle=[1, 2]", "vehicle: expected a table, got [1, 2]"),
-        ("vehicle.base=[1]", "vehicle: expected one of crazyflie, hehn2011, nayak2018, got [1]"),
+        ("vehicle.base=[1]", f"vehicle: expected one of {', '.join(vehicle_names())}, got [1]"),
         ("experiment=[2]", "experiment: expected one of .*, got '[2]' (did you mean '2'?)"),
         ("start.y=[true, false, false]", "start.y: expected a list of numbers, got [True, False, False]"),
         ('start.y=["0", "0", "1"]', "start.y: expected a list of numbers, got ['0', '0', '1']"),

@@ -48,8 +48,8 @@ class MujocoProblem:
         (commanded forces, rotors, numbers) → controls and time constants of the filters, run before every step; by
         default controls are the command, and the time constants those of the models.
     surroundings : Program, optional
-        (qpos, qvel, qacc, rotors, controls, wind, numbers) → forces and torques on vehicle and rod, run before every
-        step; by default only wind acts.
+        (qpos, qvel, qacc, rotors, controls, wind, numbers) → force and torque on the vehicle, force on the rod, torque
+        of the joint; run before every step. By default only wind acts.
     """
 
     seen: Program

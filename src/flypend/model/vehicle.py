@@ -60,8 +60,12 @@ class Vehicle:
     body : Body or dict, optional
         Radii of the parts that the rod can touch; required for a hub or a cup.
     pivot_offset : (3,)
-        Position of the ball joint relative to the centre of mass, body frame, m. Sampled plants have it; laws and the
-        ideal plant take it as zero.
+        Position of the ball joint relative to the centre of mass, body frame, m. Sampled plants have it, as they have
+        friction and spin; laws and the ideal plant take all of them as zero.
+    pivot_damping, pivot_friction : float
+        Viscous (N m s) and dry friction (N m) of the joint; see `flypend.model.joint`.
+    rod_spin, rod_spin_inertia : float
+        Constant angular velocity of the rod about its own axis, rad/s, and its moment of inertia about it, kg m².
     air : Air or dict, optional
         Coefficients of the air's forces. They act on plants that name them; laws do not know them.
 
@@ -89,6 +93,10 @@ class Vehicle:
     mount: MountKind = "gimbal"
     body: Any = None
     pivot_offset: Any = (0.0, 0.0, 0.0)
+    pivot_damping: float = 0.0
+    pivot_friction: float = 0.0
+    rod_spin: float = 0.0
+    rod_spin_inertia: float = 0.0
     air: Any = None
 
     def __post_init__(self) -> None:
@@ -103,6 +111,10 @@ class Vehicle:
         if self.rod_end is not None:
             put("rod_end", errors.number("rod_end", self.rod_end, at_least=self.rod_length, unit="m"))
         put("gravity", errors.number("gravity", self.gravity, at_least=0, unit="m/s²"))
+        put("pivot_damping", errors.number("pivot_damping", self.pivot_damping, at_least=0, unit="N m s"))
+        put("pivot_friction", errors.number("pivot_friction", self.pivot_friction, at_least=0, unit="N m"))
+        put("rod_spin", errors.number("rod_spin", self.rod_spin, unit="rad/s"))
+        put("rod_spin_inertia", self._spin_inertia())
         put("rotor_lag", errors.number("rotor_lag", self.rotor_lag, at_least=0, unit="s"))
         put("inertia", _inertia(self.inertia))
         put("rotor_positions", errors.array("rotor_positions", self.rotor_positions, (None, 3)))
@@ -121,6 +133,30 @@ class Vehicle:
         rank = np.linalg.matrix_rank(self.mixing())
         if rank < 4:
             raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
+
+    def _spin_inertia(self) -> float:
+        inertia = errors.number("rod_spin_inertia", self.rod_spin_inertia, at_least=0, unit="kg m²")
+        if inertia > 2 * self.rod_inertia * (1 + 1e-9):
+            told = f"{inertia:g} with rod_inertia {self.rod_inertia:g}"
+            raise InputError("rod_spin_inertia", "at most twice rod_inertia, as in every solid body", told)
+        if self.rod_spin and not inertia:
+            raise InputError("rod_spin_inertia", "a number > 0 for a rod that spins", "0")
+        return inertia
+
+    @property
+    def free_joint(self) -> bool:
+        """Whether the joint is as laws take it: at the centre of mass, without friction, the rod not spinning."""
+        return not (np.any(self.pivot_offset) or self.rubs or self.rod_spin)
+
+    @property
+    def rotors_from_pivot(self) -> Any:
+        """Rotor positions (n, 3) relative to the pivot, body frame, m."""
+        return self.rotor_positions - self.pivot_offset
+
+    @property
+    def rubs(self) -> bool:
+        """Whether the joint has friction."""
+        return self.pivot_damping > 0 or self.pivot_friction > 0
 
     M = property(lambda self: self.mass + (1 - self._share) * self.bob_mass, doc="Mass that moves with the pivot, kg.")
     m = property(lambda self: self._share * self.bob_mass, doc="Mass of the equivalent point bob, kg.")

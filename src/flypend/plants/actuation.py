@@ -90,7 +90,7 @@ class Mujoco:
                 return
 
     def _prepared(self, command: Any, wind: Any, numbers: Any) -> tuple[Any, ...]:
-        """Return controls, and forces and torques on vehicle and rod, for the next step of MuJoCo."""
+        """Return controls and outside forces for the next step of MuJoCo."""
         engine, controls = self._engine, command
         if self._motors is not None:
             controls, lags = self._motors(command, engine.rotors, numbers)
@@ -99,8 +99,8 @@ class Mujoco:
         if self._surroundings is None:
             return controls, wind[:3], wind[3:]
         coordinates = engine.coordinates(controls)
-        outside = self._surroundings(*coordinates, engine.rotors, controls, wind, numbers)
-        return controls, outside[:3], outside[6:9], outside[3:6], outside[9:]
+        on_vehicle, on_rod, joint = self._surroundings(*coordinates, engine.rotors, controls, wind, numbers)
+        return controls, on_vehicle[:3], on_rod, on_vehicle[3:], joint
 
 
 @lru_cache(maxsize=64)

@@ -12,6 +12,7 @@ import numpy as np
 from flypend.compile.numeric import as_numpy
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench
+from flypend.model.joint import friction
 from flypend.model.motion import disturbed_motion
 from flypend.model.rod import shared_out
 from flypend.model.state import SIZE, project_symbolic
@@ -73,7 +74,7 @@ def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, n
     wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", timing_size(plant))
     forces, after = followed(rotors, delivered(command, vehicle, plant), timing)
     outside = wind if windy else None
-    if plant.surrounds(vehicle) or np.any(vehicle.pivot_offset):
+    if plant.in_air(vehicle) or not vehicle.free_joint:
         moved = runge_kutta_step(packed, forces, outside, timing[0], vehicle, plant)
     else:
         if windy:
@@ -87,8 +88,8 @@ def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, n
 def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: Vehicle, plant: Plant = ROTORS) -> Any:
     """Return the state (24, 1), e₃ up, after a classical Runge-Kutta step and projection onto the manifold, in CasADi.
 
-    It is for whatever the cascade does not cover: a pivot beside the centre of mass, where rotation and rod depend on
-    each other, and air, whose forces depend on all velocities.
+    It is for whatever the cascade does not cover: a pivot beside the centre of mass or with friction, where rotation
+    and rod depend on each other, a rod that spins, and air, whose forces depend on all velocities.
 
     Parameters
     ----------
@@ -100,11 +101,11 @@ def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: V
         As in `EquationsEngine`.
     """
     wind = ca.SX(6, 1) if outside is None else outside
-    wrench = forces.mixed(vehicle.mixing())
+    wrench, in_air = forces.mixed(vehicle.mixing()), plant.in_air(vehicle)
 
     def rates(s: Any, rotors: Any, acting: Any) -> Any:
         state, on_vehicle, moment = State.symbolic(s), wind[:3], acting[1:]
-        if plant.surrounds(vehicle):
+        if in_air:
             force, turning = air_wrench(state, rotors, vehicle, plant.effects(vehicle), plant.ground)
             on_vehicle, moment = on_vehicle + ca.mtimes(state.R, force), moment + turning
         motion = disturbed_motion(
@@ -115,6 +116,8 @@ def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: V
             force_on_vehicle=on_vehicle,
             force_on_bob=wind[3:],
             pivot_offset=vehicle.pivot_offset,
+            joint_torque=friction(state, vehicle) if vehicle.rubs else None,
+            spin=vehicle.rod_spin * vehicle.rod_spin_inertia,
         )
         return motion.packed()
 

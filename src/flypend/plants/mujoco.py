@@ -119,13 +119,12 @@ def model_xml(vehicle: Vehicle, *, timestep: float, lag: float = 0.0, bare: bool
         If the timestep is not positive.
     """
     timestep = errors.number("timestep", timestep, above=0, unit="s")
-    offset = vehicle.pivot_offset
-    places = vehicle.rotor_positions - offset
+    offset, places = vehicle.pivot_offset, vehicle.rotors_from_pivot
     torques = vehicle.drag_ratio * vehicle.rotor_spins
     moments, axes = np.linalg.eigh(vehicle.inertia)
     moments[2] = min(moments[2], moments[0] + moments[1])  # planar body: MuJoCo tolerates no roundoff here
     thin = 0.02 * float(np.max(np.abs(vehicle.rotor_positions)))
-    along = max(BOB_INERTIA * vehicle.bob_mass * vehicle.rod_length**2, LEAST_BOB_INERTIA)
+    least = max(BOB_INERTIA * vehicle.bob_mass * vehicle.rod_length**2, LEAST_BOB_INERTIA)
     center = _numbers(0.0 - offset)
     rotors = []
     for k, place in enumerate(places):
@@ -142,8 +141,8 @@ def model_xml(vehicle: Vehicle, *, timestep: float, lag: float = 0.0, bare: bool
         axes=_numbers(axes[:, :2].T),
         length=vehicle.rod_length,
         bob_mass=vehicle.bob_mass,
-        i=along,
-        across=vehicle.rod_inertia + along,
+        i=max(vehicle.rod_spin_inertia, least),
+        across=vehicle.rod_inertia + least,
         thin=thin,
         thick=4 * thin,
         energy="disable" if bare else "enable",
@@ -180,7 +179,7 @@ class MujocoEngine:
     def __init__(self, vehicle: Vehicle, *, timestep: float = 0.5e-3, lag: float = 0.0) -> None:
         mujoco = _import_mujoco()
         self._mujoco = mujoco
-        self._see = _compiled_view(len(vehicle.rotor_spins))
+        self._see, self._rod_spin = _compiled_view(len(vehicle.rotor_spins)), vehicle.rod_spin
         xml = model_xml(vehicle, timestep=timestep, lag=lag)
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = data = mujoco.MjData(self.model)
@@ -190,6 +189,7 @@ class MujocoEngine:
         self._rotors = data.act if lag > 0 else data.ctrl
         self._forces, self._all_external = data.ctrl, data.xfrc_applied.reshape(-1)
         self._on_vehicle, self._on_bob = (data.body(name).xfrc_applied for name in ("vehicle", "bob"))
+        self._in_joint = data.joint("pivot").qfrc_applied
 
     @property
     def timestep(self) -> float:
@@ -197,7 +197,7 @@ class MujocoEngine:
         return float(self.model.opt.timestep)
 
     def reset(self, packed: Any, rotors: Any = None) -> None:
-        """Set the state at time 0, with no spin of the rod about its own axis.
+        """Set the state at time 0, with the vehicle's spin of the rod about its own axis.
 
         Parameters
         ----------
@@ -211,7 +211,7 @@ class MujocoEngine:
         InputError
             Like `State.from_packed`, and for a batch.
         """
-        begin = mujoco_coordinates(packed)
+        begin = mujoco_coordinates(packed, self._rod_spin)
         self._mujoco.mj_resetData(self.model, self.data)
         self._qpos[:], self._qvel[:] = begin[:POSITIONS], begin[POSITIONS:]
         self._rotors[:] = 0.0 if rotors is None else rotors
@@ -232,7 +232,7 @@ class MujocoEngine:
         force_on_vehicle: Any = (0.0, 0.0, 0.0),
         force_on_bob: Any = (0.0, 0.0, 0.0),
         torque_on_vehicle: Any = (0.0, 0.0, 0.0),
-        torque_on_bob: Any = (0.0, 0.0, 0.0),
+        joint_torque: Any = (0.0, 0.0, 0.0),
     ) -> None:
         """Advance by one timestep under constant forces.
 
@@ -242,8 +242,10 @@ class MujocoEngine:
             Commanded force of each rotor along the body's third axis, N, of either sign; limits are up to the caller.
         force_on_vehicle, force_on_bob : (3,)
             External forces at the centres of mass of vehicle and rod, world frame, N.
-        torque_on_vehicle, torque_on_bob : (3,)
-            External torques on vehicle and rod, world frame, N m.
+        torque_on_vehicle : (3,)
+            External torque on the vehicle, world frame, N m.
+        joint_torque : (3,)
+            Torque of the joint on the rod, in the frame of the rod, N m; the vehicle feels the opposite.
 
         Raises
         ------
@@ -254,7 +256,7 @@ class MujocoEngine:
             raise InputError("forces", f"numbers of shape ({len(self._forces)})", f"shape {np.shape(forces)}")
         self._forces[:] = forces
         self._on_vehicle[:3], self._on_vehicle[3:] = force_on_vehicle, torque_on_vehicle
-        self._on_bob[:3], self._on_bob[3:] = force_on_bob, torque_on_bob
+        self._on_bob[:3], self._in_joint[:] = force_on_bob, joint_torque
         size_squared = self._forces.dot(self._forces) + self._all_external.dot(self._all_external)
         if not size_squared < MAX_FORCE**2:  # also true for NaN
             got = f"{self._forces} on the rotors, {self._on_vehicle} on the vehicle, {self._on_bob} on the bob"
@@ -280,10 +282,10 @@ class MujocoEngine:
 POSITIONS, VELOCITIES = 11, 9
 
 
-def mujoco_coordinates(packed: Any) -> NDArray[np.float64]:
+def mujoco_coordinates(packed: Any, rod_spin: float = 0.0) -> NDArray[np.float64]:
     """MuJoCo's qpos (11,) and qvel (9,), concatenated, for a `packed` state (24,), e₃-up frame.
 
-    The rod does not spin about its own axis. Raises InputError like `State.from_packed`, and for a batch.
+    The rod spins about its own axis at `rod_spin`, rad/s. Raises InputError like `State.from_packed`, and for a batch.
     """
     state = State.from_packed(packed)
     if state.batch_shape:
@@ -295,7 +297,7 @@ def mujoco_coordinates(packed: Any) -> NDArray[np.float64]:
     mujoco.mju_negQuat(inverse, quat_wxyz)
     mujoco.mju_mulQuat(relative, inverse, rod_wxyz)
     mujoco.mju_quat2Mat(rows, rod_wxyz)
-    rod_omega = np.cross(state.y, state.y_dot)  # world frame
+    rod_omega = np.cross(state.y, state.y_dot) + rod_spin * state.y  # world frame
     rod_rates = rows.reshape(3, 3).T @ (rod_omega - state.R @ state.omega)
     return np.concatenate([state.x, quat_wxyz, relative, state.x_dot, state.omega, rod_rates])
 
@@ -339,7 +341,7 @@ def substeps(duration: float, vehicle: Vehicle, plant: Plant) -> int:
     None is longer than `FLIGHT_STEP` or `SURROUNDED_STEP`, nor than a quarter of the shorter lag: RK4 is stable up to
     2.8 lags only.
     """
-    longest = SURROUNDED_STEP if plant.surrounds(vehicle) else FLIGHT_STEP
+    longest = SURROUNDED_STEP if plant.in_air(vehicle) or vehicle.rubs else FLIGHT_STEP
     if (lag := filter_lag(vehicle) * min(1.0, plant.spin_up)) > 0:
         longest = min(longest, lag / 4)
     return max(1, int(np.ceil(duration / longest - 1e-9)))
@@ -377,13 +379,14 @@ class MuJoCoWorld:
         filters = [model.actuator_dynprm.ctypes.data for model in self._models]
         self._filters_at = np.array(filters, dtype=np.uint64)
         rotors = data.act if filter_lag(vehicle) > 0 else data.ctrl
-        arrays = (data.qpos, data.qvel, data.qacc, rotors, data.ctrl, data.xfrc_applied)
+        arrays = (data.qpos, data.qvel, data.qacc, rotors, data.ctrl, data.xfrc_applied, data.qfrc_applied)
         functions = (library.mj_step, library.mj_forward, library.mj_resetData)
         self._fixed = (
             data._address, *(array.ctypes.data for array in arrays),
             *(ctypes.cast(function, ctypes.c_void_p).value for function in functions),
         )  # fmt: skip
         self._begins: Any = None
+        self._rod_spin = vehicle.rod_spin
 
     @classmethod
     @contextmanager
@@ -408,7 +411,7 @@ class MuJoCoWorld:
 
     def addresses(self, starts: Any) -> tuple[int, ...]:
         """Addresses for the compiled code, and the coordinates of packed `starts` (n, 24 or more), e₃-up frame."""
-        self._begins = np.stack([mujoco_coordinates(start[:SIZE]) for start in starts])
+        self._begins = np.stack([mujoco_coordinates(start[:SIZE], self._rod_spin) for start in starts])
         return (*self._fixed, self._begins.ctypes.data, self._models_at.ctypes.data, self._filters_at.ctypes.data)
 
 

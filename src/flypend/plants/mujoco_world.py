@@ -13,6 +13,7 @@ import numpy as np
 
 from flypend.model import Vehicle
 from flypend.model.air import air_wrench
+from flypend.model.joint import friction
 from flypend.plants.cascade import rotation_by
 from flypend.plants.motors import delivered, delivers
 from flypend.plants.mujoco import POSITIONS, VELOCITIES, filter_lag, rotation_of, state_of
@@ -47,11 +48,12 @@ def motors(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
 
 
 def surroundings(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
-    """Return (qpos, qvel, qacc, rotors, controls, wind, `step_numbers`) → outside (12,), or None for wind alone.
+    """Return (qpos, qvel, qacc, rotors, controls, wind, `step_numbers`) → outside forces, or None for wind alone.
 
-    `outside` holds force (N) and torque (N m) on the vehicle, then those on the rod, world frame.
+    Outside forces are force (N) and torque (N m) on the vehicle (6,), and the force on the rod (3,), world frame, and
+    the torque of the joint on the rod (3,), in the frame of the rod, N m.
     """
-    if not plant.surrounds(vehicle):
+    if not (plant.in_air(vehicle) or vehicle.rubs):
         return None
     n = len(vehicle.rotor_spins)
     qpos, qvel, qacc = (ca.SX.sym(*pair) for pair in (("q", POSITIONS), ("v", VELOCITIES), ("a", VELOCITIES)))
@@ -61,8 +63,12 @@ def surroundings(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
     R, relative = (ca.mtimes(rotation_of(qpos[a : a + 4]), rotation_by(moved[b : b + 3])) for a, b in ((3, 3), (7, 6)))
     state = state_of(qpos[:3] + moved[:3], R, relative, qvel + half * qacc)
     forces = controls + ca.if_else(rotors < controls, numbers[4], numbers[3]) * (rotors - controls)
-    force, moment = air_wrench(state, forces, vehicle, plant.effects(vehicle), plant.ground)
+    force, moment, joint = ca.SX(3, 1), ca.SX(3, 1), ca.SX(3, 1)
+    if plant.in_air(vehicle):
+        force, moment = air_wrench(state, forces, vehicle, plant.effects(vehicle), plant.ground)
+    if vehicle.rubs:
+        joint = ca.mtimes(ca.mtimes(R, relative).T, friction(state, vehicle))
     on_vehicle = ca.vertcat(wind[:3] + ca.mtimes(R, force), ca.mtimes(R, moment))
-    outside = ca.vertcat(on_vehicle, wind[3:], ca.SX(3, 1))
+    outside = [on_vehicle, wind[3:], ca.vertcat(joint[:2], 0)]  # its third component is zero but for roundoff
     inputs = [qpos, qvel, qacc, rotors, controls, wind, numbers]
-    return ca.Function("surroundings", inputs, [ca.cse(ca.densify(outside))])
+    return ca.Function("surroundings", inputs, ca.cse([ca.densify(part) for part in outside]))

@@ -14,6 +14,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.model import Vehicle
 from flypend.model.air import AIR
+from flypend.model.joint import stiffness
 
 Engine = Literal["equations", "mujoco"]
 Interface = Literal["wrench", "rates"]
@@ -25,6 +26,7 @@ MISMATCHED = (
 # Every command in transit is kept, and the prediction goes through them all: a delay in ms given as s would never end.
 LONGEST_DELAY, MOST_IN_TRANSIT = 0.5, 1000  # s, commands
 MOST_SAG = 0.25  # beyond, rotors asked for more than nearly everything give less
+MOST_STIFFNESS = 1e3  # 1/s; steps of 2 ms are stable up to 1,390
 LEAST_RATE = 0.01  # Hz; a period is flown in steps of 1 ms
 
 
@@ -255,8 +257,8 @@ class Sampled:
         known = () if vehicle.air is None else vehicle.air.known()
         return known if self.air == ("all",) else tuple(name for name in AIR if name in self.air)
 
-    def surrounds(self, vehicle: Vehicle) -> bool:
-        """Whether forces act on `vehicle` that depend on its motion: air, or the ground."""
+    def in_air(self, vehicle: Vehicle) -> bool:
+        """Whether forces act on `vehicle` that depend on its motion and position: of the air, or the ground."""
         return bool(self.effects(vehicle)) or self.ground is not None
 
     def _check(self, vehicle: Vehicle) -> None:
@@ -270,6 +272,10 @@ class Sampled:
                 raise InputError("vehicle.air", f"{wanted}, for plant.air", "none")
         if self.ground is not None and vehicle.body is None:
             raise InputError("vehicle.body", "the radius of the rotor discs, for plant.ground", "nothing")
+        stiffest = stiffness(vehicle)
+        if stiffest > MOST_STIFFNESS:
+            wanted = "friction that takes a millisecond or more to stop the vehicle"
+            raise InputError("vehicle.pivot_friction", wanted, f"{1e3 / stiffest:.2g} ms")
 
     def replace(self, **changes: Any) -> Sampled:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""

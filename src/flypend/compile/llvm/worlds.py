@@ -18,13 +18,14 @@ QVEL_OMEGA = 3  # and in MuJoCo's qvel
 # Addresses passed for MuJoCo: data and its arrays, three functions, the initial coordinates of the runs, the models,
 # and the parameters of their filters.
 MUJOCO_ARGUMENTS = (
-    "data", "qpos", "qvel", "qacc", "act", "ctrl", "xfrc", "mj_step", "mj_forward", "mj_reset", "begins", "models",
-    "filters",
+    "data", "qpos", "qvel", "qacc", "act", "ctrl", "xfrc", "qfrc", "mj_step", "mj_forward", "mj_reset", "begins",
+    "models", "filters",
 )  # fmt: skip
 # Numbers per rotor among the parameters of MuJoCo's filters; the first is the time constant.
 FILTER_STRIDE = 10
 # Offsets in xfrc_applied: six numbers each, force first, for the world, the vehicle and the rod.
 ON_VEHICLE, ON_BOB = 6, 12
+IN_JOINT = 6  # offset of the joint's torque in qfrc_applied
 
 
 class Way(NamedTuple):
@@ -159,8 +160,9 @@ class Mujoco:
         if self._surroundings is not None:
             code.builder.call(self._function("mj_forward"), [self._model(place), at["data"]])
             coordinates = (at["qpos"], at["qvel"], at["qacc"])
-            outside = code.vector_at(at["xfrc"], ON_VEHICLE)
-            code.call(self._surroundings, *coordinates, self._rotors, at["ctrl"], wind, numbers, outside)
+            places = (("xfrc", ON_VEHICLE), ("xfrc", ON_BOB), ("qfrc", IN_JOINT))
+            outside = [code.vector_at(at[name], offset) for name, offset in places]
+            code.call(self._surroundings, *coordinates, self._rotors, at["ctrl"], wind, numbers, *outside)
 
     def show(self, state: ir.Value) -> None:
         """Implement `World.show`; NaN once a force has been invalid."""

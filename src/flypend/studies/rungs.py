@@ -36,6 +36,7 @@ RUNGS: Mapping[str, AnyPlant] = {
 # What comes together on a machine: a slow one, one that is not quite the one written down, one with tired motors.
 TOGETHER: tuple[tuple[str, ...], ...] = (
     ("lag 40 ms", "delay 15 ms", "100 Hz"),
+    ("lag 50 ms", "delay 30 ms", "100 Hz"),
     ("noise", "mass +10 %", "rod +10 %"),
     ("spin-up x1.5", "battery sag 10 %", "delay 15 ms"),
 )

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from flypend.flight.trajectory import Trajectory, load
     from flypend.laws import BoundLaw, Controller, Gain, Law
     from flypend.laws.linearise import linearise
+    from flypend.model.air import Air
     from flypend.model.body import Body
     from flypend.model.rod import rod_with_bob, uniform_rod
     from flypend.model.state import State, Wrench
@@ -53,6 +54,7 @@ _WHERE = {
     "laws": ("BoundLaw", "Controller", "Gain", "Law"),
     "laws.linearise": ("linearise",),
     "model": ("State", "Vehicle", "Wrench", "vehicle"),
+    "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
     "plants": ("Ideal", "Noise", "Plant", "Wind"),
@@ -66,6 +68,7 @@ _WHERE = {
 _MODULES = {name: f"flypend.{module}" for module, names in _WHERE.items() for name in names}
 
 __all__ = [
+    "Air",
     "Body",
     "BoundLaw",
     "Check",

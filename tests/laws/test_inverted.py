@@ -504,7 +504,7 @@ def test_the_proposed_gains_invert_a_vehicle_of_thirty_grams():
     small = fp.vehicle("crazyflie")
     result = fp.simulate_ensemble(small, LAW, random_starts(400, 11), 10.0, plant="rotors")
     assert np.all(result.success)
-    assert result.percentile("excursion", 95) < 1.5  # m; with a rod of 0.2 m
+    assert result.percentile("excursion", 95) < 2.7  # m; with a rod of 0.5 m and 72 ms of lag
 
 
 def test_a_vehicle_too_slow_to_flip_levels_pumps_and_stands():

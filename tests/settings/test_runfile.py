@@ -16,6 +16,7 @@ from flypend.flight.request import Flight
 from flypend.flight.simulate import fly
 from flypend.laws import law_from_dict, law_names
 from flypend.model.state import SHAPES
+from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, run_file
 
@@ -99,8 +100,8 @@ def test_a_file_of_ones_own(tmp_path):
         'vehicle = "hehn2011"',
         'vehicle = { base = "hehn2011" }',
         'vehicle = { base = "hehn2011", mount = "gimbal", body = { arm_radius = 0.006 } }',
-        'vehicle = { base = "nayak2018", NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, BODY }',
-        "vehicle = { NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, rotor_lag = 0.02, BODY }",
+        'vehicle = { base = "nayak2018", NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, BODY, AIR }',
+        "vehicle = { NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, rotor_lag = 0.02, BODY, AIR }",
     ],
 )
 def test_a_vehicle_by_name_by_table_and_by_changes_of_another_is_the_same(tmp_path, text):
@@ -111,8 +112,9 @@ def test_a_vehicle_by_name_by_table_and_by_changes_of_another_is_the_same(tmp_pa
         .replace("MASSES", "mass = 0.5, bob_mass = 0.05")
         .replace("INERTIA", f"inertia = {data['inertia']}")
     )
-    body = ", ".join(f"{name} = {value}" for name, value in data["body"].items())
-    text = text.replace("BODY", f"body = {{ {body} }}")
+    for table in ("body", "air"):
+        content = ", ".join(f"{name} = {value}" for name, value in data[table].items())
+        text = text.replace(table.upper(), f"{table} = {{ {content} }}")
     text = text.replace("ROTORS", ", ".join(f"{name} = {data[name]}" for name in rotors))
     chosen = flight(written(tmp_path, OWN.replace('vehicle = "nayak2018"', text)))
     assert chosen.vehicle == fp.vehicle("hehn2011")
@@ -222,7 +224,7 @@ def test_a_key_below_something_that_is_no_table_is_refused(tmp_path):
         ("law.gains.beta=of", "law.gains.beta: expected one of off, regularized, got 'of' (did you mean 'off'?)"),
         (
             "vehicle=hehn",
-            "vehicle: expected one of crazyflie, hehn2011, nayak2018, got 'hehn' (did you mean 'hehn2011'?)",
+            f"vehicle: expected one of {', '.join(vehicle_names())}, got 'hehn' (did you mean 'hehn2011'?)",
         ),
         ("vehicle.base=nayak", "vehicle: expected .*, got 'nayak' (did you mean 'nayak2018'?)"),
         ("experiment=2-project", "experiment: expected .*, got '2-project' (did you mean '2-projected'?)"),
@@ -287,7 +289,7 @@ def test_gains_of_another_law_are_unknown():
         ("law.name=[1]", "law.name: expected one of .*, got [1]"),
         ("start=[1]", "start: expected a table, got [1]"),
         ("vehicle=[1, 2]", "vehicle: expected a table, got [1, 2]"),
-        ("vehicle.base=[1]", "vehicle: expected one of crazyflie, hehn2011, nayak2018, got [1]"),
+        ("vehicle.base=[1]", f"vehicle: expected one of {', '.join(vehicle_names())}, got [1]"),
         ("experiment=[2]", "experiment: expected one of .*, got '[2]' (did you mean '2'?)"),
         ("start.y=[true, false, false]", "start.y: expected a list of numbers, got [True, False, False]"),
         ('start.y=["0", "0", "1"]', "start.y: expected a list of numbers, got ['0', '0', '1']"),
@@ -507,6 +509,23 @@ def test_a_plant_by_name_can_be_changed_in_one_number():
     assert (plain.lag, plain.noise.x, plain.rate) == (0.05, 0.01, 500.0)
     with pytest.raises(fp.InputError, match=r"^plant: expected a base with numbers, such as 'rotors', got the ideal"):
         flight("1", ["plant=ideal", "plant.lag=0.05"])
+
+
+def test_motors_and_air_of_a_plant_arrive():
+    overrides = [
+        'plant.air=["rotor_drag", "lift"]', "plant.spin_up=1.5", "plant.sag=0.1", "plant.strength=[1, 1, 0.8, 1]",
+        "plant.ground=-0.5", "vehicle.base=hehn2011", "vehicle.air.lift=0.01",
+    ]  # fmt: skip
+    chosen = flight("5", ["law.name=inverted", "law.gains={}", 'plant="rotors"', *overrides])
+    assert chosen.plant == fp.Plant(
+        air=("rotor_drag", "lift"), spin_up=1.5, sag=0.1, strength=(1, 1, 0.8, 1), ground=-0.5
+    )
+    assert chosen.vehicle.air == fp.vehicle("hehn2011").replace(air={"lift": 0.01}).air
+    assert flight("5", ["vehicle=hehn2011", "plant.base=rotors", "plant.air=all"]).plant.air == ("all",)
+    with pytest.raises(
+        fp.InputError, match=r"^vehicle\.air: expected coefficients of the air, for plant\.air, got none$"
+    ):
+        flight("5", ["plant.base=rotors", "plant.air=all"])
 
 
 def test_what_would_never_end_is_refused():

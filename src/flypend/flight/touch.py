@@ -49,7 +49,7 @@ def room(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) ->
     before, after, period, ((u_0, rate_0, _), (u_1, rate_1, _)) = _ends(vehicle, e3, by_rotors)
     if vehicle.mount != "hub":
         return ca.Function("room", [before, after, period], [ca.SX(-1)])
-    body, centres = vehicle.body, vehicle.rotor_positions
+    body, centres = vehicle.body, vehicle.rotors_from_pivot
     inner = float(np.min(np.linalg.norm(centres[:, :2], axis=1))) - body.disc_radius
     speed = ca.fmax(ca.sqrt(dot(rate_0, rate_0)), ca.sqrt(dot(rate_1, rate_1)))
     up = ca.fmin(ca.fabs(u_0[2]), ca.fabs(u_1[2]))

@@ -11,6 +11,7 @@ import numpy as np
 
 from flypend.geometry import E3, apply, cross, dot, hat, hat_squared, is_symbolic, scale
 from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment
+from flypend.model.joint import on_rod
 from flypend.model.rod import is_point, shared_out
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
@@ -35,8 +36,10 @@ def disturbed_motion(
     force_on_vehicle: Any = (0.0, 0.0, 0.0),
     force_on_bob: Any = (0.0, 0.0, 0.0),
     pivot_offset: Any = (0.0, 0.0, 0.0),
+    joint_torque: Any = None,
+    spin: float = 0.0,
 ) -> Rates:
-    """Rates of `state` under `wrench` and external forces, with the pivot offset from the centre of mass.
+    """Rates of `state` under `wrench` and external forces, with a joint that need not be free (`model.joint`).
 
     With c the centre of mass, o the pivot offset in the body frame, x = c + R o the pivot and T the rod tension,
 
@@ -57,7 +60,8 @@ def disturbed_motion(
     An extended rod is a point bob m at l and a mass M − M₀ at the pivot (see `Vehicle`), M₀ being the vehicle's own. So
     c, o, I and τ above are those of the rigid body of vehicle and pivot mass; thrust and F_v act at the vehicle's own
     centre of mass, −s o from c, s = (M − M₀)/M. F_b acts at the centre of mass of the rod, λ l from the pivot: its
-    share λ counts at the bob, the rest at the pivot.
+    share λ counts at the bob, the rest at the pivot. A torque Q of the joint on the rod and the rod's spin S act on it
+    like forces P on the bob and −P at the pivot, l y × P = Q − S ẏ, and −Q on the vehicle.
 
     Parameters
     ----------
@@ -73,6 +77,10 @@ def disturbed_motion(
         F_v at the vehicle's centre of mass and F_b at that of rod and bob, world frame, N.
     pivot_offset : (..., 3)
         From the vehicle's centre of mass to the pivot, body frame, m.
+    joint_torque : (..., 3), optional
+        Q, across the rod, world frame, N m; default none.
+    spin : float
+        S, angular momentum of the rod about its own axis, kg m²/s.
 
     Returns
     -------
@@ -87,6 +95,11 @@ def disturbed_motion(
     o, I, I_inv, moment, F_v, F_b = _of_rigid_body(
         vehicle, state, wrench, pivot_offset, scale(1.0, force_on_vehicle), scale(1.0, force_on_bob)
     )
+    if joint_torque is not None or spin:
+        torque = 0 * state.y if joint_torque is None else joint_torque
+        P = on_rod(state, torque, spin, l)
+        back = _transposed(R)
+        F_v, F_b, moment = F_v - P, F_b + P, moment - apply(back, torque) - cross(o, apply(back, P))
 
     arm = cross(o, apply(_transposed(R), y))  # moment per unit tension, body frame
     a = apply(I_inv, arm)  # (3)

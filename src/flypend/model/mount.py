@@ -32,7 +32,7 @@ def margins_of(rod: Any, push: Any, vehicle: Vehicle) -> Any:
     """Return `margins` for the `rod` (..., 3) in the e₃-up body frame and its `push` (...,) on the vehicle, N."""
     symbolic = is_symbolic(rod)
     if vehicle.mount == "hub":
-        return clearances(rod, vehicle.rotor_positions, vehicle.reach, vehicle.body)
+        return clearances(rod, vehicle.rotors_from_pivot, vehicle.reach, vehicle.body)
     if vehicle.mount == "cup":
         room = _to_cone(rod[2] if symbolic else rod[..., 2], vehicle)
         return ca.vertcat(room, push) if symbolic else np.stack([room, push], axis=-1)
@@ -45,7 +45,7 @@ def least_margin(rod: Any, push: Any, vehicle: Vehicle) -> tuple[Any, Any, Any]:
     Among rotors of equal height and distance from the pivot, disc and arm in whose direction the rod points most are
     the nearest; the others are left out.
     """
-    centres = vehicle.rotor_positions
+    centres = vehicle.rotors_from_pivot
     if vehicle.mount != "hub" or not _alike(centres):
         margins = margins_of(rod, push, vehicle)
         least, place = _smallest(margins)

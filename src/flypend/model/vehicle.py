@@ -13,6 +13,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.model.air import Air, air_from
 from flypend.model.body import MOUNTS, Body, MountKind, body_from
 from flypend.model.state import FLIP, E3Direction
 
@@ -20,7 +21,7 @@ from flypend.model.state import FLIP, E3Direction
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Vehicle:
-    """A multirotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
+    """A multirotor with a rod on a ball joint. SI units, body frame front-left-up.
 
     A rod of inertia J across moves like a point bob with a second mass at the pivot: both have together its mass, its
     first and its second moment. The paper's letters are those of that bob, and so exact for every rod whose pivot is
@@ -58,6 +59,15 @@ class Vehicle:
         What carries the rod; see `flypend.model.body`.
     body : Body or dict, optional
         Radii of the parts that the rod can touch; required for a hub or a cup.
+    pivot_offset : (3,)
+        Position of the ball joint relative to the centre of mass, body frame, m. Sampled plants have it, as they have
+        friction and spin; laws and the ideal plant take all of them as zero.
+    pivot_damping, pivot_friction : float
+        Viscous (N m s) and dry friction (N m) of the joint; see `flypend.model.joint`.
+    rod_spin, rod_spin_inertia : float
+        Constant angular velocity of the rod about its own axis, rad/s, and its moment of inertia about it, kg m².
+    air : Air or dict, optional
+        Coefficients of the air's forces. They act on plants that name them; laws do not know them.
 
     Raises
     ------
@@ -82,6 +92,12 @@ class Vehicle:
     rotor_lag: float = 0.0
     mount: MountKind = "gimbal"
     body: Any = None
+    pivot_offset: Any = (0.0, 0.0, 0.0)
+    pivot_damping: float = 0.0
+    pivot_friction: float = 0.0
+    rod_spin: float = 0.0
+    rod_spin_inertia: float = 0.0
+    air: Any = None
 
     def __post_init__(self) -> None:
         def put(name: str, value: Any) -> None:
@@ -95,6 +111,10 @@ class Vehicle:
         if self.rod_end is not None:
             put("rod_end", errors.number("rod_end", self.rod_end, at_least=self.rod_length, unit="m"))
         put("gravity", errors.number("gravity", self.gravity, at_least=0, unit="m/s²"))
+        put("pivot_damping", errors.number("pivot_damping", self.pivot_damping, at_least=0, unit="N m s"))
+        put("pivot_friction", errors.number("pivot_friction", self.pivot_friction, at_least=0, unit="N m"))
+        put("rod_spin", errors.number("rod_spin", self.rod_spin, unit="rad/s"))
+        put("rod_spin_inertia", self._spin_inertia())
         put("rotor_lag", errors.number("rotor_lag", self.rotor_lag, at_least=0, unit="s"))
         put("inertia", _inertia(self.inertia))
         put("rotor_positions", errors.array("rotor_positions", self.rotor_positions, (None, 3)))
@@ -106,11 +126,37 @@ class Vehicle:
             raise InputError("rotor_limits", "0 <= least < largest force in N", self.rotor_limits.tolist())
         errors.one_of("mount", self.mount, MOUNTS)
         put("body", body_from(self.body))
+        put("pivot_offset", errors.array("pivot_offset", self.pivot_offset, (3,)))
+        put("air", air_from(self.air))
         if self.mount != "gimbal" and self.body is None:
             raise InputError("body", f"the radii of the machine's parts, for the mount {self.mount!r}", "nothing")
         rank = np.linalg.matrix_rank(self.mixing())
         if rank < 4:
             raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
+
+    def _spin_inertia(self) -> float:
+        inertia = errors.number("rod_spin_inertia", self.rod_spin_inertia, at_least=0, unit="kg m²")
+        if inertia > 2 * self.rod_inertia * (1 + 1e-9):
+            told = f"{inertia:g} with rod_inertia {self.rod_inertia:g}"
+            raise InputError("rod_spin_inertia", "at most twice rod_inertia, as in every solid body", told)
+        if self.rod_spin and not inertia:
+            raise InputError("rod_spin_inertia", "a number > 0 for a rod that spins", "0")
+        return inertia
+
+    @property
+    def free_joint(self) -> bool:
+        """Whether the joint is as laws take it: at the centre of mass, without friction, the rod not spinning."""
+        return not (np.any(self.pivot_offset) or self.rubs or self.rod_spin)
+
+    @property
+    def rotors_from_pivot(self) -> Any:
+        """Rotor positions (n, 3) relative to the pivot, body frame, m."""
+        return self.rotor_positions - self.pivot_offset
+
+    @property
+    def rubs(self) -> bool:
+        """Whether the joint has friction."""
+        return self.pivot_damping > 0 or self.pivot_friction > 0
 
     M = property(lambda self: self.mass + (1 - self._share) * self.bob_mass, doc="Mass that moves with the pivot, kg.")
     m = property(lambda self: self._share * self.bob_mass, doc="Mass of the equivalent point bob, kg.")
@@ -186,11 +232,13 @@ class Vehicle:
     def replace(self, **changes: Any) -> Self:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError.
 
-        A dict as `body` replaces those of its radii alone.
+        A dict as `body` or `air` replaces those of its numbers alone.
         """
         errors.only_known("vehicle", changes, _FIELDS)
-        if self.body is not None and isinstance(changes.get("body"), Mapping):
-            changes["body"] = self.body.to_dict() | changes["body"]
+        for name in ("body", "air"):
+            own = getattr(self, name)
+            if own is not None and isinstance(changes.get(name), Mapping):
+                changes[name] = own.to_dict() | changes[name]
         return replace(self, **changes)
 
     def to_dict(self) -> dict[str, Any]:
@@ -225,7 +273,7 @@ _REQUIRED = (
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
-    return value.to_dict() if isinstance(value, Body) else value
+    return value.to_dict() if isinstance(value, Body | Air) else value
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:

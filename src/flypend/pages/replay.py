@@ -132,7 +132,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
             "rod_length": vehicle.rod_length,
             "weight": vehicle.weight,
             "rotor_limits": _finite(vehicle.rotor_limits),
-            "rotor_positions": np.asarray(vehicle.rotor_positions).tolist(),
+            "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),
             "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
             "rotor_radius": sketch.disc_radius(vehicle),
             "reach": sketch.reach(vehicle),

@@ -60,7 +60,7 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
     thrust : (...)
         Thrust along z = R e₃, N, which sets the length of the arrow.
     """
-    rotors = vehicle.rotor_positions
+    rotors = vehicle.rotors_from_pivot
     radius, angle = disc_radius(vehicle), np.linspace(0.0, 2 * np.pi, DISC_POINTS)
     circle = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
     pivot = state.x
@@ -81,14 +81,14 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
 
 def disc_radius(vehicle: Vehicle) -> float:
     """Drawn radius of the rotors of `vehicle`, m."""
-    rotors = vehicle.rotor_positions
+    rotors = vehicle.rotors_from_pivot
     gaps = np.linalg.norm(rotors[:, None] - rotors[None], axis=-1) + np.diag(np.full(len(rotors), np.inf))
     return float(DISC_SHARE * gaps.min())
 
 
 def reach(vehicle: Vehicle) -> float:
     """Radius around the pivot that contains the drawing of `vehicle`, including the thrust arrow; m."""
-    rotors = float(np.linalg.norm(vehicle.rotor_positions, axis=-1).max()) + disc_radius(vehicle)
+    rotors = float(np.linalg.norm(vehicle.rotors_from_pivot, axis=-1).max()) + disc_radius(vehicle)
     return max(rotors, vehicle.rod_length * max(1 + BOB_SHARE, LONGEST_ARROW))
 
 

@@ -51,7 +51,7 @@ def _extend(axis: Any) -> None:
 def ladder_figure(ladder: Ladder) -> Figure:
     """Success rate with its Wilson interval (95 %), and 95th percentile of the excursion, per rung of `ladder`."""
     rungs = list(ladder.rungs)
-    figure = new_figure(PAGE, 4.6)
+    figure = new_figure(PAGE, 4.6 + 0.05 * max(0, max(map(len, rungs)) - 18))  # names of several rungs are long
     axes = figure.subplots(2, 1, sharex=True)
     laws = list(next(iter(ladder.rungs.values())).ensembles)
     for i, law in enumerate(laws):

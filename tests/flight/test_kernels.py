@@ -316,6 +316,21 @@ PLANTS = {
     "rates": Plant(interface="rates", rate=50.0, delay=0.03),
     "mismatch": Plant(mismatch={"mass": 1.1, "rod_length": 0.9, "rotor_lag": 1.2}, rate=200.0),
     "pivot": Plant(pivot_offset=(0.0, 0.01, 0.02), rate=200.0),
+    "motors": Plant(spin_up=1.5, sag=0.1, strength=(1.0, 0.9, 1.1, 1.0)),
+    "air": Plant(air="all", ground=-0.3, rate=200.0),
+    "air, motors and the rest": Plant(
+        air=("rotor_drag", "inflow"),
+        spin_up=0.7,
+        sag=0.05,
+        interface="rates",
+        rate=50.0,
+        delay=0.013,
+        wind=GUSTY,
+        noise=NOISY,
+        mismatch={"rod_length": 1.1},
+        pivot_offset=(0.0, 0.01, 0.02),
+        seed=4,
+    ),
 }
 
 

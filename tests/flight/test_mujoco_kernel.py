@@ -1,9 +1,11 @@
 """MuJoCo inside the kernel: the flight that is flown step by step in Python, twenty times as fast."""
 
+import mujoco
 import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.compile.llvm.worlds import FILTER_STRIDE
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import sampled_kernel
 from flypend.flight.request import Flight
@@ -15,6 +17,7 @@ from flypend.plants.mujoco import MOST_IDLE, MuJoCoWorld
 VEHICLE = fp.vehicle("hehn2011")
 INVERTED = fp.laws.inverted().bind(VEHICLE)
 MUJOCO = Plant(engine="mujoco")
+ENGINES = ("equations", "mujoco")
 PLANTS = {
     "rotors": MUJOCO,
     "no lag": MUJOCO.replace(lag=0.0),
@@ -23,6 +26,18 @@ PLANTS = {
     "rates": MUJOCO.replace(interface="rates", rate=50.0, delay=0.03),
     "noise and gusts": MUJOCO.replace(noise=MOTION_CAPTURE, wind=Wind(on_bob=(0.05, 0, 0), gust_on_vehicle=0.2)),
     "another vehicle": MUJOCO.replace(mismatch={"mass": 1.1, "inertia": 0.9}, pivot_offset=(0.01, 0.0, 0.02)),
+    "motors": MUJOCO.replace(spin_up=1.5, sag=0.1, strength=(1.0, 0.9, 1.1, 1.0)),
+    "motors without lag": MUJOCO.replace(spin_up=1.5, sag=0.1, lag=0.0),
+    "air and ground": MUJOCO.replace(air="all", ground=-0.3),
+    "air, motors and the rest": MUJOCO.replace(
+        air=("rotor_drag", "inflow"),
+        spin_up=0.7,
+        sag=0.05,
+        interface="rates",
+        rate=50.0,
+        delay=0.013,
+        wind=Wind(on_bob=(0.05, 0, 0), gust_on_vehicle=0.2),
+    ),
 }
 
 
@@ -50,6 +65,26 @@ def test_the_lag_of_vehicle_and_plant_in_any_combination(own, lag):
     runs = [fp.simulate(vehicle, fp.laws.inverted(), start, 0.4, plant=plant, engine=e) for e in ("kernel", "scipy")]
     np.testing.assert_allclose(runs[0].packed, runs[1].packed, rtol=0, atol=1e-8)
     np.testing.assert_allclose(runs[0].rotor_forces, runs[1].rotor_forces, rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("name", ["motors", "air and ground", "air, motors and the rest"])
+def test_motors_and_air_move_it_as_they_do_in_our_own_equations(name):
+    """The engines differ by how they take forces that change within a step: by second order in 0.5 ms or 2 ms."""
+    start = fp.State.random(np.random.default_rng(5))
+    runs = [fp.simulate(VEHICLE, INVERTED, start, 0.6, plant=PLANTS[name].replace(engine=e)) for e in ENGINES]
+    assert 1e-9 < np.max(np.abs(runs[0].packed - runs[1].packed)) < 1e-4
+    np.testing.assert_allclose(runs[0].rotor_forces, runs[1].rotor_forces, rtol=0, atol=1e-4)
+
+
+def test_a_world_that_is_lent_again_has_forgotten_the_motors_of_before():
+    start = fp.State.random(np.random.default_rng(6)).packed()[None]
+    plain = flown(MUJOCO, start, 0.2).samples
+    flown(MUJOCO.replace(spin_up=2.0), start, 0.2)
+    np.testing.assert_array_equal(flown(MUJOCO, start, 0.2).samples, plain)
+
+
+def test_the_parameters_of_a_filter_lie_where_the_kernel_writes_them():
+    assert mujoco.mjNDYN == FILTER_STRIDE
 
 
 def test_it_is_not_the_flight_in_our_own_equations():

@@ -368,7 +368,12 @@ def test_an_unknown_key_is_refused_with_the_nearest_name():
 
 
 @pytest.mark.parametrize(
-    "field", [k for k in GOOD if k not in ("name", "gravity", "rotor_lag", "rod_end", "rod_inertia", "mount", "body")]
+    "field",
+    [
+        k
+        for k in GOOD
+        if k not in ("name", "gravity", "rotor_lag", "rod_end", "rod_inertia", "mount", "body", "pivot_offset", "air")
+    ],
 )
 def test_a_missing_key_is_named(field):
     with refused(f"vehicle.{field}", expected="a value", got="nothing"):

@@ -65,7 +65,7 @@ def _external(disturbances):
 
 
 def _fly(vehicle, start, forces, duration, timestep, disturbances=NOTHING):
-    engine = MujocoEngine(vehicle, timestep=timestep, pivot_offset=disturbances["pivot_offset"])
+    engine = MujocoEngine(vehicle.replace(pivot_offset=disturbances["pivot_offset"]), timestep=timestep)
     engine.reset(start.packed())
     external = _external(disturbances)
     for _ in range(round(duration / timestep)):
@@ -236,7 +236,7 @@ def test_the_frame_turned_by_pi_sees_the_same_motion():
 
 def test_the_model_has_the_masses_of_the_vehicle_and_nothing_touches():
     vehicle = _tilted("nayak2018")
-    model = mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=1e-3, pivot_offset=OFFSET))
+    model = mujoco.MjModel.from_xml_string(model_xml(vehicle.replace(pivot_offset=OFFSET), timestep=1e-3))
     body, bob = model.body("vehicle").id, model.body("bob").id
     assert model.body_mass[body] == vehicle.M
     assert model.body_mass[bob] == vehicle.m
@@ -294,7 +294,7 @@ def test_accelerations_agree_for_any_rotor_forces(name):
     rng, vehicle = np.random.default_rng(7), _tilted(name)
     for state in fp.State.random(rng, 50):
         disturbances, forces = _disturbances(rng), rng.uniform(-1, 4, 4)
-        engine = MujocoEngine(vehicle, pivot_offset=OFFSET)
+        engine = MujocoEngine(vehicle.replace(pivot_offset=OFFSET))
         engine.step(forces, **_external(disturbances))  # leaves forces behind, which reset has to take away
         engine.reset(state.packed())
         free = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), vehicle, "up", pivot_offset=OFFSET)
@@ -364,7 +364,7 @@ def test_what_remains_is_the_inertia_of_the_bob(monkeypatch):
 def test_energy_and_momentum_in_free_flight(name, offset):
     vehicle = _tilted(name)
     M, m, l, duration = vehicle.M, vehicle.m, vehicle.l, 5.0
-    engine = MujocoEngine(vehicle, pivot_offset=offset)
+    engine = MujocoEngine(vehicle.replace(pivot_offset=offset))
 
     def momentum():
         s = fp.State.from_packed(engine.packed)
@@ -420,7 +420,7 @@ def test_the_corrected_law_flies_the_same_in_mujoco(name, seed):
 
 
 def test_reset_and_packed_are_inverse():
-    engine = MujocoEngine(_tilted("hehn2011"), pivot_offset=OFFSET)
+    engine = MujocoEngine(_tilted("hehn2011").replace(pivot_offset=OFFSET))
     assert _error(engine.packed, fp.State(y=(0, 0, 1)).packed()) == 0
     states = fp.State.random(np.random.default_rng(12), 300, max_omega=30, max_y_dot=30)
     for state in states:
@@ -498,7 +498,7 @@ def test_what_is_refused(tmp_path, monkeypatch):
         MujocoEngine(vehicle, timestep=0)
     for offset in ((1, 2), (0, 0, np.nan), np.zeros((2, 3))):
         with pytest.raises(fp.InputError, match=r"^pivot_offset: expected"):
-            model_xml(vehicle, timestep=1e-3, pivot_offset=offset)
+            vehicle.replace(pivot_offset=offset)
     assert not list(tmp_path.iterdir())  # MuJoCo writes its warnings to MUJOCO_LOG.TXT: there were none
 
 

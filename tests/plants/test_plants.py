@@ -533,7 +533,7 @@ def test_the_step_is_of_order_four_with_lagging_rotors_and_exact_for_the_rotors(
     exact = _integrated(VEHICLE, forces, TUMBLING, duration, **{k: np.array(v) for k, v in disturbances.items()})
     error = []
     for steps in (16, 32, 64):
-        engine = EquationsEngine(VEHICLE, disturbances["pivot_offset"])
+        engine = EquationsEngine(VEHICLE.replace(pivot_offset=disturbances["pivot_offset"]))
         engine.reset(TUMBLING.packed(), begin)
         for _ in range(steps):
             engine.step(command, duration / steps, wind)

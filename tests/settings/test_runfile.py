@@ -99,8 +99,8 @@ def test_a_file_of_ones_own(tmp_path):
         'vehicle = "hehn2011"',
         'vehicle = { base = "hehn2011" }',
         'vehicle = { base = "hehn2011", mount = "gimbal", body = { arm_radius = 0.006 } }',
-        'vehicle = { base = "nayak2018", NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, BODY }',
-        "vehicle = { NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, rotor_lag = 0.02, BODY }",
+        'vehicle = { base = "nayak2018", NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, BODY, AIR }',
+        "vehicle = { NAME, MASSES, rod_length = 0.565, INERTIA, ROTORS, rotor_lag = 0.02, BODY, AIR }",
     ],
 )
 def test_a_vehicle_by_name_by_table_and_by_changes_of_another_is_the_same(tmp_path, text):
@@ -111,8 +111,9 @@ def test_a_vehicle_by_name_by_table_and_by_changes_of_another_is_the_same(tmp_pa
         .replace("MASSES", "mass = 0.5, bob_mass = 0.05")
         .replace("INERTIA", f"inertia = {data['inertia']}")
     )
-    body = ", ".join(f"{name} = {value}" for name, value in data["body"].items())
-    text = text.replace("BODY", f"body = {{ {body} }}")
+    for table in ("body", "air"):
+        content = ", ".join(f"{name} = {value}" for name, value in data[table].items())
+        text = text.replace(table.upper(), f"{table} = {{ {content} }}")
     text = text.replace("ROTORS", ", ".join(f"{name} = {data[name]}" for name in rotors))
     chosen = flight(written(tmp_path, OWN.replace('vehicle = "nayak2018"', text)))
     assert chosen.vehicle == fp.vehicle("hehn2011")
@@ -507,6 +508,23 @@ def test_a_plant_by_name_can_be_changed_in_one_number():
     assert (plain.lag, plain.noise.x, plain.rate) == (0.05, 0.01, 500.0)
     with pytest.raises(fp.InputError, match=r"^plant: expected a base with numbers, such as 'rotors', got the ideal"):
         flight("1", ["plant=ideal", "plant.lag=0.05"])
+
+
+def test_motors_and_air_of_a_plant_arrive():
+    overrides = [
+        'plant.air=["rotor_drag", "lift"]', "plant.spin_up=1.5", "plant.sag=0.1", "plant.strength=[1, 1, 0.8, 1]",
+        "plant.ground=-0.5", "vehicle.base=hehn2011", "vehicle.air.lift=0.01",
+    ]  # fmt: skip
+    chosen = flight("5", ["law.name=inverted", "law.gains={}", 'plant="rotors"', *overrides])
+    assert chosen.plant == fp.Plant(
+        air=("rotor_drag", "lift"), spin_up=1.5, sag=0.1, strength=(1, 1, 0.8, 1), ground=-0.5
+    )
+    assert chosen.vehicle.air == fp.vehicle("hehn2011").replace(air={"lift": 0.01}).air
+    assert flight("5", ["vehicle=hehn2011", "plant.base=rotors", "plant.air=all"]).plant.air == ("all",)
+    with pytest.raises(
+        fp.InputError, match=r"^vehicle\.air: expected coefficients of the air, for plant\.air, got none$"
+    ):
+        flight("5", ["plant.base=rotors", "plant.air=all"])
 
 
 def test_what_would_never_end_is_refused():

@@ -32,7 +32,7 @@ from flypend.report.studies import (
 from flypend.studies import Comparison, Ladder, compare, hehn, ladder, law_named, paper_starts, random_starts
 from flypend.studies.compare import summary
 from flypend.studies.hehn import Tracking, hehn2011
-from flypend.studies.ladder import RUNGS
+from flypend.studies.rungs import RUNGS, rung_named, rungs_for
 
 VEHICLE = fp.vehicle("hehn2011")
 
@@ -395,6 +395,40 @@ def test_the_rungs_are_those_promised():
         if name not in ("ideal wrench", "limits", "MuJoCo"):
             changed = [e.name for e in dataclasses.fields(Plant) if getattr(plant, e.name) != getattr(rotors, e.name)]
             assert len(changed) == 1, name
+
+
+def test_rungs_of_a_vehicle_take_its_own_numbers():
+    found = rungs_for(VEHICLE)
+    assert list(found)[: len(RUNGS)] == list(RUNGS)
+    assert found["one rotor -20 %"].strength == (1.0, 1.0, 1.0, 0.8)
+    assert found["ground one radius below"].ground == -VEHICLE.body.disc_radius
+    for name in ("rotor_drag", "inflow", "lift", "body_drag"):
+        assert found[name.replace("_", " ")] == Plant(air=(name,))
+    for rung in found.values():
+        if rung != fp.Ideal():
+            rung.true_vehicle(VEHICLE)  # raises if the vehicle lacks something
+    bare = rungs_for(VEHICLE.replace(air=None, body=None))
+    assert not {"air", "rotor drag", "ground one radius below"} & bare.keys()
+    assert rungs_for(fp.vehicle("nayak2018")).keys() <= found.keys()
+
+
+def test_rungs_together_have_all_their_departures():
+    rungs = rungs_for(VEHICLE)
+    found = rung_named("noise, mass +10 %, rod +10 %,delay 15 ms, air", rungs)
+    expected = RUNGS["noise"].replace(
+        mismatch={"mass": 1.1, "bob_mass": 1.1, "rod_length": 1.1}, delay=0.015, air=("all",)
+    )
+    assert found == expected
+    assert rung_named("noise", rungs) is rungs["noise"]
+    assert rungs["lag 40 ms, delay 15 ms, 100 Hz"] == Plant(lag=0.04, delay=0.015, rate=100.0)
+    for names, words in [
+        ("lag 10 ms, lag 20 ms", "expected rungs that change different numbers, got lag twice"),
+        ("mass +10 %, mass -10 %", "expected rungs that change different numbers, got mismatch twice"),
+        ("ideal wrench, noise", "expected rungs with numbers, got 'ideal wrench'"),
+        ("noise, delai 15 ms", r"expected one of .*, got 'delai 15 ms' \(did you mean 'delay 15 ms'\?\)"),
+    ]:
+        with pytest.raises(fp.InputError, match=rf"^--rung: {words}"):
+            rung_named(names, rungs)
 
 
 def test_broken_is_below_the_share():

@@ -215,7 +215,7 @@ def compare(
 @seed_option
 @vehicle_option
 @duration_option
-@click.option("--rung", multiple=True, help="Fly only this rung; repeatable.")
+@click.option("--rung", multiple=True, help="Fly only this rung; repeatable. Several at once: 'noise, rod +10 %'.")
 def ladder(
     law: tuple[str, ...],
     out: Path,
@@ -226,15 +226,15 @@ def ladder(
     duration: float,
     rung: tuple[str, ...],
 ) -> None:
-    """Find what breaks each law: rotor limits, lag, sampling, delay, noise, model mismatch or a pivot offset."""
-    from flypend import errors
+    """Find what breaks each law: limits, lag, motors, air, sampling, delay, noise, a wrong model, several at once."""
     from flypend.files.staging import check_writable
     from flypend.report.studies import ladder_table, write_ladder
     from flypend.studies import ladder as climb
-    from flypend.studies.ladder import RUNGS
+    from flypend.studies.rungs import rung_named, rungs_for
 
     laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
-    chosen = {errors.one_of("--rung", name, RUNGS): RUNGS[name] for name in rung or RUNGS}
+    rungs = rungs_for(machine)
+    chosen = {name: rung_named(name, rungs) for name in rung or rungs}
     check_writable(out)
     with counter() as tell:
         result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)

@@ -44,11 +44,19 @@ class MujocoProblem:
         Whether the rotor lag is a MuJoCo actuator filter, with the rotor forces as its activations.
     largest : float
         Forces beyond this, N, are invalid and end the run.
+    motors : Program, optional
+        (commanded forces, rotors, numbers) → controls and time constants of the filters, run before every step; by
+        default controls are the command, and the time constants those of the models.
+    surroundings : Program, optional
+        (qpos, qvel, qacc, rotors, controls, wind, numbers) → forces and torques on vehicle and rod, run before every
+        step; by default only wind acts.
     """
 
     seen: Program
     filtered: bool
     largest: float
+    motors: Program | None = None
+    surroundings: Program | None = None
 
 
 @dataclass(frozen=True)

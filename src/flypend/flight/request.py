@@ -179,6 +179,7 @@ class Flight:
         self._check_lift()
         self._check_memory()
         if isinstance(self.plant, Sampled):
+            self.plant.true_vehicle(self.vehicle)  # raises if the vehicle lacks what the plant needs
             for name, usual in (("method", "nothing"), ("precision", "'double'")):
                 if getattr(self.tolerances, name) != getattr(Tolerances(), name):
                     raise InputError(name, f"{usual} in a sampled flight", repr(getattr(self.tolerances, name)))

@@ -62,7 +62,7 @@ def _law_call(setting: Setting) -> str:
 def _vehicle(machine: Vehicle) -> tuple[str, dict[str, Any]]:
     """The vehicle's name, and the fields that differ from the shipped vehicle of that name."""
     own, named = machine.to_dict(), vehicle(machine.name).to_dict()
-    return machine.name, {name: value for name, value in own.items() if value != named[name]}
+    return machine.name, {name: value for name, value in own.items() if value != named.get(name)}
 
 
 def _plant(plant: AnyPlant) -> str | dict[str, Any]:

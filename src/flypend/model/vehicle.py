@@ -13,6 +13,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.model.air import Air, air_from
 from flypend.model.body import MOUNTS, Body, MountKind, body_from
 from flypend.model.state import FLIP, E3Direction
 
@@ -20,7 +21,7 @@ from flypend.model.state import FLIP, E3Direction
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Vehicle:
-    """A multirotor with a rod on a ball joint at its centre of mass. SI units, body frame front-left-up.
+    """A multirotor with a rod on a ball joint. SI units, body frame front-left-up.
 
     A rod of inertia J across moves like a point bob with a second mass at the pivot: both have together its mass, its
     first and its second moment. The paper's letters are those of that bob, and so exact for every rod whose pivot is
@@ -58,6 +59,11 @@ class Vehicle:
         What carries the rod; see `flypend.model.body`.
     body : Body or dict, optional
         Radii of the parts that the rod can touch; required for a hub or a cup.
+    pivot_offset : (3,)
+        Position of the ball joint relative to the centre of mass, body frame, m. Sampled plants have it; laws and the
+        ideal plant take it as zero.
+    air : Air or dict, optional
+        Coefficients of the air's forces. They act on plants that name them; laws do not know them.
 
     Raises
     ------
@@ -82,6 +88,8 @@ class Vehicle:
     rotor_lag: float = 0.0
     mount: MountKind = "gimbal"
     body: Any = None
+    pivot_offset: Any = (0.0, 0.0, 0.0)
+    air: Any = None
 
     def __post_init__(self) -> None:
         def put(name: str, value: Any) -> None:
@@ -106,6 +114,8 @@ class Vehicle:
             raise InputError("rotor_limits", "0 <= least < largest force in N", self.rotor_limits.tolist())
         errors.one_of("mount", self.mount, MOUNTS)
         put("body", body_from(self.body))
+        put("pivot_offset", errors.array("pivot_offset", self.pivot_offset, (3,)))
+        put("air", air_from(self.air))
         if self.mount != "gimbal" and self.body is None:
             raise InputError("body", f"the radii of the machine's parts, for the mount {self.mount!r}", "nothing")
         rank = np.linalg.matrix_rank(self.mixing())
@@ -186,11 +196,13 @@ class Vehicle:
     def replace(self, **changes: Any) -> Self:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError.
 
-        A dict as `body` replaces those of its radii alone.
+        A dict as `body` or `air` replaces those of its numbers alone.
         """
         errors.only_known("vehicle", changes, _FIELDS)
-        if self.body is not None and isinstance(changes.get("body"), Mapping):
-            changes["body"] = self.body.to_dict() | changes["body"]
+        for name in ("body", "air"):
+            own = getattr(self, name)
+            if own is not None and isinstance(changes.get(name), Mapping):
+                changes[name] = own.to_dict() | changes[name]
         return replace(self, **changes)
 
     def to_dict(self) -> dict[str, Any]:
@@ -225,7 +237,7 @@ _REQUIRED = (
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
-    return value.to_dict() if isinstance(value, Body) else value
+    return value.to_dict() if isinstance(value, Body | Air) else value
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from flypend.model.allocation import allocate
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.state import SIZE
 from flypend.plants.equations import EquationsEngine
+from flypend.plants.motors import moving
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import steps_in
 
@@ -46,15 +47,16 @@ class Mujoco:
 
     Parameters
     ----------
-    vehicle, pivot_offset
+    vehicle, plant
         As in `EquationsEngine`.
     """
 
-    def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...]) -> None:
+    def __init__(self, vehicle: Vehicle, plant: Plant) -> None:
         from flypend.plants.mujoco import MujocoEngine, filter_lag
 
-        self._lag = filter_lag(vehicle)
-        self._engine = MujocoEngine(vehicle, pivot_offset=pivot_offset, lag=self._lag)
+        self._vehicle, self._plant, self._lag = vehicle, plant, filter_lag(vehicle)
+        self._engine = MujocoEngine(vehicle, lag=self._lag)
+        self._motors, self._surroundings = _compiled_world(vehicle, moving(plant))
         self._lost = False
 
     @property
@@ -75,22 +77,45 @@ class Mujoco:
     def step(self, command: Any, duration: float, wind: Any) -> None:
         """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,), N."""
         from flypend.plants.mujoco import substeps
+        from flypend.plants.mujoco_world import step_numbers
 
-        steps = substeps(duration, self._lag)
+        steps = substeps(duration, self._vehicle, self._plant)
         self._engine.model.opt.timestep = duration / steps
+        numbers = step_numbers(self._vehicle, self._plant, duration / steps)
         for _ in range(steps):
             try:
-                self._engine.step(command, force_on_vehicle=wind[:3], force_on_bob=wind[3:])
+                self._engine.step(*self._prepared(command, wind, numbers))
             except InputError:
                 self._lost = True
                 return
+
+    def _prepared(self, command: Any, wind: Any, numbers: Any) -> tuple[Any, ...]:
+        """Return controls, and forces and torques on vehicle and rod, for the next step of MuJoCo."""
+        engine, controls = self._engine, command
+        if self._motors is not None:
+            controls, lags = self._motors(command, engine.rotors, numbers)
+            if self._lag > 0:
+                engine.respond_within(lags)
+        if self._surroundings is None:
+            return controls, wind[:3], wind[3:]
+        coordinates = engine.coordinates(controls)
+        outside = self._surroundings(*coordinates, engine.rotors, controls, wind, numbers)
+        return controls, outside[:3], outside[6:9], outside[3:6], outside[9:]
+
+
+@lru_cache(maxsize=64)
+def _compiled_world(vehicle: Vehicle, plant: Plant) -> tuple[Any, Any]:
+    from flypend.plants.mujoco_world import motors, surroundings
+
+    made = (motors(vehicle, plant), surroundings(vehicle, plant))
+    return tuple(None if function is None else as_numpy(function) for function in made)  # type: ignore[return-value]
 
 
 def make_engine(vehicle: Vehicle, plant: Plant) -> Engine:
     """Create the engine of `plant` for `vehicle`, the true vehicle."""
     if plant.engine == "equations":
-        return EquationsEngine(vehicle, plant.pivot_offset)
-    return Mujoco(vehicle, plant.pivot_offset)
+        return EquationsEngine(vehicle, plant)
+    return Mujoco(vehicle, plant)
 
 
 class Actuation:

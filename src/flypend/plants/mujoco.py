@@ -36,6 +36,7 @@ from flypend.geometry import hat
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
+from flypend.plants.plant import Plant
 from flypend.plants.schedule import steps_in, within_period
 
 # Moment of inertia of the bob about its centre per m l², and its minimum in kg m²: MuJoCo rejects a moving body below
@@ -84,15 +85,14 @@ _MOTOR = '    <general name="rotor{k}" site="rotor{k}" gear="0 0 1 0 0 {torque!r
 _FILTER = ' dyntype="filter" dynprm="{lag!r}"'
 
 # Maximum step in a flight, s. With RK4 the state error is 1e-7 after a second of tumbling. The rotor lag, a MuJoCo
-# actuator filter, is integrated with the same steps.
-FLIGHT_STEP = 2e-3
+# actuator filter, is integrated with the same steps. Forces from outside, held within a step, need shorter ones: at
+# 2 ms a tumbling hehn2011 is off by up to 4e-4 after 0.3 s in air, a sixteenth of that at a quarter of the step.
+FLIGHT_STEP, SURROUNDED_STEP = 2e-3, 0.5e-3
 # A shorter lag than this, s, is none: it moves the vehicle by less than a sample can tell.
 LEAST_LAG = 1e-4
 
 
-def model_xml(
-    vehicle: Vehicle, *, timestep: float, pivot_offset: Any = (0.0, 0.0, 0.0), lag: float = 0.0, bare: bool = False
-) -> str:
+def model_xml(vehicle: Vehicle, *, timestep: float, lag: float = 0.0, bare: bool = False) -> str:
     """MJCF (MuJoCo's XML) model of `vehicle` in a z-up world; its controls are the rotor forces in N.
 
     Parameters
@@ -102,8 +102,6 @@ def model_xml(
         unit force.
     timestep : float
         Step of the integrator, s.
-    pivot_offset : (3,)
-        Position of the ball joint relative to the vehicle's centre of mass, body frame, m.
     lag : float
         Time constant of the rotor forces, s; 0 for none.
     bare : bool
@@ -118,12 +116,10 @@ def model_xml(
     Raises
     ------
     InputError
-        If the timestep is not positive or the offset is not three finite numbers.
+        If the timestep is not positive.
     """
     timestep = errors.number("timestep", timestep, above=0, unit="s")
-    offset = errors.array("pivot_offset", pivot_offset, (3,))
-    if offset.ndim != 1:
-        raise InputError("pivot_offset", "numbers of shape (3)", f"shape {offset.shape}")
+    offset = vehicle.pivot_offset
     places = vehicle.rotor_positions - offset
     torques = vehicle.drag_ratio * vehicle.rotor_spins
     moments, axes = np.linalg.eigh(vehicle.inertia)
@@ -172,8 +168,6 @@ class MujocoEngine:
         Vehicle parameters.
     timestep : float
         Step of the integrator (RK4), s.
-    pivot_offset : (3,)
-        Position of the ball joint relative to the vehicle's centre of mass, body frame, m.
     lag : float
         Time constant with which the rotor forces follow those passed to `step`, s; 0 for none.
 
@@ -183,18 +177,11 @@ class MujocoEngine:
         If mujoco is not installed, or like `model_xml`.
     """
 
-    def __init__(
-        self,
-        vehicle: Vehicle,
-        *,
-        timestep: float = 0.5e-3,
-        pivot_offset: Any = (0.0, 0.0, 0.0),
-        lag: float = 0.0,
-    ) -> None:
+    def __init__(self, vehicle: Vehicle, *, timestep: float = 0.5e-3, lag: float = 0.0) -> None:
         mujoco = _import_mujoco()
         self._mujoco = mujoco
         self._see = _compiled_view(len(vehicle.rotor_spins))
-        xml = model_xml(vehicle, timestep=timestep, pivot_offset=pivot_offset, lag=lag)
+        xml = model_xml(vehicle, timestep=timestep, lag=lag)
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = data = mujoco.MjData(self.model)
         self._advance = partial(mujoco.mj_step, self.model, data)
@@ -202,7 +189,7 @@ class MujocoEngine:
         self._qpos, self._qvel = data.qpos, data.qvel
         self._rotors = data.act if lag > 0 else data.ctrl
         self._forces, self._all_external = data.ctrl, data.xfrc_applied.reshape(-1)
-        self._on_vehicle, self._on_bob = (data.body(name).xfrc_applied[:3] for name in ("vehicle", "bob"))
+        self._on_vehicle, self._on_bob = (data.body(name).xfrc_applied for name in ("vehicle", "bob"))
 
     @property
     def timestep(self) -> float:
@@ -242,9 +229,10 @@ class MujocoEngine:
     def step(
         self,
         forces: Any,
-        *,
         force_on_vehicle: Any = (0.0, 0.0, 0.0),
         force_on_bob: Any = (0.0, 0.0, 0.0),
+        torque_on_vehicle: Any = (0.0, 0.0, 0.0),
+        torque_on_bob: Any = (0.0, 0.0, 0.0),
     ) -> None:
         """Advance by one timestep under constant forces.
 
@@ -253,7 +241,9 @@ class MujocoEngine:
         forces : (n,)
             Commanded force of each rotor along the body's third axis, N, of either sign; limits are up to the caller.
         force_on_vehicle, force_on_bob : (3,)
-            External forces at the vehicle's centre of mass and at the bob, world frame, N.
+            External forces at the centres of mass of vehicle and rod, world frame, N.
+        torque_on_vehicle, torque_on_bob : (3,)
+            External torques on vehicle and rod, world frame, N m.
 
         Raises
         ------
@@ -263,13 +253,23 @@ class MujocoEngine:
         if len(forces) != len(self._forces):
             raise InputError("forces", f"numbers of shape ({len(self._forces)})", f"shape {np.shape(forces)}")
         self._forces[:] = forces
-        self._on_vehicle[:] = force_on_vehicle
-        self._on_bob[:] = force_on_bob
+        self._on_vehicle[:3], self._on_vehicle[3:] = force_on_vehicle, torque_on_vehicle
+        self._on_bob[:3], self._on_bob[3:] = force_on_bob, torque_on_bob
         size_squared = self._forces.dot(self._forces) + self._all_external.dot(self._all_external)
         if not size_squared < MAX_FORCE**2:  # also true for NaN
             got = f"{self._forces} on the rotors, {self._on_vehicle} on the vehicle, {self._on_bob} on the bob"
             raise InputError("forces", "finite numbers", got)
         self._advance()
+
+    def respond_within(self, lags: Any) -> None:
+        """Set the time constants (n,), s, of the rotors' filters, for an engine with lag."""
+        self.model.actuator_dynprm[:, 0] = lags
+
+    def coordinates(self, forces: Any) -> tuple[Any, Any, Any]:
+        """Return qpos (11,), qvel (9,) and qacc (9,) under rotor forces (n,), N, and the last external forces."""
+        self._forces[:] = forces
+        self._mujoco.mj_forward(self.model, self.data)
+        return self._qpos, self._qvel, self.data.qacc
 
     def energy(self) -> float:
         """Kinetic plus potential energy, J; the potential energy of each mass is zero at height 0."""
@@ -304,15 +304,19 @@ def seen_by_mujoco(rotors: int) -> ca.Function:
     """CasADi function (qpos (11,), qvel (9,), forces (n,)) → (packed state (24,), forces (n,)), n `rotors`, e₃ up."""
     qpos, qvel = ca.SX.sym("qpos", POSITIONS), ca.SX.sym("qvel", VELOCITIES)
     forces = ca.SX.sym("r", rotors)
-    R = _rotation(qpos[3:7])
-    rod = R @ _rotation(qpos[7:11])
-    rates = qvel[6:9] + rod.T @ (R @ qvel[3:6])  # angular velocity of the rod, rod frame
-    y_dot = rates[1] * rod[:, 0] - rates[0] * rod[:, 1]  # rod ((a, b, c) × e₃)
-    state = State(x=qpos[:3], x_dot=qvel[:3], R=R, omega=qvel[3:6], y=rod[:, 2], y_dot=y_dot)
+    state = state_of(qpos[:3], rotation_of(qpos[3:7]), rotation_of(qpos[7:11]), qvel)
     return ca.Function("seen", [qpos, qvel, forces], [ca.cse(ca.densify(state.packed())), forces])
 
 
-def _rotation(quat_wxyz: Any) -> Any:
+def state_of(x: Any, R: Any, relative: Any, qvel: Any) -> State:
+    """Return the state, e₃ up, for the rotation R, that of the rod `relative` to it (3, 3), and qvel, in CasADi."""
+    rod = R @ relative
+    rates = qvel[6:9] + rod.T @ (R @ qvel[3:6])  # angular velocity of the rod, rod frame
+    y_dot = rates[1] * rod[:, 0] - rates[0] * rod[:, 1]  # rod ((a, b, c) × e₃)
+    return State(x=x, x_dot=qvel[:3], R=R, omega=qvel[3:6], y=rod[:, 2], y_dot=y_dot)
+
+
+def rotation_of(quat_wxyz: Any) -> Any:
     """Rotation matrix of a quaternion, which need not be normalised."""
     w, v = quat_wxyz[0], quat_wxyz[1:]
     turn = hat(v)
@@ -329,12 +333,15 @@ def filter_lag(vehicle: Vehicle) -> float:
     return vehicle.rotor_lag if vehicle.rotor_lag >= LEAST_LAG else 0.0
 
 
-def substeps(duration: float, lag: float) -> int:
-    """Return the number of MuJoCo's steps in `duration` (s) of a flight with filters of time constant `lag` (s).
+def substeps(duration: float, vehicle: Vehicle, plant: Plant) -> int:
+    """Return the number of MuJoCo's steps in `duration` (s) of a flight of the true `vehicle`.
 
-    None is longer than `FLIGHT_STEP`, nor than a quarter of the lag: RK4 is stable up to 2.8 lags only.
+    None is longer than `FLIGHT_STEP` or `SURROUNDED_STEP`, nor than a quarter of the shorter lag: RK4 is stable up to
+    2.8 lags only.
     """
-    longest = min(FLIGHT_STEP, lag / 4) if lag > 0 else FLIGHT_STEP
+    longest = SURROUNDED_STEP if plant.surrounds(vehicle) else FLIGHT_STEP
+    if (lag := filter_lag(vehicle) * min(1.0, plant.spin_up)) > 0:
+        longest = min(longest, lag / 4)
     return max(1, int(np.ceil(duration / longest - 1e-9)))
 
 
@@ -351,8 +358,6 @@ class MuJoCoWorld:
     ----------
     vehicle : Vehicle
         The true vehicle, including its `rotor_lag`.
-    pivot_offset : (3,)
-        As in `MujocoEngine`.
     timesteps : tuple of float
         Integrator step in each segment of a control period, s.
     """
@@ -360,20 +365,20 @@ class MuJoCoWorld:
     _idle: ClassVar[list[tuple[Any, MuJoCoWorld]]] = []  # the one returned last stands last
     _lock: ClassVar[Lock] = Lock()
 
-    def __init__(self, vehicle: Vehicle, pivot_offset: tuple[float, ...], timesteps: tuple[float, ...]) -> None:
+    def __init__(self, vehicle: Vehicle, timesteps: tuple[float, ...]) -> None:
         mujoco = _import_mujoco()
         library = _library()
         self._models = [
-            mujoco.MjModel.from_xml_string(
-                model_xml(vehicle, timestep=h, pivot_offset=pivot_offset, lag=filter_lag(vehicle), bare=True)
-            )
+            mujoco.MjModel.from_xml_string(model_xml(vehicle, timestep=h, lag=filter_lag(vehicle), bare=True))
             for h in timesteps
         ]
         self._data = data = mujoco.MjData(self._models[0])
         self._models_at = np.array([model._address for model in self._models], dtype=np.uint64)
+        filters = [model.actuator_dynprm.ctypes.data for model in self._models]
+        self._filters_at = np.array(filters, dtype=np.uint64)
         rotors = data.act if filter_lag(vehicle) > 0 else data.ctrl
-        arrays = (data.qpos, data.qvel, rotors, data.ctrl, data.xfrc_applied)
-        functions = (library.mj_step, library.mj_resetData)
+        arrays = (data.qpos, data.qvel, data.qacc, rotors, data.ctrl, data.xfrc_applied)
+        functions = (library.mj_step, library.mj_forward, library.mj_resetData)
         self._fixed = (
             data._address, *(array.ctypes.data for array in arrays),
             *(ctypes.cast(function, ctypes.c_void_p).value for function in functions),
@@ -388,12 +393,12 @@ class MuJoCoWorld:
         stretches = within_period(plant.delay, 1 / plant.rate)
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
         true = plant.true_vehicle(loop.vehicle)
-        timesteps = tuple(length / substeps(length, filter_lag(true)) for length in lengths)
-        key = (true, tuple(plant.pivot_offset), timesteps)
+        timesteps = tuple(length / substeps(length, true, plant) for length in lengths)
+        key = (true, timesteps, plant.spin_up)
         with cls._lock:
             place = next((i for i, (known, _) in enumerate(cls._idle) if known == key), None)
             kept = None if place is None else cls._idle.pop(place)[1]
-        world = kept or cls(*key)
+        world = kept or cls(true, timesteps)
         try:
             yield world
         finally:
@@ -404,7 +409,7 @@ class MuJoCoWorld:
     def addresses(self, starts: Any) -> tuple[int, ...]:
         """Addresses for the compiled code, and the coordinates of packed `starts` (n, 24 or more), e₃-up frame."""
         self._begins = np.stack([mujoco_coordinates(start[:SIZE]) for start in starts])
-        return (*self._fixed, self._begins.ctypes.data, self._models_at.ctypes.data)
+        return (*self._fixed, self._begins.ctypes.data, self._models_at.ctypes.data, self._filters_at.ctypes.data)
 
 
 @lru_cache(maxsize=1)

@@ -8,9 +8,12 @@ from numbers import Integral
 from types import MappingProxyType
 from typing import Any, Literal
 
+import numpy as np
+
 from flypend import errors
 from flypend.errors import InputError
 from flypend.model import Vehicle
+from flypend.model.air import AIR
 
 Engine = Literal["equations", "mujoco"]
 Interface = Literal["wrench", "rates"]
@@ -19,6 +22,7 @@ MISMATCHED = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_
 
 # Every command in transit is kept, and the prediction goes through them all: a delay in ms given as s would never end.
 LONGEST_DELAY, MOST_IN_TRANSIT = 0.5, 1000  # s, commands
+MOST_SAG = 0.25  # beyond, rotors asked for more than nearly everything give less
 LEAST_RATE = 0.01  # Hz; a period is flown in steps of 1 ms
 
 
@@ -122,8 +126,21 @@ class Sampled:
         Delay from measurement to command, s.
     noise : Noise, optional
         Measurement noise.
+    spin_up : float
+        Ratio of the rotors' time constant while their force rises to the lag, with which it falls.
+    sag : float
+        Share of the battery's voltage that is lost when every rotor is asked for its largest force; forces are
+        proportional to the square of the voltage.
+    strength : float or (n,)
+        Ratio of the force of each rotor to that asked for.
+    air : tuple of str, or "all"
+        Forces of the air that act: "rotor_drag", "inflow", "lift", "body_drag"; their coefficients are those of the
+        vehicle's `air`. "all" stands for those that are not zero there.
+    ground : float, optional
+        Height of a ground that raises the thrust of rotors close to it, m; None for none. The radius of the rotors is
+        that of the vehicle's `body`. Nothing touches the ground.
     pivot_offset : (3,)
-        Position of the ball joint relative to the centre of mass, body frame, m. The law does not know it.
+        Position of the ball joint beside that of the vehicle, body frame, m. The law does not know it.
     mismatch : dict
         Ratio of true to nominal value for mass, bob_mass, rod_length, inertia, drag_ratio, rotor_lag.
     wind : Wind, optional
@@ -148,6 +165,11 @@ class Sampled:
     rate: float = 500.0
     delay: float = 0.0
     noise: Noise | None = None
+    spin_up: float = 1.0
+    sag: float = 0.0
+    strength: Any = 1.0
+    air: Any = ()
+    ground: float | None = None
     pivot_offset: Any = (0.0, 0.0, 0.0)
     mismatch: Mapping[str, float] = field(default_factory=dict)
     wind: Wind | None = None
@@ -170,6 +192,12 @@ class Sampled:
         errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
         if self.lag is not None:
             errors.number("plant.lag", self.lag, at_least=0, unit="s")
+        errors.number("plant.spin_up", self.spin_up, above=0)
+        errors.number("plant.sag", self.sag, at_least=0, at_most=MOST_SAG)
+        object.__setattr__(self, "strength", _strength(self.strength))
+        object.__setattr__(self, "air", _effects(self.air))
+        if self.ground is not None:
+            errors.number("plant.ground", self.ground, unit="m")
         for name, kind, expected in _KINDS:
             if not isinstance(value := getattr(self, name), kind):
                 raise InputError(f"plant.{name}", expected, repr(value))
@@ -186,16 +214,63 @@ class Sampled:
         return hash(repr(self))
 
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
-        """Return the true vehicle for the nominal `vehicle`, with `mismatch` and `lag` applied."""
+        """Return the true vehicle for the nominal `vehicle`, with `mismatch`, `lag` and `pivot_offset` applied.
+
+        Raises InputError if `vehicle` lacks what the plant needs: as many rotors as there are strengths, coefficients
+        of the air, a radius of the rotors.
+        """
+        self._check(vehicle)
         changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}
         if self.lag is not None:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
+        if any(self.pivot_offset):
+            changes["pivot_offset"] = vehicle.pivot_offset + np.array(self.pivot_offset)
         return vehicle.replace(**changes)
+
+    def effects(self, vehicle: Vehicle) -> tuple[Any, ...]:
+        """Return the forces of the air that act on `vehicle`, of `flypend.model.air.AIR`."""
+        known = () if vehicle.air is None else vehicle.air.known()
+        return known if self.air == ("all",) else tuple(name for name in AIR if name in self.air)
+
+    def surrounds(self, vehicle: Vehicle) -> bool:
+        """Whether forces act on `vehicle` that depend on its motion: air, or the ground."""
+        return bool(self.effects(vehicle)) or self.ground is not None
+
+    def _check(self, vehicle: Vehicle) -> None:
+        n, strengths = len(vehicle.rotor_spins), np.size(self.strength)
+        if strengths not in (1, n):
+            raise InputError("plant.strength", f"a number, or one for each of {n} rotors", f"{strengths} numbers")
+        known = () if vehicle.air is None else vehicle.air.known()
+        for name in self.air:
+            if name not in known and (name != "all" or not known):
+                wanted = "coefficients of the air" if name == "all" else f"a coefficient {name!r} > 0"
+                raise InputError("vehicle.air", f"{wanted}, for plant.air", "none")
+        if self.ground is not None and vehicle.body is None:
+            raise InputError("vehicle.body", "the radius of the rotor discs, for plant.ground", "nothing")
 
     def replace(self, **changes: Any) -> Sampled:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
         errors.only_known("plant", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
+
+
+def _strength(value: Any) -> float | tuple[float, ...]:
+    """Return a strength as a number, or as a tuple of one a rotor."""
+    field, expected = "plant.strength", "a number > 0, or one per rotor"
+    if np.ndim(value) == 0:
+        return errors.number(field, value, above=0)
+    strengths = errors.array(field, value, (None,))
+    if not (strengths.size and np.all(strengths > 0)):
+        raise InputError(field, expected, strengths.tolist())
+    return tuple(strengths.tolist())
+
+
+def _effects(value: Any) -> tuple[str, ...]:
+    """Return the names of forces of the air as a tuple."""
+    names = (value,) if isinstance(value, str) else tuple(value) if isinstance(value, list | tuple) else None
+    if names is None:
+        raise InputError("plant.air", "names of " + ", ".join((*AIR, "all")), repr(value))
+    return tuple(errors.one_of("plant.air", name, (*AIR, "all")) for name in names)
 
 
 Plant = Sampled

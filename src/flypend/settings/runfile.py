@@ -30,6 +30,8 @@ STUDY_KEYS = frozenset(
     ("runs", "vary", "sampling", "seed", "chunk", "final", "criterion", "tune", "judge_period", "max_steps", "engine",
      "precision")
 )  # fmt: skip
+# Settings that are lists of words; all other lists are of numbers.
+WORDS = ("plant.air",)
 _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
 
 
@@ -93,7 +95,7 @@ def check_plain(key: str, value: Any) -> None:
             check_plain(f"{key}.{name}", entry)
     elif isinstance(value, list):
         for entry in value:
-            if isinstance(entry, bool | str | dict):
+            if isinstance(entry, bool | dict) or (isinstance(entry, str) and key not in WORDS):
                 raise InputError(key, "a list of numbers", repr(value))
             check_plain(key, entry)
     elif not isinstance(value, bool | int | float | str):
@@ -134,8 +136,9 @@ def vehicle_table(value: Any) -> dict[str, Any]:
     chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
     if "base" in chosen:
         base = vehicle(chosen.pop("base"))
-        if "body" in chosen and base.body is not None:
-            chosen["body"] = base.body.to_dict() | table_at(chosen, "body", "vehicle.body")
+        for key, own in (("body", base.body), ("air", base.air)):
+            if key in chosen and own is not None:
+                chosen[key] = own.to_dict() | table_at(chosen, key, f"vehicle.{key}")
         chosen = base.to_dict() | chosen
     return chosen
 

@@ -9,28 +9,12 @@ from typing import TYPE_CHECKING, Any
 from flypend import errors, plants
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
-from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
+from flypend.plants import AnyPlant
 from flypend.studies.compare import Comparison, flights_of, flown
+from flypend.studies.rungs import rungs_for
 
 if TYPE_CHECKING:
     import xarray
-
-# The ideal wrench, then limits alone, then lag on top of limits. Every other rung adds one departure to the plant
-# "rotors" (limits, the vehicle's lag, 500 Hz), so that the rung that breaks a law names the reason.
-RUNGS: Mapping[str, AnyPlant] = {
-    "ideal wrench": PRESETS["ideal"],
-    "limits": Sampled(lag=0.0),
-    **{f"lag {ms} ms": ROTORS.replace(lag=ms / 1000) for ms in (10, 20, 30, 40, 50)},
-    **{f"{rate} Hz": ROTORS.replace(rate=float(rate)) for rate in (200, 100, 50)},
-    **{f"delay {ms} ms": ROTORS.replace(delay=ms / 1000) for ms in (5, 15, 30)},
-    "noise": ROTORS.replace(noise=MOTION_CAPTURE),
-    "mass +10 %": ROTORS.replace(mismatch={"mass": 1.1, "bob_mass": 1.1}),
-    "mass -10 %": ROTORS.replace(mismatch={"mass": 0.9, "bob_mass": 0.9}),
-    "inertia +10 %": ROTORS.replace(mismatch={"inertia": 1.1}),
-    "inertia -10 %": ROTORS.replace(mismatch={"inertia": 0.9}),
-    "pivot offset 5 cm": ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
-    "MuJoCo": PRESETS["mujoco"],
-}
 
 
 @dataclass(frozen=True)
@@ -64,7 +48,7 @@ def ladder(
     starts: State,
     duration: float = 10.0,
     *,
-    rungs: Mapping[str, str | AnyPlant] = RUNGS,
+    rungs: Mapping[str, str | AnyPlant] | None = None,
     workers: int | None = None,
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> Ladder:
@@ -74,12 +58,14 @@ def ladder(
     ----------
     vehicle, laws, starts, duration, workers
         As in `compare`.
-    rungs : dict
-        Plants by name of the rung.
+    rungs : dict, optional
+        Plants by name of the rung; default `flypend.studies.rungs.rungs_for(vehicle)`.
     progress : callable
         Called with `(rung and law, done, total)`.
     """
-    worlds = {rung: plants.plant(plant) for rung, plant in rungs.items()}  # raises if an extra is not installed
+    worlds = {
+        rung: plants.plant(plant) for rung, plant in (rungs or rungs_for(vehicle)).items()
+    }  # raises if an extra is not installed
     of_laws = flights_of(vehicle, laws, starts, duration)
     flights = {(rung, law): flight.through(world) for rung, world in worlds.items() for law, flight in of_laws.items()}
     ensembles = flown(flights, workers, lambda key, done, total: progress(f"{key[0]}, {key[1]}", done, total))

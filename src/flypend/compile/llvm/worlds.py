@@ -15,9 +15,15 @@ from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, Sam
 
 OMEGA = 15  # offset of the angular velocity in a packed state
 QVEL_OMEGA = 3  # and in MuJoCo's qvel
-# Addresses passed for MuJoCo: data and its arrays, two functions, the initial coordinates of the runs, the models.
-MUJOCO_ARGUMENTS = ("data", "qpos", "qvel", "act", "ctrl", "xfrc", "mj_step", "mj_reset", "begins", "models")
-# Offsets in xfrc_applied: six numbers each, force first, for the world, the vehicle and the bob.
+# Addresses passed for MuJoCo: data and its arrays, three functions, the initial coordinates of the runs, the models,
+# and the parameters of their filters.
+MUJOCO_ARGUMENTS = (
+    "data", "qpos", "qvel", "qacc", "act", "ctrl", "xfrc", "mj_step", "mj_forward", "mj_reset", "begins", "models",
+    "filters",
+)  # fmt: skip
+# Numbers per rotor among the parameters of MuJoCo's filters; the first is the time constant.
+FILTER_STRIDE = 10
+# Offsets in xfrc_applied: six numbers each, force first, for the world, the vehicle and the rod.
 ON_VEHICLE, ON_BOB = 6, 12
 
 
@@ -91,8 +97,9 @@ class _At:
 class Mujoco:
     """MuJoCo, called by address. The kernel must have one lane, so its memory layout matches MuJoCo's arrays.
 
-    `at` maps names to the kernel's arguments, including `MUJOCO_ARGUMENTS`. The `timing` of a stretch is the number of
-    MuJoCo steps per evaluation of the rate loop; `models` holds one model per stretch, with the matching timestep.
+    `at` maps names to the kernel's arguments, including `MUJOCO_ARGUMENTS`. The `timing` of a stretch begins with the
+    number of MuJoCo steps per evaluation of the rate loop, followed by the inputs of `motors` and `surroundings`;
+    `models` holds one model per stretch, with the matching timestep.
     """
 
     def __init__(self, code: Code, problem: SampledProblem, world: MujocoProblem, at: dict[str, ir.Value]) -> None:
@@ -101,7 +108,10 @@ class Mujoco:
         self._code, self._problem, self._world, self._at = code, problem, world, at
         self._seen = define(code.lanes, world.seen)
         self._loop = define(code.lanes, problem.loop) if problem.loop is not None else None
-        self._none, self._lost = code.reserve(1), code.reserve(1)
+        effects = (world.motors, world.surroundings)
+        self._motors, self._surroundings = (define(code.lanes, p) if p is not None else None for p in effects)
+        self._none, self._lost, self._forces = code.reserve(1), code.reserve(1), code.reserve(problem.rotors)
+        self._wanted, self._lags = code.reserve(problem.rotors), code.reserve(problem.rotors)
         self._rotors = at["act"] if world.filtered else at["ctrl"]
 
     def begin(self, run: ir.Value, state: ir.Value) -> None:
@@ -121,18 +131,36 @@ class Mujoco:
     ) -> None:
         """Implement `World.advance`; MuJoCo keeps the state itself."""
         code, builder, at = self._code, self._code.builder, self._at
-        self._copy(wind, code.vector_at(at["xfrc"], ON_VEHICLE), 3)
-        self._copy(code.vector_at(wind, 3), code.vector_at(at["xfrc"], ON_BOB), 3)
+        if self._surroundings is None:
+            self._copy(wind, code.vector_at(at["xfrc"], ON_VEHICLE), 3)
+            self._copy(code.vector_at(wind, 3), code.vector_at(at["xfrc"], ON_BOB), 3)
         inner = builder.fptosi(code.scalar(timing, ir.Constant(I64, 0)), I64)
         with code.count(stretch.steps):
+            wanted = command
             if self._loop is not None:
-                omega = code.vector_at(at["qvel"], QVEL_OMEGA)
-                code.call(self._loop, command, omega, self._none, at["ctrl"])
-            else:
-                self._copy(command, at["ctrl"], self._problem.rotors)
+                code.call(self._loop, command, code.vector_at(at["qvel"], QVEL_OMEGA), self._none, self._wanted)
+                wanted = self._wanted
+            self._copy(wanted, at["ctrl"], self._problem.rotors)
             self._check_forces()
             with code.count(inner), code.when(code.any(code.load(self._lost) < 1.0)):
+                self._prepare(place, wanted, wind, code.vector_at(timing, 1))
                 builder.call(self._function("mj_step"), [self._model(place), at["data"]])
+
+    def _prepare(self, place: int, wanted: ir.Value, wind: ir.Value, numbers: ir.Value) -> None:
+        """Set what changes within a stretch: controls and time constants, external forces and torques."""
+        code, at = self._code, self._at
+        if self._motors is not None:
+            code.call(self._motors, wanted, self._rotors, numbers, self._forces, self._lags)
+            self._copy(self._forces, at["ctrl"], self._problem.rotors)
+            if self._world.filtered:
+                filters = code.scalar(at["filters"], ir.Constant(I64, place), POINTER)
+                for i in range(self._problem.rotors):
+                    code.store(code.load(self._lags, i), filters, FILTER_STRIDE * i)
+        if self._surroundings is not None:
+            code.builder.call(self._function("mj_forward"), [self._model(place), at["data"]])
+            coordinates = (at["qpos"], at["qvel"], at["qacc"])
+            outside = code.vector_at(at["xfrc"], ON_VEHICLE)
+            code.call(self._surroundings, *coordinates, self._rotors, at["ctrl"], wind, numbers, outside)
 
     def show(self, state: ir.Value) -> None:
         """Implement `World.show`; NaN once a force has been invalid."""

@@ -27,14 +27,15 @@ from flypend.flight.kernels.stopping import Word
 from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
-from flypend.model import State
+from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import rotor_step
-from flypend.plants.lag import TIMING_SIZE, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
+from flypend.plants.motors import motor_timing, timing_size
 from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, seen_by_mujoco, substeps
+from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surroundings
 from flypend.plants.plant import Noise, Plant, Wind
 from flypend.plants.schedule import steps_in, within_period
 
@@ -171,12 +172,13 @@ class SampledKernel:
 def structure(plant: Plant) -> Plant:
     """Return `plant` without its seed and the machine code's inputs: lag, noise and wind.
 
-    It keeps whether there is noise, wind, or anything random.
+    It keeps whether there is noise, wind, or anything random, and whether rotors rise as they fall.
     """
     gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))))
     return plant.replace(
-        lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=_without_lag(plant)
-    )
+        lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=_without_lag(plant),
+        spin_up=1.0 if plant.spin_up == 1.0 else 2.0,
+    )  # fmt: skip
 
 
 def _without_lag(plant: Plant) -> dict[str, float]:
@@ -187,14 +189,19 @@ def plant_numbers(loop: Loop) -> Any:
     """Return the plant parameters that the machine code inputs, in the order of `SampledProblem.inputs`."""
     plant = loop.sampled
     true = plant.true_vehicle(loop.vehicle)
-    period, lag = 1 / plant.rate, true.rotor_lag
-    if plant.engine == "equations":
-        timings = [step_timing(lag, while_ / steps) for _, while_, steps in _flown(plant)]
-    else:
-        timings = [np.array([float(substeps(while_ / steps, filter_lag(true)))]) for _, while_, steps in _flown(plant)]
+    period = 1 / plant.rate
+    timings = [_timing(true, plant, while_ / steps) for _, while_, steps in _flown(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
     wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
     return np.concatenate([*timings, *noise, *wind])
+
+
+def _timing(true: Vehicle, plant: Plant, duration: float) -> Any:
+    """Return the numbers of a step of `duration` (s) that the world inputs; see `Equations` and `Mujoco`."""
+    if plant.engine == "equations":
+        return motor_timing(true.rotor_lag, plant, duration)
+    steps = substeps(duration, true, plant)
+    return np.append(float(steps), step_numbers(true, plant, duration / steps))
 
 
 def _flown(plant: Plant) -> list[tuple[int, float, int]]:
@@ -258,12 +265,11 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
     rates = plant.interface == "rates"
     world: EquationsProblem | MujocoProblem
     if plant.engine == "equations":
-        world = EquationsProblem(
-            lower(rotor_step(true, plant.pivot_offset, windy=plant.wind is not None, name="world"))
-        )
+        world = EquationsProblem(lower(rotor_step(true, plant, windy=plant.wind is not None, name="world")))
     else:
         seen = lower(seen_by_mujoco(len(vehicle.rotor_spins)))
-        world = MujocoProblem(seen, filtered=_is_filtered(loop), largest=MAX_FORCE)
+        effects = [None if f is None else lower(f) for f in (motors(true, plant), surroundings(true, plant))]
+        world = MujocoProblem(seen, _is_filtered(loop), MAX_FORCE, *effects)
     on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
     return SampledProblem(
         board=lower_calls(flight_computer.step),
@@ -275,7 +281,7 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
         judge=lower(_judge(loop, criterion)),
         reductions=REDUCTIONS,
         flown=tuple(Stretch(age, steps) for age, _, steps in _flown(plant)),
-        timing=TIMING_SIZE if plant.engine == "equations" else 1,
+        timing=timing_size(plant) if plant.engine == "equations" else 1 + STEP_NUMBERS,
         period=1 / plant.rate,
         random=is_random(plant),
         touch=touch_of(true, "up", by_rotors=True),

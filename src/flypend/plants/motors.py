@@ -1,0 +1,66 @@
+"""Motors between command and force: battery voltage, strength of each rotor, and a lag of its own up and down."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.model import Vehicle
+from flypend.plants.lag import TIMING_SIZE, Ramp, held, step_timing
+from flypend.plants.plant import Plant
+
+
+def moving(plant: Plant) -> Plant:
+    """Return what a step of the motion depends on: motors, air and ground of `plant`."""
+    return Plant(spin_up=plant.spin_up, sag=plant.sag, strength=plant.strength, air=plant.air, ground=plant.ground)
+
+
+def delivers(plant: Plant) -> bool:
+    """Whether the rotors of `plant` settle at other forces than commanded."""
+    return plant.sag > 0 or plant.strength != 1.0
+
+
+def delivered(command: Any, vehicle: Vehicle, plant: Plant) -> Any:
+    """Return the forces (n,), N, at which rotors settle under a `command` (n,), N, in CasADi.
+
+    At a given throttle the speed of a rotor is proportional to the voltage V, its force to V², and the current of all
+    to their power, Σ f^(3/2). So of the voltage the share `plant.sag` is lost when every rotor is asked for its most:
+
+        (V/V₀)² u_i,   V/V₀ = 1 − sag · mean of (u_i/u_max)^(3/2)
+    """
+    if plant.sag > 0:
+        share = ca.fmin(ca.fmax(command / vehicle.rotor_limits[1], 0), 1)
+        load = ca.sum1(share * ca.sqrt(share)) / command.numel()
+        command = (1 - plant.sag * load) ** 2 * command
+    if plant.strength != 1.0:
+        command = ca.DM(np.broadcast_to(plant.strength, (command.numel(),))) * command
+    return command
+
+
+def timing_size(plant: Plant) -> int:
+    """Return the number of inputs of a step of the rotors; see `motor_timing`."""
+    return TIMING_SIZE if plant.spin_up == 1.0 else 2 * TIMING_SIZE
+
+
+def motor_timing(lag: float, plant: Plant, duration: float) -> Any:
+    """Return `step_timing` of falling forces, whose time constant is `lag` (s), then of rising ones if it differs."""
+    falling = step_timing(lag, duration)
+    if plant.spin_up == 1.0:
+        return falling
+    return np.concatenate([falling, step_timing(plant.spin_up * lag, duration)])
+
+
+def followed(rotors: Any, target: Any, timing: Any) -> tuple[Ramp, Any]:
+    """Return the ramp of the forces `rotors` (n,) over a step towards `target` (n,), N, and their end, in CasADi.
+
+    `timing` is the result of `motor_timing`. A force rises or falls throughout a step, so this is exact too.
+    """
+    falling, end = held(rotors, target, timing[:TIMING_SIZE])
+    if timing.numel() == TIMING_SIZE:
+        return falling, end
+    rising, end_above = held(rotors, target, timing[TIMING_SIZE:])
+    below = rotors < target
+    mean, change = (ca.if_else(below, *pair) for pair in zip(rising, falling, strict=True))
+    return Ramp(mean, change), ca.if_else(below, end_above, end)

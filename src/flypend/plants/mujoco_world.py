@@ -1,0 +1,68 @@
+"""What acts on MuJoCo's vehicle beside motors and gravity, and what its motors are told, before every step.
+
+MuJoCo holds external forces during a step. They are those of the state half a step ahead, extrapolated with MuJoCo's
+own accelerations, which makes them of second order.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.model import Vehicle
+from flypend.model.air import air_wrench
+from flypend.plants.cascade import rotation_by
+from flypend.plants.motors import delivered, delivers
+from flypend.plants.mujoco import POSITIONS, VELOCITIES, filter_lag, rotation_of, state_of
+from flypend.plants.plant import Plant
+
+STEP_NUMBERS = 5
+
+
+def step_numbers(vehicle: Vehicle, plant: Plant, h: float) -> Any:
+    """Return the numbers (5,) of a step of `h` seconds for the functions below.
+
+    h; the time constants of falling and rising forces, s; and the shares of a deviation that they leave after h/2.
+    """
+    falling = filter_lag(vehicle)
+    lags = np.array([falling, plant.spin_up * falling])
+    return np.array([h, *lags, *(np.exp(-h / (2 * lags)) if falling > 0 else (0.0, 0.0))])
+
+
+def motors(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
+    """Return (commanded forces (n,), rotors (n,), `step_numbers`) → MuJoCo's controls (n,) and time constants (n,), s.
+
+    None if the controls are the command, and the time constants those of the model.
+    """
+    if not delivers(plant) and plant.spin_up == 1.0:
+        return None
+    n = len(vehicle.rotor_spins)
+    command, rotors, numbers = ca.SX.sym("u", n), ca.SX.sym("r", n), ca.SX.sym("h", STEP_NUMBERS)
+    target = delivered(command, vehicle, plant)
+    return ca.Function(
+        "motors", [command, rotors, numbers], [target, ca.if_else(rotors < target, numbers[2], numbers[1])]
+    )
+
+
+def surroundings(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
+    """Return (qpos, qvel, qacc, rotors, controls, wind, `step_numbers`) → outside (12,), or None for wind alone.
+
+    `outside` holds force (N) and torque (N m) on the vehicle, then those on the rod, world frame.
+    """
+    if not plant.surrounds(vehicle):
+        return None
+    n = len(vehicle.rotor_spins)
+    qpos, qvel, qacc = (ca.SX.sym(*pair) for pair in (("q", POSITIONS), ("v", VELOCITIES), ("a", VELOCITIES)))
+    rotors, controls, wind = (ca.SX.sym(*pair) for pair in (("r", n), ("u", n), ("w", 6)))
+    numbers = ca.SX.sym("h", STEP_NUMBERS)
+    half, moved = numbers[0] / 2, numbers[0] / 2 * (qvel + numbers[0] / 4 * qacc)
+    R, relative = (ca.mtimes(rotation_of(qpos[a : a + 4]), rotation_by(moved[b : b + 3])) for a, b in ((3, 3), (7, 6)))
+    state = state_of(qpos[:3] + moved[:3], R, relative, qvel + half * qacc)
+    forces = controls + ca.if_else(rotors < controls, numbers[4], numbers[3]) * (rotors - controls)
+    force, moment = air_wrench(state, forces, vehicle, plant.effects(vehicle), plant.ground)
+    on_vehicle = ca.vertcat(wind[:3] + ca.mtimes(R, force), ca.mtimes(R, moment))
+    outside = ca.vertcat(on_vehicle, wind[3:], ca.SX(3, 1))
+    inputs = [qpos, qvel, qacc, rotors, controls, wind, numbers]
+    return ca.Function("surroundings", inputs, [ca.cse(ca.densify(outside))])

@@ -1,0 +1,84 @@
+"""Rungs of the reality ladder: plants that each add one departure from the ideal, and several at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from typing import Any
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.model import Vehicle
+from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
+
+# The ideal wrench, then limits alone, then lag on top of limits. Every other rung adds one departure to the plant
+# "rotors" (limits, the vehicle's lag, 500 Hz), so that the rung that breaks a law names the reason.
+RUNGS: Mapping[str, AnyPlant] = {
+    "ideal wrench": PRESETS["ideal"],
+    "limits": Sampled(lag=0.0),
+    **{f"lag {ms} ms": ROTORS.replace(lag=ms / 1000) for ms in (10, 20, 30, 40, 50)},
+    "spin-up x1.5": ROTORS.replace(spin_up=1.5),
+    "battery sag 10 %": ROTORS.replace(sag=0.1),
+    "thrust -20 %": ROTORS.replace(strength=0.8),
+    **{f"{rate} Hz": ROTORS.replace(rate=float(rate)) for rate in (200, 100, 50)},
+    **{f"delay {ms} ms": ROTORS.replace(delay=ms / 1000) for ms in (5, 15, 30)},
+    "noise": ROTORS.replace(noise=MOTION_CAPTURE),
+    "mass +10 %": ROTORS.replace(mismatch={"mass": 1.1, "bob_mass": 1.1}),
+    "mass -10 %": ROTORS.replace(mismatch={"mass": 0.9, "bob_mass": 0.9}),
+    "rod +10 %": ROTORS.replace(mismatch={"rod_length": 1.1}),
+    "rod -10 %": ROTORS.replace(mismatch={"rod_length": 0.9}),
+    "inertia +10 %": ROTORS.replace(mismatch={"inertia": 1.1}),
+    "inertia -10 %": ROTORS.replace(mismatch={"inertia": 0.9}),
+    "pivot offset 5 cm": ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
+    "MuJoCo": PRESETS["mujoco"],
+}
+
+# What comes together on a machine: a slow one, one that is not quite the one written down, one with tired motors.
+TOGETHER: tuple[tuple[str, ...], ...] = (
+    ("lag 40 ms", "delay 15 ms", "100 Hz"),
+    ("noise", "mass +10 %", "rod +10 %"),
+    ("spin-up x1.5", "battery sag 10 %", "delay 15 ms"),
+)
+
+
+def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
+    """Return `RUNGS`, then those that take numbers of `vehicle` as far as it has them, then those of `TOGETHER`."""
+    found = dict(RUNGS)
+    weak = (1.0,) * (len(vehicle.rotor_spins) - 1) + (0.8,)
+    found["one rotor -20 %"] = ROTORS.replace(strength=weak)
+    known = () if vehicle.air is None else vehicle.air.known()
+    found |= {name.replace("_", " "): ROTORS.replace(air=(name,)) for name in known}
+    if vehicle.body is not None:
+        found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
+    if known:
+        found["air"] = ROTORS.replace(air="all")
+    return found | {", ".join(names): together(names, found) for names in TOGETHER}
+
+
+def together(names: Sequence[str], rungs: Mapping[str, AnyPlant]) -> Sampled:
+    """Return the plant with the departures of several of `rungs` at once.
+
+    Raises InputError for an unknown name, for the ideal wrench, and for two rungs that set the same number.
+    """
+    changes: dict[str, Any] = {}
+    for name in names:
+        plant = rungs[errors.one_of("--rung", name, rungs)]
+        if not isinstance(plant, Sampled):
+            raise InputError("--rung", "rungs with numbers", repr(name))
+        for entry in fields(Sampled):
+            value = getattr(plant, entry.name)
+            if value == getattr(ROTORS, entry.name):
+                continue
+            before = changes.get(entry.name)
+            merging = entry.name == "mismatch" and before is not None and not before.keys() & value.keys()
+            if before is not None and not merging:
+                raise InputError("--rung", "rungs that change different numbers", f"{entry.name} twice in {names}")
+            changes[entry.name] = before | value if merging else value
+    return ROTORS.replace(**changes)
+
+
+def rung_named(text: str, rungs: Mapping[str, AnyPlant]) -> AnyPlant:
+    """Return the rung `text`, or several at once by names with commas in between. Raises InputError like `together`."""
+    if text in rungs or "," not in text:
+        return rungs[errors.one_of("--rung", text, rungs)]
+    return together([name.strip() for name in text.split(",")], rungs)

@@ -41,6 +41,7 @@ bench: setup
 # The site of the documentation, in docs/_build: open index.html there. Needs no network once set up.
 docs: setup
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build
+	@echo open docs/_build/index.html
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
 # rebuilds the bundle of the pages.
@@ -64,7 +65,7 @@ fuzz: test-tools setup
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
     --custom-compile-command "make lock" --upgrade pyproject.toml
-OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies
+OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl
 
 lock:
 	$(COMPILE) --all-extras --group dev --output-file requirements.lock

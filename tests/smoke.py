@@ -54,7 +54,15 @@ def check_commands():
 
 def check_extras():
     """What the extras that are installed are for. Returns their modules."""
-    found = [name for name in ("scipy", "mujoco", "imageio_ffmpeg", "tornado", "jax") if importlib.util.find_spec(name)]
+    found = [
+        name
+        for name in ("scipy", "mujoco", "imageio_ffmpeg", "tornado", "jax", "gymnasium")
+        if importlib.util.find_spec(name)
+    ]
+    if "gymnasium" in found:
+        from flypend.envs import World
+
+        assert World("balance").reset(seed=0)[0].shape == (32,)
     run = fp.load("swing-up/run.nc")
     if "scipy" in found:
         assert len(run.to_xarray()["t"]) == len(run.t)

@@ -36,6 +36,7 @@ ORDER = [
     "board",
     "pages",
     "flight",
+    "envs",
     "export",
     "paper",
     "settings",

@@ -75,4 +75,4 @@ def test_the_python_of_a_page_runs(path, tmp_path, monkeypatch, capsys):
     session = {"__name__": "__main__"}
     for i, code in enumerate(BLOCK.findall(path.read_text(encoding="utf-8"))):
         exec(compile(code, f"{path.name}, block {i + 1}", "exec"), session)
-    assert session.keys() > {"fp"} or path.stem == "own"
+    assert len(session) > 1

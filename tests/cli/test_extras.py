@@ -130,16 +130,26 @@ def _imports(text):
         yield from ((name.split(".")[0], id(node) in inside) for name in names)
 
 
+# What an example shows beside flypend.
+THEIRS = {"examples/train.py": "stable_baselines3"}
+
+
 def _missing(sources):
     """What the sources import and the lists of pyproject.toml lack; an extra may be imported inside a function only."""
     extras = set().union(*EXTRAS.values()) | {"dask"}  # dask comes with distributed
-    late_rooms = ("lab/", "flight/integrate.py")  # imported where the extra has been asked for
+    late_rooms = (
+        "lab/",
+        "envs/",
+        "examples/train.py",
+        "flight/integrate.py",
+    )  # imported where the extra has been asked for
     for path, text in sources.items():
         for module, late in _imports(text):
             own = module in sys.stdlib_module_names or module == "flypend" or module in BASE
             # mpl_toolkits comes with matplotlib.
             if (
                 not own
+                and module != THEIRS.get(path)
                 and module != "mpl_toolkits"
                 and not (module in extras and (late or path.startswith(late_rooms)))
             ):

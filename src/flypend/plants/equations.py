@@ -72,17 +72,27 @@ def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, n
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
     wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", timing_size(plant))
+    outputs = stepped(packed, rotors, command, wind if windy else None, timing, vehicle, plant)
+    return ca.Function(name, [packed, rotors, command, wind, timing], outputs)
+
+
+def stepped(
+    packed: Any, rotors: Any, command: Any, wind: Any, timing: Any, vehicle: Vehicle, plant: Plant
+) -> list[Any]:
+    """Return state and rotor forces after the step of `rotor_step`; without wind, `wind` is None.
+
+    The numbers of `vehicle` may be symbolic.
+    """
     forces, after = followed(rotors, delivered(command, vehicle, plant), timing)
-    outside = wind if windy else None
+    outside = wind
     if plant.in_air(vehicle) or not vehicle.free_joint:
         moved = runge_kutta_step(packed, forces, outside, timing[0], vehicle, plant)
     else:
-        if windy:
+        if wind is not None:
             at_pivot, on_bob = shared_out(wind[3:], vehicle)
             outside = ca.vertcat(wind[:3] + at_pivot, on_bob)
         moved = cascade_step(packed, forces.mixed(vehicle.mixing()), outside, timing[0], vehicle)
-    outputs = ca.cse([ca.densify(moved), ca.densify(after)])
-    return ca.Function(name, [packed, rotors, command, wind, timing], outputs)
+    return ca.cse([ca.densify(moved), ca.densify(after)])  # type: ignore[no-any-return]
 
 
 def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: Vehicle, plant: Plant = ROTORS) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -46,20 +47,34 @@ def define_normals(lanes: Lanes, used: range = range(PER_TICK)) -> ir.Function:
     Only the numbers `used` are drawn, in whole blocks of four.
     """
     function, code = lanes.function("normals", 3)
-    kind = ir.VectorType(I64, lanes.width)
-    seed, tick = (_integers(code, memory, kind) for memory in function.args[:2])
-    builder = code.builder
-    shift = ir.Constant(kind, [32] * lanes.width)
-    low = ir.Constant(kind, [0xFFFFFFFF] * lanes.width)
-    key = [builder.and_(seed, low), builder.lshr(seed, shift)]
-    for block in range(used.start // 4, -(-used.stop // 4)):
-        counter = [ir.Constant(kind, [block] * lanes.width), builder.and_(tick, low), builder.lshr(tick, shift)]
-        words = philox(builder, [*counter, ir.Constant(kind, [0] * lanes.width)], key)
-        uniform = [(Value(code, builder.uitofp(word, lanes.vector)) + 0.5) * 2.0**-32 for word in words]
+    for block, uniform in _uniforms(code, function.args, range(used.start // 4, -(-used.stop // 4))):
         for pair in range(2):
             _box_muller(code, uniform[2 * pair], uniform[2 * pair + 1], function.args[2], 4 * block + 2 * pair)
-    builder.ret_void()
+    code.builder.ret_void()
     return function
+
+
+def define_uniforms(lanes: Lanes, length: int) -> ir.Function:
+    """Define a function (seeds, ticks, out): `length` numbers per lane, uniform in (0, 1), in whole blocks of four."""
+    function, code = lanes.function("uniforms", 3)
+    for block, uniform in _uniforms(code, function.args, range(-(-length // 4))):
+        for i, value in enumerate(uniform):
+            code.store(value, function.args[2], 4 * block + i)
+    code.builder.ret_void()
+    return function
+
+
+def _uniforms(code: Code, memories: Sequence[ir.Value], blocks: range) -> Iterator[tuple[int, list[Value]]]:
+    """The `blocks` of four uniform numbers for the seeds and ticks at the first two of `memories`, by number."""
+    builder, kind = code.builder, ir.VectorType(I64, code.lanes.width)
+    seed, tick = (_integers(code, memory, kind) for memory in memories[:2])
+    shift = ir.Constant(kind, [32] * code.lanes.width)
+    low = ir.Constant(kind, [0xFFFFFFFF] * code.lanes.width)
+    key = [builder.and_(seed, low), builder.lshr(seed, shift)]
+    for block in blocks:
+        counter = [ir.Constant(kind, [block] * code.lanes.width), builder.and_(tick, low), builder.lshr(tick, shift)]
+        words = philox(builder, [*counter, ir.Constant(kind, [0] * code.lanes.width)], key)
+        yield block, [(Value(code, builder.uitofp(word, code.lanes.vector)) + 0.5) * 2.0**-32 for word in words]
 
 
 def _integers(code: Code, memory: ir.Value, kind: ir.VectorType) -> ir.Value:

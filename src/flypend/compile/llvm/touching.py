@@ -34,6 +34,10 @@ class Touching:
         code.call(self._touching, state, state, self._interval, self._found)
         return self._recorded(new)
 
+    def look_for_contact(self) -> None:
+        """Let the next `between` find contacts alone: distances above 0 are not looked for."""
+        self._code.store(0.0, self._least)
+
     def between(self, before: ir.Value, after: ir.Value, interval: Value | float, alive: Value) -> tuple[Value, Value]:
         """Record the distances between two states, `interval` (s) apart, in the lanes `alive`.
 

@@ -67,7 +67,7 @@ class Flown:
             end=np.empty(runs),
             code=np.empty(runs, dtype=np.int64),
             reductions=np.empty((runs, len(REDUCTIONS))) if judged else None,
-            samples=None if samples is None else _aligned((runs, *samples)),
+            samples=None if samples is None else aligned((runs, *samples)),
             steps=np.empty(runs, dtype=np.int64) if steps else None,
             clearance=np.empty(runs) if touching else None,
             part=np.empty(runs, dtype=np.int64) if touching else None,
@@ -88,7 +88,7 @@ class Flown:
         return STATUS[self.code]
 
 
-def _aligned(shape: tuple[int, ...]) -> Any:
+def aligned(shape: tuple[int, ...]) -> Any:
     """Allocate an array of doubles at the start of a cache line, so that rows of eight share no line."""
     room = np.empty(int(np.prod(shape)) + 7)
     first = -room.ctypes.data // room.itemsize % 8

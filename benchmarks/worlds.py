@@ -1,0 +1,101 @@
+"""Steps per second of many worlds at once, beside other simulators: `python -m benchmarks.worlds`, two minutes.
+
+4,096 worlds, actions at 100 Hz over motion at 1 kHz, random actions, in turns. crazyflow (Euler steps of a Crazyflie,
+rotor speeds commanded, JAX) and RotorPy (batched, PyTorch) fly where they are installed (`pip install crazyflow
+rotorpy`), MuJoCo by its own `rollout` over our model. They observe nothing, pay no reward and have no rod but for
+MuJoCo's. Prints steps of the motion and of the environment per second on the wall, and the best of some turns.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+
+import numpy as np
+
+from benchmarks.report import machine
+
+COUNT, STEPS, TURNS, ACTIONS = 4096, 10, 5, 20
+Peer = tuple[str, int, Callable[[], None]]
+
+
+def flypend() -> Iterator[Peer]:
+    """Our worlds, with observations, rewards and beginnings."""
+    from flypend.envs import VectorWorlds
+
+    for action in ("rotors", "wrench", "rates"):
+        worlds = VectorWorlds("swing_up", COUNT, action=action, copy=False)
+        worlds.reset(seed=0)
+        given = np.random.default_rng(0).uniform(-1, 1, (ACTIONS, COUNT, 4)).astype(np.float32)
+
+        def step(worlds: VectorWorlds = worlds, given: np.ndarray = given) -> None:
+            for row in given:
+                worlds.step(row)
+
+        yield f"flypend, {action}", COUNT, step
+
+
+def crazyflow() -> Iterator[Peer]:
+    """crazyflow, ten steps a call."""
+    import jax
+    from crazyflow.control import Control
+    from crazyflow.dynamics import Dynamics
+    from crazyflow.sim import Sim
+
+    sim = Sim(COUNT, freq=1000, control=Control.rotor_vel, dynamics=Dynamics.first_principles)
+    given = np.random.default_rng(0).uniform(1.0, 2.0, (ACTIONS, COUNT, 1, 4)).astype(np.float32)
+
+    def step() -> None:
+        for row in given:
+            sim.rotor_vel_control(1e4 * row)
+            sim.step(STEPS)
+        jax.block_until_ready(sim.data.states.pos)
+
+    yield "crazyflow", COUNT, step
+
+
+def mujoco() -> Iterator[Peer]:
+    """MuJoCo's rollout on two threads, our vehicle with its rod; fewer worlds, since it takes long."""
+    from mujoco import MjData, MjModel, mj_getState, mj_stateSize, mjtState
+    from mujoco.rollout import Rollout
+
+    import flypend as fp
+    from flypend.plants.mujoco import model_xml
+
+    model, few = MjModel.from_xml_string(model_xml(fp.vehicle("hehn2011"), timestep=1e-3, lag=0.02, bare=True)), 64
+    data = MjData(model)
+    state = np.zeros(mj_stateSize(model, mjtState.mjSTATE_FULLPHYSICS))
+    mj_getState(model, data, state, mjtState.mjSTATE_FULLPHYSICS)
+    given = np.random.default_rng(0).uniform(0.1, 3.5, (few, ACTIONS, model.nu)).repeat(STEPS, axis=1)
+    pool = Rollout(nthread=2)
+    yield (
+        "MuJoCo rollout",
+        few,
+        lambda: pool.rollout(model, [MjData(model), MjData(model)], np.tile(state, (few, 1)), given),
+    )
+
+
+def main() -> None:
+    """Print the table."""
+    peers: list[Peer] = []
+    for make in (flypend, crazyflow, mujoco):
+        with suppress(ModuleNotFoundError):
+            peers += make()
+    best = dict.fromkeys((name for name, *_ in peers), np.inf)
+    for turn in range(TURNS + 1):
+        for name, count, step in peers:
+            begin = time.perf_counter()
+            step()
+            if turn:  # the first compiles
+                best[name] = min(best[name], (time.perf_counter() - begin) / (count * ACTIONS))
+    where = machine()
+    print(f"{where['processor']}, {where['cores']} cores (load {where['load']:.1f}), {where['date']}\n")
+    print("| simulator | environment steps/s | steps of the motion/s | flypend, rotors, is … times as fast |")
+    print("|---|---|---|---|")
+    for name, seconds in best.items():
+        print(f"| {name} | {1 / seconds:,.0f} | {STEPS / seconds:,.0f} | {seconds / best['flypend, rotors']:.1f} |")
+
+
+if __name__ == "__main__":
+    main()

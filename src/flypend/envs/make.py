@@ -1,0 +1,83 @@
+"""Environments from the arguments of `gymnasium.make`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from flypend import errors
+from flypend.compile.llvm.stepped_worlds import BOUND
+from flypend.envs import task as tasks
+from flypend.envs.problem import Action, Attitude, Environment
+from flypend.envs.randomise import Randomisation
+from flypend.envs.task import Task
+from flypend.errors import InputError
+from flypend.model import Vehicle
+from flypend.model.vehicle import vehicle as vehicle_named
+from flypend.plants.plant import ROTORS, Sampled
+
+TASKS: Mapping[str, Callable[..., Task]] = {
+    "balance": tasks.balance, "swing_up": tasks.swing_up, "track": tasks.track, "catch_in_cup": tasks.catch_in_cup
+}  # fmt: skip
+PHYSICS = ROTORS.replace(rate=1000.0)
+
+
+def environment(
+    task: str | Task,
+    *,
+    vehicle: str | Path | Vehicle = "hehn2011",
+    mount: str | None = None,
+    plant: Sampled = PHYSICS,
+    rate: float = 100.0,
+    action: Action = "rotors",
+    attitude: Attitude = "matrix",
+    randomise: Randomisation | Mapping[str, Any] | None = None,
+    duration: float | None = None,
+    **about: Any,
+) -> Environment:
+    """Return what the arguments of an environment describe.
+
+    Parameters
+    ----------
+    task : str or Task
+        "balance", "swing_up", "track", "catch_in_cup", or a task of one's own.
+    vehicle : str, Path or Vehicle
+        Name, TOML file or vehicle.
+    mount : str, optional
+        Replaces the vehicle's mount; the task "catch_in_cup" needs a cup.
+    plant, rate, action, attitude
+        See `flypend.envs.Environment`.
+    randomise : Randomisation or dict, optional
+        What differs from world to world.
+    duration : float, optional
+        Seconds after which a world is cut off; default that of the task.
+    about
+        Arguments of the task: those of `flypend.envs.track`.
+
+    Raises
+    ------
+    InputError
+        If an argument is unknown or out of range.
+    """
+    machine = vehicle if isinstance(vehicle, Vehicle) else vehicle_named(vehicle)
+    made = task if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)](**about)
+    wanted = "cup" if made.name == "CatchInCup" and mount is None else mount
+    if wanted is not None:
+        machine = machine.replace(mount=wanted)
+    if made.name == "CatchInCup" and machine.mount != "cup":
+        raise InputError("mount", "'cup', for the task catch_in_cup", repr(machine.mount))
+    if duration is not None:
+        made = replace(made, duration=errors.number("duration", duration, above=0, unit="s"))
+    ranges = randomise if isinstance(randomise, Randomisation) else Randomisation(**(randomise or {}))
+    return Environment(made, machine, plant, rate=rate, action=action, attitude=attitude, randomise=ranges)
+
+
+def spaces(env: Environment, seen: int) -> tuple[Box, Box]:
+    """Spaces of the observations, `seen` numbers each, and of the actions of one world."""
+    observed = Box(-BOUND, BOUND, (seen,), np.float32)
+    return observed, Box(-1.0, 1.0, (env.actions,), np.float32)

@@ -1,0 +1,220 @@
+"""An environment as programs: task, vehicle, plant and kind of action make a `WorldsProblem`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import casadi as ca
+import numpy as np
+
+from flypend import errors
+from flypend.compile.program import lower
+from flypend.compile.worlds_problem import WorldsProblem
+from flypend.envs.draws import Draws
+from flypend.envs.randomise import Randomisation, Varied
+from flypend.envs.task import Task
+from flypend.errors import InputError
+from flypend.flight.kernels.touching import touch_of
+from flypend.model import State, Vehicle
+from flypend.model.state import SIZE
+from flypend.plants.actuation import rate_loop, rotor_forces
+from flypend.plants.equations import stepped
+from flypend.plants.lag import symbolic_timing
+from flypend.plants.motors import motor_timing, moving, timing_size
+from flypend.plants.plant import Sampled
+
+Action = Literal["rotors", "wrench", "rates"]
+Attitude = Literal["matrix", "6d"]
+MOST_RATE = 12.0  # rad/s, of the action "rates"
+
+
+@dataclass(frozen=True, eq=False)
+class Environment:
+    """What worlds are made of.
+
+    Parameters
+    ----------
+    task : Task
+        What is wanted.
+    vehicle : Vehicle
+        The nominal vehicle, with its mount.
+    plant : Plant
+        The plant; its rate (Hz) is that of the motion's steps, in each of which a command acts.
+    rate : float
+        Actions per second, Hz; the plant's rate is a multiple of it.
+    action : "rotors", "wrench" or "rates"
+        What an action commands, each number in [−1, 1]: forces of the rotors, from the least to the largest; thrust
+        from none to the largest and moments, allocated within the limits; or thrust and body rates up to 12 rad/s, by
+        the plant's inner loop.
+    attitude : "matrix" or "6d"
+        How the attitude is observed: all columns of R, or the first two.
+    randomise : Randomisation
+        What differs from world to world.
+
+    Raises
+    ------
+    InputError
+        If the rates do not fit, or the plant has what worlds do not: noise, gusts, MuJoCo.
+    """
+
+    task: Task
+    vehicle: Vehicle
+    plant: Sampled
+    rate: float = 100.0
+    action: Action = "rotors"
+    attitude: Attitude = "matrix"
+    randomise: Randomisation = field(default_factory=Randomisation)
+
+    def __post_init__(self) -> None:
+        errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
+        errors.one_of("attitude", self.attitude, ("matrix", "6d"))
+        errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
+        if abs(self.plant.rate / self.rate - self.steps) > 1e-9:
+            raise InputError("rate", f"a divisor of the plant's {self.plant.rate:g} Hz", f"{self.rate:g}")
+        if self.plant.engine != "equations" or self.plant.noise is not None or self.plant.wind is not None:
+            raise InputError("plant", "one by our equations, without noise and wind", repr(self.plant))
+
+    @property
+    def steps(self) -> int:
+        """Steps of the motion for each action."""
+        return max(1, round(self.plant.rate / self.rate))
+
+    @property
+    def limit(self) -> int:
+        """Actions after which a world is cut off."""
+        return round(self.task.duration * self.rate)
+
+    @property
+    def rotors(self) -> int:
+        """Number of rotors."""
+        return len(self.vehicle.rotor_spins)
+
+    @property
+    def actions(self) -> int:
+        """Length of an action."""
+        return self.rotors if self.action == "rotors" else 4
+
+
+def problem(env: Environment) -> WorldsProblem:
+    """Return the programs of `env`."""
+    parts = _Parts(env)
+    return WorldsProblem(
+        begin=lower(parts.begin()),
+        command=lower(parts.command()),
+        inner=env.action == "rates",
+        step=lower(parts.step()),
+        observe=lower(parts.observe()),
+        judge=lower(parts.judge()),
+        queued=parts.queued,
+        steps=env.steps,
+        length=1 / env.plant.rate,
+        touch=touch_of(env.vehicle, "up", by_rotors=True),
+    )
+
+
+class _Parts:
+    """The functions of an environment, and the layout of the memory that they share."""
+
+    def __init__(self, env: Environment) -> None:
+        self.env = env
+        self.true = env.plant.true_vehicle(env.vehicle)
+        n, latest = env.rotors, env.plant.delay + env.randomise.delay[1]
+        self.queued = int(np.ceil(latest * env.rate - 1e-9))
+        self.timing, self.numbers = timing_size(env.plant), 3 + n if env.randomise.varies else 0
+        self.lengths = [SIZE, n, env.actions, self.queued * n, 6, self.timing, self.numbers, 1]
+
+    def begin(self) -> ca.Function:
+        """(uniform numbers) → (memory)."""
+        env, draws, n = self.env, Draws(), self.env.rotors
+        state, goal = env.task.begin(draws)
+        hover = self._hover(n)
+        numbers = Varied.drawn(env.vehicle, env.randomise, draws)
+        wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
+        delay = (env.plant.delay + draws.between(*env.randomise.delay)) * env.plant.rate
+        memory = ca.vertcat(
+            state.packed(), hover, self._asked(hover), *[hover] * self.queued, wind, ca.SX(3, 1),
+            self._timing(draws), numbers, ca.floor(delay + 0.5), goal,
+        )  # fmt: skip
+        self.goals = goal.numel()
+        return ca.Function("begin", [draws.symbols], [ca.densify(memory)])
+
+    def _hover(self, n: int) -> Any:
+        low, high = self.env.vehicle.rotor_limits
+        return ca.DM(np.full(n, np.clip(self.env.vehicle.weight / n, low, high)))
+
+    def _asked(self, hover: Any) -> Any:
+        """The action that commands hover."""
+        env = self.env
+        low, high = env.vehicle.rotor_limits
+        if env.action == "rotors":
+            return 2 * (hover - low) / (high - low) - 1
+        return ca.vertcat(2 * ca.sum1(hover) / (env.rotors * high) - 1, ca.DM.zeros(3))
+
+    def _timing(self, draws: Draws) -> Any:
+        """Timing of the rotors, with a lag drawn in `randomise.lag`."""
+        env, h = self.env, 1 / self.env.plant.rate
+        if env.randomise.lag == (1.0, 1.0) or self.true.rotor_lag == 0:
+            return ca.DM(motor_timing(self.true.rotor_lag, env.plant, h))
+        lag = draws.between(*env.randomise.lag) * self.true.rotor_lag
+        lags = [lag] if env.plant.spin_up == 1.0 else [lag, env.plant.spin_up * lag]
+        return ca.vertcat(*(symbolic_timing(each, h) for each in lags))
+
+    def command(self) -> ca.Function:
+        """(state with rotors, action, numbers) → rotor forces."""
+        env, vehicle = self.env, self.env.vehicle
+        s, a, p = (
+            ca.SX.sym(name, size) for name, size in (("s", SIZE + env.rotors), ("a", env.actions), ("p", self.numbers))
+        )
+        low, high = vehicle.rotor_limits
+        if env.action == "rotors":
+            return ca.Function("command", [s, a, p], [ca.densify(low + (high - low) * (a + 1) / 2)])
+        thrust = env.rotors * high * (a[0] + 1) / 2
+        if env.action == "rates":
+            loop = rate_loop(vehicle, env.plant.limits, env.plant.rate_loop_gain, name="loop")
+            forces = loop(ca.vertcat(thrust, MOST_RATE * a[1:]), s[15:18], ca.SX(0, 1))
+        else:
+            moments = np.abs(vehicle.mixing()[1:]).sum(axis=1) * high / 2
+            forces = rotor_forces(thrust, moments * a[1:], vehicle, env.plant.limits)
+        return ca.Function("command", [s, a, p], [ca.densify(forces)])
+
+    def step(self) -> ca.Function:
+        """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""
+        env, n = self.env, self.env.rotors
+        p = ca.SX.sym("p", self.numbers)
+        vehicle: Any = Varied(self.true, p) if self.numbers else self.true
+        s, r, u, w, h = (
+            ca.SX.sym(name, size) for name, size in zip("sruwh", (SIZE, n, n, 6, self.timing), strict=True)
+        )
+        commanded = p[3:] * u if self.numbers else u
+        wind = w if env.randomise.wind[1] > 0 else None
+        return ca.Function("step", [s, r, u, w, h, p], stepped(s, r, commanded, wind, h, vehicle, moving(env.plant)))
+
+    def _seen(self) -> tuple[Any, Any, State, list[Any]]:
+        """Symbols of time and memory, the state relative to the goal, and the parts of the memory."""
+        t, memory = ca.SX.sym("t"), ca.SX.sym("memory", sum(self.lengths) + self.goals)
+        parts = ca.vertsplit(memory, [0, *np.cumsum([*self.lengths, self.goals]).tolist()])
+        state = State.symbolic(parts[0])
+        x, x_dot = self.env.task.goal(t, parts[-1])
+        return t, memory, State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot})), parts
+
+    def observe(self) -> ca.Function:
+        """(time, memory) → observation; see `flypend.envs`."""
+        env = self.env
+        t, memory, state, parts = self._seen()
+        low, high = env.vehicle.rotor_limits
+        columns = 3 if env.attitude == "matrix" else 2
+        now = env.task.goal(t, parts[-1])[0]
+        coming = [env.task.goal(t + ahead, parts[-1])[0] - now for ahead in env.task.ahead]
+        seen = ca.vertcat(
+            state.x, state.x_dot, ca.vec(state.R[:, :columns]), state.omega, state.y, state.y_dot,
+            2 * (parts[1] - low) / (high - low) - 1, parts[2], *coming,
+        )  # fmt: skip
+        return ca.Function("observe", [t, memory], [ca.densify(seen)])
+
+    def judge(self) -> ca.Function:
+        """(time, memory, action) → (reward, ended)."""
+        t, memory, state, parts = self._seen()
+        action = ca.SX.sym("a", self.env.actions)
+        reward, ended = self.env.task.reward(state, action - parts[2]), self.env.task.ended(state)
+        return ca.Function("judge", [t, memory, action], [ca.densify(reward), ca.densify(ended)])

@@ -1,0 +1,94 @@
+"""Vehicles that differ from world to world: numbers drawn when a world begins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import casadi as ca
+
+from flypend import errors
+from flypend.envs.draws import Draws
+from flypend.errors import InputError
+from flypend.model import Vehicle
+
+Interval = tuple[float, float]
+
+
+@errors.named_arguments
+@dataclass(frozen=True, kw_only=True)
+class Randomisation:
+    """What is drawn anew, uniformly, whenever a world begins. Each is an interval (low, high).
+
+    Parameters
+    ----------
+    mass, bob_mass, rod_length : (2,)
+        Ratio of true to nominal value. Inertias scale with their mass, that of the rod also with its length squared.
+    lag : (2,)
+        Ratio of the true to the nominal time constant of the rotors.
+    strength : (2,)
+        Ratio of the force of a rotor to that commanded, drawn for each rotor.
+    delay : (2,)
+        Delay of the commands, s.
+    wind : (2,)
+        Magnitude of a constant force on the vehicle, N, in any direction.
+
+    Raises
+    ------
+    InputError
+        If an interval is empty or out of range.
+    """
+
+    mass: Interval = (1.0, 1.0)
+    bob_mass: Interval = (1.0, 1.0)
+    rod_length: Interval = (1.0, 1.0)
+    lag: Interval = (1.0, 1.0)
+    strength: Interval = (1.0, 1.0)
+    delay: Interval = (0.0, 0.0)
+    wind: Interval = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            low, high = errors.array(f"randomise.{entry.name}", getattr(self, entry.name), (2,)).tolist()
+            errors.number(f"randomise.{entry.name}", low, at_least=0)
+            if low == 0 and entry.name not in ("delay", "wind"):
+                raise InputError(f"randomise.{entry.name}", "ratios > 0", f"{low:g}")
+            errors.number(f"randomise.{entry.name}", high, at_least=low)
+            object.__setattr__(self, entry.name, (low, high))
+
+    @property
+    def varies(self) -> bool:
+        """Whether the vehicle itself differs from world to world."""
+        return any(getattr(self, name) != (1.0, 1.0) for name in ("mass", "bob_mass", "rod_length", "strength"))
+
+
+class Varied:
+    """`vehicle` with masses, rod and strengths scaled by symbols; what it does not scale is the vehicle's own.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        The nominal vehicle.
+    numbers : SX (3 + n, 1)
+        Ratios of mass, bob_mass and rod_length, and the strength of each rotor.
+    """
+
+    def __init__(self, vehicle: Vehicle, numbers: Any) -> None:
+        self._vehicle = vehicle
+        mass, bob, length = numbers[0], numbers[1], numbers[2]
+        # The rod's inertia scales with its mass and the square of its length, so the share of the point bob stays.
+        at_pivot = vehicle.M - vehicle.mass
+        self.bob_mass = bob * vehicle.bob_mass
+        self.M, self.m, self.l = mass * vehicle.mass + bob * at_pivot, bob * vehicle.m, length * vehicle.l
+        self.I, self.I_inv = mass * vehicle.I, vehicle.I_inv / mass
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._vehicle, name)
+
+    @staticmethod
+    def drawn(vehicle: Vehicle, ranges: Randomisation, draws: Draws) -> Any:
+        """Draw the numbers (3 + n, 1); none (0, 1) if nothing varies."""
+        if not ranges.varies:
+            return ca.SX(0, 1)
+        ratios = [draws.between(*getattr(ranges, name)) for name in ("mass", "bob_mass", "rod_length")]
+        return ca.vertcat(*ratios, *(draws.between(*ranges.strength) for _ in vehicle.rotor_spins))

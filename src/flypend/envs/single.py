@@ -1,0 +1,68 @@
+"""One world as an environment of gymnasium."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from flypend.envs.kernel import Worlds
+from flypend.envs.make import environment, spaces
+from flypend.flight.outcome import Outcome
+from flypend.flight.trajectory import Trajectory
+from flypend.model import State
+from flypend.model.state import SIZE
+
+
+class World(gymnasium.Env[Any, Any]):
+    """One world, bit-identical to world 0 of the vector environment with the same seed and actions.
+
+    Parameters
+    ----------
+    task, arguments
+        See `flypend.envs.environment`.
+
+    Raises
+    ------
+    InputError
+        As `flypend.envs.environment`.
+    """
+
+    metadata = {"render_modes": []}  # noqa: RUF012
+
+    def __init__(self, task: Any = "balance", **arguments: Any) -> None:
+        self.worlds = Worlds(environment(task, **arguments), 1)
+        self.observation_space, self.action_space = spaces(self.worlds.env, self.worlds.observations.shape[1])
+        self._flown: list[Any] = []
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begin anew, with `seed`, or with a new one of the generator that the last seed started."""
+        super().reset(seed=seed)
+        fresh = int(self.np_random.integers(2**62)) if seed is None else seed
+        self.worlds.begin(np.array([fresh], dtype=np.int64))
+        self._flown = [self.worlds.states[0]]
+        return self.worlds.observations[0].copy(), {}
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Advance by `action` (m,), each entry in [−1, 1]."""
+        worlds = self.worlds
+        worlds.step(np.asarray(action)[None])
+        terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
+        if not (terminated or truncated):
+            self._flown.append(worlds.states[0])
+        seen = (worlds.last if terminated or truncated else worlds.observations)[0].copy()
+        return seen, float(worlds.rewards[0]), terminated, truncated, {}
+
+    def trajectory(self) -> Trajectory:
+        """Return what has been flown since the last `reset` as a run, a state per action: for pages and figures."""
+        env, states = self.worlds.env, np.array(self._flown)
+        forces = states[:, SIZE:]
+        wrench = forces @ env.vehicle.mixing().T
+        named = State.trusted(states[:, :SIZE])
+        return Trajectory(
+            t=np.arange(len(states)) / env.rate, **{name: getattr(named, name) for name in vars(named)},
+            thrust=wrench[:, 0], moment=wrench[:, 1:], rotor_forces=forces, drift=np.zeros((0, 3)),
+            outcome=Outcome("completed", (len(states) - 1) / env.rate), e3="up", vehicle=env.vehicle,
+            law=f"actions in {env.task.name}", gains={},
+        )  # fmt: skip

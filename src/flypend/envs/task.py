@@ -1,0 +1,169 @@
+"""Tasks: where worlds begin, what is wanted, what it is worth, and when they end. All are expressions in symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from flypend.envs.draws import Draws
+from flypend.model import State
+
+Goal = Callable[[Any, Any], tuple[Any, Any]]
+
+
+class Begin(NamedTuple):
+    """How a world begins: a state with e₃ up, and numbers (k, 1) that describe its goal."""
+
+    state: State
+    goal: Any
+
+
+@dataclass(frozen=True)
+class Task:
+    """What an environment asks for.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the id of the environment.
+    begin : callable
+        (draws) → `Begin`.
+    goal : callable
+        (t, numbers of the goal) → position and velocity of the pivot that are wanted, (3, 1) each, m and m/s.
+    reward : callable
+        (state relative to the goal, change of the action (m, 1)) → the reward of a step.
+    ended : callable
+        The same state → an expression above 0 when the world ends.
+    duration : float
+        Seconds after which a world is cut off.
+    ahead : tuple of float
+        How long ahead, s, the goal is also observed.
+    """
+
+    name: str
+    begin: Callable[[Draws], Begin]
+    goal: Goal
+    reward: Callable[[State, Any], Any]
+    ended: Callable[[State], Any]
+    duration: float
+    ahead: tuple[float, ...] = ()
+
+
+def near(value: Any, scale: float) -> Any:
+    """1/(1 + (|value|/scale)²): 1 at zero, ½ at `scale`."""
+    return 1 / (1 + ca.sumsqr(value) / scale**2)
+
+
+def upright(state: State, change: Any) -> Any:
+    """Worth of a step with the rod up at the goal, at most 1.
+
+    ½(1 + y₃) (0.4 + 0.3 near(x, 0.5 m) + 0.1 near(ẋ, 1 m/s) + 0.1 near(ẏ, 3 rad/s) + 0.1 near(ω, 5 rad/s))
+    − 0.02 |change of the action|², with near(v, s) = 1/(1 + |v|²/s²) and x, ẋ relative to the goal.
+    """
+    kept = 0.4 + 0.3 * near(state.x, 0.5) + 0.1 * near(state.x_dot, 1.0)
+    kept += 0.1 * near(state.y_dot, 3.0) + 0.1 * near(state.omega, 5.0)
+    return (1 + state.y[2]) / 2 * kept - 0.02 * ca.sumsqr(change)
+
+
+def hovered(t: Any, numbers: Any) -> tuple[Any, Any]:
+    """Stay at the origin."""
+    return ca.SX(3, 1), ca.SX(3, 1)
+
+
+def _beyond(state: State, radius: float) -> Any:
+    """Whether the pivot is farther than `radius` (m) from the goal."""
+    return ca.sumsqr(state.x) > radius**2
+
+
+def _almost_upright(draws: Draws, lean: float) -> State:
+    y = draws.cap(lean)
+    return State(
+        x=draws.ball(0.5), x_dot=draws.ball(0.5), R=draws.level(0.2), omega=draws.ball(0.5), y=y,
+        y_dot=draws.tangent(y, 0.5),
+    )  # fmt: skip
+
+
+def balance() -> Task:
+    """Balance the rod, which leans by at most 0.2 rad at first; lost once it leans by 60° or the vehicle is 3 m off."""
+    return Task(
+        "Balance", lambda draws: Begin(_almost_upright(draws, 0.2), ca.SX(0, 1)), hovered, upright,
+        lambda s: ca.logic_or(s.y[2] < 0.5, _beyond(s, 3.0)), 5.0,
+    )  # fmt: skip
+
+
+def swing_up() -> Task:
+    """Bring the rod up from hanging almost at rest, and balance it; lost once the vehicle is 5 m off."""
+
+    def begin(draws: Draws) -> Begin:
+        hanging = -draws.cap(0.2)
+        state = State(
+            x=draws.ball(0.2), x_dot=draws.ball(0.2), R=draws.level(0.2), omega=draws.ball(0.5), y=hanging,
+            y_dot=draws.tangent(hanging, 0.5),
+        )  # fmt: skip
+        return Begin(state, ca.SX(0, 1))
+
+    return Task("SwingUp", begin, hovered, upright, lambda s: _beyond(s, 5.0), 10.0)
+
+
+def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> Task:
+    """Follow a path with the rod up.
+
+    Parameters
+    ----------
+    shape : "circle", "lemniscate" or "waypoints"
+        Way of the goal: round a circle of radius `size`, along a figure eight of half-length `size`, or through corners
+        of a square of half-width `size`, one after the other.
+    size, turn_rate : float
+        Size, m, and angular rate, rad/s, of which a square takes four corners a turn.
+    """
+    ways = {"circle": _circle, "lemniscate": _eight, "waypoints": _square}
+    if shape not in ways:
+        from flypend import errors
+
+        errors.one_of("shape", shape, tuple(ways))
+
+    def goal(t: Any, numbers: Any) -> tuple[Any, Any]:
+        return ways[shape](turn_rate * t + numbers[0], size, turn_rate)
+
+    def begin(draws: Draws) -> Begin:
+        phase = draws.between(0.0, 2 * np.pi)
+        state, (x, x_dot) = _almost_upright(draws, 0.1), goal(0.0, phase)
+        return Begin(State(**(vars(state) | {"x": x + 0.2 * state.x, "x_dot": x_dot})), phase)
+
+    return Task(
+        "Track", begin, goal, upright, lambda s: ca.logic_or(s.y[2] < 0.5, _beyond(s, 3.0)), 10.0, (0.1, 0.2, 0.4)
+    )
+
+
+def _circle(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
+    c, s = ca.cos(phase), ca.sin(phase)
+    return size * ca.vertcat(c, s, 0), size * rate * ca.vertcat(-s, c, 0)
+
+
+def _eight(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
+    c, s = ca.cos(phase), ca.sin(phase)
+    return size * ca.vertcat(s, s * c, 0), size * rate * ca.vertcat(c, c * c - s * s, 0)
+
+
+def _square(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
+    c, s = ca.cos(phase), ca.sin(phase)
+    corner = ca.vertcat(ca.if_else(c > 0, 1, -1), ca.if_else(s > 0, 1, -1), 0)
+    return size * corner, ca.SX(3, 1)
+
+
+def catch_in_cup() -> Task:
+    """Catch a rod that stands leaning in a cup and topples, without losing it; for a vehicle with a cup."""
+
+    def begin(draws: Draws) -> Begin:
+        y = draws.cap(0.5)
+        state = State(
+            x=ca.SX(3, 1), x_dot=draws.ball(0.5), R=draws.level(0.1), omega=draws.ball(0.2), y=y,
+            y_dot=draws.tangent(y, 1.0),
+        )  # fmt: skip
+        return Begin(state, ca.SX(0, 1))
+
+    return Task("CatchInCup", begin, hovered, upright, lambda s: _beyond(s, 5.0), 6.0)

@@ -1,0 +1,389 @@
+"""Worlds stepped by the kernel: the physics of `simulate`, seeds, ends, rewards, and what differs between them."""
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import flypend as fp
+from flypend.envs import Randomisation, VectorWorlds, World, environment
+from flypend.envs.kernel import Worlds
+from flypend.envs.make import PHYSICS
+from flypend.laws import Controller
+
+VEHICLE = fp.vehicle("hehn2011")
+NAMES = ("Balance", "SwingUp", "Track", "CatchInCup")
+TASKS = ("balance", "swing_up", "track", "catch_in_cup")
+
+
+def replayed(start, commands, plant, vehicle=VEHICLE, hold=1):
+    """States and rotor forces of a flight by `simulate` under rotor `commands`, each held for `hold` ticks."""
+
+    class Table:
+        def __init__(self, loop, rotors):
+            self.tick = 0
+
+        def command(self, t, measured):
+            self.tick += 1
+            return commands[(self.tick - 1) // hold]
+
+    law = Controller(name="table", function=lambda t, s: fp.Wrench(0.0, np.zeros(3)), flight_computer=Table)
+    duration = len(commands) * hold / plant.rate
+    run = fp.simulate(vehicle, law, start, duration, plant=plant)
+    return np.concatenate([run.packed, run.rotor_forces], axis=1)
+
+
+def forces_of(actions, vehicle=VEHICLE):
+    low, high = vehicle.rotor_limits
+    return low + (high - low) * (actions.astype(float) + 1) / 2
+
+
+def some_actions(steps, count, seed=0, size=0.2):
+    """Actions about hover."""
+    low, high = VEHICLE.rotor_limits
+    hover = 2 * (VEHICLE.weight / 4 - low) / (high - low) - 1
+    noise = np.random.default_rng(seed).uniform(-size, size, (steps, count, 4))
+    return np.clip(hover + noise, -1, 1).astype(np.float32)
+
+
+@pytest.mark.parametrize("changes", [{}, {"sag": 0.1, "spin_up": 1.5}, {"pivot_offset": (0.01, 0, 0.02)}])
+def test_a_world_flies_as_simulate_does(changes):
+    plant = PHYSICS.replace(**changes)
+    world = World("swing_up", plant=plant)
+    world.reset(seed=5)
+    begin = world.worlds.states[0]
+    actions = some_actions(30, 1)[:, 0]
+    states = [begin]
+    for action in actions:
+        world.step(action)
+        states.append(world.worlds.states[0])
+    # The rotors of a world begin at hover; those of a flight at rest.
+    flown = from_hover(begin, forces_of(actions), plant)
+    assert np.allclose(states, flown, rtol=0, atol=1e-12)  # 300 steps of rounding
+
+
+def from_hover(begin, commands, plant, vehicle=VEHICLE):
+    """The same flight by the steps of `simulate`, from rotors that already turn."""
+    from flypend.plants.actuation import Actuation, make_engine
+
+    true = plant.true_vehicle(vehicle)
+    engine = make_engine(true, plant)
+    engine.reset(begin[:24], begin[24:])
+    acting, states = Actuation(engine, vehicle, plant), [begin]
+    for command in commands:
+        for _ in range(10):
+            acting.advance(command, 1 / plant.rate, np.zeros(6))
+        states.append(np.append(engine.packed, engine.rotors))
+    return np.array(states)
+
+
+def test_a_flight_by_simulate_has_the_same_states():
+    """From rotors at their least, to which a flight's are set."""
+    worlds = Worlds(environment("balance"), 1)
+    worlds.begin(np.array([3]))
+    start = fp.State.from_packed(worlds.states[0, :24])
+    commands = forces_of(some_actions(20, 1)[:, 0])
+    flown = replayed(start, commands, PHYSICS, hold=10)
+    least = np.append(start.packed(), np.full(4, VEHICLE.rotor_limits[0]))
+    assert np.allclose(flown, from_hover(least, commands, PHYSICS), rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_gymnasium_has_nothing_to_say(name, recwarn):
+    made = gymnasium.make(f"flypend/{name}-v0")
+    check_env(made.unwrapped)
+    assert not recwarn.list
+    vector = gymnasium.make_vec(f"flypend/{name}-v0", 3, vectorization_mode="vector_entry_point")
+    seen, _ = vector.reset(seed=1)
+    assert seen in vector.observation_space
+    assert vector.step(vector.action_space.sample())[0] in vector.observation_space
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_world_is_the_same_whatever_surrounds_it(task):
+    alone, many, split = World(task), VectorWorlds(task, 300, workers=1), VectorWorlds(task, 300, workers=2)
+    actions = some_actions(120, 300, size=0.6)
+    first, _ = alone.reset(seed=11)
+    seen, again = many.reset(seed=11)[0], split.reset(seed=11)[0]
+    assert np.array_equal(seen[0], first)
+    over = False
+    for action in actions:
+        results, others = many.step(action), split.step(action)
+        assert all(np.array_equal(a, b) for a, b in zip(results[:4], others[:4], strict=True))
+        if not over:
+            one = alone.step(action[0])
+            over = one[2] or one[3]
+            last = results[4]["final_obs"][0] if over else results[0][0]
+            assert np.array_equal(one[0], last)
+            assert (one[1], one[2], one[3]) == tuple(result[0] for result in results[1:4])
+    assert np.array_equal(seen, again)
+
+
+def test_seeds_are_exact_and_differ():
+    worlds = VectorWorlds("swing_up", 16)
+    a, b, c = worlds.reset(seed=4)[0], worlds.reset(seed=4)[0], worlds.reset(seed=5)[0]
+    assert np.array_equal(a, b)
+    assert np.array_equal(a[1:], c[:-1])  # world i has seed + i
+    assert not np.array_equal(worlds.reset()[0], worlds.reset()[0])
+    assert len(np.unique(a[:, 0])) == 16
+
+
+def test_a_world_that_ends_begins_anew_and_differently():
+    worlds = VectorWorlds("balance", 64)
+    worlds.reset(seed=0)
+    down = -np.ones((64, 4), dtype=np.float32)
+    begun = []
+    for _ in range(300):
+        seen, _, terminated, _, infos = worlds.step(down)
+        if terminated.any():
+            assert np.array_equal(infos["_final_obs"], terminated)
+            assert np.all(np.linalg.norm(infos["final_obs"][terminated, :3], axis=1) > 2.9)
+            begun.append(seen[terminated, :3])
+    begun = np.concatenate(begun)
+    assert len(begun) > 100
+    assert len(np.unique(begun[:, 0])) == len(begun)
+    assert np.linalg.norm(begun, axis=1).max() <= 0.5
+
+
+def test_it_is_cut_off_after_its_duration():
+    worlds = VectorWorlds("swing_up", 9, duration=0.5)
+    worlds.reset(seed=0)
+    cut = [worlds.step(some_actions(1, 9)[0])[3] for _ in range(100)]
+    assert np.array_equal(np.flatnonzero([c.all() for c in cut]), [49, 99])
+    assert sum(c.sum() for c in cut) == 18
+
+
+@pytest.mark.parametrize("absurd", [np.nan, np.inf, -np.inf, 1e30])
+def test_an_absurd_action_ends_its_own_world_at_most(absurd):
+    calm, hurt = VectorWorlds("swing_up", 20), VectorWorlds("swing_up", 20)
+    calm.reset(seed=1)
+    hurt.reset(seed=1)
+    actions = some_actions(50, 20)
+    for k, action in enumerate(actions):
+        bad = action.copy()
+        if k == 10:
+            bad[7] = absurd
+        a, b = calm.step(action), hurt.step(bad)
+        assert b[2][7] == (k == 10 and not abs(absurd) < np.inf)  # a finite one is clipped
+        others = np.arange(20) != 7
+        assert all(np.array_equal(x[others], y[others]) for x, y in zip(a[:4], b[:4], strict=True))
+        assert all(np.isfinite(x).all() for x in b[:2])
+
+
+def test_random_actions_of_any_size_leave_everything_finite():
+    rng, worlds = np.random.default_rng(2), VectorWorlds("swing_up", 256, action="rates")
+    worlds.reset(seed=2)
+    for _ in range(400):
+        seen, rewards, *_ = worlds.step(
+            (rng.standard_normal((256, 4)) * 10.0 ** rng.integers(-3, 38)).astype(np.float32)
+        )
+        assert np.isfinite(seen).all()
+        assert np.isfinite(rewards).all()
+        assert np.abs(rewards).max() < 2
+
+
+# What is observed and paid -------------------------------------------------------------------------------------------
+
+
+def test_the_reward_is_its_formula():
+    worlds = VectorWorlds("balance", 50)
+    worlds.reset(seed=3)
+    before = some_actions(2, 50)
+    worlds.step(before[0])
+    _, rewards, terminated, *_ = worlds.step(before[1])
+    s = worlds.worlds.states
+    near = lambda v, scale: 1 / (1 + (v**2).sum(1) / scale**2)  # noqa: E731
+    kept = 0.4 + 0.3 * near(s[:, :3], 0.5) + 0.1 * near(s[:, 3:6], 1)
+    kept += 0.1 * near(s[:, 21:24], 3) + 0.1 * near(s[:, 15:18], 5)
+    change = ((before[1].astype(float) - before[0]) ** 2).sum(1)
+    assert not terminated.any()
+    assert np.allclose(rewards, (1 + s[:, 20]) / 2 * kept - 0.02 * change, atol=1e-6)  # float32
+
+
+def test_observations_are_relative_to_the_goal():
+    worlds = VectorWorlds("track", 4, shape="circle", size=0.5, turn_rate=1.5)
+    seen, _ = worlds.reset(seed=0)
+    goals = worlds.worlds.states[:, :3] - seen[:, :3]
+    assert np.allclose(np.linalg.norm(goals, axis=1), 0.5, atol=1e-6)
+    ahead = seen[:, -9:-6] + goals
+    turned = np.arctan2(ahead[:, 1], ahead[:, 0]) - np.arctan2(goals[:, 1], goals[:, 0])
+    assert np.allclose(np.mod(turned, 2 * np.pi), 0.15, atol=1e-5)
+    flat = VectorWorlds("balance", 1, attitude="6d")
+    assert VectorWorlds("balance", 1).single_observation_space.shape[0] == flat.single_observation_space.shape[0] + 3
+
+
+def test_history_follows_the_present():
+    worlds, plain = VectorWorlds("swing_up", 5, history=2), VectorWorlds("swing_up", 5)
+    first, now = worlds.reset(seed=0)[0], plain.reset(seed=0)[0]
+    assert np.array_equal(first, np.tile(now, 3))
+    seen = [now]
+    for action in some_actions(4, 5):
+        rows = worlds.step(action)[0]
+        seen.append(plain.step(action)[0])
+    assert np.array_equal(rows, np.concatenate(seen[:-4:-1], axis=1))
+
+
+def test_without_copies_arrays_stay_where_they_are():
+    worlds = VectorWorlds("balance", 8, copy=False)
+    seen, _ = worlds.reset(seed=0)
+    again = worlds.step(some_actions(1, 8)[0])[0]
+    assert np.shares_memory(seen, again)
+
+
+def test_starts_are_on_the_manifold_and_where_the_task_says():
+    worlds = Worlds(environment("swing_up"), 4000)
+    worlds.begin(np.arange(4000))
+    states = fp.State.trusted(worlds.states[:, :24])
+    assert np.allclose(np.linalg.norm(states.y, axis=1), 1, atol=1e-14)
+    assert np.allclose(np.swapaxes(states.R, 1, 2) @ states.R, np.eye(3), atol=1e-13)
+    assert np.abs((states.y * states.y_dot).sum(1)).max() < 1e-14
+    assert states.y[:, 2].max() <= -np.cos(0.2)
+    # Uniform in a cap: the third component is uniform. Its mean of 4,000 is within five deviations of the middle.
+    middle, width = -(1 + np.cos(0.2)) / 2, 1 - np.cos(0.2)
+    assert abs(states.y[:, 2].mean() - middle) < 5 * width / np.sqrt(12 * 4000)
+
+
+# What acts -----------------------------------------------------------------------------------------------------------
+
+
+def test_rates_are_followed():
+    worlds = VectorWorlds("swing_up", 3, action="rates", plant=PHYSICS.replace(lag=0.0))
+    worlds.reset(seed=0)
+    for _ in range(40):
+        worlds.step(np.tile(np.array([-0.2, 0.1, -0.05, 0.02], dtype=np.float32), (3, 1)))
+    assert np.allclose(worlds.worlds.states[:, 15:18], [1.2, -0.6, 0.24], atol=0.05)
+
+
+def test_a_wrench_is_allocated():
+    worlds = VectorWorlds("swing_up", 1, action="wrench", plant=PHYSICS.replace(lag=0.0))
+    worlds.reset(seed=0)
+    worlds.step(np.array([[-0.3, 0.05, -0.02, 0.0]], dtype=np.float32))
+    wrench = VEHICLE.mixing() @ worlds.worlds.states[0, 24:]
+    largest = np.abs(VEHICLE.mixing()[1:]).sum(1) * VEHICLE.rotor_limits[1] / 2
+    assert np.allclose(wrench, [4 * 3.5 * 0.35, *(largest * [0.05, -0.02, 0])], atol=1e-6)
+
+
+@pytest.mark.parametrize("number", ["mass", "bob_mass", "rod_length"])
+def test_another_vehicle_flies_as_one_that_is_mistaken(number):
+    """A ratio of 1.2, for all worlds, is `mismatch` of the plant, but for the inertia, which goes with the mass."""
+    ratio = {number: 1.2} | ({"inertia": 1.2} if number == "mass" else {})
+    drawn = World("swing_up", randomise={number: (1.2, 1.2)})
+    known = World("swing_up", plant=PHYSICS.replace(mismatch=ratio))
+    drawn.reset(seed=1)
+    known.reset(seed=1)
+    for action in some_actions(20, 1)[:, 0]:
+        drawn.step(action)
+        known.step(action)
+    assert np.allclose(drawn.worlds.states, known.worlds.states, rtol=0, atol=1e-11)
+
+
+def test_lag_and_strength_and_wind_are_those_drawn():
+    slow, known = World("swing_up", randomise={"lag": (2, 2)}), World("swing_up", plant=PHYSICS.replace(lag=0.04))
+    for world in (slow, known):
+        world.reset(seed=1)
+    for action in some_actions(10, 1)[:, 0]:
+        slow.step(action)
+        known.step(action)
+    assert np.allclose(slow.worlds.states, known.worlds.states, rtol=0, atol=1e-12)
+    weak = Worlds(environment("swing_up", randomise={"strength": (0.8, 0.9)}), 50)
+    weak.begin(np.arange(50))
+    for _ in range(30):
+        weak.step(np.ones((50, 4)))
+    ratios = weak.states[:, 24:] / VEHICLE.rotor_limits[1]
+    assert ratios.min() >= 0.8 - 1e-6
+    assert ratios.max() <= 0.9
+    assert ratios.std() > 0.02
+
+
+def test_wind_pushes():
+    """A constant force, for want of anything else: the centre of mass falls beside where it would."""
+    force = 0.5
+    still, blown = (Worlds(environment("swing_up", randomise={"wind": (w, w)}), 30) for w in (0.0, force))
+    for worlds in (still, blown):
+        worlds.begin(np.arange(30))
+    for action in some_actions(10, 30):
+        still.step(action)
+        blown.step(action)
+    total, share = VEHICLE.weight / VEHICLE.gravity, VEHICLE.bob_mass * VEHICLE.gravity / VEHICLE.weight
+    centre = [w.states[:, :3] + share * VEHICLE.l * w.states[:, 18:21] for w in (still, blown)]
+    shift = np.linalg.norm(centre[1] - centre[0], axis=1)
+    assert np.allclose(shift, force / total * 0.1**2 / 2, rtol=0.05)  # the thrust axis turns a little less or more
+
+
+@pytest.mark.parametrize("late", [0.003, 0.01, 0.025])
+def test_a_delayed_command_acts_later(late):
+    """In steps of 1 ms: by the same flight under commands that are moved."""
+    world = World("swing_up", randomise={"delay": (late, late)})
+    world.reset(seed=2)
+    begin = world.worlds.states[0]
+    actions = some_actions(12, 1)[:, 0]
+    for action in actions:
+        world.step(action)
+    by_step = np.repeat(forces_of(actions), 10, axis=0)
+    ticks = round(1000 * late)
+    moved = np.concatenate([np.tile(begin[24:], (ticks, 1)), by_step])[: len(by_step)]
+    from flypend.plants.equations import EquationsEngine
+
+    engine = EquationsEngine(VEHICLE, PHYSICS)
+    engine.reset(begin[:24], begin[24:])
+    for command in moved:
+        engine.step(command, 1e-3, np.zeros(6))
+    assert np.allclose(world.worlds.states[0], np.append(engine.packed, engine.rotors), rtol=0, atol=1e-12)
+
+
+def test_a_rod_that_touches_ends_its_world():
+    """Level, with the rod swinging down through an arm of a hub; on a gimbal the same worlds go on."""
+    hub, gimbal = (VectorWorlds("balance", 200, mount=mount, duration=3.0) for mount in ("hub", "gimbal"))
+    for worlds in (hub, gimbal):
+        worlds.reset(seed=0)
+    still = some_actions(1, 200, size=0.0)[0]
+    ends = np.zeros((2, 200), dtype=bool)
+    for _ in range(250):
+        for k, worlds in enumerate((hub, gimbal)):
+            ends[k] |= worlds.step(still)[2]
+    assert ends[0].sum() >= ends[1].sum()
+
+
+def test_a_rod_leaves_its_cup():
+    worlds = VectorWorlds("catch_in_cup", 100)
+    worlds.reset(seed=0)
+    still = some_actions(1, 100, size=0.0)[0]
+    ends = np.zeros(100, dtype=bool)
+    for _ in range(300):
+        ends |= worlds.step(still)[2]
+    assert ends.mean() > 0.9  # nothing balances them
+
+
+def test_what_has_been_flown_is_a_run(tmp_path):
+    world = World("balance")
+    world.reset(seed=0)
+    for action in some_actions(20, 1)[:, 0]:
+        world.step(action)
+    run = world.trajectory()
+    assert run.t[-1] == pytest.approx(0.2)
+    assert np.array_equal(run.packed[-1], world.worlds.states[0, :24])
+    run.to_html(tmp_path / "a.html")
+    assert (tmp_path / "a.html").stat().st_size > 1e5
+
+
+# What is refused -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [
+        ({"task": "hop"}, "task"), ({"task": "track", "shape": "star"}, "shape"), ({"rate": 300.0}, "rate"),
+        ({"action": "speed"}, "action"), ({"randomise": {"mass": (1.2, 0.8)}}, "randomise.mass"),
+        ({"randomise": {"mass": (0.0, 1.0)}}, "randomise.mass"), ({"num_envs": 0}, "num_envs"),
+        ({"plant": PHYSICS.replace(noise=fp.Noise(x=1e-3))}, "plant"), ({"duration": -1}, "duration"),
+        ({"task": "catch_in_cup", "mount": "hub"}, "mount"),
+    ],
+)  # fmt: skip
+def test_what_is_not_possible_is_refused(arguments, field):
+    with pytest.raises((fp.InputError, TypeError), match=field.replace(".", r"\.")):
+        VectorWorlds(**arguments)
+
+
+def test_ranges_are_intervals():
+    assert Randomisation(mass=(0.8, 1.2)).varies
+    assert not Randomisation(delay=(0.0, 0.01)).varies

@@ -10,7 +10,7 @@ import shutil
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import lru_cache
+from functools import lru_cache, partial
 from logging import getLogger
 from pathlib import Path
 from threading import Lock
@@ -19,6 +19,8 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 from platformdirs import user_cache_path
+
+from flypend.compile.aside import aside
 
 CACHE_VARIABLE = "FLYPEND_CACHE"
 _ENTRY = b"flypend object 2\n"
@@ -110,7 +112,7 @@ def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[An
     path = cache_folder() / f"{entry}.o"
     code = _read(path, entry)
     if code is None:
-        code = compiled(module())
+        code = aside(partial(compiled, module()))
         _write(path, entry, code)
     return Native(code, name, tuple(arguments))
 

@@ -11,7 +11,7 @@ from flypend import geometry
 from flypend.model import State, Vehicle
 
 DISC_POINTS = 25
-DISC_SHARE = 0.28  # drawn rotor radius over the distance to the nearest rotor; vehicles have no rotor radius
+DISC_SHARE = 0.28  # drawn rotor radius over the distance to the nearest rotor, for a vehicle that tells no other
 BOB_SHARE = 0.08  # drawn bob radius over the rod length; the bob is a point mass
 HOVER_ARROW = 0.7  # length of the thrust arrow in hover over the rod length
 LONGEST_ARROW = 1.1  # maximum length of the thrust arrow over the rod length
@@ -94,6 +94,8 @@ def _length(vehicle: Vehicle, relative: Any) -> Any:
 
 def disc_radius(vehicle: Vehicle) -> float:
     """Drawn radius of the rotors of `vehicle`, m."""
+    if vehicle.body is not None:
+        return float(vehicle.body.disc_radius)
     rotors = vehicle.rotor_positions
     gaps = np.linalg.norm(rotors[:, None] - rotors[None], axis=-1) + np.diag(np.full(len(rotors), np.inf))
     return float(DISC_SHARE * gaps.min())

@@ -16,7 +16,7 @@ from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
 from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 
-MOUNTS = {"gimbal": "gimbal, no limit", "hub": "hub, between the arms", "cup": "cup, on top"}
+MOUNTS = {"gimbal": "gimbal, no limit", "hub": "hub, between arms", "cup": "cup, on top"}
 PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 BISECTIONS = 12  # to a fifth of a per cent of a slider with a range of a factor of four either way

@@ -1,7 +1,8 @@
-"""The counts of docs/laws/theorem.md: `python -m benchmarks.theorem starts` or `... LAW [runs] [seed]`.
+"""The numbers of docs/laws/theorem.md: `python -m benchmarks.theorem starts`, `... forces` or `... LAW [runs] [seed]`.
 
-`starts` flies the random starts of seed 2024, a minute. LAW is a row of `flypend theorem`: repaired, almost_global, or
-one of the laws that lack a part of the proof; it is flown from 100,000 wide starts, some ten minutes.
+`starts` flies the random starts of seed 2024, a minute. `forces` prints what Theorem A withstands. LAW is a row of
+`flypend theorem`: repaired, almost_global, or one of the laws that lack a part of the proof; it is flown from 100,000
+wide starts, some ten minutes.
 """
 
 import sys
@@ -10,6 +11,8 @@ import numpy as np
 
 import flypend as fp
 from flypend.flight.metrics import wilson
+from flypend.laws.repaired import stiffness
+from flypend.laws.repaired_bounds import withstood
 from flypend.paper.descent import RISES, descend
 
 SEED = 2024
@@ -53,11 +56,26 @@ def starts():
         )
 
 
+def forces():
+    """Print the bounds of `repaired_bounds` on nayak2018, level by level."""
+    law = fp.laws.repaired().bind(fp.vehicle("nayak2018"))
+    k_p, rod = float(stiffness(law.vehicle)), law.vehicle.l * law.vehicle.m
+    for share in (0.01, 0.1, 0.5, 1.0, 1.5):
+        found = withstood(law, share * k_p)
+        print(
+            f"V <= {share:g} k_p: start V(0) <= {found.start / k_p:.3g} k_p, |w| <= {found.most:.3g} 1/s² "
+            f"({1000 * found.most * rod:.2g} mN on the bob), rate {found.rate:.3g} 1/s, gain {found.gain:.3g} s"
+        )
+    print(f"gain of a constant force: {1 / np.sqrt(2 * k_p):.3g} s")
+
+
 def main():
     """Fly what the command line asks for."""
     name = sys.argv[1] if len(sys.argv) > 1 else "starts"
     if name == "starts":
         starts()
+    elif name == "forces":
+        forces()
     else:
         runs, seed = (int(text) for text in (*sys.argv[2:4], *("100000", "4242")[len(sys.argv[2:4]) :]))
         descents(name, runs, seed)

@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.cli import app as cli
 from flypend.cli import terminal
 from flypend.files import whole as files
 from flypend.flight import simulate
@@ -34,23 +33,6 @@ def flypend(folder, *arguments):
     return subprocess.run(
         command, cwd=folder, env=ENVIRONMENT, capture_output=True, encoding="utf-8", timeout=120, check=False
     )
-
-
-@pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """The command in this process, in `tmp_path`: code, what it printed, and its complaints."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
-    handler = signal.getsignal(signal.SIGTERM)
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
-        with pytest.raises(SystemExit) as exit_:
-            cli.main()
-        return exit_.value.code, *capsys.readouterr()
-
-    yield run
-    signal.signal(signal.SIGTERM, handler)
 
 
 def content(folder):

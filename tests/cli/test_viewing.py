@@ -3,15 +3,12 @@
 import json
 import math
 import re
-import signal
-import sys
 
 import numpy as np
 import pytest
 from PIL import Image
 
 import flypend as fp
-from flypend.cli import app as cli
 from flypend.cli import terminal
 from flypend.files import whole as files
 from flypend.paper import experiment
@@ -27,23 +24,6 @@ def runs(tmp_path_factory):
         case = experiment(name)
         fp.simulate(case.vehicle, case.law(), case.start, 0.1, plant="ideal").save(folder / f"{name}.nc")
     return folder
-
-
-@pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """The command in this process, in `tmp_path`: code, what it printed, and its complaints."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
-    handler = signal.getsignal(signal.SIGTERM)
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["flypend", *map(str, arguments)])
-        with pytest.raises(SystemExit) as exit_:
-            cli.main()
-        return exit_.value.code, *capsys.readouterr()
-
-    yield run
-    signal.signal(signal.SIGTERM, handler)
 
 
 def embedded(path):

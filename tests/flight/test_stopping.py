@@ -1,4 +1,4 @@
-"""Every kernel call hears Ctrl-C and SIGTERM within half a second, however many runs it flies."""
+"""Every kernel call hears Ctrl-C and SIGTERM within half a second, however many runs it flies, and compilers too."""
 
 import signal
 import subprocess
@@ -9,6 +9,7 @@ import time
 import pytest
 
 import flypend as fp
+from flypend.compile.aside import aside, left_behind
 from flypend.flight.kernels.stopping import StoppedError, heard, interruptible, joined
 
 HEARD = 0.5  # s: what the user is promised
@@ -61,6 +62,102 @@ def test_an_interrupt_ends_a_call_from_the_main_thread(call):
         took = told_after(process, signal.SIGINT, 0.3)
         assert "KeyboardInterrupt" in process.stderr.read()
     assert took < HEARD + busy()
+
+
+# A compiler that takes three times as long as it does, so that a signal certainly comes while it works.
+SLOW = """
+import signal, sys
+from flypend.compile.llvm import jit
+signal.signal(signal.SIGINT, signal.default_int_handler)
+compiled = jit.compiled
+def slowly(module):
+    print("ready", flush=True)
+    return [compiled(module) for _ in range(3)][-1]
+jit.compiled = slowly
+"""
+AS_COMMAND = (
+    SLOW
+    + """
+from flypend.cli.app import main
+sys.argv = ["flypend", "run", "1", "--no-figures", "-o", sys.argv[1]]
+main()
+"""
+)
+AS_SCRIPT = (
+    SLOW
+    + """
+import flypend as fp
+try:
+    fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1.0)), 1.0)
+except KeyboardInterrupt:
+    print("heard", flush=True)
+"""
+)
+# JAX compiles for a number of times at which runs are judged: here one, whatever the duration.
+ON_JAX = """
+import signal, flypend as fp
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def fly(duration):
+    vehicle, law, starts = fp.vehicle("nayak2018"), fp.laws.corrected(), fp.random_starts(300, 1)
+    about = {"plant": "ideal", "rtol": 1e-6, "engine": "jax"}
+    fp.simulate_ensemble(vehicle, law, starts, duration, judge_period=duration, **about)
+fly(0.1)
+print("ready", flush=True)
+try:
+    fly(19_000.0)
+except KeyboardInterrupt:
+    print("heard", flush=True)
+"""
+
+
+@pytest.fixture
+def uncompiled(tmp_path, monkeypatch):
+    """An empty cache of compiled code."""
+    monkeypatch.setenv("FLYPEND_CACHE", str(tmp_path / "cache"))
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.usefixtures("uncompiled")
+def test_a_command_that_compiles_ends_at_once(number, code, tmp_path):
+    command = [sys.executable, "-c", AS_COMMAND, str(tmp_path / "out")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        took = told_after(process, number, 0.2)
+        assert not process.stderr.read().strip()
+    assert process.returncode == code
+    assert took < HEARD + busy()
+    assert {path.name for path in tmp_path.iterdir()} <= {"cache"}
+    assert not list(tmp_path.rglob("*.partial"))
+
+
+def heard_after(code):
+    """Seconds until a process with this `code` says that it has heard SIGINT, which ends nothing else."""
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "ready\n"
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        sent = time.monotonic()
+        assert process.stdout.readline() == "heard\n"
+        took = time.monotonic() - sent
+        assert process.wait(60) == 0
+    return took
+
+
+@pytest.mark.usefixtures("uncompiled")
+def test_a_script_that_compiles_hears_an_interrupt_at_once():
+    """Its process ends when the compiler does, which would otherwise find its own memory gone."""
+    assert heard_after(AS_SCRIPT) < HEARD
+
+
+def test_a_flight_in_jax_hears_an_interrupt_at_once():
+    pytest.importorskip("jax")
+    assert heard_after(ON_JAX) < HEARD
+
+
+def test_what_is_called_aside_returns_and_raises_as_called():
+    assert aside(lambda: 7) == 7
+    with pytest.raises(ZeroDivisionError):
+        aside(lambda: 1 // 0)
+    assert not left_behind()
 
 
 def test_what_was_stopped_is_not_believed():

@@ -574,3 +574,18 @@ def test_exports_are_toml_and_say_when_pokes_are_left_out():
     assert "left out" in toml(setting)
     assert "left out" in python(setting)
     assert "left out" not in toml(setting_of(asked()))
+
+
+def test_a_mount_ends_a_flight_as_everywhere_and_is_exported():
+    start = {"y": [0.6, 0.0, -0.8]}
+    asked_for = {"vehicle": {"base": "hehn2011", "mount": "hub"}, "start": start, "duration": 1.0, "plant": "rotors"}
+    setting = setting_of(asked("lqr", **asked_for))
+    run, vehicle = fly(setting), fp.vehicle("hehn2011").replace(mount="hub")
+    alone = fp.simulate(vehicle, fp.laws.lqr(), fp.State(y=start["y"]), 1.0)
+    assert run.outcome == alone.outcome
+    assert run.outcome.status == "collided"
+    assert verdict(run)["part"] == "arm 1"
+    assert 'mount = "hub"' in toml(setting)
+    assert "mount='hub'" in python(setting)
+    with pytest.raises(fp.InputError, match="one of gimbal, hub, cup"):
+        setting_of(asked(vehicle={"base": "hehn2011", "mount": "glue"}))

@@ -411,3 +411,26 @@ def test_on_a_telephone_all_is_there_and_nothing_is_too_wide(visit):
     page.evaluate("flypend.tab('map')")
     until(page, "flypend.map().done > 0")
     assert page.evaluate("document.documentElement.scrollWidth") == 390
+
+
+def test_a_mount_is_chosen_and_kept(visit):
+    """On a hub the rod may touch: the flight ends there, says so, and has its clearance plotted."""
+    page = visit("#" + json.dumps(OFFER["first"] | {"start": {"y": [0.6, 0.0, -0.8]}}))
+    page.locator("select[data-path='vehicle.mount']").select_option("hub")
+    shown(page)
+    assert setting(page)["vehicle"] == {"base": "hehn2011", "mount": "hub"}
+    assert page.locator(".plot").count() == 5
+    page.locator("select[data-path='law.name']").select_option("lqr")
+    shown(page)
+    run = expect_flight(page)
+    assert run.vehicle.mount == "hub"
+    assert run.outcome.status == "collided"
+    assert run.outcome.reason in page.locator("header > .verdict").inner_text()
+    assert run.outcome.reason in page.locator(".track .touch").get_attribute("title")
+    page.locator("select[data-path='vehicle.base']").select_option("nayak2018")
+    shown(page)
+    assert setting(page)["vehicle"]["mount"] == "hub"
+    page.locator("select[data-path='vehicle.mount']").select_option("gimbal")
+    shown(page)
+    assert page.locator(".plot").count() == 4
+    assert page.locator(".track .touch").count() == 0

@@ -17,6 +17,7 @@ from flypend import geometry, palette
 from flypend.flight.criterion import Criterion
 from flypend.flight.metrics import metrics
 from flypend.flight.verdict import MISSED, verdict
+from flypend.model.mount import part_names
 from flypend.pages import replay
 from flypend.paper import experiment
 
@@ -53,7 +54,7 @@ def embedded(text):
 def columns(record):
     """Columns of one run as the page decodes them."""
     raw = {name: np.frombuffer(base64.b64decode(text), "<f4") for name, text in record["columns"].items()}
-    assert raw.keys() == {"t", *WIDTHS}
+    assert raw.keys() - {"clearance"} == {"t", *WIDTHS}
     return {name: values.reshape(-1, WIDTHS[name]) if name in WIDTHS else values for name, values in raw.items()}
 
 
@@ -301,3 +302,25 @@ def test_the_wheel_carries_the_program(tmp_path):
     assert {"flypend/pages/web/replay.js", "flypend/pages/web/lab.js", "flypend/pages/web/THREE-LICENSE.txt"} <= set(
         names
     )
+
+
+@pytest.mark.parametrize(
+    ("mount", "start"), [("hub", (0.6, 0, -0.8)), ("cup", (0.6, 0, -0.8)), ("gimbal", (0.6, 0, 0.8))]
+)
+def test_a_mount_tells_its_body_and_what_was_touched(mount, start):
+    vehicle = fp.vehicle("hehn2011").replace(mount=mount)
+    run = fp.simulate(vehicle, fp.laws.lqr(), fp.State(y=start), 0.3)
+    record = packed(run)
+    told = verdict(run)
+    assert record["vehicle"]["mount"] == mount
+    assert record["vehicle"]["body"] == vehicle.body.to_dict()
+    assert record["vehicle"]["rotor_radius"] == vehicle.body.disc_radius
+    assert ("clearance" in columns(record)) == (mount != "gimbal")
+    if mount == "gimbal":
+        assert told["part"] is None
+        return
+    np.testing.assert_allclose(columns(record)["clearance"][[0, -1]], run.clearance[[0, -1]], atol=1e-6)
+    assert run.outcome.status == "collided"
+    assert told["part"] in part_names(vehicle)
+    assert (told["part"] in run.outcome.reason) or mount == "cup"
+    assert told["words"].endswith(run.outcome.reason)

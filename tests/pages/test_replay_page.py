@@ -643,3 +643,52 @@ def test_in_a_notebook_it_is_isolated(visit, up):
     np.testing.assert_allclose(frame.evaluate("flypend.pose()")["y"], up.y[100], atol=1e-5)
     assert page.evaluate("window.flypend") is None
     assert page.title() == "notebook"
+
+
+# Mounts ---------------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def collided():
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    down = np.array([0, -np.sin(2.5), np.cos(2.5)])
+    start = fp.State(y=down, y_dot=geometry.project_tangent(down, np.array([0, 9.0, 0])))
+    return fp.simulate(vehicle, fp.laws.lqr(), start, 2.0)
+
+
+def test_a_touch_is_marked_on_the_time_line_and_named(visit, collided):
+    assert collided.outcome.status == "collided"
+    page = visit(collided)
+    mark, line = page.locator(".track .touch"), page.locator(".line").bounding_box()
+    assert collided.outcome.reason in mark.get_attribute("title")
+    place = mark.bounding_box()
+    assert place["x"] + place["width"] / 2 == pytest.approx(line["x"] + line["width"] - 8, abs=1.5)  # at its end
+    page.evaluate("flypend.seek(99)")
+    until(page, f"() => document.querySelector('.ended').textContent.includes('{collided.outcome.reason}')")
+    assert collided.outcome.reason in page.locator(".legend .verdict").inner_text()
+    assert page.title().endswith("hehn2011, hub")
+
+
+def test_the_part_that_was_touched_is_seen(visit, collided):
+    """It has the colour of alarm once the flight is over, and not before."""
+    page = visit(collided, before="window.pixels = null")
+    shown = {}
+    for when, t in (("before", collided.t[-1] - 0.02), ("after", 99)):
+        page.evaluate("t => { flypend.camera('axis'); flypend.seek(t); flypend.screen(); }", float(t))
+        page.wait_for_timeout(600)
+        picture = np.asarray(Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB"), dtype=int)
+        alarm = np.array([176, 74, 0])
+        shown[when] = int(np.sum(np.abs(picture - alarm).max(axis=-1) < 12))
+    assert shown["after"] > shown["before"] + 40, shown
+
+
+def test_clearance_is_plotted_where_there_is_something_to_touch(visit, collided, up):
+    for run, count in ((collided, 5), (up, 4)):
+        page = visit(run)
+        assert page.locator(".plot").count() == count
+    page = visit(collided)
+    plot = page.locator(".plot").nth(4)
+    assert plot.locator(".what").inner_text() == "Clearance of the rod (m)"
+    i = len(collided.t) // 2
+    page.evaluate("t => flypend.seek(t)", float(collided.t[i]))
+    until(page, f"() => document.querySelectorAll('.plot output')[8].textContent === '{collided.clearance[i]:.2f}'")

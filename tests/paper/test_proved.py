@@ -13,6 +13,7 @@ from flypend.paper.descent import RISES, descend, laws, relative_rises, wide_sta
 from flypend.paper.proved import SWING_UPS, claims_of, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
 from flypend.paper.saddle import crossing, loop_around, ways_down, winding
 from flypend.paper.stability import RUNAWAYS, runaway_starts
+from flypend.pictures.descent import basin_figure
 
 PAPERS, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
 HANGING = fp.Criterion(target="e3", position=np.inf)
@@ -161,3 +162,16 @@ def test_the_basin_on_the_plane_is_everything_but_the_exceptional_set():
     assert np.all(found.domain[lost] < 1e-12)
     on_saddle = found.settling[6, 0]  # y = −e₃, z = e₃: leaves the saddle by roundoff, or never
     assert np.isnan(on_saddle) or on_saddle > 2 * np.nanmedian(found.settling)
+
+
+def test_where_theorem_b_is_lost_to_double_precision_the_picture_says_so():
+    """Every start in the domain settles, or ends as singular with the rod near y = −d."""
+    found = basin(fp.laws.almost_global(), fp.vehicle("hehn2011"), 31)
+    lost = np.isnan(found.settling)
+    assert np.array_equal(lost & (found.domain > 1e-12), found.unresolved)
+    near = np.abs(found.angles) > np.deg2rad(165)
+    assert found.unresolved[:, near].any()
+    assert not found.unresolved[:, ~near].any()
+    figure = basin_figure([found])
+    said = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert said == ["the exceptional set", "passed it closer than double precision resolves"]

@@ -11,14 +11,19 @@ import matplotlib.colors
 import matplotlib.text
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 import flypend as fp
 from flypend import geometry, palette
 from flypend.laws.references import circle
 from flypend.model import gravity_vector
+from flypend.palette import RED
 from flypend.paper import experiment
 from flypend.pictures import canvas, drawing, figures
+from flypend.pictures.frames import stage
 from flypend.pictures.style import STYLES, style_named
 
 ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
@@ -59,7 +64,8 @@ def states():
 def test_the_drawing_is_the_machine(states, name):
     vehicle = fp.vehicle(name)
     thrust = np.linspace(-2, 2, 40) * vehicle.weight
-    shape = drawing.sketch(states, vehicle, thrust)
+    forces = np.linspace(-1, 1, 160).reshape(40, 4) * vehicle.weight
+    shape = drawing.sketch(states, vehicle, thrust, forces)
     seen = geometry.apply(np.swapaxes(states.R, -1, -2)[:, None, None], shape.discs - states.x[:, None, None])
     np.testing.assert_allclose(seen[..., 2], 0, atol=1e-12)  # the rotors turn in the plane of the body
     np.testing.assert_allclose(seen[..., :-1, :].mean(axis=2), np.tile(vehicle.rotor_positions, (40, 1, 1)), atol=1e-12)
@@ -71,7 +77,11 @@ def test_the_drawing_is_the_machine(states, name):
     arrow = shape.thrust[:, 1] - shape.thrust[:, 0]
     share = np.clip(0.7 * thrust / vehicle.weight, -1.1, 1.1)
     np.testing.assert_allclose(arrow, (share * vehicle.rod_length)[:, None] * states.z, atol=1e-12)
-    everything = [shape.bob[:, None], shape.discs.reshape(40, -1, 3), shape.thrust]
+    np.testing.assert_allclose(shape.rotor_thrusts[..., 0, :], shape.arms[..., 1, :])
+    arrows = shape.rotor_thrusts[..., 1, :] - shape.rotor_thrusts[..., 0, :]
+    share = 0.32 / 0.7 * np.clip(0.7 * 4 * forces / vehicle.weight, -1.1, 1.1)
+    np.testing.assert_allclose(arrows, (share * vehicle.rod_length)[..., None] * states.z[:, None], atol=1e-12)
+    everything = [shape.bob[:, None], shape.discs.reshape(40, -1, 3), shape.thrust, shape.rotor_thrusts[..., 1, :]]
     assert geometry.norm(np.concatenate(everything, axis=1) - states.x[:, None]).max() <= drawing.reach(vehicle) + 1e-12
 
 
@@ -105,13 +115,29 @@ def test_both_frames_give_the_same_picture(run, view):
     pictures = []
     for shown in (run, run.flipped()):
         camera = drawing.camera_for(shown, view, distance=4.0)
-        shape = drawing.sketch(drawing.states_at(shown, run.t), shown.vehicle, drawing.thrust_at(shown, run.t))
-        parts = (shape.discs, shape.arms, shape.rod, shape.thrust)
-        pictures.append(
-            [drawing.project(camera, part.reshape(len(run.t), -1, 3) - shape.pivot[:, None]) for part in parts]
-        )
+        shape = drawing.sketch_at(shown, run.t, drawing.states_at(shown, run.t))
+        parts = (shape.discs, shape.arms, shape.rod, shape.thrust, shape.rotor_thrusts)
+        pictures.append([drawing.project(camera, part.reshape(len(run.t), -1, 3)) for part in parts])
     for one, other in zip(*pictures, strict=True):
         np.testing.assert_allclose(one, other, atol=1e-9)
+
+
+def test_the_thrust_does_not_hide_the_rod():
+    """In hover they lie along one line. The colour along the rod is the rod's, in movie and stop motion."""
+    vehicle, rod = fp.vehicle("hehn2011"), np.array(to_rgb(RED))
+    still = fp.simulate(vehicle, fp.laws.lqr(), fp.State(y=(0, 0, 1.0)), 0.2, plant="ideal")
+    frame = np.array(stage(still, np.linspace(0, 0.2, 3), "side", 1.0, (640, 640))(1, False))[:480, :, :3] / 255
+    figure = Figure(figsize=(4, 4), dpi=150)
+    ax = figure.add_axes((0, 0, 1, 1), xlim=(-0.75, 0.75), ylim=(-0.75, 0.75))
+    drawing.draw(ax, still, drawing.camera_for(still, "side", distance=4.0), (0.0, 0.0), 0.1, since=0.0)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    picture = np.array(canvas.buffer_rgba())[..., :3] / 255
+    for pixels in (frame, picture):
+        red = np.all(np.abs(pixels - rod) < 0.02, axis=-1)
+        rows = np.flatnonzero(red.any(axis=1))  # from bob to pivot, which the vehicle may cover
+        assert len(rows) > 0.95 * (rows[-1] - rows[0])
+        assert rows[-1] - rows[0] > 0.2 * len(pixels)
 
 
 @pytest.mark.parametrize("view", drawing.VIEWS)
@@ -173,9 +199,11 @@ def test_nothing_is_made_up_between_samples_too_far_apart(run):
 def test_the_thrust_that_carries_points_up_in_both_frames(run):
     late = run.t[-50:]
     for shown in (run, run.flipped()):
-        thrust = drawing.thrust_at(shown, late)
-        assert thrust.min() > 0
-        assert (drawing.states_at(shown, late).z[:, 2] > 0.99).all()
+        states = drawing.states_at(shown, late)
+        shape = drawing.sketch_at(shown, late, states)
+        for arrows in (shape.thrust, shape.rotor_thrusts):
+            assert (arrows[..., 1, 2] - arrows[..., 0, 2]).min() > 0
+        assert (states.z[:, 2] > 0.99).all()
 
 
 # The figures ----------------------------------------------------------------------------------------------------

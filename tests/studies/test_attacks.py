@@ -15,25 +15,16 @@ import time
 from collections import Counter
 
 import pytest
+from short_study import SHORT, content
 
 import flypend as fp
 from flypend.files.toml import toml_text
 from flypend.studies.sweep.bins import Runs
 from flypend.studies.sweep.store import existing
 
-SHORT = {
-    "vehicle": "nayak2018",
-    "law": {"name": "corrected"},
-    "plant": "ideal",
-    "duration": 1.0,
-    "judge_period": 0.1,
-    "runs": 100,
-    "chunk": 10,
-    "criterion": {"target": "e3", "position": float("inf"), "rod": 1.0, "axis": 0.5},
-    "vary": {"start": {"y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 2.0}}},
-}
-SMALL = SHORT | {"runs": 20}
-LONG = SHORT | {"runs": 400, "chunk": 20, "duration": 6.0, "rtol": 1e-9}
+TENS = SHORT | {"chunk": 10}
+SMALL = TENS | {"runs": 20}
+LONG = TENS | {"runs": 400, "chunk": 20, "duration": 6.0, "rtol": 1e-9}
 CHUNKS = 20
 # A process that has imported and compiled everything forks one for every command: they start within a millisecond.
 FORKS = """
@@ -105,14 +96,6 @@ def written(folder, name, table):
     (folder / name).write_text(toml_text(table), encoding="utf-8")
 
 
-def content(folder):
-    """Every file of a store by name, without its random id."""
-    files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    root = json.loads(files["zarr.json"])
-    root["attributes"].pop("id")
-    return files | {"zarr.json": json.dumps(root)}
-
-
 # Two writers ----------------------------------------------------------------------------------------------------------
 
 
@@ -120,7 +103,7 @@ def attack_double_starts(number, folder):
     """Two commands start on one store at once, of one study or of two; by exit codes."""
     found = Counter()
     for seed in (1, 2):
-        written(folder, f"{seed}.toml", SHORT | {"seed": seed})
+        written(folder, f"{seed}.toml", TENS | {"seed": seed})
     with Forks(folder) as forks:
         for k in range(number):
             name, force = f"{k}.zarr", ("--force",) * (k % 3 == 2)

@@ -9,32 +9,13 @@ import sys
 
 import pytest
 import zarr
+from short_study import SHORT, content
 
 import flypend as fp
 from flypend.files.toml import toml_text
 from flypend.studies.sweep.bins import Runs
 from flypend.studies.sweep.claim import alone, lock_of
 from flypend.studies.sweep.store import existing
-
-SHORT = {
-    "vehicle": "nayak2018",
-    "law": {"name": "corrected"},
-    "plant": "ideal",
-    "duration": 1.0,
-    "judge_period": 0.1,
-    "runs": 100,
-    "chunk": 40,
-    "criterion": {"target": "e3", "position": float("inf"), "rod": 1.0, "axis": 0.5},
-    "vary": {"start": {"y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 2.0}}},
-}
-
-
-def content(folder):
-    """Every file of a store by name, without its random id."""
-    files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    root = json.loads(files["zarr.json"])
-    root["attributes"].pop("id")
-    return files | {"zarr.json": json.dumps(root)}
 
 
 @pytest.fixture

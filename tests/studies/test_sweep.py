@@ -1,7 +1,6 @@
 """Sweeps: run i depends on the study and i alone, a store survives everything, and no store is mistaken for another."""
 
 import itertools
-import json
 import math
 import os
 import signal
@@ -14,6 +13,7 @@ import psutil
 import pytest
 import zarr
 from scipy.stats import kstest
+from short_study import SHORT, content
 
 import flypend as fp
 from flypend.files.toml import toml_text
@@ -27,17 +27,6 @@ from flypend.studies.sweep.claim import lock_of
 from flypend.studies.sweep.design import design
 from flypend.studies.sweep.store import _seal, existing
 
-SHORT = {
-    "vehicle": "nayak2018",
-    "law": {"name": "corrected"},
-    "plant": "ideal",
-    "duration": 1.0,
-    "judge_period": 0.1,
-    "runs": 100,
-    "chunk": 40,
-    "criterion": {"target": "e3", "position": math.inf, "rod": 1.0, "axis": 0.5},
-    "vary": {"start": {"y": "uniform", "R": "uniform", "omega": {"ball": 3.0}, "y_dot": {"disc": 2.0}}},
-}
 GRID = SHORT | {"runs": 3, "vary": {"start": {"tilt": {"from": 0.0, "to": 3.0, "points": 4}, "R": "uniform"},
                                     "gains": {"k_d": {"values": [0.5, 2.0]}}}}  # fmt: skip
 NOISY = {
@@ -59,14 +48,6 @@ def same(one, other):
     assert one.keys() == other.keys()
     for name in one:
         np.testing.assert_array_equal(one[name], other[name], err_msg=name)
-
-
-def content(folder):
-    """Every file of a store by name, without its random id."""
-    files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    root = json.loads(files["zarr.json"])
-    root["attributes"].pop("id")
-    return files | {"zarr.json": json.dumps(root)}
 
 
 # What is drawn --------------------------------------------------------------------------------------------------------

@@ -12,13 +12,24 @@ export class Player {
     this.clock = clock;
     parent.innerHTML = `<button class="play" type="button"><svg viewBox="0 0 24 24" aria-hidden="true"><path/></svg></button>
       <output class="time"></output>
-      <input class="line" type="range" step="any" aria-label="Time">
+      <span class="track"><input class="line" type="range" step="any" aria-label="Time"></span>
       <label class="speed"><span>speed</span> <select aria-label="Speed"></select></label>`;
     const find = (selector) => parent.querySelector(selector);
     Object.assign(this, { button: find(".play"), icon: find("path"), time: find(".time"), line: find(".line"), speed: find("select") });
     this.button.addEventListener("click", () => clock.toggle());
     this.line.addEventListener("input", () => clock.seek(Number(this.line.value)));
     this.speed.addEventListener("change", () => clock.setSpeed(Number(this.speed.value)));
+  }
+
+  /** Mark on the time line where a rod touched, and say what. */
+  mark(flights) {
+    const { clock } = this, track = this.line.parentElement;
+    track.replaceChildren(this.line, ...flights.filter((flight) => flight.verdict.part).map(({ end, verdict }) => {
+      const mark = document.createElement("i"), words = `${verdict.reason} at ${end.toFixed(2)} s`;
+      Object.assign(mark, { className: "touch", role: "img", ariaLabel: words, title: words });
+      mark.style.setProperty("--at", (end - clock.start) / (clock.end - clock.start || 1));
+      return mark;
+    }));
   }
 
   show() {

@@ -66,13 +66,14 @@ export class Flight {
     };
   }
 
-  /** Values to plot over `t`: "y3", "z3", "thrust", "distance" from the reference, or "rotor k". */
+  /** Values to plot over `t`: "y3", "z3", "thrust", "distance" from the reference, "clearance", or "rotor k". */
   series(name) {
     const rotor = /^rotor (\d+)$/.exec(name);
     const read = {
       y3: (i) => this.columns.y[3 * i + 2],
       z3: (i) => matrix(this.sample("quat_xyzw", i, 4))[2][2],
       thrust: (i) => this.columns.thrust[i],
+      clearance: (i) => this.columns.clearance[i],
       distance: (i) => Math.hypot(...this.sample("x", i).map((value, k) => value - this.columns.x_ref[3 * i + k])),
     }[name] ?? ((i) => this.columns.rotor_forces[this.rotors * i + Number(rotor[1]) - 1]);
     return Float32Array.from(this.t, (_, i) => read(i));

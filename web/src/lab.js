@@ -102,11 +102,12 @@ class Laboratory {
     }, HOLD);
   }
 
-  choose(what, name) {
-    this.touched = `${what}.${what === "law" ? "name" : "base"}`;
-    const value = structuredClone(this.setting.value);
-    if (what === "law") value.law = { name, gains: {} };
-    else if (what === "vehicle") Object.assign(value, { vehicle: { base: name }, law: { name: value.law.name, gains: {} } });
+  choose(path, name) {
+    this.touched = path;
+    const value = structuredClone(this.setting.value), { mount } = value.vehicle;
+    if (path === "law.name") value.law = { name, gains: {} };
+    else if (path === "vehicle.mount") value.vehicle.mount = name;
+    else if (path === "vehicle.base") Object.assign(value, { vehicle: { base: name, mount }, law: { name: value.law.name, gains: {} } });
     else value.plant = { base: name };
     this.setting.replace(value);
   }
@@ -114,7 +115,7 @@ class Laboratory {
   reset(group) {
     const value = structuredClone(this.setting.value);
     if (group === "gains") value.law.gains = {};
-    else Object.assign(value, { plant: { base: value.plant.base }, vehicle: { base: value.vehicle.base } });
+    else Object.assign(value, { plant: { base: value.plant.base }, vehicle: { base: value.vehicle.base, mount: value.vehicle.mount } });
     this.setting.replace(value);
   }
 

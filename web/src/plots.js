@@ -12,8 +12,8 @@ const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut of
  * One plot. `options`: title (of this program, may hold tags; `plain` without), unit, `lines` ([{label, role, mark, dash,
  * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]
  * at the right edge), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
- * `scale` (the usual size of a value), `least` (the shortest axis), `end` (time that all share). `seek` is called with a
- * time when the plot is touched.
+ * `scale` (the usual size of a value), `least` (the shortest axis), `touches` (times of collisions), `end` (time that all
+ * share). `seek` is called with a time when the plot is touched.
  */
 export class Plot {
   constructor(parent, options, seek) {
@@ -33,7 +33,7 @@ export class Plot {
 
   /** Show something else, with options as for a new plot; `draw` puts it on the canvas. */
   load(options) {
-    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, ...options });
+    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], ...options });
     this.root.querySelector(".what").innerHTML = options.unit ? `${options.title} (${options.unit})` : options.title;
     const values = this.root.querySelector(".values");
     values.replaceChildren();
@@ -147,6 +147,7 @@ export class Plot {
       context.fillText(last ? `${tick(value)} s` : tick(value), last ? width - 2 : place.x(value), height - 5);
     }
     for (const [value] of this.levels) line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.muted, [2, 3]);
+    for (const t of this.touches) line(place.x(t), TOP, place.x(t), height - BOTTOM, colours.alarm, [4, 2]);
   }
 
   /** Words at the right edge, over the curves and with a rim that keeps them legible. */

@@ -10,13 +10,15 @@ const LEAST_DISTANCE = 0.05; // m: an axis of the position error shows at least 
 export function plots(flights) {
   const [first] = flights;
   const start = Math.min(...flights.map((flight) => flight.start)), end = Math.max(...flights.map((flight) => flight.end));
-  const line = (name, label, role, mark) => flights.map((flight, i) => ({
-    label: i ? "" : label, role, mark: i ? "" : mark, dash: DASHES[i], width: i ? 1.3 : 1.8, opacity: i ? 0.75 : 1,
-    t: flight.t, values: flight.series(name),
-  }));
-  const axis = { start, end };
+  const line = (name, label, role, mark, of = flights) => of.map((flight, k) => {
+    const i = flights.indexOf(flight), style = { dash: DASHES[i], width: i ? 1.3 : 1.8, opacity: i ? 0.75 : 1 };
+    return { label: k ? "" : label, role, mark: k ? "" : mark, ...style, t: flight.t, values: flight.series(name) };
+  });
+  const touches = flights.filter((flight) => flight.verdict.part).map((flight) => flight.end);
+  const axis = { start, end, touches };
   const poles = first.e3 === "up" ? ["inverted", "hanging"] : ["hanging", "inverted"];
   const weight = (first.e3 === "up" ? 1 : -1) * first.vehicle.weight, share = first.vehicle.weight / first.rotors;
+  const free = flights.filter((flight) => flight.columns.clearance); // of a rod on a gimbal nothing is in the way
   const kinds = Array.from({ length: first.rotors }, (_, k) => k);
   return [
     {
@@ -39,5 +41,9 @@ export function plots(flights) {
       ...axis, title: "Distance from the reference", plain: "Distance from the reference", unit: "m", least: LEAST_DISTANCE,
       lines: line("distance", "‖<i>x</i> − <i>x</i><sub>ref</sub>‖", "ink", "disc"),
     },
+    ...(free.length ? [{
+      ...axis, title: "Clearance of the rod", plain: "Clearance of the rod", unit: "m", levels: [[0, "touches"]],
+      lines: line("clearance", "distance", "rod", "disc", free),
+    }] : []),
   ];
 }

@@ -50,9 +50,12 @@ export class Viewer {
     this.flights = runs.map((record) => new Flight(record));
     const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
     this.clock.span(Math.min(...starts), Math.max(...ends));
+    this.player.mark(this.flights);
     legend(this.parts.legend, this.flights);
     this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
-    plots(this.flights).forEach((options, i) => {
+    const wanted = plots(this.flights);
+    for (const plot of this.plots.splice(wanted.length)) plot.root.remove();
+    wanted.forEach((options, i) => {
       if (this.plots[i]) this.plots[i].load(options);
       else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
     });

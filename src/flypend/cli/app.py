@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import signal
 import sys
 import traceback
@@ -17,6 +18,7 @@ from flypend import __version__
 from flypend.cli import check, examples, listing, studies, theorem, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
+from flypend.compile.aside import left_behind
 from flypend.errors import InputError
 
 
@@ -350,16 +352,28 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # the terminal's encoding may lack ✓ or ẍ
     try:
-        code = app(prog_name="flypend", standalone_mode=False)
+        code: object = _called()
+    except SystemExit as end:
+        code = end.code
+    if left_behind():  # interrupted in a compiler, for which the end of the interpreter would wait
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code if isinstance(code, int) else 1)
+    sys.exit(code)  # type: ignore[arg-type]
+
+
+def _called() -> int:
+    """Call the command of the arguments, and return its exit code."""
+    try:
+        return app(prog_name="flypend", standalone_mode=False) or 0
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
-        sys.exit(2)
+        return 2
     except (InputError, click.ClickException) as error:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, click.ClickException) else str(error)
         say(" ".join(f"flypend: {message}".split()))
-        sys.exit(2)
+        return 2
     except (KeyboardInterrupt, click.Abort):
-        sys.exit(128 + signal.SIGINT)
-    sys.exit(code or 0)
+        return 128 + signal.SIGINT

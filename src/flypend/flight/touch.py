@@ -68,6 +68,12 @@ def touched(vehicle: Vehicle, part: int) -> str:
     return "the rod left the cone of its cup" if name == "cone" else "the cup would have had to pull the rod"
 
 
+def touched_part(vehicle: Vehicle, reason: str) -> str | None:
+    """Return the name in `part_names` of the part that an outcome's `reason` is about; None if it is about none."""
+    names = part_names(vehicle)
+    return next((name for part, name in enumerate(names) if touched(vehicle, part) == reason), None)
+
+
 class Touch(NamedTuple):
     """A touch: at which `share` of an interval, and the `reason` for an outcome."""
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from flypend.flight.criterion import Criterion
 from flypend.flight.metrics import metrics
+from flypend.flight.touch import touched_part
 from flypend.model.state import E3Direction
 
 MISSED = {"rod": "rod not settled", "axis": "vehicle not level", "position": "off its reference"}
@@ -27,12 +28,15 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
     -------
     dict
         `words`, one line; `good`, whether it succeeded; `settling` (s) and `excursion` (m), or None; `reason` why a run
-        ended early, or "".
+        ended early, or ""; `part`, what the rod of a collided run touched, or None.
     """
     judged = metrics(run, criterion or goal(run.e3))
+    part = touched_part(run.vehicle, run.outcome.reason)
     distance = f"excursion {round(judged.excursion, 2):.3g} m"
     if run.outcome.status != "completed":
         words = f"{run.outcome.status} after {run.outcome.time:.3g} s"
+        if part is not None:
+            words += f", {run.outcome.reason}"
     elif judged.success:
         pose = "upright" if run.e3 == "up" else "rod along e₃, which hangs,"
         words = f"{pose} after {judged.settling:.1f} s, {distance}"
@@ -44,4 +48,5 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
         "settling": judged.settling if judged.success else None,
         "excursion": judged.excursion if np.isfinite(judged.excursion) else None,
         "reason": run.outcome.reason,
+        "part": part,
     }

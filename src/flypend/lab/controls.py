@@ -16,6 +16,7 @@ from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
 from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 
+MOUNTS = {"gimbal": "gimbal, no limit", "hub": "hub, between arms", "cup": "cup, on top"}
 PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 BISECTIONS = 12  # to a fifth of a per cent of a slider with a range of a factor of four either way
@@ -26,7 +27,7 @@ def offer(own: OwnLaws | None = None) -> dict[str, Any]:
     """Return the choices (including the custom laws `own`), the presets, and the initial setting."""
     mine = list(own or ())
     first = {
-        "vehicle": {"base": "hehn2011"},
+        "vehicle": {"base": "hehn2011", "mount": "gimbal"},
         "law": {"name": mine[0] if mine else "inverted", "gains": {}},
         "plant": {"base": "rotors"},
         "start": plain(State(y=(0.0, 0.0, -1.0))),
@@ -35,6 +36,7 @@ def offer(own: OwnLaws | None = None) -> dict[str, Any]:
     }
     return {
         "vehicles": vehicle_names(),
+        "mounts": MOUNTS,
         "laws": [*law_names(), *mine],
         "plants": PLANTS,
         "first": first,
@@ -50,7 +52,7 @@ def _preset(name: str) -> dict[str, Any]:
     """An experiment of the paper as a setting, its start flipped into the e₃-up frame."""
     row = experiment(name)
     return {
-        "vehicle": {"base": row.vehicle.name},
+        "vehicle": {"base": row.vehicle.name, "mount": row.vehicle.mount},
         "law": {"name": "corrected", "gains": dict(row.gains)},
         "plant": {"base": row.plant},
         "start": plain(row.start.flipped()),

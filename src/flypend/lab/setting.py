@@ -27,7 +27,7 @@ from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_tabl
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
-    "vehicle": ("base", "rotor_limits"),
+    "vehicle": ("base", "mount", "rotor_limits"),
     "law": ("name", "gains"),
     "plant": ("base", "limits", "lag", "rate", "delay", "noise", "wind", "seed"),
     "start": (*SHAPES, "random"),

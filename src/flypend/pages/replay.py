@@ -19,7 +19,7 @@ import numpy as np
 
 from flypend import errors, palette
 from flypend.geometry import quat_xyzw_from_rotation
-from flypend.model import State
+from flypend.model import State, Vehicle
 from flypend.model.state import E3Direction
 from flypend.pages import sketch
 
@@ -120,6 +120,8 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "x_ref": np.stack([np.interp(t, run.t, along) for along in np.asarray(run.x_ref).T], axis=-1),
     }
     vehicle = run.vehicle
+    if vehicle.mount != "gimbal":
+        columns["clearance"] = np.interp(t, run.t, run.clearance)
     return {
         **names([run])[0],
         "law": run.law,
@@ -135,6 +137,8 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
             "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),
             "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
             "rotor_radius": sketch.disc_radius(vehicle),
+            "mount": vehicle.mount,
+            "body": None if vehicle.body is None else vehicle.body.to_dict(),
             "reach": sketch.reach(vehicle),
         },
         "columns": {name: _base64(values) for name, values in columns.items()},
@@ -180,8 +184,12 @@ def _finite(limits: Sequence[float]) -> list[float | None]:
 
 def _title(runs: Sequence[Run]) -> str:
     laws = list(dict.fromkeys(run.law for run in runs))
-    vehicles = list(dict.fromkeys(run.vehicle.name for run in runs))
+    vehicles = list(dict.fromkeys(_machine(run.vehicle) for run in runs))
     return f"{' and '.join(laws)} law{'s' if len(laws) > 1 else ''} on {' and '.join(vehicles)}"
+
+
+def _machine(vehicle: Vehicle) -> str:
+    return vehicle.name if vehicle.mount == "gimbal" else f"{vehicle.name}, {vehicle.mount}"
 
 
 def _upright(states: State, e3: E3Direction) -> State:

@@ -11,10 +11,11 @@ from flypend import geometry
 from flypend.model import State, Vehicle
 
 DISC_POINTS = 25
-DISC_SHARE = 0.28  # drawn rotor radius over the distance to the nearest rotor; vehicles have no rotor radius
+DISC_SHARE = 0.28  # drawn rotor radius over the distance to the nearest rotor, for a vehicle that tells no other
 BOB_SHARE = 0.08  # drawn bob radius over the rod length; the bob is a point mass
 HOVER_ARROW = 0.7  # length of the thrust arrow in hover over the rod length
 LONGEST_ARROW = 1.1  # maximum length of the thrust arrow over the rod length
+ROTOR_ARROW = 0.32 / HOVER_ARROW  # length of a rotor's arrow over that of the whole, both carrying their share
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -33,6 +34,8 @@ class Sketch:
         Which rotors are foremost along the body x axis.
     thrust : (..., 2, 3)
         Arrow from the pivot along the thrust: 0.7 rod lengths in hover, at most 1.1.
+    rotor_thrusts : (..., n, 2, 3)
+        Arrows from the rotors along their forces: 0.32 rod lengths in hover, at most 0.5.
     """
 
     pivot: Any
@@ -41,6 +44,7 @@ class Sketch:
     discs: Any
     front: Any
     thrust: Any
+    rotor_thrusts: Any
 
     @property
     def rod(self) -> Any:
@@ -48,7 +52,7 @@ class Sketch:
         return np.stack([self.pivot, self.bob], axis=-2)
 
 
-def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
+def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0, rotor_forces: Any = 0.0) -> Sketch:
     """Compute the drawing of `state`.
 
     Parameters
@@ -59,6 +63,8 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
         Source of the rotor positions and the rod length.
     thrust : (...)
         Thrust along z = R e₃, N, which sets the length of the arrow.
+    rotor_forces : (..., n)
+        Force of each rotor, N, which sets the length of its arrow.
     """
     rotors = vehicle.rotors_from_pivot
     radius, angle = disc_radius(vehicle), np.linspace(0.0, 2 * np.pi, DISC_POINTS)
@@ -67,8 +73,9 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
     ends = pivot[..., None, :] + np.einsum("...ij,nj->...ni", state.R, rotors)
     discs = pivot[..., None, None, :] + np.einsum("...ij,nkj->...nki", state.R, rotors[:, None] + circle)
     hover = max(vehicle.weight, 1e-9)  # without gravity, any thrust gets the longest arrow
-    length = np.clip(HOVER_ARROW * np.asarray(thrust, dtype=float) / hover, -LONGEST_ARROW, LONGEST_ARROW)
-    tip = pivot + geometry.scale(vehicle.rod_length * length, state.z)
+    tip = pivot + geometry.scale(_length(vehicle, np.asarray(thrust) / hover), state.z)
+    single = ROTOR_ARROW * _length(vehicle, len(rotors) * np.asarray(rotor_forces) / hover)
+    tips = ends + geometry.scale(np.broadcast_to(single, ends.shape[:-1]), state.z[..., None, :])
     return Sketch(
         pivot=pivot,
         bob=pivot + vehicle.rod_length * state.y,
@@ -76,20 +83,29 @@ def sketch(state: State, vehicle: Vehicle, thrust: Any = 0.0) -> Sketch:
         discs=discs,
         front=rotors[:, 0] > rotors[:, 0].max() - 1e-9,
         thrust=np.stack([pivot, tip], axis=-2),
+        rotor_thrusts=np.stack([ends, tips], axis=-2),
     )
+
+
+def _length(vehicle: Vehicle, relative: Any) -> Any:
+    """Length of the arrow (m) of a force `relative` to that in hover."""
+    return vehicle.rod_length * np.clip(HOVER_ARROW * np.asarray(relative, float), -LONGEST_ARROW, LONGEST_ARROW)
 
 
 def disc_radius(vehicle: Vehicle) -> float:
     """Drawn radius of the rotors of `vehicle`, m."""
+    if vehicle.body is not None:
+        return float(vehicle.body.disc_radius)
     rotors = vehicle.rotors_from_pivot
     gaps = np.linalg.norm(rotors[:, None] - rotors[None], axis=-1) + np.diag(np.full(len(rotors), np.inf))
     return float(DISC_SHARE * gaps.min())
 
 
 def reach(vehicle: Vehicle) -> float:
-    """Radius around the pivot that contains the drawing of `vehicle`, including the thrust arrow; m."""
-    rotors = float(np.linalg.norm(vehicle.rotors_from_pivot, axis=-1).max()) + disc_radius(vehicle)
-    return max(rotors, vehicle.rod_length * max(1 + BOB_SHARE, LONGEST_ARROW))
+    """Radius around the pivot that contains the drawing of `vehicle`, including the thrust arrows; m."""
+    rod, span = vehicle.rod_length, float(np.linalg.norm(vehicle.rotors_from_pivot, axis=-1).max())
+    rotors = max(span + disc_radius(vehicle), float(np.hypot(span, ROTOR_ARROW * LONGEST_ARROW * rod)))
+    return max(rotors, rod * max(1 + BOB_SHARE, LONGEST_ARROW))
 
 
 def main_direction(states: State) -> Any:

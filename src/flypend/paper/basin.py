@@ -31,12 +31,16 @@ class Basin:
         Settling time, s; NaN where the flight does not settle, or the law is not defined.
     domain : (n, n)
         The law's distance from its exceptional set: the least 1 + cosine of the angles to the targets.
+    unresolved : (n, n) bool
+        Which flights began in the domain and ended as singular: they came closer to the exceptional set than double
+        precision resolves.
     """
 
     law: str
     angles: NDArray[np.float64]
     settling: NDArray[np.float64]
     domain: NDArray[np.float64]
+    unresolved: NDArray[np.bool_]
 
     @property
     def edge(self) -> float:
@@ -59,6 +63,7 @@ def basin(law: Law, vehicle: Vehicle, points: int) -> Basin:
         angles,
         np.where(flown.success, flown.settling, np.nan).reshape(square),
         np.array(distance).reshape(square),
+        ((flown.cause == "singular") & (flown.end > 0)).reshape(square),
     )
 
 

@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from flypend.flight.trajectory import Trajectory
 from flypend.laws.named import THEOREM_1
-from flypend.palette import BLUE, GREEN, INK, ORANGE, PINK, RED
+from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, PINK, RED
 from flypend.paper.basin import Basin
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.pictures.style import style_named
@@ -68,7 +70,7 @@ def descent_figure(groups: Mapping[str, Mapping[str, Trajectory]], until: float,
 
 
 def basin_figure(panels: Sequence[Basin], *, style: str = "paper") -> Figure:
-    """Draw settling time over the planar starts at rest, one panel per law, the exceptional set in it.
+    """Draw settling time over the planar starts at rest, one panel per law, the exceptional set and lost flights in it.
 
     `style` is "paper" or "slides"; raises InputError for any other.
     """
@@ -83,10 +85,17 @@ def basin_figure(panels: Sequence[Basin], *, style: str = "paper") -> Figure:
         bar = figure.colorbar(shown, ax=ax, location="bottom", shrink=0.9, extend="max")
         bar.set_label("settling time (s)", fontsize=SMALL)
         bar.ax.tick_params(labelsize=SMALL)
+        lost = np.where(basin.unresolved, 1.0, np.nan)
+        ax.pcolormesh(degrees, degrees, lost, cmap=ListedColormap([GREY]), shading="nearest", rasterized=True)
         ax.contourf(degrees, degrees, basin.domain, levels=[-1.0, basin.edge], colors=[RED])
-        ax.set_title(f"{basin.law} law; red: the exceptional set", fontsize=SMALL)
+        ax.set_title(f"{basin.law} law", fontsize=SMALL)
         ax.set_xlabel(r"rod from its goal ($^\circ$)", fontsize=LABEL)
         ax.set_ylabel(r"thrust axis from its goal ($^\circ$)", fontsize=LABEL)
         ax.tick_params(labelsize=SMALL)
         ax.set_aspect("equal")
+    keys = [(RED, "the exceptional set")]
+    if any(basin.unresolved.any() for basin in panels):
+        keys.append((GREY, "passed it closer than double precision resolves"))
+    handles = [Patch(color=color, label=words) for color, words in keys]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=SMALL, frameon=False)
     return figure

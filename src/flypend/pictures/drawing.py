@@ -8,16 +8,15 @@ gravity).
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Circle
-from matplotlib.patheffects import withStroke
 
 from flypend import errors, geometry
 from flypend.flight.trajectory import Trajectory
-from flypend.model import State
+from flypend.model import State, Vehicle
 from flypend.model.state import project as project_states
 from flypend.pages import sketch as sketched
 from flypend.pages.sketch import BOB_SHARE, Sketch, disc_radius, reach, sketch
@@ -32,10 +31,11 @@ __all__ = [
     "draw",
     "gravity_symbol",
     "main_direction",
+    "outlines",
     "reach",
     "sketch",
+    "sketch_at",
     "states_at",
-    "thrust_at",
     "upright",
 ]
 
@@ -43,7 +43,8 @@ VIEWS = ("side", "axis")
 
 ROD: dict[str, Any] = {"color": RED, "linewidth": 3.0, "solid_capstyle": "round"}
 TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1))}
-THRUST: dict[str, Any] = {"color": GREEN, "linewidth": 1.1}
+SUM_STYLE: dict[str, Any] = {"facecolor": "none", "edgecolor": GREEN, "linewidth": 0.8, "zorder": 0.9}
+ROTOR_STYLE: dict[str, Any] = {"facecolor": GREEN, "edgecolor": "white", "linewidth": 0.3, "zorder": 3.2}
 
 EYE = 8.0  # camera distance over the reach of the drawing
 ELEVATION = np.deg2rad(12.0)  # of the side camera: level rotors appear as thin ellipses, not lines
@@ -108,9 +109,13 @@ def states_at(run: Trajectory, times: Any) -> State:
     return upright(State.from_packed(project_states((1 - share) * packed[before] + share * packed[after])[0]), run)
 
 
-def thrust_at(run: Trajectory, times: Any) -> Any:
-    """Thrust of `run` at `times` (n,), s, along z = R e₃ of the e₃-up frame; N, interpolated between samples."""
-    return np.interp(times, run.t, run.thrust) * (1.0 if run.e3 == "up" else -1.0)
+def sketch_at(run: Trajectory, times: Any, states: State) -> Sketch:
+    """Points of the drawing of `run` at `times` (n,), s, where its `states` are known, with the pivot at the origin."""
+    sign = 1.0 if run.e3 == "up" else -1.0
+    rotors = np.reshape(run.rotor_forces, (len(run.t), -1)).T
+    forces = np.stack([np.interp(times, run.t, force) for force in rotors], axis=-1)
+    centred = replace(states, x=np.zeros_like(states.x))
+    return sketch(centred, run.vehicle, sign * np.interp(times, run.t, run.thrust), forces)
 
 
 def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float, ghosts: int = 5) -> None:
@@ -139,7 +144,7 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
     rate = max(float(geometry.norm(states_at(run, t).y_dot)[0]), 1e-9)
     states = states_at(run, np.linspace(max(since, t - 2 * np.pi / rate), t, 40 * ghosts + 1))
     bobs = vehicle.rod_length * states.y
-    shape = sketch(replace(states[-1], x=np.zeros(3)), vehicle, thrust_at(run, t))
+    shape = sketch_at(run, t, states[-1])
     behind = depth(camera, shape.bob) > 0
 
     rods = [screen(np.array([shape.pivot, bob])) for bob in bobs[:-1:40]]
@@ -149,13 +154,36 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         style = {"facecolor": color, "edgecolor": INK, "linewidth": 0.6, "alpha": 0.6, "zorder": 3}
         ax.add_collection(PolyCollection(list(screen(shape.discs[shape.front == front])), **style))
     ax.add_collection(LineCollection(list(screen(shape.arms)), color=INK, linewidth=1.6, zorder=3.1))
-    if np.linalg.norm(np.diff(project(camera, shape.thrust), axis=0)) > 0.1 * vehicle.rod_length:  # else only a head
-        rim = [withStroke(linewidth=1.9, foreground="white")]  # keeps an arrow along the rod visible in greyscale
-        _arrow(ax, *screen(shape.thrust), **THRUST, path_effects=rim, zorder=4.2)
+    for arrows, form, style in ((shape.thrust[None], SUM, SUM_STYLE), (shape.rotor_thrusts, ROTOR, ROTOR_STYLE)):
+        ax.add_collection(PolyCollection(list(middle + outlines(project(camera, arrows), vehicle, form)), **style))
     ax.plot(*screen(shape.rod).T, **ROD, zorder=2 if behind else 4)
     radius = BOB_SHARE * vehicle.rod_length * float(magnification(camera, shape.bob))
     ball = {"facecolor": RED, "edgecolor": INK, "linewidth": 0.7, "zorder": 2.1 if behind else 4.1}
     ax.add_patch(Circle(screen(shape.bob), radius, **ball))
+
+
+class Form(NamedTuple):
+    """An arrow: width of its shaft, length and half width of its head, over the rod length."""
+
+    shaft: float
+    head: float
+    barb: float
+
+
+SUM = Form(0.11, 0.2, 0.12)  # wide enough for the rod to stand inside
+ROTOR = Form(0.03, 0.12, 0.045)
+
+
+def outlines(segments: Any, vehicle: Vehicle, form: Form) -> Any:
+    """Outlines (n, 7, 2) of arrows along `segments` (n, 2, 2), on the screen; a short one is smaller."""
+    along = segments[:, 1] - segments[:, 0]
+    length = np.linalg.norm(along, axis=1)[:, None]
+    along = along / np.maximum(length, 1e-9)
+    side = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    size = vehicle.rod_length * np.minimum(1.0, length / (1.2 * form.head * vehicle.rod_length))
+    tail, tip = segments[:, 0], segments[:, 1]
+    neck, shaft, barb = tip - form.head * size * along, 0.5 * form.shaft * size * side, form.barb * size * side
+    return np.stack([tail + shaft, neck + shaft, neck + barb, tip, neck - barb, neck - shaft, tail - shaft], axis=1)
 
 
 def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float) -> None:

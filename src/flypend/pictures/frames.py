@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from matplotlib.patches import Polygon
 from flypend import geometry
 from flypend.flight.trajectory import Trajectory
 from flypend.flight.verdict import verdict
-from flypend.model import State
+from flypend.model import State, Vehicle
 from flypend.pages.sketch import Sketch
 from flypend.palette import ALARM, BLUE, GOOD, GREEN, INK, ORANGE, REAR, RED
 from flypend.pictures import drawing, lettering
@@ -43,7 +42,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
     rod = run.vehicle.rod_length
     camera = drawing.camera_for(run, view, distance=drawing.EYE * drawing.reach(run.vehicle))
     states = drawing.states_at(run, times)
-    shape = drawing.sketch(replace(states, x=np.zeros(3)), run.vehicle, drawing.thrust_at(run, times))
+    shape = drawing.sketch_at(run, times, states)
     # A fast rod turns too far between frames for a straight line: use `finer` path points per frame.
     turn = geometry.norm(states.y_dot).max() * np.diff(times).max(initial=0.0)
     finer = int(np.clip(np.ceil(turn / 0.15), 1, 24))
@@ -60,7 +59,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
     parts = [
         *_grids(scene, run, states.x, camera, view, half),
         _trail(scene, project(camera, rod * path.y), finer, fine),
-        _body(scene, shape, camera, rod),
+        _body(scene, shape, camera, run.vehicle),
         _readout(head, times, states),
         _cursor(strip, times),
     ]
@@ -101,9 +100,9 @@ def _head(ax: Any, view: str, speed: float, size: tuple[int, int]) -> None:
     ax.set(xlim=(0, width), ylim=(0, 1))
     ax.set_axis_off()
     ax.text(0.12, 0.1, f"{speed:g} × real time", fontsize=8, color="#5a5a5a")
-    drawing.gravity_symbol(ax, view, (0.64 * width, 0.5), 0.3, fontsize=12)
+    drawing.gravity_symbol(ax, view, (0.56 * width, 0.5), 0.3, fontsize=12)
     handles = [
-        Line2D([], [], color=GREEN, linewidth=2.5, label="thrust"),
+        Line2D([], [], color=GREEN, linewidth=2.5, label="thrusts, sum in outline"),
         Line2D([], [], color=BLUE, linewidth=1.8, label=f"bob, last {TRAIL:g} s"),
         Line2D([], [], color=ORANGE, linewidth=0, marker="o", markeredgecolor=INK, label="front rotor"),
     ]
@@ -196,19 +195,21 @@ def _trail(ax: Any, points: Any, finer: int, t: Any) -> Part:
     return part
 
 
-def _body(ax: Any, shape: Sketch, camera: Camera, rod_length: float) -> Part:
-    """Quadrotor, thrust, rod and bob of `shape` (n, ...), with the pivot at the centre of `camera`."""
+def _body(ax: Any, shape: Sketch, camera: Camera, vehicle: Vehicle) -> Part:
+    """Quadrotor, thrusts, rod and bob of `shape` (n, ...), with the pivot at the centre of `camera`."""
     discs, arms = project(camera, shape.discs), project(camera, shape.arms)
     rods, behind = project(camera, shape.rod), depth(camera, shape.bob) > 0
-    radii = drawing.BOB_SHARE * rod_length * magnification(camera, shape.bob)
-    arrows = _arrows(project(camera, shape.thrust), 0.06 * rod_length)
+    radii = drawing.BOB_SHARE * vehicle.rod_length * magnification(camera, shape.bob)
+    whole = drawing.outlines(project(camera, shape.thrust), vehicle, drawing.SUM)
+    single = project(camera, shape.rotor_thrusts)
     angle = np.linspace(0, 2 * np.pi, 25)
     balls = rods[:, 1, None] + radii[:, None, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
     faces = [(*to_rgb(ORANGE if front else REAR), 0.65) for front in shape.front]
     rotors = ax.add_collection(PolyCollection([], facecolors=faces, edgecolors=INK, linewidths=1.0, animated=True))
     frame = ax.add_line(Line2D([], [], color=INK, linewidth=3.0, animated=True))
-    thrust = ax.add_patch(Polygon(np.zeros((1, 2)), facecolor=GREEN, edgecolor="none", animated=True))
+    thrust = ax.add_patch(Polygon(np.zeros((1, 2)), fill=False, edgecolor=GREEN, linewidth=1.6, animated=True))
+    thrusts = ax.add_collection(PolyCollection([], facecolors=GREEN, edgecolors="white", linewidths=0.6, animated=True))
     rod = ax.add_line(Line2D([], [], color=RED, linewidth=4.0, solid_capstyle="round", animated=True))
     bob = ax.add_patch(Polygon(np.zeros((1, 2)), facecolor=RED, edgecolor=INK, linewidth=1.2, animated=True))
 
@@ -216,25 +217,14 @@ def _body(ax: Any, shape: Sketch, camera: Camera, rod_length: float) -> Part:
         rotors.set_verts(list(discs[i]))
         ends = np.concatenate([arms[i], np.full((arms.shape[1], 1, 2), np.nan)], axis=1).reshape(-1, 2)
         frame.set_data(*ends.T)
-        thrust.set_xy(arrows[i])
+        thrust.set_xy(whole[i])
+        thrusts.set_verts(list(drawing.outlines(single[i], vehicle, drawing.ROTOR)))
         rod.set_data(*rods[i].T)
         bob.set_xy(balls[i])
-        return [rod, bob, rotors, frame, thrust] if behind[i] else [rotors, frame, rod, bob, thrust]
+        body = [rotors, frame, thrusts]
+        return [thrust, rod, bob, *body] if behind[i] else [thrust, *body, rod, bob]
 
     return part
-
-
-def _arrows(segments: Any, width: float) -> Any:
-    """Outlines (n, 7, 2) of arrows of the given `width` along `segments` (n, 2, 2); short arrows get smaller heads."""
-    along = segments[:, 1] - segments[:, 0]
-    length = np.linalg.norm(along, axis=1)[:, None]
-    along = along / np.maximum(length, 1e-9)
-    side = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    head = np.minimum(2.5 * width, length)
-    neck, tip = segments[:, 1] - head * along, segments[:, 1]
-    shaft, barb = 0.22 * width * side, 0.36 * head * side
-    tail = segments[:, 0]
-    return np.stack([tail + shaft, neck + shaft, neck + barb, tip, neck - barb, neck - shaft, tail - shaft], axis=1)
 
 
 def _readout(ax: Any, t: Any, states: State) -> Part:

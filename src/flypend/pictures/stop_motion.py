@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 
 from flypend import errors, geometry
 from flypend.flight.trajectory import Trajectory
-from flypend.palette import GREY, INK, ORANGE, RED
+from flypend.palette import GREEN, GREY, INK, ORANGE, RED
 from flypend.pictures import drawing
 from flypend.pictures.camera import project
 from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
-from flypend.pictures.drawing import THRUST, TRAIL
+from flypend.pictures.drawing import TRAIL
 from flypend.pictures.style import Style, letter, style_of
 
 PICTURES = 0.726  # fraction of the figure width for the stop-motion pictures
@@ -102,9 +102,9 @@ def _key(ax: Any, run: Trajectory, view: str, level: float, width: float) -> Non
     drawing.gravity_symbol(ax, view, (0.285 * width, level), 0.028 * width, fontsize=LABEL)
     front = {"color": ORANGE, "markeredgecolor": INK, "markeredgewidth": 0.6, "marker": "o", "markevery": [1]}
     entries = (
-        ("front rotor", {**front, "linestyle": ""}, 0.35),
-        ("thrust", THRUST, 0.53),
-        ("bob since the last picture", TRAIL, 0.665),
+        ("front rotor", {**front, "linestyle": ""}, 0.33),
+        ("thrusts, sum in outline", {"color": GREEN, "linewidth": 1.8}, 0.5),
+        ("path of the bob", TRAIL, 0.8),
     )
     for words, style, start in entries:
         ax.plot([start * width, (start + 0.035) * width], [level, level], **style)

@@ -9,6 +9,7 @@ const HTML = `
   <section><h2>Flight <button type="button" class="small undo" title="Take back the last change (Ctrl+Z)" disabled>undo</button>
     <button type="button" class="small redo" title="Do it again (Ctrl+Shift+Z)" disabled>redo</button></h2>
     <label class="row">Vehicle <select data-path="vehicle.base"></select></label>
+    <label class="row">Mount <select data-path="vehicle.mount"></select></label>
     <label class="row">Law <select data-path="law.name"></select></label>
     <label class="row">Plant <select data-path="plant.base"></select></label>
     <div class="flight"></div></section>
@@ -49,11 +50,14 @@ export class Panel {
 
   #choices() {
     const { offer } = this.lab;
-    const options = { vehicle: offer.vehicles.map((name) => [name, NAMES[name] ?? name]), law: offer.laws.map((name) => [name, name]), plant: Object.entries(offer.plants) };
-    this.selects = Object.entries(options).map(([what, entries]) => {
-      const select = this.#find(`select[data-path^="${what}."]`);
+    const options = {
+      "vehicle.base": offer.vehicles.map((name) => [name, NAMES[name] ?? name]), "vehicle.mount": Object.entries(offer.mounts),
+      "law.name": offer.laws.map((name) => [name, name]), "plant.base": Object.entries(offer.plants),
+    };
+    this.selects = Object.entries(options).map(([path, entries]) => {
+      const select = this.#find(`select[data-path="${path}"]`);
       select.append(...entries.map(([name, words]) => new Option(words, name)));
-      select.addEventListener("change", () => this.lab.choose(what, select.value));
+      select.addEventListener("change", () => this.lab.choose(path, select.value));
       return select;
     });
     this.#find(".undo").addEventListener("click", () => this.lab.setting.undo());
@@ -135,7 +139,7 @@ export class Panel {
     this.#find(".redo").disabled = !this.lab.setting.future.length;
     for (const select of this.selects) {
       const [what, key] = select.dataset.path.split(".");
-      select.value = value[what]?.[key];
+      select.value = value[what]?.[key] ?? this.lab.offer.first[what][key]; // an older address tells no mount
     }
     const y = value.start.y;
     if (y) {

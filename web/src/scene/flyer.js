@@ -40,6 +40,7 @@ export class Flyer extends Group {
   show(pose) {
     this.pose = upright(pose, this.flight.e3);
     this.model.show(this.pose);
+    this.model.touch(pose.t >= this.flight.end ? this.flight.verdict.part : null);
     this.marker.position.set(...this.pose.x_ref);
   }
 

@@ -2,13 +2,15 @@
 
 import {
   CircleGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial,
-  RingGeometry, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry, Vector3,
+  RingGeometry, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry, TorusGeometry, Vector3,
 } from "three";
 
 const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
 const Z = new Vector3(0, 0, 1);
 const HOVER_ARROW = 0.7, LONGEST_ARROW = 1.1; // lengths of the thrust arrow over the rod, as in the figures
 const ROTOR_ARROW = 0.32; // the same for one rotor that carries its share
+const CUP = 0.24; // slant height of a cup over the rod
+const SWOLLEN = 2; // how much thicker an arm that was touched is drawn, to be seen
 
 const RIM_VERTEX = `
 varying vec3 normalSeen, seen;
@@ -70,8 +72,16 @@ function rotor(radius, paint, ghost, height) {
   motor.rotation.x = Math.PI / 2;
   motor.position.z = -height / 2;
   group.add(blades, disc, rim, motor);
-  group.userData.blades = blades;
+  Object.assign(group.userData, { blades, disc: [disc, rim] });
   return group;
+}
+
+/** A cylinder from `start` to `end`, thinner there where `taper` is less than 1. */
+function bar(start, end, radius, paint, ghost, taper = 1) {
+  const along = end.clone().sub(start), mesh = solid(new CylinderGeometry(taper * radius, radius, along.length(), 14), paint, ghost);
+  mesh.quaternion.setFromUnitVectors(UP, along.clone().normalize());
+  mesh.position.copy(start).addScaledVector(along, 0.5);
+  return mesh;
 }
 
 /** An arrow along +z of its group, of length 1 before `stretch`. */
@@ -97,10 +107,14 @@ class Arrow extends Group {
 }
 
 export class Model extends Group {
-  /** `vehicle` has rod_length, weight, rotor_positions, rotor_spins, rotor_radius (SI, body frame front-left-up). */
+  /**
+   * `vehicle` has rod_length, weight, rotor_positions, rotor_spins, rotor_radius (SI, body frame front-left-up), mount
+   * and body. What the rod can touch is drawn to scale, and is in `parts` by its name.
+   */
   constructor(vehicle, { ghost = false } = {}) {
     super();
-    Object.assign(this, { vehicle, ghost, paint: paints(ghost) });
+    Object.assign(this, { vehicle, ghost, paint: paints(ghost), parts: {}, touched: null });
+    this.alarm = new MeshBasicMaterial({ transparent: true, opacity: 0.85, side: DoubleSide });
     const rod = vehicle.rod_length;
     const span = Math.max(...vehicle.rotor_positions.map((position) => Math.hypot(...position)));
     this.body = new Group();
@@ -113,26 +127,47 @@ export class Model extends Group {
 
   #frame(span) {
     const { vehicle, paint, ghost } = this;
-    const hub = solid(new SphereGeometry(0.2 * span, 32, 20), paint.body, ghost);
-    hub.scale.z = 0.45;
-    this.body.add(hub);
+    const open = vehicle.mount === "hub"; // the rod passes between the arms, and through the ring that carries them
+    const { hub_radius: hub, arm_radius: arm } = open ? vehicle.body : { hub_radius: 0, arm_radius: 0.045 * span };
+    this.body.add(open ? solid(new TorusGeometry(hub, arm, 14, 48), paint.body, ghost) : this.#hub(span));
     const front = Math.max(...vehicle.rotor_positions.map((position) => position[0])) - 1e-9;
-    const lift = 0.13 * span;
+    const lift = open ? 0 : 0.13 * span; // how high discs are drawn above the arms, where nothing can touch them
     this.glass = { front: this.#disc(), rear: this.#disc() };
-    this.rotors = vehicle.rotor_positions.map((position) => {
+    if (vehicle.mount === "cup") this.#cup();
+    this.rotors = vehicle.rotor_positions.map((position, k) => {
       const side = position[0] > front ? "front" : "rear";
-      const end = new Vector3(...position);
-      const arm = solid(new CylinderGeometry(0.03 * span, 0.045 * span, end.length(), 14), paint.body, ghost);
-      arm.quaternion.setFromUnitVectors(UP, end.clone().normalize());
-      arm.position.copy(end).multiplyScalar(0.5);
+      const end = new Vector3(...position), rim = end.clone().setLength(hub);
+      const strut = bar(rim, end, arm, paint.body, ghost, open ? 1 : 2 / 3);
       const parts = { blade: paint[side], disc: this.glass[side], body: paint.body };
-      const turning = rotor(vehicle.rotor_radius, parts, ghost, lift);
+      const turning = rotor(vehicle.rotor_radius, parts, ghost, 0.13 * span);
+      Object.assign(this.parts, { [`disc ${k + 1}`]: turning.userData.disc, [`arm ${k + 1}`]: [strut] });
       turning.position.copy(end).add(new Vector3(0, 0, lift));
       const arrow = new Arrow(0.02 * vehicle.rod_length, paint.thrust, ghost);
       arrow.position.copy(turning.position);
-      this.body.add(arm, turning, arrow);
+      this.body.add(strut, turning, arrow);
       return { blades: turning.userData.blades, arrow };
     });
+  }
+
+  #hub(span) {
+    const hub = solid(new SphereGeometry(0.2 * span, 32, 20), this.paint.body, this.ghost);
+    hub.scale.z = 0.45;
+    return hub;
+  }
+
+  /** The cup, as far as its cone goes: the rod is lost beyond it, or where the cup would have to pull. */
+  #cup() {
+    const { vehicle, ghost } = this, angle = vehicle.body.cup_angle, slant = CUP * vehicle.rod_length;
+    const height = slant * Math.cos(angle), wide = slant * Math.sin(angle);
+    const glass = new MeshBasicMaterial({ transparent: true, opacity: ghost ? 0.12 : 0.3, side: DoubleSide, depthWrite: false });
+    const cup = new Mesh(new CylinderGeometry(wide, 0, height, 48, 1, true), glass);
+    const rim = solid(new TorusGeometry(wide, 0.008 * vehicle.rod_length, 8, 64), this.paint.body, ghost);
+    cup.rotation.x = Math.PI / 2;
+    cup.position.z = height / 2;
+    rim.position.z = height;
+    this.glass.cup = glass;
+    this.body.add(cup, rim);
+    Object.assign(this.parts, { cone: [cup, rim], cup: [cup, rim] });
   }
 
   #disc() {
@@ -142,13 +177,28 @@ export class Model extends Group {
   #rod(length) {
     const { paint, ghost } = this;
     this.pole = new Group();
-    const stick = solid(new CylinderGeometry(0.016 * length, 0.016 * length, length, 16), paint.rod, ghost);
+    const thick = this.vehicle.mount === "gimbal" ? 0.016 * length : this.vehicle.body.rod_radius;
+    const stick = solid(new CylinderGeometry(thick, thick, length, 16), paint.rod, ghost);
     stick.rotation.x = Math.PI / 2;
     stick.position.z = length / 2;
     const bob = solid(new SphereGeometry(0.08 * length, 36, 24), paint.rod, ghost);
     bob.position.z = length;
     this.pole.add(stick, bob, solid(new SphereGeometry(0.032 * length, 20, 14), paint.rod, ghost));
     return this.pole;
+  }
+
+  /** Paint the `part` that the rod touched in the colour of alarm; null for none. */
+  touch(part) {
+    if (part === this.touched) return;
+    for (const mesh of this.parts[this.touched] ?? []) {
+      mesh.material = mesh.userData.paint;
+      mesh.scale.set(1, 1, 1);
+    }
+    for (const mesh of this.parts[part] ?? []) {
+      Object.assign(mesh, { userData: { paint: mesh.material }, material: this.alarm });
+      if (part.startsWith("arm")) mesh.scale.set(SWOLLEN, 1, SWOLLEN);
+    }
+    this.touched = part;
   }
 
   /** Show `pose`, in the frame with e3 up. */
@@ -176,6 +226,7 @@ export class Model extends Group {
       paint.side = DoubleSide;
     }
     this.rim.uniforms.color.value.set(this.ghost ? colours.ghost : colours.thrust);
-    for (const [side, glass] of Object.entries(this.glass)) glass.color.set(this.ghost ? colours.ghost : colours[side]);
+    for (const [side, glass] of Object.entries(this.glass)) glass.color.set(this.ghost ? colours.ghost : colours[side === "cup" ? "body" : side]);
+    this.alarm.color.set(colours.alarm);
   }
 }

@@ -72,33 +72,61 @@ class Setting(NamedTuple):
     times: Any
 
 
-def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[..., Results]:
-    """Return a JAX function (starts (24, n), parameters (k, n), setting) → results.
+class Progress(NamedTuple):
+    """A flight of n runs between two pieces: its lanes, the next run to start, and the results so far."""
 
-    It integrates the first `setting.count` runs, up to `lanes` of them at a time, and is recompiled for each n.
+    lanes: Lanes
+    following: Any
+    results: Results
+
+
+class Integrator(NamedTuple):
+    """JAX functions that fly the first `setting.count` of n runs piece by piece.
+
+    `begin`: starts (24, n), parameters (k, n), setting → progress, with no run started. `advance`: progress, starts,
+    parameters, setting, largest number of steps → progress, and whether any run is still to be flown; it is recompiled
+    for each n.
     """
+
+    begin: Callable[..., Progress]
+    advance: Callable[..., tuple[Progress, Any]]
+
+
+def write_integrator(problem: Problem, method: Method, lanes: int) -> Integrator:
+    """Return the integrator of `problem`, which flies up to `lanes` runs at a time."""
     import jax
     import jax.numpy as jnp
 
     step = _Step(problem, method)
 
-    def fly(starts: Any, parameters: Any, setting: Setting) -> Results:
-        n, width = starts.shape[1], min(lanes, starts.shape[1])
+    def started(run: Any, starts: Any, parameters: Any, setting: Setting) -> Lanes:
+        place = jnp.minimum(run, starts.shape[1] - 1)
+        begun = step.begin(run, starts[:, place], parameters[:, place], setting)
+        return begun._replace(code=jnp.where(run < setting.count, begun.code, IDLE))
 
-        def begin(run: Any) -> Lanes:
-            place = jnp.minimum(run, n - 1)
-            begun = step.begin(run, starts[:, place], parameters[:, place], setting)
-            return begun._replace(code=jnp.where(run < setting.count, begun.code, IDLE))
+    def begin(starts: Any, parameters: Any, setting: Setting) -> Progress:
+        rows, n = starts.shape
+        numbers, codes = jnp.zeros(n + 1), jnp.zeros(n + 1, int)
+        none = Results(jnp.zeros((rows, n + 1)), numbers, codes, codes, jnp.zeros((step.reductions, n + 1)))
+        runs = jnp.arange(min(lanes, n))
+        shapes = jax.eval_shape(started, runs, starts, parameters, setting)
+        ended: Lanes = jax.tree.map(lambda some: jnp.zeros(some.shape, some.dtype), shapes)
+        # Every lane has ended run n, which is none: the first step gives it its first run.
+        ended = ended._replace(run=jnp.full(runs.shape, n), code=jnp.full(runs.shape, COMPLETED))
+        return Progress(ended, jnp.asarray(0), none)
 
-        def body(carry: tuple[Lanes, Any, Results]) -> tuple[Lanes, Any, Results]:
-            now, following, results = carry
+    def advance(progress: Progress, starts: Any, parameters: Any, setting: Setting, most: Any) -> tuple[Progress, Any]:
+        n = starts.shape[1]
+
+        def body(carry: tuple[Progress, Any]) -> tuple[Progress, Any]:
+            (now, following, results), taken = carry
             now = step(now, parameters[:, jnp.minimum(now.run, n - 1)], setting)
             ended = (now.code != FLYING) & (now.code != IDLE)
-            after: tuple[Lanes, Any, Results]
-            after = jax.lax.cond(ended.any(), refilled, lambda *same: same[:3], now, following, results, ended)
-            return after
+            same = Progress(now, following, results)
+            return jax.lax.cond(ended.any(), refilled, lambda same, _: same, same, ended), taken + 1
 
-        def refilled(now: Lanes, following: Any, results: Results, ended: Any) -> tuple[Lanes, Any, Results]:
+        def refilled(progress: Progress, ended: Any) -> Progress:
+            now, following, results = progress
             place = jnp.where(ended, now.run, n)
             results = Results(
                 results.s.at[:, place].set(now.s), results.t.at[place].set(now.t),
@@ -107,17 +135,18 @@ def write_integrator(problem: Problem, method: Method, lanes: int) -> Callable[.
                     step.judge.reductions(now.judged, now.t, setting.times)
                 ),
             )  # fmt: skip
-            fresh = begin(jnp.where(ended, following + jnp.cumsum(ended) - 1, now.run))
+            run = jnp.where(ended, following + jnp.cumsum(ended) - 1, now.run)
+            fresh = started(run, starts, parameters, setting)
             merged: Lanes = jax.tree.map(lambda new, old: jnp.where(ended, new, old), fresh, now)
-            return merged, following + jnp.sum(ended), results
+            return Progress(merged, following + jnp.sum(ended), results)
 
-        first = begin(jnp.arange(width))
-        numbers, codes = jnp.zeros(n + 1), jnp.zeros(n + 1, int)
-        none = Results(jnp.zeros((len(starts), n + 1)), numbers, codes, codes, jnp.zeros((step.reductions, n + 1)))
-        carry = (first, jnp.asarray(width), none)
-        return jax.lax.while_loop(lambda carry: (carry[0].code != IDLE).any(), body, carry)[2]
+        def flying(progress: Progress) -> Any:
+            return (progress.lanes.code != IDLE).any()
 
-    return jax.jit(fly)
+        progress, _ = jax.lax.while_loop(lambda carry: flying(carry[0]) & (carry[1] < most), body, (progress, 0))
+        return progress, flying(progress)
+
+    return Integrator(begin, jax.jit(advance))
 
 
 class _Step:

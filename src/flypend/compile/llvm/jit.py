@@ -10,7 +10,7 @@ import shutil
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import lru_cache
+from functools import lru_cache, partial
 from logging import getLogger
 from pathlib import Path
 from threading import Lock
@@ -19,7 +19,11 @@ from typing import Any
 import llvmlite.binding as llvm
 from platformdirs import user_cache_path
 
+<<<<<<< HEAD
 from flypend.compile.llvm.target import Target, native
+=======
+from flypend.compile.aside import aside
+>>>>>>> sound
 
 CACHE_VARIABLE = "FLYPEND_CACHE"
 _ENTRY = b"flypend object 2\n"
@@ -104,7 +108,11 @@ def build_object(key: str, module: Callable[[], Any], target: Target) -> bytes:
     path = cache_folder() / f"{entry}.o"
     code = _read(path, entry)
     if code is None:
+<<<<<<< HEAD
         code = compiled(module(), target)
+=======
+        code = aside(partial(compiled, module()))
+>>>>>>> sound
         _write(path, entry, code)
     return code
 

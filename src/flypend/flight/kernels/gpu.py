@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
+from flypend.compile.aside import aside
 from flypend.compile.methods import method as method_named
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import Flown, inputs_of
 from flypend.flight.kernels.ideal import ideal_problem, setting_of
+from flypend.flight.kernels.stopping import StoppedError, Word, interruptible
 from flypend.flight.request import Flight
 from flypend.plants import Ideal
 from flypend.plants.loop import Loop
 
+if TYPE_CHECKING:
+    from flypend.compile.jax.array_steps import Integrator, Setting
+
+PIECE = 0.1  # s between looks at signals
 # Runs integrated together: as many as fit the cache, or fill a GPU.
 LANES = {"cpu": 256}
 LANES_OF_GPU = 32768
@@ -33,12 +41,12 @@ class ArrayKernel:
     ----------
     loop : Loop
         Vehicle, law, and the gains that may differ between runs.
-    function : callable
-        The integrator of `flypend.compile.jax.array_steps`.
+    integrator : Integrator
+        The functions of `flypend.compile.jax.array_steps`.
     """
 
     loop: Loop
-    function: Any
+    integrator: Integrator
 
     def fly(
         self,
@@ -71,13 +79,26 @@ class ArrayKernel:
         values = inputs_of(self.loop, parameters, n)
         duration, rtol, atol, most = setting
         asked = Setting(n, float(duration), float(rtol), float(atol), most, np.append(judge_at, np.inf))
-        with _doubles():
-            results = self.function(_rows(given), _rows(values), asked)
-            final, end, code, steps, reductions = (np.asarray(x)[..., :n] for x in results)
+        with interruptible() as stop:
+            results = self._flown(_rows(given), _rows(values), asked, stop)
+        final, end, code, steps, reductions = (np.asarray(x)[..., :n] for x in results)
         return Flown(
             final=np.ascontiguousarray(final.T), end=end, code=code, reductions=np.ascontiguousarray(reductions.T),
             steps=steps,
         )  # fmt: skip
+
+    def _flown(self, starts: NDArray[np.float64], parameters: NDArray[np.float64], asked: Setting, stop: Word) -> Any:
+        """Fly `starts` in pieces of about a tenth of a second; between them, signals and the stop word are heard."""
+        begin, advance = (_in_doubles(function) for function in self.integrator)
+        progress, most, flying = begin(starts, parameters, asked), 1, True
+        aside(lambda: advance(progress, starts, parameters, asked, 0))  # no step: it only compiles
+        while flying:
+            begun = time.monotonic()
+            progress, flying = advance(progress, starts, parameters, asked, most)
+            if stop[0]:
+                raise StoppedError("stopped")
+            most = max(1, int(most * np.clip(PIECE / (time.monotonic() - begun), 0.5, 2)))
+        return progress.results
 
 
 def fly_on_jax(flight: Flight) -> Flown:
@@ -126,6 +147,18 @@ def _rows(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return `values` (n, k) as rows (k, m), n padded to a power of two m, since JAX recompiles for every m."""
     n = len(values)
     return np.pad(values, ((0, (1 << (n - 1).bit_length()) - n), (0, 0)), mode="edge").T.copy()
+
+
+def _in_doubles(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return `function` with double precision in JAX, its results computed when it returns."""
+
+    def call(*given: Any) -> Any:
+        import jax
+
+        with _doubles():
+            return jax.tree.map(lambda some: some.block_until_ready(), function(*given))
+
+    return call
 
 
 def _doubles() -> AbstractContextManager[Any]:

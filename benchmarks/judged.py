@@ -43,6 +43,15 @@ def _stand(vehicle: fp.Vehicle, plant: fp.Plant = ROTORS, runs: int = 200, durat
     return _told(int(found.success.sum()), runs)
 
 
+def _taken(vehicle: fp.Vehicle) -> bool:
+    """Whether the inverted law does not refuse `vehicle`."""
+    try:
+        INVERTED.bind(vehicle)
+    except InputError:
+        return False
+    return True
+
+
 def _hehn(**changes) -> fp.Vehicle:
     return fp.vehicle("hehn2011").replace(**changes)
 
@@ -90,11 +99,10 @@ def other_vehicles(runs: int) -> str:
     for vehicle in machines(runs, SEED):
         sure = not feasibility(vehicle).doubtful
         doubtful += not sure
-        try:
-            found = fp.simulate_ensemble(vehicle, INVERTED, starts, 30.0)
-        except InputError:
+        if not _taken(vehicle):
             refused += 1
             continue
+        found = fp.simulate_ensemble(vehicle, INVERTED, starts, 30.0)
         short += np.mean(found.settling <= 9.0) >= 0.95  # stands for the last second of ten
         long += found.rate >= 0.95
         sure_long += sure and found.rate >= 0.95
@@ -108,7 +116,7 @@ def cones(runs: int) -> str:
     """Slow random vehicles for a minute: failures, and how many of them circle on the cone y₃ = −1/3."""
     starts, flights, failed, circling = random_starts(20, SEED), 0, 0, 0
     slow = (vehicle for vehicle in machines(10 * runs, SEED) if feasibility(vehicle).agility < 3)
-    for vehicle in islice(slow, runs // 10):
+    for vehicle in islice(filter(_taken, slow), max(1, runs // 10)):
         found = fp.simulate_ensemble(vehicle, INVERTED, starts, 60.0)
         flights, failed = flights + 20, failed + int(np.sum(~found.success))
         circling += int(np.sum(~found.success & (np.abs(found.final.y[:, 2] + 1 / 3) < 0.1)))

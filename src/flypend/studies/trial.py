@@ -151,10 +151,7 @@ def trial(
 
 
 def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampled]]:
-    """Return factor → plant, for each number of the model that is not zero.
-
-    Rotors that push k times as hard move the machine exactly as the believed ones move one of 1/k its masses.
-    """
+    """Return factor → plant, for each number of the model that is not zero."""
     names = {
         "mass": ("mass",), "bob_mass": ("bob_mass",), "rod_length": ("rod_length",), "rod_inertia": ("rod_inertia",),
         "inertia": ("inertia",), "arm": ("rotor_positions",), "drag_ratio": ("drag_ratio",),
@@ -164,7 +161,7 @@ def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampl
         for name, fields in names.items()
         if name != "rod_inertia" or vehicle.rod_inertia > 0
     }
-    found["thrust"] = mismatched(plant, dict.fromkeys(("mass", "bob_mass", "rod_inertia", "inertia"), -1.0))
+    found["thrust"] = lambda factor: plant.replace(strength=factor * np.asarray(plant.strength))
     if plant.true_vehicle(vehicle).rotor_lag > 0:
         found["rotor_lag"] = mismatched(plant, {"rotor_lag": 1.0})
     if plant.delay > 0:

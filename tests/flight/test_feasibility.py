@@ -7,6 +7,7 @@ import flypend as fp
 from flypend.flight.feasibility import feasibility, forewarned
 from flypend.flight.request import Flight
 from flypend.laws.inverted_gains import angular_authority
+from flypend.model.vehicle import vehicle_names
 from flypend.plants import Ideal
 
 HEHN = fp.vehicle("hehn2011")
@@ -55,7 +56,7 @@ def test_what_is_impossible_has_one_reason(changes, reason):
 
 
 def test_vehicles_of_the_package_can_be_flown():
-    for name in ("hehn2011", "nayak2018", "crazyflie"):
+    for name in vehicle_names():
         found = feasibility(fp.vehicle(name))
         assert found.impossible == found.doubtful == ()
 

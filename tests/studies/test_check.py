@@ -54,6 +54,14 @@ def test_a_vehicle_that_cannot_be_flown_is_a_result_with_a_reason(vehicle, law, 
     assert words in repr(found)
 
 
+def test_rotors_without_limits_lift_anything_and_the_lag_of_the_plant_counts():
+    weak = HEHN.replace(rotor_limits=[0.0, 1.2])
+    assert "the weight is" in fp.check(weak, **FEW).reasons[0]
+    assert fp.check(weak, fp.laws.lqr(), plant=fp.Plant(limits=False), **FEW).tasks["hover"].rate == 1.0
+    late = fp.check(HEHN, plant=fp.Plant(lag=0.2), runs=4, duration=2.0, margins=False)
+    assert any("rotor lag and delay of 200 ms" in reason for reason in late.reasons)
+
+
 def test_a_law_that_refuses_a_vehicle_is_quoted():
     separated = fp.Law(name="choosy", e3="up", control=lambda t, s, v, k: None, check=_refuse)
     found = fp.check(HEHN, separated, **FEW)

@@ -62,11 +62,16 @@ def measurement() -> ca.Function:
     return ca.Function("measure", [packed, draws, sigma], [ca.cse(ca.densify(measured.packed()))])
 
 
-def gusts() -> ca.Function:
-    """CasADi function (memory (8,), draws (6,), `wind_numbers`) → memory, forces on vehicle and bob (6,), N."""
+def gusts(*, knocks: bool = True) -> ca.Function:
+    """CasADi function (memory (8,), draws (6,), `wind_numbers`) → memory, forces on vehicle and bob (6,), N.
+
+    Without `knocks` there are none, whatever the numbers, at less cost.
+    """
     memory, draws, numbers = ca.SX.sym("g", GUST_MEMORY), ca.SX.sym("n", 6), ca.SX.sym("w", WIND_SIZE)
     decay, on_vehicle, on_bob, constant = numbers[0], numbers[1], numbers[2], numbers[3:9]
     gust = decay * memory[:6] + ca.vertcat(on_vehicle * draws[:3], on_bob * draws[3:])
+    if not knocks:
+        return ca.Function("gusts", [memory, draws, numbers], [ca.vertcat(gust, memory[6:]), gust + constant])
     clock, moment = memory[6], memory[7]
     ticks = numbers[11]
     moment = ca.if_else(clock < 1, ticks * _share(draws), moment)

@@ -109,9 +109,14 @@ class Wind:
             errors.number(f"wind.{name}", getattr(self, name), above=0, unit="s")
 
     @property
+    def knocks(self) -> bool:
+        """Whether there are knocks."""
+        return max(self.knock_on_vehicle, self.knock_on_bob) > 0
+
+    @property
     def random(self) -> bool:
         """Whether there are gusts or knocks."""
-        return max(self.gust_on_vehicle, self.gust_on_bob, self.knock_on_vehicle, self.knock_on_bob) > 0
+        return self.knocks or max(self.gust_on_vehicle, self.gust_on_bob) > 0
 
 
 _KINDS: tuple[tuple[str, Any, str], ...] = (

@@ -14,6 +14,7 @@ from rich.table import Table
 from flypend import __version__
 from flypend.files.staging import staged
 from flypend.flight.tasks import TASKS
+from flypend.report.studies import comparison_cells
 from flypend.report.text import number, write_json
 from flypend.studies.check import Check
 from flypend.studies.trial import Trial
@@ -24,18 +25,14 @@ Cells = list[list[str]]
 
 def task_cells(checks: Mapping[str, Check]) -> Cells:
     """Return the cells of the tasks, a row per law and task; settling, excursion: median/95 %, clearance: 5 %."""
-    return [
-        [
-            law, name, f"{row['successes']} of {row['runs']}",
-            f"{100 * row['success']:.4g} ({100 * row['wilson_low']:.1f}-{100 * row['wilson_high']:.1f})",
-            f"{_short(row['settling_p50'])}/{_short(row['settling_p95'])}",
-            f"{_short(row['excursion_p50'])}/{_short(row['excursion_p95'])}",
-            _short(1e3 * row["clearance_p5"]) if "clearance_p5" in row else "-",
-            ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "-",
-        ]
-        for law, check in checks.items()
-        for name, row in check.rows().items()
-    ]  # fmt: skip
+    rows = []
+    for law, check in checks.items():
+        for name, row in check.rows().items():
+            _, share, settling, excursion, *_, failed = comparison_cells(row)
+            clear = f"{1e3 * row['clearance_p5']:.3g}" if "clearance_p5" in row else "-"
+            stands = f"{row['successes']} of {row['runs']}"
+            rows.append([law, name, stands, share, settling, excursion, clear, failed])
+    return rows
 
 
 def margin_cells(checks: Mapping[str, Check]) -> Cells:
@@ -147,7 +144,3 @@ def _caught(check: Check) -> str:
 def _uptime(trial: Trial) -> str:
     low, median = np.percentile(trial.uptime, (5, 50))
     return f"{100 * median:.1f} ({100 * low:.1f})"
-
-
-def _short(value: float) -> str:
-    return "-" if np.isnan(value) else f"{value:.3g}"

@@ -169,10 +169,10 @@ def check(
     """
     world = plants.sampled_plant(plant)
     chosen = law if law is not None else inverted()
-    found = feasibility(vehicle, world.delay)
+    found = feasibility(world.true_vehicle(vehicle), world.delay)
     name = chosen.name
     about: dict[str, Any] = {"vehicle": vehicle, "plant": world, "law": name, "feasibility": found}
-    if found.impossible:
+    if found.impossible and (world.limits or vehicle.weight == 0):
         return Check(**about, reasons=found.impossible)
     try:
         bound = bound_to(vehicle, chosen)
@@ -189,7 +189,7 @@ def check(
     reasons = _failed(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
     if (quick if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
-        flight = _of_margins(vehicle, bound, world, tasks["random"], seconds)
+        flight = _of_margins(vehicle, bound, world, tasks["random"], seconds, quick)
         about["margins"] = search(flight, quantities(vehicle, world), progress)
     if reasons:
         return Check(**about, reasons=(*reasons, *found.doubtful))
@@ -224,11 +224,10 @@ def _failed(tasks: Mapping[str, Ensemble]) -> tuple[str, ...]:
 
 
 def _of_margins(
-    vehicle: Vehicle, law: BoundLaw | Controller, plant: Sampled, flown: Ensemble, duration: float
+    vehicle: Vehicle, law: BoundLaw | Controller, plant: Sampled, flown: Ensemble, duration: float, quick: bool
 ) -> Flight:
     """Return the flights of every value of a margin: the first random starts, no longer than they need to settle."""
     needed = 2 * flown.percentile("settling", 95)
-    quick = isinstance(law, BoundLaw) and plant.engine == "equations"
     return Flight(
         vehicle=vehicle, law=law, starts=flown.starts[: MARGIN_RUNS if quick else SLOW_MARGIN_RUNS],
         duration=float(min(duration, max(LEAST_DURATION, needed))), plant=plant,

@@ -113,8 +113,8 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
             lambda d: 1e3 * (plant.delay + d), 0.1 * time, longest - plant.delay, both=False,
         ),
         _rotor_lag(plant, plant.true_vehicle(vehicle).rotor_lag, time),
-        Quantity("rod length", "of the believed", 1.0, _mismatched(plant, "rod_length"), _factor, 0.1, 3.0),
-        Quantity("mass", "of the believed", 1.0, _mismatched(plant, "mass", "bob_mass"), _factor, 0.2, 3.0),
+        Quantity("rod length", "of the believed", 1.0, mismatched(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
+        Quantity("mass", "of the believed", 1.0, mismatched(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0),
         Quantity(
             "noise", "of the plant's" if plant.noise else "of motion capture's", least,
             lambda k: plant.replace(noise=_scaled(noise, k)), lambda d: least + d, 1.0, 15.0, both=False,
@@ -202,10 +202,13 @@ def _factor(distance: float) -> float:
     return 1 + distance if distance >= 0 else 1 / (1 - distance)
 
 
-def _mismatched(plant: Sampled, *names: str) -> Callable[[float], Sampled]:
+def mismatched(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
+    """Return factor → `plant` whose mismatch of each name in `powers` is multiplied by factor to that power."""
+
     def changed(factor: float) -> Sampled:
         known = plant.mismatch
-        return plant.replace(mismatch={**known, **{name: known.get(name, 1.0) * factor for name in names}})
+        more = {name: known.get(name, 1.0) * factor**power for name, power in powers.items()}
+        return plant.replace(mismatch={**known, **more})
 
     return changed
 

@@ -23,7 +23,7 @@ from flypend.flight.tasks import task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
-from flypend.studies.margins import SEARCHES
+from flypend.studies.margins import SEARCHES, mismatched
 from flypend.studies.sweep.axes import integer
 
 DURATION, KNOCKS = 60.0, 15  # s
@@ -151,35 +151,22 @@ def trial(
 
 
 def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampled]]:
-    """Return factor → plant, for each number of the model that is not zero.
-
-    Rotors that push k times as hard move the machine exactly as the believed ones move one of 1/k its masses.
-    """
+    """Return factor → plant, for each number of the model that is not zero."""
     names = {
         "mass": ("mass",), "bob_mass": ("bob_mass",), "rod_length": ("rod_length",), "rod_inertia": ("rod_inertia",),
         "inertia": ("inertia",), "arm": ("rotor_positions",), "drag_ratio": ("drag_ratio",),
     }  # fmt: skip
     found = {
-        name: _scaled(plant, dict.fromkeys(fields, 1.0))
+        name: mismatched(plant, dict.fromkeys(fields, 1.0))
         for name, fields in names.items()
         if name != "rod_inertia" or vehicle.rod_inertia > 0
     }
-    found["thrust"] = _scaled(plant, dict.fromkeys(("mass", "bob_mass", "rod_inertia", "inertia"), -1.0))
+    found["thrust"] = lambda factor: plant.replace(strength=factor * np.asarray(plant.strength))
     if plant.true_vehicle(vehicle).rotor_lag > 0:
-        found["rotor_lag"] = _scaled(plant, {"rotor_lag": 1.0})
+        found["rotor_lag"] = mismatched(plant, {"rotor_lag": 1.0})
     if plant.delay > 0:
         found["delay"] = lambda factor: plant.replace(delay=plant.delay * factor)
     return found
-
-
-def _scaled(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
-    def changed(factor: float) -> Sampled:
-        known = plant.mismatch
-        return plant.replace(
-            mismatch={**known, **{name: known.get(name, 1.0) * factor**power for name, power in powers.items()}}
-        )
-
-    return changed
 
 
 def _knocked(flight: Flight, speed: float, workers: int | None) -> Ensemble:

@@ -172,9 +172,10 @@ class SampledKernel:
 def structure(plant: Plant) -> Plant:
     """Return `plant` without its seed and the machine code's inputs: lag, noise and wind.
 
-    It keeps whether there is noise, wind, or anything random, and whether rotors rise as they fall.
+    It keeps whether there is noise, wind, knocks, or anything random, and whether rotors rise as they fall.
     """
-    gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))))
+    knocks = plant.wind is not None and plant.wind.knocks
+    gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))), knock_on_vehicle=float(knocks))
     return plant.replace(
         lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=_without_lag(plant),
         spin_up=1.0 if plant.spin_up == 1.0 else 2.0,
@@ -277,7 +278,7 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
         world=world,
         loop=lower(on_board) if rates else None,
         measure=lower(measurement()) if plant.noise is not None else None,
-        gusts=lower(gusts()) if plant.wind is not None else None,
+        gusts=lower(gusts(knocks=plant.wind.knocks)) if plant.wind is not None else None,
         judge=lower(_judge(loop, criterion)),
         reductions=REDUCTIONS,
         flown=tuple(Stretch(age, steps) for age, _, steps in _flown(plant)),

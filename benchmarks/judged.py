@@ -135,11 +135,12 @@ def motion_capture(runs: int) -> str:
 
 
 def slow_rotors(runs: int) -> str:
-    """The Crazyflie with its identified lag, with its rod and with one of half a metre."""
-    small = fp.vehicle("crazyflie").replace(rotor_lag=0.072, rod_length=0.2)
+    """The Crazyflie with its identified lag, with the rod of 0.1 and with one of half a metre."""
+    long = fp.vehicle("crazyflie")
+    short = long.replace(rod_length=0.2)
     return (
-        f"knowing 30 ms {_stand(small.replace(rotor_lag=0.03), ROTORS.replace(lag=0.072), runs)}; knowing 72 ms "
-        f"{_stand(small, ROTORS, runs)}; with a rod of 0.5 m {_stand(small.replace(rod_length=0.5), ROTORS, runs)}"
+        f"knowing 30 ms {_stand(short.replace(rotor_lag=0.03), ROTORS.replace(lag=0.072), runs)}; knowing 72 ms "
+        f"{_stand(short, ROTORS, runs)}; with a rod of 0.5 m {_stand(long, ROTORS, runs)}"
     )
 
 

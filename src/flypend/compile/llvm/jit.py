@@ -19,11 +19,8 @@ from typing import Any
 import llvmlite.binding as llvm
 from platformdirs import user_cache_path
 
-<<<<<<< HEAD
-from flypend.compile.llvm.target import Target, native
-=======
 from flypend.compile.aside import aside
->>>>>>> sound
+from flypend.compile.llvm.target import Target, native
 
 CACHE_VARIABLE = "FLYPEND_CACHE"
 _ENTRY = b"flypend object 2\n"
@@ -108,11 +105,7 @@ def build_object(key: str, module: Callable[[], Any], target: Target) -> bytes:
     path = cache_folder() / f"{entry}.o"
     code = _read(path, entry)
     if code is None:
-<<<<<<< HEAD
-        code = compiled(module(), target)
-=======
-        code = aside(partial(compiled, module()))
->>>>>>> sound
+        code = aside(partial(compiled, module(), target))
         _write(path, entry, code)
     return code
 

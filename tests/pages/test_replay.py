@@ -308,11 +308,12 @@ def test_the_wheel_carries_the_program(tmp_path):
     ("mount", "start"), [("hub", (0.6, 0, -0.8)), ("cup", (0.6, 0, -0.8)), ("gimbal", (0.6, 0, 0.8))]
 )
 def test_a_mount_tells_its_body_and_what_was_touched(mount, start):
-    vehicle = fp.vehicle("hehn2011").replace(mount=mount)
+    vehicle = fp.vehicle("hehn2011").replace(mount=mount, rod_end=0.7)
     run = fp.simulate(vehicle, fp.laws.lqr(), fp.State(y=start), 0.3)
     record = packed(run)
     told = verdict(run)
     assert record["vehicle"]["mount"] == mount
+    assert record["vehicle"]["rod_end"] == vehicle.reach
     assert record["vehicle"]["body"] == vehicle.body.to_dict()
     assert record["vehicle"]["rotor_radius"] == vehicle.body.disc_radius
     assert ("clearance" in columns(record)) == (mount != "gimbal")

@@ -132,6 +132,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "vehicle": {
             "name": vehicle.name,
             "rod_length": vehicle.rod_length,
+            "rod_end": vehicle.reach,
             "weight": vehicle.weight,
             "rotor_limits": _finite(vehicle.rotor_limits),
             "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),

@@ -108,8 +108,8 @@ class Arrow extends Group {
 
 export class Model extends Group {
   /**
-   * `vehicle` has rod_length, weight, rotor_positions, rotor_spins, rotor_radius (SI, body frame front-left-up), mount
-   * and body. What the rod can touch is drawn to scale, and is in `parts` by its name.
+   * `vehicle` has rod_length, rod_end, weight, rotor_positions, rotor_spins, rotor_radius (SI, body frame front-left-up),
+   * mount and body. What the rod can touch is drawn to scale, and is in `parts` by its name.
    */
   constructor(vehicle, { ghost = false } = {}) {
     super();
@@ -178,9 +178,9 @@ export class Model extends Group {
     const { paint, ghost } = this;
     this.pole = new Group();
     const thick = this.vehicle.mount === "gimbal" ? 0.016 * length : this.vehicle.body.rod_radius;
-    const stick = solid(new CylinderGeometry(thick, thick, length, 16), paint.rod, ghost);
+    const stick = solid(new CylinderGeometry(thick, thick, this.vehicle.rod_end, 16), paint.rod, ghost);
     stick.rotation.x = Math.PI / 2;
-    stick.position.z = length / 2;
+    stick.position.z = this.vehicle.rod_end / 2; // the bob may sit below the far end
     const bob = solid(new SphereGeometry(0.08 * length, 36, 24), paint.rod, ghost);
     bob.position.z = length;
     this.pole.add(stick, bob, solid(new SphereGeometry(0.032 * length, 20, 14), paint.rod, ghost));

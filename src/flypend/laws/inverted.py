@@ -17,15 +17,17 @@ from __future__ import annotations
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
 from flypend.laws.gain import documented
-from flypend.laws.inverted_gains import GAINS, computer_of, go_together
+from flypend.laws.inverted_gains import GAINS, angular_authority, computer_of, go_together, scales
 from flypend.laws.law import Law
 from flypend.laws.passage import FREE, heading, passage_of, steered
 from flypend.laws.references import Path, Reference, hover
+from flypend.laws.smooth import smooth_step, soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
 from flypend.laws.throw import (
     Demand,
@@ -36,6 +38,7 @@ from flypend.laws.throw import (
     derivatives,
     largest_thrust,
     lifted,
+    limited_force,
     low_rod,
     rod_force,
     steering_force,
@@ -52,6 +55,12 @@ AXIS_FLOOR = 0.006
 HUB_CONE, CUP_SHARE = 1.4, 0.8
 # Length, rad, of the turn demanded at the antipode of the thrust axis's target, where its spring vanishes.
 ANTIPODE_PUSH = 0.03
+# Largest rate demanded of the thrust axis, in units of √α: the vehicle stops from it within TURN²/2 rad.
+TURN = 1.3
+# Spins about the thrust axis, in units of the one at which turning the axis as fast as the vehicle flips takes all
+# moment there is: up to the first the gyroscopic moment is compensated; from the second on not at all, the axis moves
+# as a gyroscope's, and the rod waits, hanging, until the spin has decayed.
+CALM, SPUN = 1.0, 2.0
 
 
 @documented(GAINS)
@@ -97,7 +106,14 @@ def mounted(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
     cones = {"gimbal": None, "hub": HUB_CONE}
     cone = cones[vehicle.mount] if vehicle.mount in cones else CUP_SHARE * vehicle.body.cup_angle
     hub, lag = vehicle.mount == "hub", vehicle.rotor_lag / gains["lead"]
-    return {"passage": passage_of(vehicle) if hub else None, "cone": cone, "side": float(hub), "lag_left": lag}
+    numbers = scales(vehicle).numbers
+    authority, inertia = angular_authority(vehicle), np.diag(vehicle.inertia)
+    return {
+        "passage": passage_of(vehicle) if hub else None, "cone": cone, "side": float(hub), "lag_left": lag,
+        "authority": authority, "haste": numbers["haste"], "shift": numbers["shift"],
+        "turn_rate": TURN * np.sqrt(authority),
+        "fast_spin": max(inertia[0], inertia[1]) / inertia[2] * np.sqrt(authority),
+    }  # fmt: skip
 
 
 def inverted_control(
@@ -133,6 +149,7 @@ def inverted_control(
         steering = steered(state, heading(state, ahead[0], caught, k.coast_time), k.passage)
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
     clear = ca.SX.sym("clear")
+    calm = 1 - smooth_step(((state.omega[2] / k.fast_spin) ** 2 - CALM**2) / (SPUN**2 - CALM**2))
     pose = Pose(height, steering.aside, clear)
     present = force(nearer, low_rod(*nearer, state.z, k), pose)
     f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
@@ -154,7 +171,7 @@ def inverted_control(
     else:
         wanted = axis(force(ahead, low, pose))
         wanted_dot = lie_derivative(wanted, state, rates, t)
-    f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [ca.SX(steering.clear)])
+    f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
     # From here on in the body frame, where z = e₃ and half of what follows is zero. ż_d is known up to a component
     # along z_d, which the transport map of Lemma 2 annihilates.
@@ -164,11 +181,15 @@ def inverted_control(
     # Length 2 sin(θ/2), with θ the angle between z and z_d, up to near the antipode θ = π, where it drops to 0.
     spring = scale(1 / ca.sqrt((1 + z_d[2]) / 2 + ANTIPODE_FLOOR), tangent_part(E3, z_d))
     spring = spring + ANTIPODE_PUSH * ((1 - z_d[2]) / 2) ** 4 * E1
-    stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
-    u_z = stiffness * spring - damping * v_e
+    # Faster while the rod is thrown: what counts then is agility, and in hover the margin against delay.
+    bandwidth = k.attitude_bandwidth * (1 + k.haste * low)
+    stiffness, damping = bandwidth**2, 2 * k.attitude_damping * bandwidth
+    # Turn no faster than the vehicle can stop; the bare spring would turn it at stiffness / damping per radian.
+    u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
+    u_z = calm * u_z + (1 - calm) * soft(u_z, k.authority / 2)
 
     # What is left of the rotors' lag turns a spinning body on before they act.
     yaw = steering.yaw - k.yaw_damping * state.omega[2]
-    moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.lag_left * state.omega[2])
+    moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.lag_left * state.omega[2], compensated=calm)
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)

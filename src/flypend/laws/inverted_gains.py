@@ -28,12 +28,13 @@ LONGEST_LATENCY = 0.028
 # largest angular acceleration that the rotors can produce.
 AGILE: Mapping[str, float] = MappingProxyType(
     {
-        "position_bandwidth": 0.61, "height_bandwidth": 0.79, "position_damping": 0.86,
-        "rod_bandwidth": 1.84, "rod_damping": 0.44, "attitude_bandwidth": 1.40, "attitude_damping": 0.87,
-        "rate_feedforward": 0.67, "coast": 1.31, "thrust_coast": 1.0, "latency": 0.53, "lead": 2.1,
-        "throw_speed": 0.69, "flip_speed": 0.26, "flip_by_rod": 0.82, "flip_by_height": 0.63, "flip_width": 0.20,
-        "hanging_share": 0.76, "catch_time": 0.26, "catch_within": 0.138, "catch_width": 0.125, "catch_by_axis": 0.175,
-        "position_reach": 6.0, "descent": 0.72, "level": 6.0, "tilt_limit": 3.1, "pump_share": 0.0, "pump_rate": 1.0,
+        "position_bandwidth": 0.54, "height_bandwidth": 0.7, "position_damping": 0.93,
+        "rod_bandwidth": 1.9, "rod_damping": 0.48, "attitude_bandwidth": 1.3, "attitude_damping": 0.89,
+        "rate_feedforward": 0.6, "coast": 1.28, "thrust_coast": 1.0, "latency": 0.53, "lead": 2.1,
+        "throw_speed": 0.63, "flip_speed": 0.28, "flip_by_rod": 0.78, "flip_by_height": 0.65, "flip_width": 0.20,
+        "hanging_share": 0.77, "catch_time": 0.26, "catch_within": 0.117, "catch_width": 0.125, "catch_by_axis": 0.166,
+        "position_reach": 6.0, "descent": 0.55, "level": 6.0, "tilt_limit": 3.1, "pump_share": 0.0, "pump_rate": 1.0,
+        "haste": 0.32, "shift": 0.12, "yaw_damping": 5.0,
     }
 )  # fmt: skip
 # For a vehicle that turns too slowly to flip its rod, tuned likewise on nayak2018: it levels, pumps and catches.
@@ -46,6 +47,18 @@ SLOW: Mapping[str, float] = MappingProxyType(
         "flip_by_rod": 0.84, "flip_by_height": 0.46, "hanging_share": 0.64, "catch_within": 0.12, "catch_width": 0.37,
         "catch_time": 0.0, "catch_by_axis": 0.0, "position_reach": 22.0, "descent": 0.152, "level": 0.53,
         "tilt_limit": 0.80, "pump_share": 1.0, "pump_rate": 2.0,
+        "haste": 0.0, "shift": 0.03,
+    }
+)  # fmt: skip
+# On a hub the rod is caught as long as it is above the rotor plane, in a cup always: 1 − y₃ is at most 2. On a hub it
+# also leaves its hang more slowly, so that the vehicle has the time to yaw.
+MOUNTED: Mapping[str, Mapping[str, float]] = MappingProxyType(
+    {
+        "hub": {
+            "catch_within": 0.95, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.085, "haste": 0.0,
+            "shift": 0.03, "yaw_damping": 8.0,
+        },
+        "cup": {"catch_within": 2.0, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.0},
     }
 )  # fmt: skip
 # A vehicle is agile if α l/g reaches this.
@@ -62,11 +75,12 @@ class Scales(NamedTuple):
     speed: float
     turn: float
     agile: bool
+    mount: str
 
     @property
     def numbers(self) -> Mapping[str, float]:
-        """Dimensionless gains for a vehicle of this class."""
-        return AGILE if self.agile else SLOW
+        """Dimensionless gains for a vehicle of this class and mount."""
+        return {**(AGILE if self.agile else SLOW), **MOUNTED.get(self.mount, {})}
 
 
 @lru_cache(maxsize=256)
@@ -80,6 +94,7 @@ def scales(vehicle: Vehicle) -> Scales:
         speed=np.sqrt(vehicle.g * vehicle.l),
         turn=np.sqrt(authority),
         agile=authority * vehicle.l >= LEAST_AGILITY * vehicle.g,
+        mount=vehicle.mount,
     )
 
 
@@ -113,19 +128,6 @@ def _per_time(name: str) -> Callable[[Vehicle], float]:
 
 def _speed(name: str) -> Callable[[Vehicle], float]:
     return lambda vehicle: scales(vehicle).numbers[name] * scales(vehicle).speed
-
-
-# On a hub the rod is caught as long as it is above the rotor plane, in a cup always: 1 − y₃ is at most 2.
-CATCH: Mapping[str, Mapping[str, float]] = MappingProxyType(
-    {
-        "hub": {"catch_within": 0.95, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.085},
-        "cup": {"catch_within": 2.0, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.0},
-    }
-)
-
-
-def _catch(name: str) -> Callable[[Vehicle], float]:
-    return lambda vehicle: (CATCH.get(vehicle.mount) or scales(vehicle).numbers)[name]
 
 
 ANGLE = Bounds(0.0, math.pi, open_low=True)
@@ -213,13 +215,13 @@ GAINS = table(
             NOT_NEGATIVE,
         ),
         Gain(
-            "catch_time", lambda v: _catch("catch_time")(v) * scales(v).time, "s",
+            "catch_time", lambda v: scales(v).numbers["catch_time"] * scales(v).time, "s",
             "The rod can be caught if it leans little after coasting for this time", NOT_NEGATIVE,
         ),
-        Gain("catch_within", _catch("catch_within"), "", "Lean 1 - y3 up to which the rod can be caught", POSITIVE),
-        Gain("catch_width", _catch("catch_width"), "", "Range of the lean over which it becomes too low", POSITIVE),
-        Gain("catch_by_axis", _catch("catch_by_axis"), "", "Weight of the thrust axis in that lean"),
-        Gain("yaw_damping", lambda v: 8.0 if v.mount == "hub" else 5.0, "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
+        Gain("catch_within", _number("catch_within"), "", "Lean 1 - y3 up to which the rod can be caught", POSITIVE),
+        Gain("catch_width", _number("catch_width"), "", "Range of the lean over which it becomes too low", POSITIVE),
+        Gain("catch_by_axis", _number("catch_by_axis"), "", "Weight of the thrust axis in that lean"),
+        Gain("yaw_damping", _number("yaw_damping"), "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
         Gain(
             "lead", lambda v: scales(v).numbers["lead"] if v.rotor_lag > 0 else 1.0, "",
             "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0),

@@ -11,9 +11,8 @@ from flypend.laws.references import Path, Reference
 from flypend.laws.smooth import positive, smooth_step, soft
 from flypend.model import Vehicle
 
-# A continuous attracting field on S² vanishes at some other point; here, opposite its target. This angle, rad, shifts
-# that point away from the rod that hangs at rest below its reference, a common start.
-ANTIPODE_SHIFT = 0.03
+# Rate at which the pump stops the rod's circling, in units of the rate of its energy. More than a half costs height.
+CIRCLING = 0.4
 # Of the largest thrust; below 1, so that the rotors keep some authority for moments.
 THRUST_SHARE = 0.993
 
@@ -185,7 +184,7 @@ def steering_force(
     # permitted.
     v_e = y_dot - cross(omega_d, y)  # τ(y, d) ḋ = ω_d × y
     share = 1 - low * (1 - pose.clear * flip_permission(y, pose.height, climb, k)) * (1 + k.hanging_share)
-    pull = tangent_part(y, d + ANTIPODE_SHIFT * low * pose.aside)
+    pull = tangent_part(y, d + k.shift * low * pose.aside)
     u = share * k.rod_bandwidth**2 * pull - 2 * k.rod_damping * k.rod_bandwidth * v_e
     u = u + scale(dot(y, omega_d), cross(y, y_dot))
 
@@ -216,9 +215,9 @@ def pumping_force(A: Any, y: Any, y_dot: Any, aside: Any, vehicle: Vehicle, k: A
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     w_squared = vehicle.weight / (M * l)
     missing = 1 - (dot(y_dot, y_dot) / 2 / w_squared + y[2])
-    push = y_dot + ANTIPODE_SHIFT * ca.sqrt(w_squared) * aside  # moves it off the hanging rest, a common start
+    push = y_dot + k.shift * ca.sqrt(w_squared) * aside  # moves it off the hanging rest, a common start
     circling = scale(dot(E3, cross(y, y_dot)), cross(E3, y))
-    return (M + m) * A - M * l * k.pump_rate * (scale(missing, push) - circling)
+    return (M + m) * A - M * l * k.pump_rate * (scale(missing, push) - CIRCLING * circling)
 
 
 def largest_thrust(vehicle: Vehicle) -> Any:

@@ -47,7 +47,8 @@ def _apart(found, wanted, scale):
 def test_100_000_random_states_agree_with_python(name, precision):
     law, count = LAWS[name], 100_000 // 4
     thrust_scale, moment_scale = vectors.scales(VEHICLE)
-    limit = 1e-12 if precision == "double" else 1e-4
+    # In float, 1e-7 times slopes of a thousand: the steps of the law between catch and throw are steep.
+    limit = 1e-12 if precision == "double" else 2e-4
     for seed in range(4) if name == "inverted" else (0,):
         wanted = vectors.vectors(law, VEHICLE, count, seed, precision)
         wrench, rotors, status = library(law, VEHICLE, precision).step(wanted.state, wanted.reference)

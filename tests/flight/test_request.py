@@ -136,7 +136,7 @@ def test_what_makes_no_sense_is_told_in_one_line(changes, line):
             "gains.rod_bandwidth: expected a finite number > 0 rad/s, got 0",
         ),
         ({"rod_bandwith": 3.0}, "gains.rod_bandwith: expected one of"),
-        ({"thrust_share": 1.5}, "gains.thrust_share: expected at most 1"),
+        ({"hanging_share": 1.5}, "gains.hanging_share: expected at most 1"),
     ],
 )
 def test_gains_of_each_run_have_the_bounds_of_the_law(gains, line):

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
@@ -29,7 +30,8 @@ VEHICLE = fp.vehicle("hehn2011")
 M, m, l, g = VEHICLE.M, VEHICLE.m, VEHICLE.l, VEHICLE.g
 E3 = np.array([0.0, 0, 1])
 LAW = fp.laws.inverted()
-GAINS = SimpleNamespace(**LAW.gains_for(VEHICLE))
+BOUND = LAW.bind(VEHICLE)
+GAINS = SimpleNamespace(**BOUND.gains, **BOUND.prepared)
 STARTS = fp.State.random(np.random.default_rng(12345), 10)
 
 # Accelerations of order 1e2, and some ten products of them, eps each.
@@ -77,37 +79,38 @@ def test_the_force_of_the_derivation_gives_rod_and_bob_what_is_asked():
 
 
 def _rod_force(vehicle, reference, gains):
-    """(t, x, x_dot, y, y_dot, force on vehicle, on bob) → the law's force on the quadrotor (3,), and the errors."""
+    """(t, x, x_dot, y, y_dot, z, force on vehicle, on bob) → the law's force on the quadrotor (3,), and the errors."""
     t = ca.SX.sym("t")
-    x, x_dot, y, y_dot, on_vehicle, on_bob = (ca.SX.sym(name, 3) for name in ("x", "v", "y", "w", "a", "b"))
+    x, x_dot, y, y_dot, z, on_vehicle, on_bob = (ca.SX.sym(name, 3) for name in ("x", "v", "y", "w", "z", "a", "b"))
     p, v, a, jerk, _ = throw.bob_reference(t, reference, vehicle, on_bob)
     e, e_dot = x + vehicle.l * y - p, x_dot + vehicle.l * y_dot - v
-    height = x[2] - reference(t)[2]
-    F = throw.rod_force(e, e_dot, a, jerk, y, y_dot, height, (on_vehicle, on_bob), vehicle, gains)
+    pose = throw.Pose(x[2] - reference(t)[2], np.array([1.0, 0, 0]), 1.0)
+    low = throw.low_rod(y, y_dot, z, gains)
+    F = throw.rod_force(e, e_dot, a, jerk, y, y_dot, low, pose, (on_vehicle, on_bob), vehicle, gains)
     outputs = [ca.densify(value) for value in (F, e, e_dot, a, jerk)]
-    function = ca.Function("rod_force", [t, x, x_dot, y, y_dot, on_vehicle, on_bob], outputs)
+    function = ca.Function("rod_force", [t, x, x_dot, y, y_dot, z, on_vehicle, on_bob], outputs)
     return lambda *values: [np.array(value)[:, 0] for value in function(*values)]
 
 
 def _demand(e, v, a_ref, on_bob, k):
     """A = g e₃ − F_b/m + p̈_ref + a(e, v), written again: horizontal and vertical loop with limited errors."""
     limited = e / np.sqrt(1 + e @ e / k.position_reach**2)
-    w, zeta = np.array([k.position_bandwidth] * 2 + [k.height_bandwidth]), [k.position_damping] * 2 + [k.height_damping]
-    asked = -(w**2) * limited - 2 * np.array(zeta) * w * v
+    w, zeta = np.array([k.position_bandwidth] * 2 + [k.height_bandwidth]), k.position_damping
+    asked = -(w**2) * limited - 2 * zeta * w * v
     if asked[2] < 0:
         asked[2] /= np.sqrt(1 + (asked[2] / k.descent_limit) ** 2)
     asked[:2] /= np.sqrt(1 + asked[:2] @ asked[:2] / k.level_limit**2)
     return g * E3 - on_bob / m + a_ref + asked
 
 
-def test_near_upright_the_bob_does_what_its_loop_asks_and_the_rod_what_lemma_2_asks():
-    unlimited = SimpleNamespace(**(vars(GAINS) | {"thrust_share": 1e3}))
-    function = _rod_force(VEHICLE, lemniscate(0.6, 1.3), unlimited)
-    k, rng, h = unlimited, np.random.default_rng(2), 1e-5
+def test_near_upright_the_bob_does_what_its_loop_asks_and_the_rod_what_lemma_2_asks(monkeypatch):
+    monkeypatch.setattr(throw, "THRUST_SHARE", 1e3)
+    function = _rod_force(VEHICLE, lemniscate(0.6, 1.3), GAINS)
+    k, rng, h = GAINS, np.random.default_rng(2), 1e-5
     for state in _near_upright(rng, 100):
         t, y, y_dot = rng.uniform(0, 5), state.y, state.y_dot
         on_vehicle, on_bob = 0.5 * rng.standard_normal(3), 0.05 * rng.standard_normal(3)
-        F, e, v, a_ref, jerk = function(t, state.x, state.x_dot, y, y_dot, on_vehicle, on_bob)
+        F, e, v, a_ref, jerk = function(t, state.x, state.x_dot, y, y_dot, E3, on_vehicle, on_bob)
         A = _demand(e, v, a_ref, on_bob, k)
         d = geo.unit(A)
         # ḋ by a difference along the ideal bob: p̈ = −g e₃ + F_b/m + (A·y) y.
@@ -132,18 +135,23 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
     # z̈ = −|ż|² z + u_z with u_z = ω² spring − 2 ζ ω v_e; f = F·z within what the rotors give; yaw is damped.
     vehicle, reference = _tilted(), lemniscate(0.6, 1.3)
     law = fp.laws.inverted(reference, thrust_coast_share=share).bind(vehicle)
-    k, rng, h = SimpleNamespace(**law.gains), np.random.default_rng(3), 1e-5
+    k, rng, h = SimpleNamespace(**law.gains, **law.prepared), np.random.default_rng(3), 1e-5
     force = _rod_force(vehicle, reference, k)
     t, packed, external = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("F", 6)
     wrench = law.evaluate(t, fp.State.symbolic(packed), vehicle, (external[:3], external[3:])).wrench
     function = ca.Function("law", [t, packed, external], [ca.densify(ca.vertcat(wrench.thrust, wrench.moment))])
 
-    def force_after(tau, time, s, forces):
-        """F for the rod after coasting for `tau`, from x, ẋ, y, ẏ."""
+    low = _numeric(lambda y, y_dot, z: throw.low_rod(y, y_dot, z, k), (3,), (3,), (3,))
+
+    def rod_after(tau, s):
+        """The rod after coasting for `tau`, and its rate."""
         length = np.sqrt(1 + tau**2 * s["y_dot"] @ s["y_dot"])
         y = (s["y"] + tau * s["y_dot"]) / length
-        y_dot = (s["y_dot"] - tau * (s["y_dot"] @ s["y_dot"]) * s["y"]) / length
-        return force(time, s["x"], s["x_dot"], y, y_dot, *forces)[0]
+        return y, (s["y_dot"] - tau * (s["y_dot"] @ s["y_dot"]) * s["y"]) / length
+
+    def force_after(tau, time, s, forces):
+        """F for the rod after coasting for `tau`, from x, ẋ, y, ẏ."""
+        return force(time, s["x"], s["x_dot"], *rod_after(tau, s), s["z"], *forces)[0]
 
     def target(time, s, forces):
         """z_d."""
@@ -157,7 +165,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
     for state in fp.State.random(rng, 60):
         time, forces = rng.uniform(0, 5), (0.5 * rng.standard_normal(3), 0.05 * rng.standard_normal(3))
         f, *moment = np.array(function(time, state.packed(), np.concatenate(forces)))[:, 0]
-        here = {"x": state.x, "x_dot": state.x_dot, "y": state.y, "y_dot": state.y_dot}
+        here = {"x": state.x, "x_dot": state.x_dot, "y": state.y, "y_dot": state.y_dot, "z": state.z}
         F = force_after(share * k.coast_time, time, here, forces)
         assert f == pytest.approx(np.clip(F @ state.z, 0, largest), abs=1e-12)
         seen.add("none" if f == 0 else "some")
@@ -166,6 +174,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
             state, fp.Wrench(f, np.array(moment)), vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1]
         )
         rate = {"x": rates.x_dot, "x_dot": rates.x_ddot, "y": rates.y_dot, "y_dot": rates.y_ddot}
+        rate["z"] = state.R @ np.cross(state.omega, E3)
         z_d = target(time, here, forces)
         ahead, behind = (
             target(time + s, {name: here[name] + s * rate[name] for name in here}, forces) for s in (h, -h)
@@ -174,13 +183,18 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         R, omega, z = state.R, state.omega, state.z
         z_dot = R @ np.cross(omega, E3)
         v_e = z_dot - np.cross(np.cross(z_d, z_d_dot), z)
-        damping = 2 * k.attitude_damping * k.attitude_bandwidth
-        turn = k.attitude_bandwidth**2 / damping * geo.tangent_part(z, z_d) / np.sqrt((1 + z @ z_d) / 2 + 0.014)
-        turn /= (1 + (geo.norm(turn) / k.turn_rate) ** 8) ** 0.125
-        u = damping * (turn - v_e)
-        z_ddot = R @ (np.cross(rates.omega_dot, E3) + np.cross(omega, np.cross(omega, E3)))
-        wanted = u - (z_dot @ z_dot) * z
-        np.testing.assert_allclose(z_ddot, wanted, rtol=0, atol=1e-4 * max(1, np.max(np.abs(z_d_dot))))  # h², eps/h
+        bandwidth = k.attitude_bandwidth * (1 + k.haste * low(*rod_after(k.coast_time, here), z))
+        damping = 2 * k.attitude_damping * bandwidth
+        spring = geo.tangent_part(z, z_d) / np.sqrt((1 + z @ z_d) / 2 + 0.014)
+        spring += 0.03 * ((1 - z @ z_d) / 2) ** 4 * R[:, 0]
+        turn = bandwidth**2 * spring
+        turn /= (1 + (np.linalg.norm(turn) / (k.turn_rate * damping)) ** 8) ** 0.125
+        u = turn - damping * v_e
+        # ω̇ for z̈ = −|ż|² z + u, turned back by what the body spins while the rotors lag.
+        wanted = R.T @ np.cross(z, u) + omega[2] * R.T @ z_dot
+        wanted = Rotation.from_rotvec([0, 0, -2 * np.arctan(vehicle.rotor_lag / k.lead * omega[2] / 2)]).apply(wanted)
+        close = 1e-5 * damping * max(1, np.max(np.abs(z_d_dot)))  # h² and eps/h in ż_d, of which damping makes u
+        np.testing.assert_allclose(rates.omega_dot[:2], wanted[:2], rtol=0, atol=close)
         assert rates.omega_dot[2] == pytest.approx(-k.yaw_damping * omega[2], abs=ROUNDOFF)
     assert seen == {"none", "some"}
 
@@ -265,7 +279,9 @@ def test_a_lifted_force_leans_no_further_than_allowed_and_is_left_alone_within(f
 def test_pumping_brings_the_energy_of_the_rod_to_its_value_upright():
     # E = |ẏ|²/2 + w² y₃ under F = (M+m) g e₃ + …: Ė = κ (1 − E/w²) ẏ · push, push = ẏ but for a nudge at rest.
     pumping = SimpleNamespace(**(vars(GAINS) | {"pump_share": 1.0, "pump_rate": 1.7}))
-    force = _numeric(lambda A, y, y_dot: throw.pumping_force(A, y, y_dot, VEHICLE, pumping), (3,), (3,), (3,))
+    force = _numeric(
+        lambda A, y, y_dot: throw.pumping_force(A, y, y_dot, np.array([1.0, 0, 0]), VEHICLE, pumping), (3,), (3,), (3,)
+    )
     w_squared = VEHICLE.weight / (M * l)
     signs = set()
     for state in fp.State.random(np.random.default_rng(5), 50):
@@ -273,9 +289,13 @@ def test_pumping_brings_the_energy_of_the_rod_to_its_value_upright():
         F = force(g * E3, y, y_dot)
         y_ddot = -geo.tangent_part(y, F) / (M * l) - y_dot @ y_dot * y  # (ddty)
         missing = 1 - (y_dot @ y_dot / 2 / w_squared + y[2])
-        push = y_dot + throw.ANTIPODE_SHIFT * np.sqrt(w_squared) * np.array([1.0, 0, 0])
+        push = y_dot + GAINS.shift * np.sqrt(w_squared) * np.array([1.0, 0, 0])
         rate = y_dot @ y_ddot + w_squared * y_dot[2]
-        assert rate == pytest.approx(1.7 * missing * (y_dot @ push), abs=1e-9)
+        circling = E3 @ np.cross(y, y_dot)  # damped besides, which costs energy
+        assert rate == pytest.approx(1.7 * (missing * (y_dot @ push) - 0.4 * circling**2), abs=1e-9)
+        assert E3 @ np.cross(y, y_ddot) == pytest.approx(
+            1.7 * (missing * (E3 @ np.cross(y, push)) - 0.4 * (y[0] ** 2 + y[1] ** 2) * circling), abs=1e-9
+        )
         signs.add(missing > 0)
     assert signs == {True, False}
 
@@ -297,17 +317,24 @@ def test_a_coasted_rod_is_a_rod_turned_on_with_its_speed(seed, time):
 
 
 def test_the_throw_ends_and_the_flip_is_allowed_where_the_gains_say():
-    low = _numeric(lambda y: throw.low_rod(y, GAINS), (3,))
+    low = _numeric(lambda y, y_dot, z: throw.low_rod(y, y_dot, z, GAINS), (3,), (3,), (3,))
     allowed = _numeric(lambda y, h, v: throw.flip_permission(y, h, v, GAINS), (3,), (), ())
 
     def rod(y_3):
         return np.array([np.sqrt(1 - y_3**2), 0, y_3])
 
-    assert low(E3) == 0
-    assert low(rod(GAINS.high_above)) == pytest.approx(0, abs=1e-15)
-    assert low(rod((GAINS.high_above + GAINS.low_below) / 2)) == pytest.approx(0.5)
-    assert low(rod(GAINS.low_below)) == pytest.approx(1)
-    assert low(-E3) == 1
+    # At rest the lean is 1 − y₃ + catch_by_axis z·P_y e₃, and with the axis along the rod the last term is 0.
+    still, within, width = np.zeros(3), GAINS.catch_within, GAINS.catch_width
+    for axis, lean in (("rod", lambda c: 1 - c), ("e₃", lambda c: 1 - c + GAINS.catch_by_axis * (1 - c**2))):
+        for share, value in ((-1e-9, 0.0), (0.5, 0.5), (1 + 1e-9, 1.0)):
+            c = brentq(lambda c, at=within + share * width, lean=lean: lean(c) - at, -1, 1)
+            assert low(rod(c), still, E3 if axis == "e₃" else rod(c)) == pytest.approx(value, abs=1e-12)
+    assert low(E3, still, np.array([0.6, 0, 0.8])) == 0
+    assert low(-E3, still, E3) == 1
+    # A rod that rises counts as it will be after catch_time; one that falls, too.
+    middle = rod(1 - within - 0.5 * width)
+    rising = 0.3 * geo.unit(geo.tangent_part(middle, E3))
+    assert low(middle, rising, middle) < low(middle, still, middle) < low(middle, -rising, middle)
     # v + flip_by_height h + flip_by_rod y₃ passes flip_speed, in a band of flip_width.
     for y_3, height in ((-1.0, 0.0), (0.3, 0.4), (0.0, -1.0)):
         edge = GAINS.flip_speed - GAINS.flip_by_height * height - GAINS.flip_by_rod * y_3
@@ -336,7 +363,7 @@ def _similar(vehicle, s):
 # Power of s by which a gain goes: of lengths 1, times 1/2, speeds 1/2, bandwidths −1/2, accelerations and numbers 0.
 POWERS = {name: -0.5 for name in LAW.gains if name.endswith("_bandwidth")} | {
     "coast_time": 0.5, "throw_speed": 0.5, "flip_speed": 0.5, "flip_by_rod": 0.5, "flip_width": 0.5,
-    "flip_by_height": -0.5, "position_reach": 1.0, "turn_rate": -0.5, "pump_rate": -0.5,
+    "flip_by_height": -0.5, "position_reach": 1.0, "catch_time": 0.5, "pump_rate": -0.5,
 }  # fmt: skip
 # In s and 1/s whatever the vehicle: they belong to the sensors and the computer, and to yaw, which nothing waits for.
 ABSOLUTE = ("latency", "yaw_damping", "observer")
@@ -391,10 +418,10 @@ def test_a_similar_vehicle_flies_a_similar_flight():
         ({"hanging_share": 2}, "hanging_share: expected at most 1, got 2"),
         ({"tilt_limit": 3.2}, "tilt_limit: expected at most 3.14159 rad, got 3.2"),
         ({"lead": 0.9}, "lead: expected a finite number >= 1, got 0.9"),
-        ({"low_below": -1.1}, "low_below: expected a finite number >= -1, got -1.1"),
-        ({"thrust_share": 1.001}, "thrust_share: expected at most 1, got 1.001"),
+        ({"hanging_share": -0.1}, "hanging_share: expected a finite number >= 0, got -0.1"),
+        ({"hanging_share": 1.001}, "hanging_share: expected at most 1, got 1.001"),
         ({"form": "heavy"}, "form: expected one of full, light, got 'heavy'"),
-        ({"thrust_share": 0}, "thrust_share: expected a finite number > 0, got 0"),
+        ({"catch_within": 0}, "catch_within: expected a finite number > 0, got 0"),
     ],
 )
 def test_unknown_gains_and_gains_out_of_range_are_refused_in_one_line(gains, message):
@@ -422,8 +449,6 @@ def test_bandwidths_that_are_not_separated_are_refused():
             fp.laws.inverted(**{name: outside * edge}).bind(VEHICLE)
     with pytest.raises(fp.InputError, match=r"^(rod|attitude)_bandwidth: "):
         fp.simulate(VEHICLE, fp.laws.inverted(rod_bandwidth=100), fp.State(y=E3), 1.0, plant="ideal")
-    with pytest.raises(fp.InputError, match=r"^high_above: expected low_below < high_above < 1"):
-        fp.laws.inverted(low_below=0.98, high_above=0.97).bind(VEHICLE)
 
 
 def test_the_law_is_bound_once_per_vehicle():
@@ -434,7 +459,7 @@ def test_the_law_is_bound_once_per_vehicle():
     assert bound.bind(VEHICLE) is bound
     assert bound.gains["rod_damping"] == 0.5
     assert {name: value for name, value in bound.gains.items() if name != "rod_damping"} == {
-        name: value for name, value in vars(GAINS).items() if name != "rod_damping"
+        name: value for name, value in BOUND.gains.items() if name != "rod_damping"
     }
     assert (bound.computer.lead, bound.computer.latency, bound.computer.observer) == (
         GAINS.lead, GAINS.latency, GAINS.observer,
@@ -452,7 +477,7 @@ def test_inverted_hover_is_an_equilibrium_but_for_what_the_limited_force_takes()
     for yaw in (0.0, 1.0, -2.5):
         state = fp.State(x=position, R=Rotation.from_rotvec([0, 0, yaw]).as_matrix(), y=E3)
         rates = np.array(loop.rates(0, state.packed()))[:, 0]
-        ratio = VEHICLE.weight / (GAINS.thrust_share * 4 * VEHICLE.rotor_limits[1])
+        ratio = VEHICLE.weight / (throw.THRUST_SHARE * 4 * VEHICLE.rotor_limits[1])
         assert rates[5] == pytest.approx(-g * ratio**8 / 8, rel=0.01)  # ẍ₃: a few 1e-4 m/s²
         np.testing.assert_allclose(np.delete(rates, 5), 0, rtol=0, atol=1e-12)
     # The vehicle then rests where the height loop gives that back.
@@ -565,9 +590,11 @@ UPSIDE_DOWN = Rotation.from_rotvec([np.pi - 1e-3, 0, 0]).as_matrix()
     [
         fp.State(y=-E3),  # at rest hanging, where people start
         fp.State(R=UPSIDE_DOWN, y=E3),
+        fp.State(R=np.diag([1.0, -1, -1]), y=E3),
         fp.State(R=UPSIDE_DOWN, y=-E3),
         fp.State(x=(4, -3, 2), y=E3),
         fp.State(omega=(0, 0, 20), y=(0.6, 0, 0.8)),
+        fp.State(omega=(0, 0, 40), y=-E3),
     ],
 )
 def test_it_inverts_from_where_a_pull_vanishes_from_afar_and_spinning(plant, start):
@@ -582,7 +609,7 @@ def test_inverted_at_rest_it_stays():
     assert np.max(geo.norm(run.y - E3)) < 1e-12
     run = fp.simulate(VEHICLE, LAW, fp.State(y=E3), 3.0, plant="rotors")
     assert _excursion(run) < 0.1  # rotors begin at their least force
-    assert np.max(geo.norm(run.y - E3)) < 1e-12
+    assert np.max(geo.norm(run.y - E3)) < 1e-10  # roundoff, which the fall of the first instants lets grow
 
 
 @pytest.mark.parametrize("plant", ["ideal", "rotors"])

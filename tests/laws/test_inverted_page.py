@@ -51,13 +51,17 @@ def test_the_sign_of_the_page_drives_the_energy_to_its_value_upright_and_the_oth
     assert "F = (M+m) A − M l κ (1 − E/w²) ẏ" in PAGE
 
 
-def test_the_law_has_the_sign_of_the_page(monkeypatch):
-    monkeypatch.setattr(throw, "ANTIPODE_SHIFT", 0.0)
-    vehicle, gains = fp.vehicle("nayak2018"), SimpleNamespace(pump_rate=2.0)
+def test_the_law_has_the_sign_of_the_page():
+    vehicle, gains = fp.vehicle("nayak2018"), SimpleNamespace(pump_rate=2.0, shift=0.0)
     y, y_dot = np.array([0.6, 0, -0.8]), np.array([0.4, 1.0, 0.3])
-    force = ca.DM(throw.pumping_force(ca.DM(vehicle.g * E3), ca.DM(y), ca.DM(y_dot), vehicle, gains)).full().ravel()
+    force = (
+        ca.DM(throw.pumping_force(ca.DM(vehicle.g * E3), ca.DM(y), ca.DM(y_dot), ca.DM([1, 0, 0]), vehicle, gains))
+        .full()
+        .ravel()
+    )
     change, share = _energy_rate(y, y_dot, force, vehicle)
-    assert change == pytest.approx(2.0 * (1 - share) * (y_dot @ y_dot), rel=1e-12)
+    circling = E3 @ np.cross(y, y_dot)
+    assert change == pytest.approx(2.0 * ((1 - share) * (y_dot @ y_dot) - 0.4 * circling**2), rel=1e-12)
 
 
 def test_the_energy_upright_is_also_that_of_a_cone():
@@ -110,10 +114,10 @@ def test_the_bob_can_be_believed_to_be_pulled_harder_than_the_demand_allows():
 
 
 def test_there_is_a_second_equilibrium_with_two_growing_modes():
-    found = linearise(fp.laws.inverted(), VEHICLE, fp.State(x=(0.06, 0, 2.3), y=(0, 0, -1)))
+    found = linearise(fp.laws.inverted(), VEHICLE, fp.State(x=(0.25, 0, 2.1), y=(0, 0, -1)))
     np.testing.assert_allclose(found.at.y, -E3, atol=1e-9)
     np.testing.assert_allclose(found.at.R, np.eye(3), atol=1e-9)
-    across, height, growth = told(r"at x = \(([\d.]+), 0, ([\d.]+)\) m.*?growing modes \(([\d.]+) /s twice\)")
+    across, height, *growth = told(r"at x = \(([\d.]+), 0, ([\d.]+)\) m.*?growing modes \(([\d.]+) and ([\d.]+) /s\)")
     np.testing.assert_allclose(found.at.x, [across, 0, height], atol=5e-4)
     modes = found.without(*found.symmetries).eigenvalues.real
     np.testing.assert_allclose(modes[:2], growth, atol=5e-3)
@@ -157,7 +161,7 @@ def test_the_swing_up_of_the_readme_passes_through_a_rotor(clearance):
     rod = clearance.in_body(clearance.flown(fp.State(y=(0, 0, -1)), fp.laws.inverted()))
     assert rod[0, 2] == pytest.approx(-1)
     assert rod[-1, 2] > 0.99
-    assert clearance.nearest(clearance.crossings(rod), VEHICLE) < 1e-3
+    assert clearance.nearest(clearance.crossings(rod), VEHICLE) < 5e-3  # m, of a disc of 63.5 mm
 
 
 @pytest.mark.slow

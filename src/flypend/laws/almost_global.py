@@ -109,7 +109,7 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> C
 
     terms = (*outer.terms, u.potential, u.kinetic)
     return Control(
-        wrench=Wrench(f, axis_moment(state, vehicle, apply(state.R.T, u.force), k.yaw_damping)),
+        wrench=Wrench(f, axis_moment(state, vehicle, apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])),
         lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
         signals={
             "V_rate_claimed": outer.decay + u.decay,  # (B9)

@@ -17,17 +17,21 @@ from __future__ import annotations
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
-from flypend.geometry import E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
+from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
 from flypend.laws.gain import documented
-from flypend.laws.inverted_gains import GAINS, computer_of, go_together
+from flypend.laws.inverted_gains import GAINS, angular_authority, computer_of, go_together, scales
 from flypend.laws.law import Law
+from flypend.laws.passage import FREE, heading, passage_of, steered
 from flypend.laws.references import Path, Reference, hover
+from flypend.laws.smooth import smooth_step, soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
 from flypend.laws.throw import (
     Demand,
+    Pose,
     carrying,
     coasted,
     demand,
@@ -35,6 +39,7 @@ from flypend.laws.throw import (
     largest_thrust,
     lifted,
     limited_force,
+    low_rod,
     rod_force,
     steering_force,
 )
@@ -45,6 +50,17 @@ AXIS_LIFT = 0.028
 # s, in weights, of the target's smoothed length √(|·|² + s²): the target stays smooth even where that sum vanishes.
 # Both are small compared with hover, where |F| is one weight; both were tuned with the other parameters on hehn2011.
 AXIS_FLOOR = 0.006
+# Largest angle, rad, between a rod being caught and the force demanded: short of the rotor plane on a hub; on a cup, a
+# share of the cone.
+HUB_CONE, CUP_SHARE = 1.4, 0.8
+# Length, rad, of the turn demanded at the antipode of the thrust axis's target, where its spring vanishes.
+ANTIPODE_PUSH = 0.03
+# Largest rate demanded of the thrust axis, in units of √α: the vehicle stops from it within TURN²/2 rad.
+TURN = 1.3
+# Spins about the thrust axis, in units of the one at which turning the axis as fast as the vehicle flips takes all
+# moment there is: up to the first the gyroscopic moment is compensated; from the second on not at all, the axis moves
+# as a gyroscope's, and the rod waits, hanging, until the spin has decayed.
+CALM, SPUN = 1.0, 2.0
 
 
 @documented(GAINS)
@@ -77,7 +93,27 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
         reference=followed,
         path=carrying(followed),
         check=go_together,
+        prepare=mounted,
     )
+
+
+def mounted(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
+    """Return what the law takes from `vehicle` besides gains.
+
+    The passage and the side of the rotor plane for a hub, the cone of the force about a rod being caught, rad, and the
+    lag left after the rotors' lead, s.
+    """
+    cones = {"gimbal": None, "hub": HUB_CONE}
+    cone = cones[vehicle.mount] if vehicle.mount in cones else CUP_SHARE * vehicle.body.cup_angle
+    hub, lag = vehicle.mount == "hub", vehicle.rotor_lag / gains["lead"]
+    numbers = scales(vehicle).numbers
+    authority, inertia = angular_authority(vehicle), np.diag(vehicle.inertia)
+    return {
+        "passage": passage_of(vehicle) if hub else None, "cone": cone, "side": float(hub), "lag_left": lag,
+        "authority": authority, "haste": numbers["haste"], "shift": numbers["shift"],
+        "turn_rate": TURN * np.sqrt(authority),
+        "fast_spin": max(inertia[0], inertia[1]) / inertia[2] * np.sqrt(authority),
+    }  # fmt: skip
 
 
 def inverted_control(
@@ -95,18 +131,27 @@ def inverted_control(
     """
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
     v_ref, a_ref, jerk_ref = derivatives(p_ref, t, 3)
-    height = state.x[2] - x_ref[2]
 
     def errors_at(y: Any, y_dot: Any) -> tuple[Any, Any]:
         return state.x + vehicle.l * y - p_ref, state.x_dot + vehicle.l * y_dot - v_ref
 
-    def force(y: Any, y_dot: Any) -> Any:
-        return rod_force(*errors_at(y, y_dot), a_ref, jerk_ref, y, y_dot, height, forces, vehicle, k)
+    def force(rod: tuple[Any, Any], low: Any, pose: Pose) -> Any:
+        return rod_force(*errors_at(*rod), a_ref, jerk_ref, *rod, low, pose, forces, vehicle, k)
 
     # The thrust axis serves the rod after it has coasted for the time that the axis takes to turn; the thrust, after a
     # share of that time. With a share of 1 the two forces coincide.
     ahead = coasted(state.y, state.y_dot, k.coast_time)
-    present = force(*coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time))
+    nearer = coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time)
+    low, steering, height = low_rod(*ahead, state.z, k), FREE, state.x[2] - x_ref[2]
+    if k.passage is not None:
+        caught = force(ahead, 0, Pose(height, E1, 1))
+        caught = scale(1 / smooth_norm(caught, AXIS_FLOOR * vehicle.weight), caught)
+        steering = steered(state, heading(state, ahead[0], caught, k.coast_time), k.passage)
+    # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
+    clear = ca.SX.sym("clear")
+    calm = 1 - smooth_step(((state.omega[2] / k.fast_spin) ** 2 - CALM**2) / (SPUN**2 - CALM**2))
+    pose = Pose(height, steering.aside, clear)
+    present = force(nearer, low_rod(*nearer, state.z, k), pose)
     f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
@@ -117,15 +162,16 @@ def inverted_control(
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
         e, v = errors_at(*ahead)
-        wish = demand(e, v, a_ref, jerk_ref, *ahead, vehicle.g * E3 - forces[1] / vehicle.m, k)
+        wish = demand(e, v, a_ref, jerk_ref, *ahead, low, vehicle.g * E3 - forces[1] / vehicle.m, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
-        wanted = axis(steering_force(held, v[2], *ahead, height, forces, vehicle, k))
+        wanted = axis(steering_force(held, low, v[2], *ahead, pose, forces, vehicle, k))
         turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))
         wanted_dot = lie_derivative(wanted, state, rates, t) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
         wanted, wanted_dot = ca.substitute([wanted, ca.densify(wanted_dot)], list(held), list(wish))
     else:
-        wanted = axis(force(*ahead))
+        wanted = axis(force(ahead, low, pose))
         wanted_dot = lie_derivative(wanted, state, rates, t)
+    f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
     # From here on in the body frame, where z = e₃ and half of what follows is zero. ż_d is known up to a component
     # along z_d, which the transport map of Lemma 2 annihilates.
@@ -134,10 +180,16 @@ def inverted_control(
     v_e = velocity_error(E3, z_dot, z_d, k.rate_feedforward * z_d_dot)
     # Length 2 sin(θ/2), with θ the angle between z and z_d, up to near the antipode θ = π, where it drops to 0.
     spring = scale(1 / ca.sqrt((1 + z_d[2]) / 2 + ANTIPODE_FLOOR), tangent_part(E3, z_d))
-    stiffness, damping = k.attitude_bandwidth**2, 2 * k.attitude_damping * k.attitude_bandwidth
-    # Limit the turn rate to what the vehicle can stop: the bare spring would turn it at stiffness / damping per radian.
+    spring = spring + ANTIPODE_PUSH * ((1 - z_d[2]) / 2) ** 4 * E1
+    # Faster while the rod is thrown: what counts then is agility, and in hover the margin against delay.
+    bandwidth = k.attitude_bandwidth * (1 + k.haste * low)
+    stiffness, damping = bandwidth**2, 2 * k.attitude_damping * bandwidth
+    # Turn no faster than the vehicle can stop; the bare spring would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
+    u_z = calm * u_z + (1 - calm) * soft(u_z, k.authority / 2)
 
-    moment = axis_moment(state, vehicle, u_z, k.yaw_damping)
+    # What is left of the rotors' lag turns a spinning body on before they act.
+    yaw = steering.yaw - k.yaw_damping * state.omega[2]
+    moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.lag_left * state.omega[2], compensated=calm)
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)

@@ -109,7 +109,9 @@ def repaired_control(t: Any, state: State, vehicle: Vehicle, k: Any, *, cancelle
     u = push(z, axis_rate(state), aimed, lie_derivative(aimed.rate, state, rates), step)  # Lemma S
 
     return Control(
-        wrench=Wrench(f, axis_moment(state, vehicle.seen("down"), apply(state.R.T, u.force), k.yaw_damping)),
+        wrench=Wrench(
+            f, axis_moment(state, vehicle.seen("down"), apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])
+        ),
         lyapunov={
             "V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2,
             "V_2": u.potential,

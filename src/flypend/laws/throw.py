@@ -6,13 +6,15 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E1, E3, cross, dot, norm, scale, tangent_part, unit
+from flypend.geometry import E3, cross, dot, norm, scale, tangent_part, unit
 from flypend.laws.references import Path, Reference
+from flypend.laws.smooth import positive, smooth_step, soft
 from flypend.model import Vehicle
 
-# A continuous attracting field on S² vanishes at some other point; here, opposite its target. This angle, rad, shifts
-# that point away from the rod that hangs at rest below its reference, a common start.
-ANTIPODE_SHIFT = 0.03
+# Rate at which the pump stops the rod's circling, in units of the rate of its energy. More than a half costs height.
+CIRCLING = 0.4
+# Of the largest thrust; below 1, so that the rotors keep some authority for moments.
+THRUST_SHARE = 0.993
 
 
 def carrying(reference: Reference) -> Path:
@@ -52,15 +54,15 @@ def derivatives(value: Any, t: Any, count: int) -> list[Any]:
     return out
 
 
-def bob_acceleration(e: Any, v: Any, y: Any, k: Any) -> Any:
-    """Return the bob's desired acceleration at position error `e` (m), velocity error `v` (m/s) and rod `y`.
+def bob_acceleration(e: Any, v: Any, low: Any, k: Any) -> Any:
+    """Return the bob's desired acceleration at position error `e` (m) and velocity error `v` (m/s), `low` as below.
 
     A position loop with a soft limit on the error, plus a throw: an upward speed demand while the rod is low. Gravity
     is not included.
     """
     limited = soft(e, k.position_reach)
-    throw = k.throw_speed * low_rod(y, k)
-    up = -(k.height_bandwidth**2) * limited[2] - 2 * k.height_damping * k.height_bandwidth * (v[2] - throw)
+    throw = k.throw_speed * low
+    up = -(k.height_bandwidth**2) * limited[2] - 2 * k.position_damping * k.height_bandwidth * (v[2] - throw)
     rising = positive(up)
     vertical = rising + soft(up - rising, k.descent_limit)
     horizontal = -(k.position_bandwidth**2) * limited[:2] - 2 * k.position_damping * k.position_bandwidth * v[:2]
@@ -75,9 +77,16 @@ def flip_permission(y: Any, height: Any, climb: Any, k: Any) -> Any:
     return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / k.flip_width)
 
 
-def low_rod(y: Any, k: Any) -> Any:
-    """Return 1 while the rod `y` is low, and exactly 0 near upright, to leave the equilibrium unaffected."""
-    return smooth_step((k.high_above - y[2]) / (k.high_above - k.low_below))
+def low_rod(y: Any, y_dot: Any, z: Any, k: Any) -> Any:
+    """Return 1 where the rod `y` is too low to be caught, and exactly 0 near upright, to leave the equilibrium alone.
+
+    What counts is the lean 1 − y₃ after coasting for a while, plus z·P_y e₃: a thrust axis on the side to which the rod
+    leans is half way to catching it. With `side`, also on which side of the rotor plane the rod is.
+    """
+    ahead, _ = coasted(y, y_dot, k.catch_time)
+    along = dot(y, z)
+    lean = 1 - ahead[2] + k.catch_by_axis * (z[2] - y[2] * along) - k.side * along * (1 - y[2])
+    return smooth_step((lean - k.catch_within) / k.catch_width)
 
 
 def rod_force(
@@ -87,7 +96,8 @@ def rod_force(
     jerk_ref: Any,
     y: Any,
     y_dot: Any,
-    height: Any,
+    low: Any,
+    pose: Pose,
     on: tuple[Any, Any],
     vehicle: Vehicle,
     k: Any,
@@ -102,15 +112,28 @@ def rod_force(
         Acceleration of the bob's reference, m/s², and its rate, m/s³.
     y, y_dot : SX (3, 1)
         Rod direction and its rate.
-    height : SX
-        Height of the pivot above its reference, m.
+    low : SX
+        1 to throw the rod, 0 to catch it; see `low_rod`.
+    pose : Pose
+        Where the vehicle is, and how its body lies to the rod.
     on : (SX, SX)
         External forces on vehicle and bob, N.
     vehicle, k
         Vehicle and gains.
     """  # fmt: skip
-    wish = demand(e, v, a_ref, jerk_ref, y, y_dot, vehicle.g * E3 - on[1] / vehicle.m, k)
-    return steering_force(wish, v[2], y, y_dot, height, on, vehicle, k)
+    wish = demand(e, v, a_ref, jerk_ref, y, y_dot, low, vehicle.g * E3 - on[1] / vehicle.m, k)
+    return steering_force(wish, low, v[2], y, y_dot, pose, on, vehicle, k)
+
+
+class Pose(NamedTuple):
+    """The vehicle as the rod's loops see it.
+
+    The `height` of the pivot above its reference, m; `aside` (3, 1) and `clear` as in `passage.Steering`.
+    """
+
+    height: Any
+    aside: Any
+    clear: Any
 
 
 class Demand(NamedTuple):
@@ -122,14 +145,14 @@ class Demand(NamedTuple):
     omega_d: Any
 
 
-def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight: Any, k: Any) -> Demand:
+def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, low: Any, weight: Any, k: Any) -> Demand:
     """Return A, d = A/|A|, Ȧ, the Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ω_d = d × Ȧ/|A|.
 
     The errors are expressions themselves, so the derivative is taken with respect to fresh symbols. Other arguments
     as in `rod_force`; `weight` is g e₃ − F_b/m, m/s².
     """
     at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
-    asked = weight + at[2] + bob_acceleration(at[0], at[1], at[3], k)
+    asked = weight + at[2] + bob_acceleration(at[0], at[1], low, k)
     rates = ca.vertcat(at[1], scale(dot(asked, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
     rate = ca.jtimes(asked, ca.vertcat(*at), rates)
     A, A_dot = ca.substitute([asked, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
@@ -139,7 +162,15 @@ def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, weight
 
 
 def steering_force(
-    wish: Demand, climb: Any, y: Any, y_dot: Any, height: Any, on: tuple[Any, Any], vehicle: Vehicle, k: Any
+    wish: Demand,
+    low: Any,
+    climb: Any,
+    y: Any,
+    y_dot: Any,
+    pose: Pose,
+    on: tuple[Any, Any],
+    vehicle: Vehicle,
+    k: Any,
 ) -> Any:
     """Return the force on the quadrotor (3, 1), N, that turns the rod to `wish`, with the bob rising at `climb` m/s.
 
@@ -152,31 +183,41 @@ def steering_force(
     # Rod on S²: Lemma 2 towards d without the acceleration of d; the stiffness has the opposite sign until a flip is
     # permitted.
     v_e = y_dot - cross(omega_d, y)  # τ(y, d) ḋ = ω_d × y
-    low = low_rod(y, k)
-    share = 1 - low * (1 - flip_permission(y, height, climb, k)) * (1 + k.hanging_share)
-    pull = tangent_part(y, d + ANTIPODE_SHIFT * low * E1)
+    share = 1 - low * (1 - pose.clear * flip_permission(y, pose.height, climb, k)) * (1 + k.hanging_share)
+    pull = tangent_part(y, d + k.shift * low * pose.aside)
     u = share * k.rod_bandwidth**2 * pull - 2 * k.rod_damping * k.rod_bandwidth * v_e
     u = u + scale(dot(y, omega_d), cross(y, y_dot))
 
     difference = on_bob / m - on_vehicle / M
     F = -M * l * u + scale((M + m) * dot(A, y) + M * l * dot(y_dot, y_dot), y) + M * difference
+    if k.cone is not None:
+        F = F + scale((1 - low) * missing_along(F, y, k.cone), y)
     swing = k.pump_share * low
-    F = (1 - swing) * F + swing * pumping_force(A, y, y_dot, vehicle, k)
-    return limited_force(F, k.thrust_share * largest_thrust(vehicle))
+    F = (1 - swing) * F + swing * pumping_force(A, y, y_dot, pose.aside, vehicle, k)
+    return limited_force(F, THRUST_SHARE * largest_thrust(vehicle))
 
 
-def pumping_force(A: Any, y: Any, y_dot: Any, vehicle: Vehicle, k: Any) -> Any:
+def missing_along(F: Any, y: Any, cone: Any) -> Any:
+    """Return what F lacks along y, N, to be at most `cone` (rad, below π/2) from it; 0 if it is nearer."""
+    along = dot(F, y)
+    across = ca.sqrt(dot(F, F) - along**2 + 1e-12)
+    return ca.fmax(across / ca.tan(cone) - along, 0)
+
+
+def pumping_force(A: Any, y: Any, y_dot: Any, aside: Any, vehicle: Vehicle, k: Any) -> Any:
     """Return the force on the quadrotor (3, 1), N, that meets the demand `A` and pumps the rod's energy.
 
     Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy
     E = |ẏ|²/2 + w² y₃ and E = w² upright at rest. The rest of F, M l κ (E/w² − 1) ẏ, makes Ė = −κ (E/w² − 1) |ẏ|².
-    Only E is controlled: a rod circling on a cone at that energy stays there.
+    A rod circling on a cone can have that energy too. M l κ Λ e₃ × y, with Λ = e₃·(y × ẏ), makes Λ̇ = −κ |e₃ × y|² Λ
+    besides, so that it swings through the vertical in the end.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     w_squared = vehicle.weight / (M * l)
     missing = 1 - (dot(y_dot, y_dot) / 2 / w_squared + y[2])
-    push = y_dot + ANTIPODE_SHIFT * ca.sqrt(w_squared) * E1  # moves it off the hanging rest, a common start
-    return (M + m) * A - scale(M * l * k.pump_rate * missing, push)
+    push = y_dot + k.shift * ca.sqrt(w_squared) * aside  # moves it off the hanging rest, a common start
+    circling = scale(dot(E3, cross(y, y_dot)), cross(E3, y))
+    return (M + m) * A - M * l * k.pump_rate * (scale(missing, push) - CIRCLING * circling)
 
 
 def largest_thrust(vehicle: Vehicle) -> Any:
@@ -194,22 +235,6 @@ def lifted(F: Any, tilt: Any) -> Any:
     """Return F with its vertical part raised until F is at most `tilt` (rad, below π) from e₃; 0 stays 0."""
     level = ca.sqrt(F[0] ** 2 + F[1] ** 2 + 1e-12)
     return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
-
-
-def soft(value: Any, limit: Any) -> Any:
-    """Return value/√(1 + |value|²/limit²): close to `value` if short, never longer than `limit`."""
-    return value / ca.sqrt(1 + ca.dot(value, value) / limit**2)
-
-
-def smooth_step(q: Any) -> Any:
-    """Return exactly 0 below q = 0 and exactly 1 above q = 1; twice differentiable, so that ż_d has no jump."""
-    q = 1 - positive(1 - positive(q))
-    return q * q * q * (10 - q * (15 - 6 * q))
-
-
-def positive(value: Any) -> Any:
-    """Return `value` where it is positive, else 0: max(value, 0) with a derivative that takes one operation."""
-    return value * (value > 0)
 
 
 def coasted(y: Any, y_dot: Any, time: Any) -> tuple[Any, Any]:

@@ -1,0 +1,47 @@
+"""The way between the arms: bearings, the slope that yaw follows, and a swing-up on a hub that touches nothing."""
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.laws.passage import passage_of, steered
+from flypend.model.mount import clearances
+
+HUB = fp.vehicle("hehn2011").replace(mount="hub")
+
+
+def _steered(bearing, vehicle=HUB):
+    way = ca.DM([np.cos(bearing), np.sin(bearing)])
+    found = steered(fp.State(y=(0, 0, 1)), way, passage_of(vehicle))
+    return float(found.clear), float(found.yaw)
+
+
+def test_the_way_is_clear_in_the_gaps_and_blocked_over_the_arms():
+    for turn in range(4):
+        assert _steered(np.pi / 4 + turn * np.pi / 2)[0] == 1
+        assert _steered(turn * np.pi / 2)[0] == pytest.approx(0, abs=1e-12)
+
+
+def test_yaw_takes_the_nearer_gap_to_the_rod():
+    for bearing in np.radians([5, 20, 40, 95, 130, 200]):
+        off = (bearing - np.pi / 4 + np.pi / 4) % (np.pi / 2) - np.pi / 4
+        assert np.sign(_steered(bearing)[1]) == np.sign(off)  # the rod beyond the gap: turn after it
+
+
+def test_arms_need_not_be_even():
+    arms = [[0.17, 0.02, 0], [0.02, -0.17, 0], [-0.17, 0.03, 0], [0, 0.17, 0]]
+    found = passage_of(HUB.replace(rotor_positions=arms))
+    assert np.min(np.arccos(found.arms @ found.gap[:2])) > np.radians(45)
+
+
+def test_the_swing_up_from_hanging_at_rest_touches_neither_disc_nor_arm_on_a_hub():
+    def least(vehicle):
+        times = np.arange(2501) / 500
+        run = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 5.0, plant="rotors", times=times)
+        assert run.y[-1, 2] > 0.99
+        rod = np.einsum("nji,nj->ni", run.R, run.y)
+        return np.min(clearances(rod, HUB.rotor_positions, HUB.l, HUB.body))
+
+    assert least(HUB) > 0.005  # m; 0.012
+    assert least(fp.vehicle("hehn2011")) < 0  # negative control: the gimbal's law does not care

@@ -13,6 +13,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
 from flypend.board.program import (
     estimator,
+    filters,
     initial_memory,
     known,
     memory_size,
@@ -60,12 +61,13 @@ class SteppedBoard:
 
     def command(self, t: float, measured: Any) -> Any:
         """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""
-        stages, outside = self._stages, None
+        stages, outside, told = self._stages, None, []
         if stages.estimating is not None:
             self.filtered, measured, outside = stages.estimating.correct(self._expecting, measured, NONE)
+            told = [outside] if stages.estimating.forces else []
         self.estimated = measured
         measurement = np.append(t, measured)
-        kept, forces, state, rotors = stages.predict(self._memory, measurement, NONE)
+        kept, forces, state, rotors = stages.predict(self._memory, measurement, NONE, *told)
         self.predicted = (state, rotors, forces)
         command = stages.steer(t, state, rotors, forces)
         if stages.estimating is not None:
@@ -75,12 +77,17 @@ class SteppedBoard:
 
 
 class _Estimating(NamedTuple):
-    """The estimator's stages; `first` is the place of the commands in the board's memory, `given` their length."""
+    """The estimator's stages.
+
+    `first` is the place of the commands in the board's memory, and `given` the length of those that `carry` takes;
+    `forces` says whether external forces are estimated, for `predict`.
+    """
 
     correct: Callable[..., Any]
     carry: Callable[..., Any]
     first: int
     given: int
+    forces: bool
 
     def carried(self, filtered: Any, outside: Any, command: Any, memory: Any) -> Any:
         """Return the estimator's memory a period after `filtered`, under `command` and those under way in `memory`."""
@@ -102,7 +109,9 @@ def _stages(loop: Loop) -> _Stages:
     estimating, made = None, estimator(loop, believed)
     if made is not None:
         carry, first = made.carry(), believed.rotors + observer_memory(loop)
-        estimating = _Estimating(as_numpy(made.correct()), as_numpy(carry), first, carry.numel_in(2))
+        estimating = _Estimating(
+            as_numpy(made.correct()), as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled)
+        )
     return _Stages(as_numpy(predicting(loop, believed)), steer, as_numpy(remembering(loop, believed)), estimating)
 
 

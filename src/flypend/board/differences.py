@@ -71,7 +71,8 @@ class Differences:
 
     def carry(self) -> ca.Function:
         """Return (memory, outside, commands by age, params) → memory a control period later."""
-        memory, outside, commands = ca.SX.sym("memory", self.size), ca.SX.sym("outside", 6), ca.SX.sym("u", 0)
+        memory, commands = ca.SX.sym("memory", self.size), ca.SX.sym("u", 0)
+        outside = ca.SX.sym("outside", 6)
         since = memory[SIZE:]
         after = ca.vertcat(memory[:SIZE], ca.if_else(since >= 0, since + self._period, since))
         return ca.Function("spread", [memory, outside, commands, self._params], [after])

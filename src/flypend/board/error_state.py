@@ -116,11 +116,11 @@ def corrected(s: State, b: Any, error: Any, vehicle: Any) -> tuple[State, Any, A
 class Densities(NamedTuple):
     """Spectral densities of what drives the errors.
 
-    Specific forces on vehicle and bob beyond the model, (m/s²)²/Hz, and the error of the angular velocity, (rad/s)²/Hz.
+    Specific forces on vehicle and bob beyond the model, (m/s²)²/Hz each, and the error of the angular velocity,
+    (rad/s)²/Hz.
     """
 
-    vehicle: float
-    bob: float
+    force: Any
     turning: float
 
 
@@ -135,11 +135,11 @@ def spread(P: Any, s: State, b: Any, force: Any, vehicle: Any, h: float, densiti
     F[SWING, ROD] += h * ((dot(s.y, u) - dot_2(w, w)) * ca.SX.eye(2) + w @ w.T)
     F[SWING, TURN] = h * B.T @ hat(u)
     Q = ca.SX(ERRORS, ERRORS)
-    for share, pull, density in ((M / (M + m), -1, densities.vehicle), (m / (M + m), 1, densities.bob)):
+    for share, pull in ((M / (M + m), -1), (m / (M + m), 1)):
         G = ca.SX(ERRORS, 3)
         G[VELOCITY, :] = share * ca.SX.eye(3)
         G[SWING, :] = pull / vehicle.l * B.T
-        Q += h * density * G @ G.T
+        Q += h * densities.force * G @ G.T
     Q[TURN, TURN] += h * densities.turning * ca.SX.eye(3)
     return F @ P @ F.T + Q
 
@@ -193,5 +193,3 @@ def rod_rate_rows(B: Any, y: Any, y_dot: Any) -> Any:
 def turned_by(R: Any) -> Any:
     """Return the rotation vector (3,) of a small turn `R` (3, 3), to second order."""
     return ca.vertcat(R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]) / 2
-
-

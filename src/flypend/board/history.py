@@ -81,10 +81,7 @@ class History:
         """Return the memory at rest in `attitude` (9,) by rows under a specific `force` (3,), body frame, m/s²."""
         still = {"attitude": attitude, "force": force}
         return self.joined(
-            {
-                name: [still.get(name, np.zeros(QUANTITIES[name][0]))] * depth
-                for name, depth in self.depths.items()
-            }
+            {name: [still.get(name, np.zeros(QUANTITIES[name][0]))] * depth for name, depth in self.depths.items()}
         )
 
     def at(self, entries: Sequence[Any], now: Any, age: Any) -> Any:

@@ -1,8 +1,9 @@
 """The flight computer as one program: (memory, measurement, reference, gains, params) → (memory, command).
 
 It is the source of the kernel of sampled flights (MuJoCo included), the Python reference, and the exported C. In each
-control period it estimates the state, if the plant has sensors, and external forces, predicts the state at which its command will be applied, evaluates the law
-there, allocates the wrench to the rotors, adds lead, and advances its rotor model and its queue of commands in transit.
+control period it estimates the state, if the plant has sensors, and external forces; it predicts the state at which its
+command will be applied, evaluates the law there, allocates the wrench to the rotors, adds lead, and advances its rotor
+model and its queue of commands in transit.
 """
 
 from __future__ import annotations
@@ -41,9 +42,9 @@ class Board:
     reference : int
         Length of the reference input at every step.
     step : Function
-        (memory, measurement, reference, gains, params) → (memory, command): the estimator's `correct`, `predicting`, `law_command`,
-        `remembering` and the estimator's `carry` in sequence. A measurement is time (s) and state (24,), e₃ up; or time and readings
-        (see `plants.sensing`) for a plant with sensors.
+        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
+        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is time and
+        readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
     """
 
     loop: Loop
@@ -84,12 +85,17 @@ def estimator(loop: Loop, believed: Believed) -> Filter | Differences | None:
     sensors = loop.sampled.sensors
     if sensors is None:
         return None
-    return Filter(loop, believed) if sensors.rates == "estimated" else Differences(loop, believed)
+    return Filter(loop, believed) if filters(loop.sampled) else Differences(loop, believed)
 
 
 def observer_memory(loop: Loop) -> int:
-    """Return the size of the observer's memory."""
-    return observing.MEMORY if loop.law.computer.observer > 0 else 0
+    """Return the size of the observer's memory. There is none beside a `Filter`, which estimates the forces itself."""
+    return observing.MEMORY if loop.law.computer.observer > 0 and not filters(loop.sampled) else 0
+
+
+def filters(plant: Plant) -> bool:
+    """Whether the board in `plant` has a `Filter`."""
+    return plant.sensors is not None and plant.sensors.rates == "estimated"
 
 
 def depth(loop: Loop) -> int:
@@ -133,7 +139,8 @@ def board(
         memory = whole[:own]
         corrected, state, outside = filtering.correct()(whole[own:], measurement[1:], params)
         measured = ca.vertcat(measurement[0], state)
-    kept, forces, state, rotors = predict(memory, measured, params)
+    estimated = [outside] if filters(loop.sampled) else []
+    kept, forces, state, rotors = predict(memory, measured, params, *estimated)
     given = command(measured[0], state, rotors, forces, path, gains, params)
     after = remember(memory, kept, measured, forces, given, params)
     if filtering is not None:
@@ -163,21 +170,27 @@ def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
 
 
 def predicting(loop: Loop, believed: Believed) -> ca.Function:
-    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation."""
+    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation.
+
+    With a `Filter` there is one more input, the forces (6,) that it estimates, in place of the observer.
+    """
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     params = ca.MX.sym("params", believed.symbols.numel())
     rotors, kept, commands = _parts(loop, memory)
     state, forces = measurement[1:], ca.MX(ca.DM.zeros(6))
+    given = [ca.MX.sym("forces", 6)] if filters(loop.sampled) else []
+    if given and loop.law.computer.observer > 0:
+        forces = given[0]
     if observer_memory(loop):
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
         kept, forces = observe(state, rotors, kept, params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
     state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
-    return ca.Function("predict", [memory, measurement, params], [kept, forces, state, rotors])
+    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors])
 
 
 def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
-    return Twin(loop, believed, params, forces=observer_memory(loop) > 0)
+    return Twin(loop, believed, params, forces=loop.law.computer.observer > 0)
 
 
 def remembering(loop: Loop, believed: Believed) -> ca.Function:

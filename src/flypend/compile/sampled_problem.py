@@ -91,7 +91,8 @@ class SampledProblem:
     board : Routine
         The flight computer: (memory, measurement, reference, gains, params) → (memory, command); see `flypend.board`.
     begin : Program
-        (rotors) → (initial memory of the board, command in effect before the first); with `sensing`, (rotors, estimate).
+        (rotors) → (initial memory of the board, command in effect before the first); its inputs are (rotors, estimate)
+        with `sensing`.
     world : EquationsProblem or MujocoProblem
         Simulates vehicle and pendulum.
     loop : Program, optional

@@ -15,7 +15,7 @@ from flypend.errors import InputError
 from flypend.model import Vehicle
 from flypend.model.air import AIR
 from flypend.model.joint import stiffness
-from flypend.plants.noise import MOTION_CAPTURE, Noise
+from flypend.plants.noise import Noise
 from flypend.plants.sensors import sensors_called
 
 Engine = Literal["equations", "mujoco"]

@@ -13,6 +13,8 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.plants.noise import Noise
 
+# What a pilot's own estimate, or that of an estimator which has run for a while, may be wrong by.
+START = Noise(x=0.02, x_dot=0.2, attitude=0.03, omega=0.05, y=0.03, y_dot=0.2)
 Rates = Literal["estimated", "differenced"]
 # Longest latency of a reading, s; the estimator remembers the flight that long.
 LONGEST_LATENCY = 0.2
@@ -89,8 +91,10 @@ class Sensors:
     rates : "estimated" or "differenced"
         By the estimator, or, as a negative control, the differences of the last two poses, which must be measured.
     force_error : float
-        Density of the specific forces on vehicle and bob that the model lacks, m/s²/√Hz. With an accelerometer, which
-        measures that of the vehicle, its noise counts there.
+        Density of the specific forces on vehicle and on bob that the model lacks in hover, m/s²/√Hz. Forces that last
+        are estimated; this is about those that change.
+    manoeuvre_error : float
+        What is added to it per departure of the specific force from that of hover, 1/√Hz.
     moment_error : float
         Density of the angular acceleration that the model lacks, rad/s²/√Hz.
     command_delay : float, optional
@@ -110,9 +114,10 @@ class Sensors:
     accelerometer: Sensor | None = None
     joints: Sensor | None = None
     rod_gyro: Sensor | None = None
-    start: Noise = Noise(x=0.02, x_dot=0.2, attitude=0.03, omega=0.05, y=0.03, y_dot=0.2)
+    start: Noise = START
     rates: Rates = "estimated"
-    force_error: float = 0.1
+    force_error: float = 1e-3
+    manoeuvre_error: float = 3e-3
     moment_error: float = 1.0
     command_delay: float | None = None
 
@@ -132,6 +137,7 @@ class Sensors:
             raise InputError("sensors.start", "a Noise or a table", repr(self.start))
         errors.one_of("sensors.rates", self.rates, ("estimated", "differenced"))
         errors.number("sensors.force_error", self.force_error, above=0)
+        errors.number("sensors.manoeuvre_error", self.manoeuvre_error, at_least=0)
         errors.number("sensors.moment_error", self.moment_error, above=0)
         if self.command_delay is not None:
             errors.number("sensors.command_delay", self.command_delay, at_least=0, at_most=0.5, unit="s")

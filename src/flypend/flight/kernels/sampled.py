@@ -36,7 +36,8 @@ from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_n
 from flypend.plants.motors import motor_timing, timing_size
 from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, seen_by_mujoco, substeps
 from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surroundings
-from flypend.plants.plant import Noise, Plant, Wind
+from flypend.plants.noise import Noise
+from flypend.plants.plant import Plant, Wind
 from flypend.plants.schedule import steps_in, within_period
 from flypend.plants.sensing import START_TICK, first_estimate, first_memory, sensing
 

@@ -32,10 +32,11 @@ from flypend.plants.sensors import Sensors
 
 # Bandwidth, 1/s, at which the force that the accelerometer adds to the modelled thrust is followed. A faster one would
 # only pass on its noise: what the model lacks changes slowly, or is noise itself.
-FELT_BANDWIDTH = 2.0
-# Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last. At 0.1 an error of the mass is
-# still 5 cm of position after 10 s; at 1 the integral shakes the rod.
-LASTING_BANDWIDTH = 0.2
+FELT_BANDWIDTH = 0.5
+# Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last: at 0.5 the integral shakes the
+# rod. It falls with the square of the departure of the specific force from that of hover, beyond HOVERING (m/s²): what
+# is corrected in a manoeuvre is put down to the manoeuvre.
+LASTING_BANDWIDTH, HOVERING = 0.15, 0.5
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,9 @@ class Filter:
         omega = expected.omega(self._gyro_gain())
         s = State(x=s.x, x_dot=s.x_dot, R=s.R, omega=omega, y=s.y, y_dot=s.y_dot)
         limit = self._loop.law.computer.force_limit * vehicle.weight
-        force, outside = _lasting(parts.force[:6], error, b, s, vehicle, limit)
+        thrust = ca.sum1(parts.rotors) * before.z
+        pace = LASTING_BANDWIDTH / (1 + _departure(thrust, vehicle) / HOVERING**2)
+        force, outside = _lasting(parts.force[:6], error, b, s, vehicle, pace, limit)
         if self.feels:
             felt = expected.force(parts.force[6:], -np.expm1(-FELT_BANDWIDTH * self.period), vehicle)
             force, outside = ca.vertcat(force, felt), outside + ca.vertcat(s.R @ felt, np.zeros(3))
@@ -181,26 +184,34 @@ class Filter:
 
     def _densities(self, force: Any) -> Densities:
         """Return the densities at a `force` (3,) of the vehicle on its rotors' axes, world frame, N."""
-        sensors, vehicle = self.sensors, self._believed.vehicle
-        departure = force / (vehicle.M + vehicle.m) - vehicle.g * E3
-        beyond = sensors.force_error**2 + sensors.manoeuvre_error**2 * dot(departure, departure)
-        gyro = sensors.gyro
+        gyro = self.sensors.gyro
         assert gyro is not None
         turning = gyro.variance / (min(gyro.rate, 1 / self.period) * (1 - gyro.dropouts))
-        return Densities(beyond, turning)
+        return Densities(self._density(force), turning)
+
+    def _density(self, force: Any) -> Any:
+        """Return the density of the specific forces that the model lacks at a `force` as in `_densities`."""
+        sensors, vehicle = self.sensors, self._believed.vehicle
+        return sensors.force_error**2 + sensors.manoeuvre_error**2 * _departure(force, vehicle)
 
 
-def _lasting(force: Any, error: Any, b: Any, s: State, vehicle: Any, limit: Any) -> tuple[Any, Any]:
+def _departure(force: Any, vehicle: Any) -> Any:
+    """Return the squared departure, (m/s²)², of the specific force from that of hover, for the vehicle's `force`, N."""
+    departure = force / (vehicle.M + vehicle.m) - vehicle.g * E3
+    return dot(departure, departure)
+
+
+def _lasting(force: Any, error: Any, b: Any, s: State, vehicle: Any, pace: Any, limit: Any) -> tuple[Any, Any]:
     """Return total force and F_b/m − F_v/M across the rod (6,) after a correction, and on vehicle and bob (6,), N.
 
     A velocity that is corrected again and again in one direction is driven by a force: the integral of the corrections.
     Forces are limited to `limit`, N.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
-    total = force[:3] + LASTING_BANDWIDTH * (M + m) * error[error_state.VELOCITY]
+    total = force[:3] + pace * (M + m) * error[error_state.VELOCITY]
     B = error_state.frame(b, s.y)
     total = total / ca.fmax(1, norm(total) / limit)
-    difference = tangent_part(s.y, force[3:]) + LASTING_BANDWIDTH * l * B @ error[error_state.SWING]
+    difference = tangent_part(s.y, force[3:]) + pace * l * B @ error[error_state.SWING]
     difference = difference / ca.fmax(1, norm(difference) * m / limit)
     on_bob = m * M / (M + m) * (difference + total / M)
     return ca.vertcat(total, difference), ca.vertcat(total - on_bob, on_bob)

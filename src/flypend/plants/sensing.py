@@ -147,20 +147,21 @@ def _between(before: State, now: State, since: Any, period: float) -> State:
 
     Positions are cubic in time, rates linear.
     """
-    share = 1 - ca.fmax(since, 0.0) / period
-    after = share * period
+    since = ca.fmax(since, 0.0)
+    share = 1 - since / period
 
     def cubic(a: Any, a_dot: Any, b: Any, b_dot: Any) -> Any:
         rise, start, end = b - a, period * a_dot, period * b_dot
         return a + share * (start + share * (3 * rise - 2 * start - end + share * (start + end - 2 * rise)))
 
-    turn = after * (before.omega + share / 2 * (now.omega - before.omega))
+    omega = before.omega + share * (now.omega - before.omega)
+    turn = since / 2 * (omega + now.omega)
     y = unit(cubic(before.y, before.y_dot, now.y, now.y_dot))
     return State(
         x=cubic(before.x, before.x_dot, now.x, now.x_dot),
         x_dot=before.x_dot + share * (now.x_dot - before.x_dot),
-        R=before.R @ rotation_by(turn),
-        omega=before.omega + share * (now.omega - before.omega),
+        R=now.R @ rotation_by(-turn),
+        omega=omega,
         y=y,
         y_dot=tangent_part(y, before.y_dot + share * (now.y_dot - before.y_dot)),
     )

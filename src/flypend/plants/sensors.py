@@ -116,7 +116,7 @@ class Sensors:
     rod_gyro: Sensor | None = None
     start: Noise = START
     rates: Rates = "estimated"
-    force_error: float = 1e-3
+    force_error: float = 5e-4
     manoeuvre_error: float = 3e-3
     moment_error: float = 1.0
     command_delay: float | None = None

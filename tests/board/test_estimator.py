@@ -165,9 +165,8 @@ def moved_back(packed, age):
     s = fp.State.trusted(packed)
     y = s.y - age * s.y_dot
     y_dot = s.y_dot - y * (y @ s.y_dot) / (y @ y)
-    return fp.State(
-        x=s.x - age * s.x_dot, x_dot=s.x_dot, R=s.R, omega=s.omega, y=y / np.linalg.norm(y), y_dot=y_dot
-    ).packed()
+    x, y = s.x - age * s.x_dot, y / np.linalg.norm(y)
+    return fp.State(x=x, x_dot=s.x_dot, R=s.R, omega=s.omega, y=y, y_dot=y_dot).packed()
 
 
 @pytest.mark.parametrize("age", [0.0, 0.004], ids=["now", "late"])

@@ -53,15 +53,16 @@ class Board:
     step: ca.Function
 
 
-def initial_memory(loop: Loop, rotors: Any, estimate: Any = None) -> Any:
+def initial_memory(loop: Loop, rotors: Any, estimate: Any = None, believed: Believed | None = None) -> Any:
     """Return the memory (k,) of the board of `loop` before its first step, for current rotor forces `rotors` (n,), N.
 
-    Numbers or CasADi symbols. A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up.
+    Numbers or CasADi symbols. A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up, and the
+    `believed` vehicle, by default that of `loop`.
     """
     parts = [rotors, np.zeros(observer_memory(loop)), *[idle_command(loop, rotors)] * depth(loop)]
-    filtering = estimator(loop, Believed.numbers(loop.vehicle))
-    if filtering is not None:
-        begun = filtering.begun()(rotors, estimate, [])
+    believed = believed or Believed.numbers(loop.vehicle)
+    if (filtering := estimator(loop, believed)) is not None:
+        begun = filtering.begun()(rotors, estimate, believed.symbols if believed.symbols.numel() else [])
         parts.append(begun if isinstance(rotors, ca.SX) else begun.full().ravel())
     return ca.vertcat(*parts) if isinstance(rotors, ca.SX) else np.concatenate(parts)
 

@@ -297,14 +297,18 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...]) -> None:
 @out_option("c-out")
 @click.option("--precision", default="double", help="double or float.")
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@sensors_option
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
 @click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and tell the result.")
-def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, light: bool, tested: bool) -> None:
+def export_c(
+    law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
+) -> None:
     """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
     from flypend.laws import Law, inverted
+    from flypend.plants import SUITES
     from flypend.studies import law_named
 
     if light:
@@ -316,7 +320,9 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
-        write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate, check=tested)
+        errors.one_of("--sensors", sensors, SUITES)
+        machine = model.vehicle(vehicle)
+        write(chosen, machine, out, precision=kind, rate=rate, sensors=sensors, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")

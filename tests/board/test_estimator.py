@@ -239,7 +239,7 @@ def test_errors_are_as_large_as_it_claims_in_many_flights(name):
 
 @pytest.mark.parametrize("name", ["mocap", "onboard"])
 def test_a_world_as_the_model_has_it_is_not_claimed_to_be_known_better(name):
-    """With its own densities the filter expects forces that this world lacks: its errors are no larger than it claims."""
+    """The filter expects forces that this world lacks: its errors are no larger than it claims."""
     found = np.array([squared(SUITES[name], flown(SUITES[name], seed, 1.6)) for seed in range(6)])
     assert np.mean(found) < ERRORS + 3 * np.sqrt(26 / found.size)
     assert np.mean(found) > ERRORS / 3  # and not so much smaller that the claim says nothing

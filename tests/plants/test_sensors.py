@@ -188,3 +188,11 @@ def test_what_cannot_be_is_refused_in_one_line(make, told):
     with pytest.raises(InputError, match=told) as caught:
         make()
     assert "\n" not in str(caught.value)
+
+
+def test_noisier_sensors_are_so_in_noise_only():
+    twice = SUITES["onboard"].noisier(2.0)
+    for name, stream in SUITES["onboard"].streams.items():
+        there = getattr(twice, name)
+        assert there.noise == 2 * stream.noise
+        assert (there.rate, there.latency, there.quantisation) == (stream.rate, stream.latency, stream.quantisation)

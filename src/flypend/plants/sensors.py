@@ -163,6 +163,10 @@ class Sensors:
         errors.only_known("sensors", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
 
+    def noisier(self, factor: float) -> Sensors:
+        """Return a copy with the noise of every sensor times `factor`; the estimator is told."""
+        return self.replace(**{n: replace(s, noise=factor * s.noise) for n, s in self.streams.items()})
+
     def to_dict(self) -> dict[str, Any]:
         """Return the fields as plain tables, without what is not there; `Sensors(**…)` takes them back."""
         return {name: value for name, value in asdict(self).items() if value is not None}

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from flypend.model.rod import rod_with_bob, uniform_rod
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle, vehicle
-    from flypend.plants import Ideal, Noise, Plant, Wind
+    from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
     from flypend.studies.starts import random_starts
@@ -57,7 +57,7 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
-    "plants": ("Ideal", "Noise", "Plant", "Wind"),
+    "plants": ("Ideal", "Noise", "Plant", "Sensor", "Sensors", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
     "studies.starts": ("random_starts",),
@@ -87,6 +87,8 @@ __all__ = [
     "Outcome",
     "Plant",
     "Sensitivity",
+    "Sensor",
+    "Sensors",
     "State",
     "Study",
     "Tolerances",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import tomli_w
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
@@ -18,7 +19,7 @@ from flypend.laws import law_from_dict, law_names
 from flypend.model.state import SHAPES
 from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
-from flypend.settings.runfile import KEYS, run_file
+from flypend.settings.runfile import KEYS, plant_of, run_file
 
 SWING_UP = str(Path(fp.__file__).parent / "examples" / "swing-up.toml")
 OWN = """
@@ -533,3 +534,17 @@ def test_what_would_never_end_is_refused():
         flight(SWING_UP, ["duration=1e7"])
     with pytest.raises(fp.InputError, match=r"^plant\.rate: expected at most 10000 Hz, got 1e\+06$"):
         flight(SWING_UP, ["plant.rate=1e6"])
+
+
+def test_sensors_of_a_run_file_are_a_suite_or_a_table_on_top_of_one(tmp_path):
+    text = '{experiment}\n[plant]\nbase = "rotors"\n[plant.sensors]\nbase = "mocap"\n[plant.sensors.rod]\nrate = 50\n'
+    file = tmp_path / "run.toml"
+    file.write_text(text.format(experiment='experiment = "1"'), encoding="utf-8")
+    sensors = run_file(str(file)).flight.plant.sensors
+    assert (sensors.rod.rate, sensors.rod.latency, sensors.position.rate) == (50, 0.01, 200.0)
+    again = tomllib.loads(tomli_w.dumps({"sensors": sensors.to_dict()}))
+    assert plant_of({"base": "rotors", **again}).sensors == sensors
+    suite = run_file("1", ["plant=rotors", "plant.sensors=onboard"]).flight.plant.sensors
+    assert suite == fp.Plant(sensors="onboard").sensors
+    with pytest.raises(fp.InputError, match=r"plant\.sensors"):
+        run_file("1", ["plant=rotors", "plant.sensors=offboard"])

@@ -5,13 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
-from flypend.board.program import initial_memory, known, predicting, remembering
+from flypend.board.program import (
+    estimator,
+    filters,
+    initial_memory,
+    known,
+    memory_size,
+    observer_memory,
+    predicting,
+    remembering,
+)
 from flypend.compile.numeric import as_numpy
 from flypend.laws import Controller
 from flypend.plants.loop import Loop
@@ -23,36 +32,87 @@ class FlightComputer(Protocol):
     """A flight computer, called once per control period."""
 
     def command(self, t: float, measured: Any) -> Any:
-        """Return the command for the `measured` state (24,), e₃-up frame, at time `t` (s)."""
+        """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""
+
+
+@runtime_checkable
+class Estimating(Protocol):
+    """A flight computer that estimates the state from readings of sensors."""
+
+    def estimate_from(self, estimate: Any) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up."""
 
 
 class SteppedBoard:
     """The board of `loop`, stage by stage, with initial rotor forces `rotors` (n,), N.
 
-    `predicted` holds the state (24,), rotor forces (n,) and external forces (6,) that the last command was computed
-    for.
+    A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up. `predicted` holds the state (24,),
+    rotor forces (n,) and external forces (6,) that the last command was computed for, `estimated` the state (24,) that
+    the sensors told, and `filtered` the memory of the estimator with which they told it.
     """
 
-    def __init__(self, loop: Loop, rotors: Any) -> None:
-        self._predict, self._steer, self._remember = _stages(replace(loop, plant=known(loop.sampled)))
-        self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
+    def __init__(self, loop: Loop, rotors: Any, estimate: Any = None) -> None:
+        self._stages = _stages(replace(loop, plant=known(loop.sampled)))
+        memory = initial_memory(loop, np.asarray(rotors, dtype=float), estimate)
+        self._memory, self._expecting = np.split(memory, [memory_size(loop)])
         self.predicted: tuple[Any, Any, Any] | None = None
+        self.estimated: Any = None
+        self.filtered: Any = None
 
     def command(self, t: float, measured: Any) -> Any:
-        """Return the command for the `measured` state (24,), e₃-up frame, at time `t` (s)."""
+        """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""
+        stages, outside, told = self._stages, None, []
+        if stages.estimating is not None:
+            self.filtered, measured, outside = stages.estimating.correct(self._expecting, measured, NONE)
+            told = [outside] if stages.estimating.forces else []
+        self.estimated = measured
         measurement = np.append(t, measured)
-        kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
+        kept, forces, state, rotors = stages.predict(self._memory, measurement, NONE, *told)
         self.predicted = (state, rotors, forces)
-        command = self._steer(t, state, rotors, forces)
-        self._memory = self._remember(self._memory, kept, measurement, forces, command, NONE)
+        command = stages.steer(t, state, rotors, forces)
+        if stages.estimating is not None:
+            self._expecting = stages.estimating.carried(self.filtered, outside, command, self._memory)
+        self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
         return command
 
 
+class _Estimating(NamedTuple):
+    """The estimator's stages.
+
+    `first` is the place of the commands in the board's memory, and `given` the length of those that `carry` takes;
+    `forces` says whether external forces are estimated, for `predict`.
+    """
+
+    correct: Callable[..., Any]
+    carry: Callable[..., Any]
+    first: int
+    given: int
+    forces: bool
+
+    def carried(self, filtered: Any, outside: Any, command: Any, memory: Any) -> Any:
+        """Return the estimator's memory a period after `filtered`, under `command` and those under way in `memory`."""
+        commands = np.append(command, memory[self.first :])[: self.given]
+        return self.carry(filtered, outside, commands, NONE)
+
+
+class _Stages(NamedTuple):
+    predict: Callable[..., Any]
+    steer: Callable[..., Any]
+    remember: Callable[..., Any]
+    estimating: _Estimating | None
+
+
 @lru_cache(maxsize=64)
-def _stages(loop: Loop) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
+def _stages(loop: Loop) -> _Stages:
     believed = Believed.numbers(loop.vehicle)
     steer = _called(loop, loop.law) if isinstance(loop.law, Controller) else _compiled(loop, believed)
-    return as_numpy(predicting(loop, believed)), steer, as_numpy(remembering(loop, believed))
+    estimating, made = None, estimator(loop, believed)
+    if made is not None:
+        carry, first = made.carry(), believed.rotors + observer_memory(loop)
+        estimating = _Estimating(
+            as_numpy(made.correct()), as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled)
+        )
+    return _Stages(as_numpy(predicting(loop, believed)), steer, as_numpy(remembering(loop, believed)), estimating)
 
 
 def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:

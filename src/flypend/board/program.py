@@ -1,8 +1,9 @@
 """The flight computer as one program: (memory, measurement, reference, gains, params) → (memory, command).
 
 It is the source of the kernel of sampled flights (MuJoCo included), the Python reference, and the exported C. In each
-control period it estimates external forces, predicts the state at which its command will be applied, evaluates the law
-there, allocates the wrench to the rotors, adds lead, and advances its rotor model and its queue of commands in transit.
+control period it estimates the state, if the plant has sensors, and external forces; it predicts the state at which its
+command will be applied, evaluates the law there, allocates the wrench to the rotors, adds lead, and advances its rotor
+model and its queue of commands in transit.
 """
 
 from __future__ import annotations
@@ -17,12 +18,15 @@ import numpy as np
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
 from flypend.board.command import command_width, idle_command, law_command, steering
+from flypend.board.differences import Differences
+from flypend.board.estimator import Filter, assumed_delay, assumed_segments
 from flypend.board.twin import Twin
 from flypend.model.state import SIZE
 from flypend.plants.lag import held, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import Segment, ahead, within_period
+from flypend.plants.sensing import readings_size
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +43,8 @@ class Board:
         Length of the reference input at every step.
     step : Function
         (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
-        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up.
+        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is time and
+        readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
     """
 
     loop: Loop
@@ -48,35 +53,60 @@ class Board:
     step: ca.Function
 
 
-def initial_memory(loop: Loop, rotors: Any) -> Any:
+def initial_memory(loop: Loop, rotors: Any, estimate: Any = None, believed: Believed | None = None) -> Any:
     """Return the memory (k,) of the board of `loop` before its first step, for current rotor forces `rotors` (n,), N.
 
-    Numbers or CasADi symbols.
+    Numbers or CasADi symbols. A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up, and the
+    `believed` vehicle, by default that of `loop`.
     """
     parts = [rotors, np.zeros(observer_memory(loop)), *[idle_command(loop, rotors)] * depth(loop)]
+    believed = believed or Believed.numbers(loop.vehicle)
+    if (filtering := estimator(loop, believed)) is not None:
+        begun = filtering.begun()(rotors, estimate, believed.symbols if believed.symbols.numel() else [])
+        parts.append(begun if isinstance(rotors, ca.SX) else begun.full().ravel())
     return ca.vertcat(*parts) if isinstance(rotors, ca.SX) else np.concatenate(parts)
 
 
 def known(plant: Plant) -> Plant:
-    """Return what a flight computer knows of its `plant`: rate, limits, interface, rate loop; nothing of the world."""
+    """Return what a flight computer knows of its `plant`: rate, limits, interface, rate loop; nothing of the world.
+
+    With sensors it knows these, and the delay that its estimator assumes.
+    """
+    sensors = plant.sensors
+    if sensors is not None:
+        sensors = sensors.replace(command_delay=assumed_delay(plant))
     return Plant(
         rate=plant.rate, limits=plant.limits, interface=plant.interface, rate_loop_rate=plant.rate_loop_rate,
-        rate_loop_gain=plant.rate_loop_gain,
+        rate_loop_gain=plant.rate_loop_gain, sensors=sensors,
     )  # fmt: skip
 
 
+def estimator(loop: Loop, believed: Believed) -> Filter | Differences | None:
+    """Return the estimator of `loop`, as `believed`; None for a plant that measures the state itself."""
+    sensors = loop.sampled.sensors
+    if sensors is None:
+        return None
+    return Filter(loop, believed) if filters(loop.sampled) else Differences(loop, believed)
+
+
 def observer_memory(loop: Loop) -> int:
-    """Return the size of the observer's memory."""
-    return observing.MEMORY if loop.law.computer.observer > 0 else 0
+    """Return the size of the observer's memory. There is none beside a `Filter`, which estimates the forces itself."""
+    return observing.MEMORY if loop.law.computer.observer > 0 and not filters(loop.sampled) else 0
+
+
+def filters(plant: Plant) -> bool:
+    """Whether the board in `plant` has a `Filter`."""
+    return plant.sensors is not None and plant.sensors.rates == "estimated"
 
 
 def depth(loop: Loop) -> int:
     """Return the number of commands to remember: all that are applied from now until the next one takes effect."""
-    return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop))))
+    assumed = () if loop.sampled.sensors is None else assumed_segments(loop.sampled)
+    return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop), *assumed)))
 
 
 def memory_size(loop: Loop) -> int:
-    """Return the size of the memory that the board keeps between steps."""
+    """Return the size of the memory that the board keeps between steps, the estimator's excepted."""
     return len(loop.vehicle.rotor_spins) + observer_memory(loop) + depth(loop) * command_width(loop)
 
 
@@ -100,12 +130,25 @@ def board(
     believed = believed or Believed.numbers(loop.vehicle)
     predict, remember = predicting(loop, believed), remembering(loop, believed)
     command = command or law_command(loop, believed, steering(loop.symbolic))
-    memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
+    filtering, own = estimator(loop, believed), memory_size(loop)
+    size, read = (0, SIZE) if filtering is None else (filtering.size, readings_size(loop.sampled.sensors))
+    whole, measurement = ca.MX.sym("memory", own + size), ca.MX.sym("measurement", 1 + read)
     path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
     params = ca.MX.sym("params", believed.symbols.numel())
-    kept, forces, state, rotors = predict(memory, measurement, params)
-    given = command(measurement[0], state, rotors, forces, path, gains, params)
-    after = remember(memory, kept, measurement, forces, given, params)
+    memory, measured = whole, measurement
+    if filtering is not None:
+        memory = whole[:own]
+        corrected, state, outside = filtering.correct()(whole[own:], measurement[1:], params)
+        measured = ca.vertcat(measurement[0], state)
+    estimated = [outside] if filters(loop.sampled) else []
+    kept, forces, state, rotors = predict(memory, measured, params, *estimated)
+    given = command(measured[0], state, rotors, forces, path, gains, params)
+    after = remember(memory, kept, measured, forces, given, params)
+    if filtering is not None:
+        commands = ca.vertcat(given, *_parts(loop, memory)[2])
+        carry = filtering.carry()
+        after = ca.vertcat(after, carry(corrected, outside, commands[: carry.size1_in(2)], params))
+    memory = whole
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
     step = ca.Function("board", [memory, measurement, path, gains, params], [after, given], *names)
     return Board(loop, believed, reference, step)
@@ -128,21 +171,27 @@ def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
 
 
 def predicting(loop: Loop, believed: Believed) -> ca.Function:
-    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation."""
+    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation.
+
+    With a `Filter` there is one more input, the forces (6,) that it estimates, in place of the observer.
+    """
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     params = ca.MX.sym("params", believed.symbols.numel())
     rotors, kept, commands = _parts(loop, memory)
     state, forces = measurement[1:], ca.MX(ca.DM.zeros(6))
+    given = [ca.MX.sym("forces", 6)] if filters(loop.sampled) else []
+    if given and loop.law.computer.observer > 0:
+        forces = given[0]
     if observer_memory(loop):
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
         kept, forces = observe(state, rotors, kept, params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
     state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
-    return ca.Function("predict", [memory, measurement, params], [kept, forces, state, rotors])
+    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors])
 
 
 def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
-    return Twin(loop, believed, params, forces=observer_memory(loop) > 0)
+    return Twin(loop, believed, params, forces=loop.law.computer.observer > 0)
 
 
 def remembering(loop: Loop, believed: Believed) -> ca.Function:

@@ -27,10 +27,11 @@ LOOP_STEP = 5e-3
 class Twin:
     """Vehicle and rotors of `loop` as `believed`, as function calls on MX symbols with the numbers `params`.
 
-    `forces` says whether external forces act.
+    `forces` says whether external forces act; `name` begins the names of its programs.
     """
 
-    def __init__(self, loop: Loop, believed: Believed, params: Any, *, forces: bool) -> None:
+    def __init__(self, loop: Loop, believed: Believed, params: Any, *, forces: bool, name: str = "twin") -> None:
+        self._name = name
         self._plant, self._believed, self._params, self._forces = loop.sampled, believed, params, forces
         self._steps: dict[str, ca.Function] = {}
         self._longest = min(TWIN_STEP, TWIN_TURN / angular_authority(loop.vehicle) ** 0.5)
@@ -62,7 +63,7 @@ class Twin:
     def _step(self, segments: Sequence[Segment]) -> ca.Function:
         """Return the step (state, rotors, commands, newest first, forces, params) → (state, rotors)."""
         lengths = [round(1e9 * segment.duration) for segment in segments]  # ns: one function up to roundoff
-        name = "_".join(["twin", *(f"{len(list(same))}x{length}" for length, same in groupby(lengths))])
+        name = "_".join([self._name, *(f"{len(list(same))}x{length}" for length, same in groupby(lengths))])
         if name not in self._steps:
             self._steps[name] = self._made(name, [length / 1e9 for length in lengths])
         return self._steps[name]

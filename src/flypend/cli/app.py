@@ -16,7 +16,16 @@ import click
 
 from flypend import __version__
 from flypend.cli import check, examples, listing, studies, theorem, viewing
-from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
+from flypend.cli.options import (
+    LAW_HELP,
+    laws_option,
+    out_option,
+    path,
+    plant_asked,
+    sensors_option,
+    style_option,
+    vehicle_option,
+)
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.compile.aside import left_behind
 from flypend.errors import InputError
@@ -169,6 +178,7 @@ duration_option = click.option("--duration", type=float, default=10.0, help="Sec
 @seed_option
 @vehicle_option
 @click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
+@sensors_option
 @duration_option
 @click.option("--keep", type=path, metavar="DIR", help="Also fly the failed flights again, and save each in DIR (.nc).")
 def compare(
@@ -179,6 +189,7 @@ def compare(
     seed: int,
     vehicle: str,
     plant: str,
+    sensors: str,
     duration: float,
     keep: Path | None,
 ) -> None:
@@ -192,18 +203,20 @@ def compare(
     """
     from flypend.files.staging import check_writable, staged
     from flypend.report.studies import comparison_table, write_comparison
+    from flypend.settings.runfile import plant_of
     from flypend.studies import compare as fly
     from flypend.studies.failed import failed_runs, flown_again
 
-    chosen = _plant(plant)
+    asked = plant_asked(plant, sensors)
+    chosen = plant_of(asked)
     names = law or ("inverted", "lqr", "corrected", "detuned")
     laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
-    settings = {**settings, "plant": plant}
+    settings = {**settings, "plant": asked}
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
     with counter() as tell:
         result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
-    failed = failed_runs(result, names, plant, duration)
+    failed = failed_runs(result, names, asked, duration)
     write_comparison(result, settings, out, failed)
     if keep is not None:
         with staged(keep) as folder, counter() as tell:
@@ -284,14 +297,18 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...]) -> None:
 @out_option("c-out")
 @click.option("--precision", default="double", help="double or float.")
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@sensors_option
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
 @click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and tell the result.")
-def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, light: bool, tested: bool) -> None:
+def export_c(
+    law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
+) -> None:
     """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
     from flypend.laws import Law, inverted
+    from flypend.plants import SUITES
     from flypend.studies import law_named
 
     if light:
@@ -303,7 +320,9 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
-        write(chosen, model.vehicle(vehicle), out, precision=kind, rate=rate, check=tested)
+        errors.one_of("--sensors", sensors, SUITES)
+        machine = model.vehicle(vehicle)
+        write(chosen, machine, out, precision=kind, rate=rate, sensors=sensors, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
@@ -336,13 +355,6 @@ def _study(
     batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
     settings = {"laws": list(names), "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
     return laws, batch, machine, settings | ({"seed": seed} if kind == "random" else {})
-
-
-def _plant(name: str) -> Any:
-    from flypend import errors
-    from flypend.plants import PRESETS, plant
-
-    return plant(errors.one_of("--plant", name, PRESETS))  # raises if an extra is not installed
 
 
 def main() -> None:

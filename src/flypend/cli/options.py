@@ -16,6 +16,9 @@ LAW_HELP = (
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
+sensors_option = click.option(
+    "--sensors", default="perfect", help="With a plant in samples: perfect, mocap or onboard, with their estimator."
+)
 style_option = click.option(
     "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."
 )
@@ -24,3 +27,16 @@ style_option = click.option(
 def out_option(default: str, describe: str = "Output folder.") -> Callable[[_Command], _Command]:
     """Return the option --out, with this default."""
     return click.option("--out", "-o", type=path, default=default, help=describe)
+
+
+def plant_asked(plant: str, sensors: str) -> Any:
+    """Return the plant of --plant and --sensors, as a run file has it: a name, or a table. Raises InputError."""
+    from flypend import errors
+    from flypend.plants import PRESETS, SUITES
+
+    errors.one_of("--plant", plant, PRESETS)
+    if errors.one_of("--sensors", sensors, SUITES) == "perfect":
+        return plant
+    if plant == "ideal":
+        raise errors.InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
+    return {"base": plant, "sensors": sensors}

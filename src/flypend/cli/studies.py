@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from flypend.cli.options import LAW_HELP, out_option, path
+from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, sensors_option
 from flypend.cli.terminal import bold, complaints, console, lines, resumable, stepped, tell_how
 
 workers_option = click.option(
@@ -54,6 +54,7 @@ def sweep(
 @click.option("--law", help=f"Fly this law from random starts, not a study: {LAW_HELP}.")
 @click.option("--vehicle", help="With --law: vehicle name or TOML file.")
 @click.option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
+@sensors_option
 @click.option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")
 @click.option("--seed", type=click.IntRange(min=0), default=1, help="With --law: seed of the starts.")
 @click.option("--duration", type=float, help="With --law: seconds per run.")
@@ -67,6 +68,7 @@ def draw_map(
     law: str | None,
     vehicle: str | None,
     plant: str,
+    sensors: str,
     runs: int,
     seed: int,
     duration: float | None,
@@ -91,7 +93,7 @@ def draw_map(
     if out.suffix.lower() not in FIGURES:
         raise InputError("--out", "a file name ending in " + " or ".join(FIGURES), str(out))
     if law is not None:
-        content = standard(law, vehicle, plant, runs, seed, duration)
+        content = standard(law, vehicle, plant_asked(plant, sensors), runs, seed, duration)
     elif what is not None and what.suffix == ".toml":
         content = study_from(what).settings
     else:

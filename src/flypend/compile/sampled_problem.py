@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from flypend.compile.program import Program
 from flypend.compile.routine import Routine
 from flypend.compile.touch import Touch
+from flypend.model.state import SIZE
 
 GUSTS = 18  # place of the first number for the gusts among the random numbers of a tick
 
@@ -60,6 +61,28 @@ class MujocoProblem:
 
 
 @dataclass(frozen=True)
+class Sensing:
+    """Sensors that deliver readings, for a flight computer that estimates the state.
+
+    Parameters
+    ----------
+    begin : Program
+        (state) → memory of the sensors at the start.
+    estimate : Program
+        (state, draws) → the estimate with which the flight computer begins; the draws are those of `tick`.
+    sense : Program
+        (memory, t, state, draws) → (memory, readings).
+    tick : int
+        The tick that stands for the start among those of random numbers.
+    """
+
+    begin: Program
+    estimate: Program
+    sense: Program
+    tick: int
+
+
+@dataclass(frozen=True)
 class SampledProblem:
     """A sampled flight as programs.
 
@@ -68,7 +91,8 @@ class SampledProblem:
     board : Routine
         The flight computer: (memory, measurement, reference, gains, params) → (memory, command); see `flypend.board`.
     begin : Program
-        (rotors) → (initial memory of the board, command in effect before the first).
+        (rotors) → (initial memory of the board, command in effect before the first); its inputs are (rotors, estimate)
+        with `sensing`.
     world : EquationsProblem or MujocoProblem
         Simulates vehicle and pendulum.
     loop : Program, optional
@@ -76,6 +100,8 @@ class SampledProblem:
         rotor forces.
     measure : Program, optional
         (state, draws, noise parameters) → measured state.
+    sensing : Sensing, optional
+        In place of it: sensors that remember.
     gusts : Program, optional
         (memory of gusts and knocks, draws, wind parameters) → (memory, forces).
     judge : Program
@@ -107,6 +133,7 @@ class SampledProblem:
     period: float
     random: bool
     touch: Touch | None = None
+    sensing: Sensing | None = None
 
     @property
     def memory(self) -> int:
@@ -116,6 +143,11 @@ class SampledProblem:
     @property
     def size(self) -> int:
         """Length of the state."""
+        return SIZE
+
+    @property
+    def measured(self) -> int:
+        """Length of what the board is given: the state, or readings."""
         return self.board.inputs[1] - 1
 
     @property
@@ -147,8 +179,9 @@ class SampledProblem:
     @property
     def drawn(self) -> range:
         """The random numbers of a tick that are used: the first for the measurement, the others for the gusts."""
-        measured = self.measure.inputs[1] if self.measure else 0
-        return range(0 if measured else GUSTS, GUSTS + self.gusts.inputs[1] if self.gusts else measured)
+        measured = self.measure.inputs[1] if self.measure else self.sensing.sense.inputs[3] if self.sensing else 0
+        blown = GUSTS + self.gusts.inputs[1] if self.gusts else 0
+        return range(0 if measured else GUSTS, max(measured, blown))
 
     @property
     def depth(self) -> int:

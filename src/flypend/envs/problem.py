@@ -55,7 +55,7 @@ class Environment:
     Raises
     ------
     InputError
-        If the rates do not fit, or the plant has what worlds do not: noise, gusts, MuJoCo.
+        If the rates do not fit, or the plant has what worlds do not: noise, sensors, gusts, MuJoCo.
     """
 
     task: Task
@@ -72,8 +72,9 @@ class Environment:
         errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
         if abs(self.plant.rate / self.rate - self.steps) > 1e-9:
             raise InputError("rate", f"a divisor of the plant's {self.plant.rate:g} Hz", f"{self.rate:g}")
-        if self.plant.engine != "equations" or self.plant.noise is not None or self.plant.wind is not None:
-            raise InputError("plant", "one by our equations, without noise and wind", repr(self.plant))
+        plant = self.plant
+        if plant.engine != "equations" or any(part is not None for part in (plant.noise, plant.sensors, plant.wind)):
+            raise InputError("plant", "one by our equations, without noise, sensors and wind", repr(plant))
 
     @property
     def steps(self) -> int:

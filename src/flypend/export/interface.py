@@ -27,9 +27,33 @@ from flypend.model.allocation import allocate
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
+from flypend.plants.sensing import WIDTH, readings_size
+from flypend.plants.sensors import Sensors
 
 FORCES = 6  # external forces on vehicle and bob
 GAINS = 3  # place of the gains among the inputs of the law
+
+
+@dataclass(frozen=True)
+class Sensing:
+    """A flight computer that estimates the state from readings of sensors.
+
+    Parameters
+    ----------
+    sensors : Sensors
+        The sensors.
+    board : Routine
+        The flight computer: time and readings in place of a measurement.
+    begin : Program
+        (rotors, state (24,), params) → memory.
+    sound : Program
+        readings → largest defect of directions and attitudes that have arrived, which are unit vectors and rotations.
+    """
+
+    sensors: Sensors
+    board: Routine
+    begin: Program
+    sound: Program
 
 
 @dataclass(frozen=True)
@@ -49,6 +73,8 @@ class Interface:
         What the functions of the bare law call: law, carry, share, quicken, gather, hold, rod, attitude, begin.
     board, unmeasured : Routine
         The flight computer, and what its memory does in a period without a measurement.
+    sensing : Sensing, optional
+        The flight computer with an estimator.
     """
 
     loop: Loop
@@ -59,6 +85,7 @@ class Interface:
     programs: Mapping[str, Program]
     board: Routine
     unmeasured: Routine
+    sensing: Sensing | None = None
 
     @property
     def law(self) -> BoundLaw:
@@ -94,8 +121,8 @@ class Interface:
         return found
 
 
-def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0) -> Interface:
-    """The C interface of `law` on `vehicle`, called `rate` times a second.
+def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensors: Sensors | None = None) -> Interface:
+    """The C interface of `law` on `vehicle`, called `rate` times a second, with `sensors` if there are any.
 
     Raises InputError for a law that cannot be written for a vehicle of symbols, for a vehicle whose rotors do not
     share thrust and yaw equally, and for a rate out of range.
@@ -130,7 +157,33 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0) -> Int
         programs=programs,
         board=replace(lower_calls(board(loop, believed, command, records.PATH.length).step), name="fly"),
         unmeasured=lower_calls(unmeasured(loop, believed)),
+        sensing=None if sensors is None else _sensing(loop, believed, command, sensors),
     )
+
+
+def _sensing(loop: Loop, believed: Believed, command: ca.Function, sensors: Sensors) -> Sensing:
+    loop = replace(loop, plant=loop.sampled.replace(sensors=sensors))
+    rotors, state = ca.SX.sym("rotors", believed.rotors), ca.SX.sym("state", SIZE)
+    memory = ca.densify(initial_memory(loop, rotors, state, believed))
+    begin = ca.Function("begin", [rotors, state, believed.symbols], [ca.cse(memory)])
+    whole = lower_calls(board(loop, believed, command, records.PATH.length).step)
+    return Sensing(sensors, replace(whole, name="fly"), lower(begin), lower(_sound(sensors)))
+
+
+def _sound(sensors: Sensors) -> ca.Function:
+    """Readings → largest |length² − 1| of directions; largest ‖RᵀR − 1‖² of attitudes, at least 2 for a reflection."""
+    readings, place = ca.SX.sym("readings", readings_size(sensors)), 0
+    defects: list[list[Any]] = [[ca.SX(0.0)], [ca.SX(0.0)]]
+    for name in sensors.streams:
+        values, fresh = readings[place : place + WIDTH[name]], readings[place + WIDTH[name]] >= 0
+        place += WIDTH[name] + 1
+        if name in ("rod", "joints"):
+            defects[0].append(fresh * ca.fabs(ca.sumsqr(values) - 1))
+        elif name == "attitude":
+            R = ca.reshape(values, 3, 3).T
+            defects[1].append(fresh * ca.fmax(ca.sumsqr(R.T @ R - ca.SX.eye(3)), 2 * (ca.det(R) <= 0)))
+    worst = [ca.mmax(ca.vertcat(*found)) for found in defects]
+    return ca.Function("sound", [readings], [ca.densify(ca.vertcat(*worst))])
 
 
 # The law ----------------------------------------------------------------------------------------------------------

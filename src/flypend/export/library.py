@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.board.program import initial_memory
+from flypend.board.program import initial_memory, known
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
@@ -29,6 +30,7 @@ from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
+from flypend.plants.sensors import Sensors
 
 FLAGS = ("-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror")
 
@@ -36,12 +38,21 @@ FLAGS = ("-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-
 class Library:
     """The C functions of `law` on `vehicle` in `precision` at `rate` (Hz), compiled with the compiler of this machine.
 
+    With `sensors`, the flight computer with an estimator is among them.
+
     Arrays are the records of `flypend.export.records`, one after the other. Raises InputError without a compiler.
     """
 
-    def __init__(self, law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> None:
-        self._of = (law, vehicle, precision, rate)
-        self.made = interface(law, vehicle, rate)
+    def __init__(
+        self,
+        law: Law | BoundLaw,
+        vehicle: Vehicle,
+        precision: Precision,
+        rate: float = 500.0,
+        sensors: Sensors | None = None,
+    ) -> None:
+        self._of = (law, vehicle, precision, rate, sensors)
+        self.made = interface(law, vehicle, rate, sensors)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
         texts = core(self.made, precision) | {"many.c": filled("many.c", {})}
         with tempfile.TemporaryDirectory(prefix="flypend-c-") as folder:
@@ -153,13 +164,62 @@ class CompiledBoard:
         return np.full(len(rotors), np.nan) if self.status else rotors
 
 
+class CompiledSensors:
+    """A flight computer of `code` with an estimator; arguments as of `CompiledBoard`.
+
+    It begins with `estimate_from`. `numbers` is the C struct as bytes, `status` the last answer.
+    """
+
+    def __init__(self, code: Library, path: Callable[[float], Any] | None = None, rotors: Any = None) -> None:
+        assert code.made.sensing is not None
+        self.code, self._path, self._begun = code, path, rotors
+        self._memory = code.made.sensing.board.inputs[0]
+        gains = code.made.gains.length
+        # As the compiler lays out an unsigned long, the gains and the memory, all aligned to eight bytes or less.
+        self._start = 8 + gains * code.real.itemsize
+        size = self._start + self._memory * code.real.itemsize
+        self.numbers = np.zeros(-(-size // 8) * 8, np.uint8)
+        self.status = 0
+        self._rotors = np.zeros(code.made.rotors.length, code.real)
+        self._hover = code.array(np.zeros(records.PATH.length))
+
+    @property
+    def memory(self) -> Any:
+        """The numbers that are remembered: a view of them."""
+        end = self._start + self._memory * self.code.real.itemsize
+        return self.numbers[self._start : end].view(self.code.real)
+
+    def estimate_from(self, estimate: Any) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up."""
+        code = self.code
+        state = code.array(records.state_numbers(np.asarray(estimate), np.zeros(6)))
+        self.status = code.call("flypend_sensors_begin", self.numbers, code.gains, code.params, state)
+        if self._begun is not None and not self.status:
+            made = code.made
+            plant = made.loop.sampled.replace(sensors=made.sensing.sensors if made.sensing else None)
+            rotors = np.asarray(self._begun, dtype=float)
+            self.memory[:] = initial_memory(replace(made.loop, plant=plant), rotors, estimate)
+
+    def step(self, readings: Any, path: Any = None) -> Any:
+        """Rotor forces (n,) for numbers of the readings, or None for none, and of `records.PATH`; sets `status`."""
+        code, given = self.code, None if readings is None else self.code.array(readings)
+        along = self._hover if path is None else code.array(path)
+        self.status = code.call("flypend_sensors_step", self.numbers, given, along, code.params, self._rotors)
+        return self._rotors.astype(float)
+
+    def command(self, t: float, measured: Any) -> Any:
+        """Rotor forces (n,) for the readings `measured` at time `t` (s); NaN where they are refused."""
+        rotors = self.step(measured, None if self._path is None else self._path(t))
+        return np.full(len(rotors), np.nan) if self.status else rotors
+
+
 def _compile(folder: Path) -> Path:
     """The shared library of the sources in `folder`."""
     compiler = shutil.which(os.environ.get("CC", "cc"))
     if compiler is None:
         raise InputError("controller", "a C compiler called cc on the PATH", "none")
     target = folder / "law.so"
-    sources = [str(folder / name) for name in ("flypend_law.c", "many.c")]
+    sources = [str(path) for path in sorted(folder.glob("*.c"))]
     command = [compiler, *FLAGS, "-shared", "-fPIC", *sources, "-lm", "-o", str(target)]
     done = subprocess.run(command, capture_output=True, text=True)  # noqa: S603 (on files that were written above)
     if done.returncode:
@@ -168,9 +228,15 @@ def _compile(folder: Path) -> Path:
 
 
 @lru_cache(maxsize=16)
-def library(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0) -> Library:
+def library(
+    law: Law | BoundLaw,
+    vehicle: Vehicle,
+    precision: Precision,
+    rate: float = 500.0,
+    sensors: Sensors | None = None,
+) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
-    return Library(law, vehicle, precision, rate)
+    return Library(law, vehicle, precision, rate, sensors)
 
 
 def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
@@ -205,11 +271,13 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
         found = Wrench(values[0, 0], values[0, 1:]) if not status[0] else Wrench(np.nan, np.full(3, np.nan))
         return found.seen(bound.e3)
 
-    def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard:
+    def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard | CompiledSensors:
         if loop.vehicle != vehicle:
             raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
         _check_plant(loop.sampled)
-        return CompiledBoard(library(bound, vehicle, precision, loop.sampled.rate), path, rotors)
+        sensors = known(loop.sampled).sensors
+        code = library(bound, vehicle, precision, loop.sampled.rate, sensors)
+        return CompiledBoard(code, path, rotors) if sensors is None else CompiledSensors(code, path, rotors)
 
     return Controller(
         name=f"{bound.name}-c" + ("" if precision == "double" else "-float"),

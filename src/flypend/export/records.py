@@ -10,6 +10,8 @@ import numpy as np
 
 from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
+from flypend.plants.sensing import WIDTH
+from flypend.plants.sensors import Sensors
 
 # A law follows pivot and bob up to their snap; the bob's snap takes eight derivatives of the pivot's path.
 ORDERS = ("", "_dot", "_ddot", "_dddot", "_ddddot")
@@ -68,6 +70,26 @@ MEASUREMENT = Record(
     "State of vehicle and pendulum as measured. World frame with z up, body frame front-left-up.",
     _MOTION,
 )
+_STREAMS = {
+    "position": "position of the pivot, world, m",
+    "attitude": "rotation from body to world, by rows",
+    "rod": "unit vector from the pivot to the bob, world",
+    "gyro": "angular velocity, body, rad/s",
+    "accelerometer": "mean specific force at the centre of mass over the last control period, body, m/s^2",
+    "joints": "unit vector from the pivot to the bob, body, as the joint's angles tell it",
+    "rod_gyro": "angular velocity of the rod, y x y_dot, body, rad/s",
+}
+
+
+def readings_record(sensors: Sensors) -> Record:
+    """What `sensors` read, and how old each reading is."""
+    fields: list[Field] = []
+    for name in sensors.streams:
+        fields.append(Field(name, WIDTH[name], _STREAMS[name]))
+        fields.append(Field(f"{name}_age", 0, "seconds since it was taken; negative if nothing has arrived"))
+    return Record("readings", "What the sensors have delivered since the last control period.", tuple(fields))
+
+
 STATE = Record(
     "state",
     "State of vehicle and pendulum, for those who estimate external forces themselves.",

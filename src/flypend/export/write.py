@@ -18,12 +18,14 @@ from flypend.errors import InputError
 from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
 from flypend.export.records import Record
+from flypend.export.sensors import FILES, sensor_values
 from flypend.export.source import ascii_of, functions, initializer, struct, unread
 from flypend.export.tested import tested
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
+from flypend.plants.sensors import Sensors, sensors_called
 
 HEADER, GUARD = "flypend_law.h", "#ifndef FLYPEND_LAW_H\n"
 CORE = (HEADER, "flypend_law.c")
@@ -51,6 +53,7 @@ def export_c(
     *,
     precision: Precision = "double",
     rate: float = 500.0,
+    sensors: Sensors | str | None = None,
     check: bool = True,
 ) -> Path:
     """Write the flight computer of `law` on `vehicle` as C99 into the folder `out`.
@@ -72,6 +75,9 @@ def export_c(
         Type of every number.
     rate : float
         How often the flight computer will be called, Hz.
+    sensors : Sensors or str, optional
+        What is measured, or the name of a suite: writes flypend_sensors.h and .c too, the flight computer with an
+        estimator. Default "perfect": none.
     check : bool
         Whether to fly the law for some seconds first, and tell the result in the header. A poor one is a warning.
 
@@ -93,7 +99,7 @@ def export_c(
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
-    texts = files(interface(law, vehicle, rate), precision)
+    texts = files(interface(law, vehicle, rate, sensors_called(sensors, "sensors")), precision)
     if check:
         found = tested(law, vehicle, rate)
         texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)
@@ -111,13 +117,21 @@ def files(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of every file."""
     values = _values(made, precision)
     texts = {name: filled(name, values) for name in (*CORE, *BESIDE, *ADAPTERS)}
-    return texts | {"flypend_vectors.h": _vectors(made, precision)}
+    return texts | {"flypend_vectors.h": _vectors(made, precision)} | _with_sensors(made, precision)
+
+
+def _with_sensors(made: Interface, precision: Precision) -> dict[str, str]:
+    """Name and text of the files of a flight computer with sensors, if there are any."""
+    if made.sensing is None:
+        return {}
+    values = _values(made, precision) | sensor_values(made, made.sensing, precision)
+    return {name: filled(name, values) for name in FILES}
 
 
 def core(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of the two files that make the library."""
     values = _values(made, precision)
-    return {name: filled(name, values) for name in CORE}
+    return {name: filled(name, values) for name in CORE} | _with_sensors(made, precision)
 
 
 def filled(name: str, values: dict[str, Any]) -> str:

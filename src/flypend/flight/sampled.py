@@ -14,20 +14,23 @@ import casadi as ca
 import numpy as np
 
 from flypend.board.command import idle_command
-from flypend.board.computer import FlightComputer, SteppedBoard
-from flypend.compile.llvm.random import normals
+from flypend.board.computer import Estimating, FlightComputer, SteppedBoard
+from flypend.compile.llvm.random import PER_TICK, normals
 from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
 from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.touch import watcher
 from flypend.laws import Controller
+from flypend.model import Vehicle
 from flypend.model.state import MAX_STATE, seen_packed
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUST_MEMORY, GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import within_period
+from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, sensing
 
 NOT_FINITE = "the law's wrench is not a finite number"
 LEFT = f"the state left |s| < {MAX_STATE:g}"
@@ -62,10 +65,9 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
     begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)
-    computer = flight_computer(loop, begin)
-
     period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
-    measure, next_wind = _chance(plant, ticks)
+    measure, next_wind = _chance(vehicle, plant, packed, ticks)
+    computer = flight_computer(loop, begin, estimate_at_start(plant, packed))
     states, forces = [engine.packed], [engine.rotors]
     commands, segments = Commands(idle_command(loop, begin)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
@@ -112,12 +114,28 @@ class Commands:
         return self._given[-1 - age] if age < len(self._given) else self._idle
 
 
-def flight_computer(loop: Loop, rotors: Any) -> FlightComputer:
-    """Return the flight computer of `loop`, for initial rotor forces `rotors` (n,), N."""
+def flight_computer(loop: Loop, rotors: Any, estimate: Any = None) -> FlightComputer:
+    """Return the flight computer of `loop`, for initial rotor forces `rotors` (n,), N.
+
+    A plant with sensors needs an `estimate` (24,) of the state at the start, e₃ up. Raises InputError for a controller
+    that replaces the flight computer and takes no readings.
+    """
     if isinstance(loop.law, Controller) and loop.law.flight_computer is not None:
         made: FlightComputer = loop.law.flight_computer(loop, rotors)
+        if loop.sampled.sensors is not None:
+            if not isinstance(made, Estimating):
+                raise InputError("plant.sensors", "perfect, for a controller without an estimator", loop.law.name)
+            made.estimate_from(estimate)
         return made
-    return SteppedBoard(loop, rotors)
+    return SteppedBoard(loop, rotors, estimate)
+
+
+def estimate_at_start(plant: Plant, packed: Any) -> Any:
+    """Return the estimate (24,) with which a flight from the state `packed` (24,), e₃ up, begins; None if perfect."""
+    if plant.sensors is None:
+        return None
+    draws = normals(plant.seed, 1, 18, first=START_TICK)[0]
+    return np.asarray(first_estimate(plant.sensors)(packed, draws)).ravel()
 
 
 def number_of_ticks(duration: float, plant: Plant) -> int:
@@ -130,13 +148,18 @@ def nearest_ticks(times: Any, plant: Plant, duration: float) -> Any:
     return distinct(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
 
 
-def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:
-    """Return (tick, state) → measured state, and tick → wind forces on vehicle and bob (6,), N."""
-    drawn = normals(plant.seed, ticks) if is_random(plant) else None
+def _chance(
+    vehicle: Vehicle, plant: Plant, start: Any, ticks: int
+) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:
+    """Return (tick, state) → measured state or readings, and tick → wind forces on vehicle and bob (6,), N."""
+    count = PER_TICK if plant.sensors is None else max(PER_TICK, draws_size(plant.sensors))
+    drawn = normals(plant.seed, ticks, count) if is_random(plant) else None
     measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
     if plant.noise is not None and drawn is not None:
         noisy, sigma = _compiled(measurement), noise_numbers(plant.noise)
         measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT], sigma)  # noqa: E731
+    if plant.sensors is not None and drawn is not None:
+        measure = _sensed(vehicle, plant, start, drawn)
     if plant.wind is None:
         return measure, lambda _: np.zeros(6)
     blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(GUST_MEMORY)
@@ -149,6 +172,20 @@ def _chance(plant: Plant, ticks: int) -> tuple[Callable[[int, Any], Any], Callab
     return measure, next_wind
 
 
+def _sensed(vehicle: Vehicle, plant: Plant, start: Any, drawn: Any) -> Callable[[int, Any], Any]:
+    """Return (tick, state) → readings, for the true `start` (24,) and the random numbers `drawn` (ticks, n)."""
+    period, count = 1 / plant.rate, draws_size(plant.sensors)
+    sense = as_numpy(sensing(plant.sensors, vehicle, period))
+    memory = np.asarray(ca.DM(first_memory(plant.sensors, period, start))).ravel()
+
+    def measure(k: int, packed: Any) -> Any:
+        nonlocal memory
+        memory, readings = sense(memory, k * period, packed, drawn[k, :count])
+        return readings
+
+    return measure
+
+
 @cache
 def _compiled(make: Callable[[], ca.Function]) -> Any:
     return as_numpy(make())
@@ -156,4 +193,5 @@ def _compiled(make: Callable[[], ca.Function]) -> Any:
 
 def is_random(plant: Plant) -> bool:
     """Whether flights through `plant` depend on its seed."""
-    return plant.noise is not None or (plant.wind is not None and plant.wind.random)
+    blown = plant.wind is not None and plant.wind.random
+    return plant.noise is not None or plant.sensors is not None or blown

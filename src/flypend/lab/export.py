@@ -73,8 +73,9 @@ def _plant(plant: AnyPlant) -> str | dict[str, Any]:
     for entry in fields(Sampled):
         value = getattr(plant, entry.name)
         if value != getattr(ROTORS, entry.name):
-            is_record = entry.name in ("noise", "wind")
-            changed[entry.name] = _record(value) if is_record else value
+            if entry.name in ("noise", "wind"):
+                value = _record(value)
+            changed[entry.name] = value.to_dict() if entry.name == "sensors" else value
     return {"base": "rotors", **changed} if changed else "rotors"
 
 

@@ -15,7 +15,8 @@ from flypend.geometry import tangent_part, unit
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
-from flypend.plants.plant import Noise, Wind
+from flypend.plants.noise import Noise
+from flypend.plants.plant import Wind
 
 # Each control tick draws 24 numbers: the first 18 are for the measurement, the other 6 for the gusts.
 MEASUREMENT, GUSTS = slice(0, 18), slice(18, 24)

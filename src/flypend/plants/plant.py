@@ -15,6 +15,8 @@ from flypend.errors import InputError
 from flypend.model import Vehicle
 from flypend.model.air import AIR
 from flypend.model.joint import stiffness
+from flypend.plants.noise import Noise
+from flypend.plants.sensors import sensors_called
 
 Engine = Literal["equations", "mujoco"]
 Interface = Literal["wrench", "rates"]
@@ -34,37 +36,6 @@ def check_seed(field: str, seed: object) -> None:
     """Raise InputError unless `seed` is an integer from 0 to 2⁶²; messages begin with `field`."""
     if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) <= 2**62:
         raise InputError(field, "an integer >= 0", repr(seed))
-
-
-@errors.named_arguments
-@dataclass(frozen=True, kw_only=True)
-class Noise:
-    """Standard deviations of white measurement noise, drawn independently at every control tick.
-
-    Parameters
-    ----------
-    x, x_dot : float
-        Position (m) and velocity (m/s).
-    attitude, omega : float
-        Rotation vector (rad) and angular velocity (rad/s).
-    y, y_dot : float
-        Rod direction (rad) and its rate (1/s).
-    """
-
-    x: float = 0.0
-    x_dot: float = 0.0
-    attitude: float = 0.0
-    omega: float = 0.0
-    y: float = 0.0
-    y_dot: float = 0.0
-
-    def __post_init__(self) -> None:
-        for entry in fields(self):
-            errors.number(f"noise.{entry.name}", getattr(self, entry.name), at_least=0)
-
-
-# Motion capture and a gyroscope: 1 mm, 0.2 degrees; rates from filtered differences.
-MOTION_CAPTURE = Noise(x=1e-3, x_dot=1e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3, y_dot=3e-2)
 
 
 @errors.named_arguments
@@ -166,6 +137,9 @@ class Sampled:
     ground : float, optional
         Height of a ground that raises the thrust of rotors close to it, m; None for none. The radius of the rotors is
         that of the vehicle's `body`. Nothing touches the ground.
+    sensors : Sensors, str or dict, optional
+        What measures the state, or the name of a suite ("mocap", "onboard") or a table. Default "perfect": the
+        flight computer measures the state itself, with `noise`.
     pivot_offset : (3,)
         Position of the ball joint beside that of the vehicle, body frame, m. The law does not know it.
     mismatch : dict
@@ -198,6 +172,7 @@ class Sampled:
     strength: Any = 1.0
     air: Any = ()
     ground: float | None = None
+    sensors: Any = None
     pivot_offset: Any = (0.0, 0.0, 0.0)
     mismatch: Mapping[str, float] = field(default_factory=dict)
     wind: Wind | None = None
@@ -229,6 +204,9 @@ class Sampled:
         for name, kind, expected in _KINDS:
             if not isinstance(value := getattr(self, name), kind):
                 raise InputError(f"plant.{name}", expected, repr(value))
+        object.__setattr__(self, "sensors", sensors_called(self.sensors))
+        if self.sensors is not None and self.noise is not None:
+            raise InputError("plant.noise", "none beside sensors, which have noise of their own", repr(self.noise))
         check_seed("plant.seed", self.seed)
         offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
         object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))

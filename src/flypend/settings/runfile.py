@@ -158,7 +158,10 @@ def start_of(table: dict[str, Any]) -> State:
 
 
 def plant_of(value: Any) -> AnyPlant:
-    """Return a plant, given by name or as a table on top of `base` (default "rotors"); noise and wind are tables."""
+    """Return a plant, given by name or as a table on top of `base` (default "rotors").
+
+    Noise and wind are tables; sensors the name of a suite, or a table on top of one (its own `base`).
+    """
     if isinstance(value, str):
         return plant(value)
     if not isinstance(value, dict):

@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 
 from flypend.model.state import SHAPES
-from flypend.plants import plant
 from flypend.settings.laws import absolute, table_of
+from flypend.settings.runfile import plant_of
 from flypend.studies.compare import Comparison
 
 # Of each law at most so many are kept: a law that fails for ever needs no thousand files.
 MOST = 100
 
 
-def failed_runs(comparison: Comparison, laws: Sequence[str], plant_name: str, duration: float) -> dict[str, Any]:
+def failed_runs(comparison: Comparison, laws: Sequence[str], plant: Any, duration: float) -> dict[str, Any]:
     """Return the content of a run file for each failed flight of `comparison`, by name "law-run".
 
     Parameters
@@ -26,11 +26,12 @@ def failed_runs(comparison: Comparison, laws: Sequence[str], plant_name: str, du
         The comparison, of which at most `MOST` failures a law are taken.
     laws : sequence of str
         Its laws as on the command line, in order.
-    plant_name, duration
-        The name of its plant, and the duration of its flights, s.
+    plant, duration
+        Its plant as in a run file, a name or a table, and the duration of its flights, s.
     """
     found: dict[str, Any] = {}
-    seed = getattr(plant(plant_name), "seed", None)
+    table_of_plant = {"base": plant} if isinstance(plant, str) else dict(plant)
+    seed = getattr(plant_of(plant), "seed", None)
     for (name, ensemble), law in zip(comparison.ensembles.items(), laws, strict=True):
         table = absolute(table_of(law), Path.cwd())
         for run in np.flatnonzero(~ensemble.success)[:MOST]:
@@ -38,7 +39,7 @@ def failed_runs(comparison: Comparison, laws: Sequence[str], plant_name: str, du
             found[f"{_plain(name)}-{run}"] = {
                 "vehicle": ensemble.vehicle.to_dict(),
                 "law": table,
-                "plant": plant_name if seed is None else {"base": plant_name, "seed": seed + int(run)},
+                "plant": plant if seed is None else table_of_plant | {"seed": seed + int(run)},
                 "duration": float(duration),
                 "start": {field: getattr(start, field).tolist() for field in SHAPES},
             }

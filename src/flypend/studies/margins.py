@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from threading import Event
 from typing import Any
 
@@ -102,11 +103,13 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
     """Return the numbers whose margins are searched: delay, lag, rod length, mass and noise.
 
     Delays start at a tenth of √(l/g) and end where the plant's queue does. Lag, rod length and mass (of vehicle and rod
-    together) are factors from 1/4 to 4; noise is a multiple of the plant's, or of motion capture's.
+    together) are factors from 1/4 to 4; noise is a multiple of the plant's or its sensors', or of motion
+    capture's.
     """
     time = float(np.sqrt(vehicle.l / vehicle.g))
     longest = min(LONGEST_DELAY, MOST_IN_TRANSIT / plant.rate)
-    noise, least = plant.noise or MOTION_CAPTURE, 1.0 if plant.noise else 0.0
+    noisy = plant.noise is not None or plant.sensors is not None
+    least = 1.0 if noisy else 0.0
     return [
         Quantity(
             "delay", "ms", 1e3 * plant.delay, lambda ms: plant.replace(delay=ms / 1e3),
@@ -116,8 +119,8 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
         Quantity("rod length", "of the believed", 1.0, mismatched(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
         Quantity("mass", "of the believed", 1.0, mismatched(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0),
         Quantity(
-            "noise", "of the plant's" if plant.noise else "of motion capture's", least,
-            lambda k: plant.replace(noise=_scaled(noise, k)), lambda d: least + d, 1.0, 15.0, both=False,
+            "noise", "of the plant's" if noisy else "of motion capture's", least,
+            partial(_noisier, plant), lambda d: least + d, 1.0, 15.0, both=False,
         ),
     ]  # fmt: skip
 
@@ -211,6 +214,13 @@ def mismatched(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float],
         return plant.replace(mismatch={**known, **more})
 
     return changed
+
+
+def _noisier(plant: Sampled, factor: float) -> Sampled:
+    """`plant` with its noise, or that of motion capture, times `factor`."""
+    if plant.sensors is not None:
+        return plant.replace(sensors=plant.sensors.noisier(factor))
+    return plant.replace(noise=_scaled(plant.noise or MOTION_CAPTURE, factor))
 
 
 def _scaled(noise: Noise, factor: float) -> Noise:

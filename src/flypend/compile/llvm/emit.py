@@ -81,6 +81,7 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "or": lambda code, a, b: code.select(_true(a) | _true(b), 1.0, 0.0),
     **{name: _compared(sign) for name, sign in (("lt", "<"), ("le", "<="), ("eq", "=="), ("ne", "!="))},
     **{name: _of_library(name) for name in (*LIBRARY, *LIBRARY_2)},
+    "floor": Code.floor,
     "log": elementary.log,
     "sin": elementary.sine,
     "cos": elementary.cosine,

@@ -41,12 +41,12 @@ def philox(builder: ir.IRBuilder, counter: list[ir.Value], key: list[ir.Value]) 
     return counter
 
 
-def define_normals(lanes: Lanes, used: range = range(PER_TICK)) -> ir.Function:
-    """Define a function (seeds, ticks, out): `PER_TICK` normal numbers per lane, one seed and tick per lane.
+def define_normals(lanes: Lanes, used: range = range(PER_TICK), name: str = "normals") -> ir.Function:
+    """Define a function (seeds, ticks, out) called `name`: normal numbers of each lane's seed and tick.
 
     Only the numbers `used` are drawn, in whole blocks of four.
     """
-    function, code = lanes.function("normals", 3)
+    function, code = lanes.function(name, 3)
     for block, uniform in _uniforms(code, function.args, range(used.start // 4, -(-used.stop // 4))):
         for pair in range(2):
             _box_muller(code, uniform[2 * pair], uniform[2 * pair + 1], function.args[2], 4 * block + 2 * pair)
@@ -92,36 +92,46 @@ def _box_muller(code: Code, u: Value, v: Value, out: ir.Value, place: int) -> No
     code.store(radius * sine, out, place + 1)
 
 
-def normals(seed: int, ticks: int) -> Any:
-    """Normal numbers (ticks, 24) of the flight with `seed`; row k holds the draws of control tick k."""
-    rows = -(-ticks // WIDTH)
-    out: Any = np.zeros((rows, PER_TICK, WIDTH))
-    _compiled()(seed & 0xFFFFFFFFFFFFFFFF, rows, out.ctypes.data)
-    return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(rows * WIDTH, PER_TICK)[:ticks])
+def normals(seed: int, ticks: int, count: int = PER_TICK, *, first: int = 0) -> Any:
+    """Normal numbers (ticks, count) of the flight with `seed`; row k holds the draws of control tick `first` + k."""
+    rows, drawn = -(-ticks // WIDTH), whole_blocks(count)
+    out: Any = np.zeros((rows, drawn, WIDTH))
+    _compiled(drawn)(seed & 0xFFFFFFFFFFFFFFFF, first, rows, out.ctypes.data)
+    return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(rows * WIDTH, drawn)[:ticks, :count])
 
 
-@lru_cache(maxsize=1)
-def _compiled() -> Any:
-    return jit.build("normals", _module, "normals_of_ticks", [ctypes.c_uint64, ctypes.c_int64, ctypes.c_void_p])
+def whole_blocks(count: int) -> int:
+    """Return the length of the blocks of four that hold `count` numbers."""
+    return -(-count // 4) * 4
 
 
-def _module() -> ir.Module:
-    """Module with a function (seed, rows, out); row i holds the numbers of ticks i·WIDTH …, one tick per lane."""
+@lru_cache(maxsize=8)
+def _compiled(count: int) -> Any:
+    kinds = [ctypes.c_uint64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p]
+    return jit.build(f"normals of {count}", lambda: _module(count), "normals_of_ticks", kinds)
+
+
+def _module(count: int) -> ir.Module:
+    """Module with a function (seed, first, rows, out).
+
+    Row i holds `count` numbers of the ticks first + i·WIDTH …, one tick per lane.
+    """
     lanes = Lanes(ir.Module("normals"), WIDTH)
-    draw = define_normals(lanes)
-    function = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, I64, ir.PointerType()]), "normals_of_ticks")
+    draw = define_normals(lanes, range(count))
+    kinds = [I64, I64, I64, ir.PointerType()]
+    function = ir.Function(lanes.module, ir.FunctionType(VOID, kinds), "normals_of_ticks")
     code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
-    seed, rows, out = function.args
-    seeds, ticks, drawn = code.reserve(WIDTH, I64), code.reserve(WIDTH, I64), code.reserve(PER_TICK)
+    seed, begin, rows, out = function.args
+    seeds, ticks, drawn = code.reserve(WIDTH, I64), code.reserve(WIDTH, I64), code.reserve(count)
     with code.count(rows) as row:
         for lane in range(WIDTH):
             place = ir.Constant(I64, lane)
             code.put(seed, seeds, place)
-            first = code.builder.mul(row, ir.Constant(I64, WIDTH))
+            first = code.builder.add(begin, code.builder.mul(row, ir.Constant(I64, WIDTH)))
             code.put(code.builder.add(first, place), ticks, place)
         code.call(draw, seeds, ticks, drawn)
-        with code.count(PER_TICK * WIDTH) as i:
-            base = code.builder.mul(row, ir.Constant(I64, PER_TICK * WIDTH))
+        with code.count(count * WIDTH) as i:
+            base = code.builder.mul(row, ir.Constant(I64, count * WIDTH))
             code.put(code.scalar(drawn, i), out, code.builder.add(base, i))
     code.builder.ret_void()
     return lanes.module

@@ -12,9 +12,10 @@ from operator import add
 from llvmlite import ir
 
 from flypend.compile.llvm.emit import define, define_routine
-from flypend.compile.llvm.random import PER_TICK, define_normals
+from flypend.compile.llvm.random import PER_TICK, define_normals, whole_blocks
 from flypend.compile.llvm.reductions import Reductions
 from flypend.compile.llvm.runge_kutta import COLLIDED, COMPLETED, DIVERGED, UNDEFINED
+from flypend.compile.llvm.sensors import Sensors
 from flypend.compile.llvm.stopping import not_stopped
 from flypend.compile.llvm.touching import Touching
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
@@ -58,13 +59,15 @@ class _Kernel:
         programs = {name: getattr(problem, name) for name in ("begin", "measure", "gusts")}
         self.call = {name: define(lanes, p, inline=True) for name, p in programs.items() if p is not None}
         self.normals = define_normals(lanes, problem.drawn) if problem.random else None
+        self.sensors = Sensors(code, problem.sensing) if problem.sensing is not None else None
         n, k = problem.size, problem.rotors
         self.states = code.reserve(2 * (1 + n + k))  # before and after a tick, in turn; each preceded by the time
-        self.measured, self.none = code.reserve(1 + n), code.reserve(1)
+        self.measured, self.none = code.reserve(1 + problem.measured), code.reserve(1)
         self.memory = code.reserve(self.strides * self.stride + problem.memory)
         self.P, self.wind = code.reserve(problem.gains), code.reserve(6)
         self.gust = code.reserve(problem.gust)
-        self.ring, self.draws = code.reserve(problem.depth * problem.command), code.reserve(PER_TICK)
+        self.ring = code.reserve(problem.depth * problem.command)
+        self.draws = code.reserve(max(PER_TICK, whole_blocks(problem.drawn.stop)))
         self.t, self.alive, self.status, self.end = (code.reserve(1) for _ in range(4))
         self.timings, self.noise, self.blowing = (code.reserve(length) for length in problem.inputs)
         self.seeds, self.tick_of_lane = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
@@ -135,7 +138,10 @@ class _Kernel:
             self.results.reset(lane)
         command = code.reserve(problem.command)
         memory, _ = self._memories(ir.Constant(I64, 0))
-        code.call(self.call["begin"], code.vector_at(state, problem.size), memory, command)
+        given = [code.vector_at(state, problem.size)]
+        if self.sensors is not None:
+            given.append(self.sensors.begin(state, self.seeds))
+        code.call(self.call["begin"], *given, memory, command)
         for slot in range(problem.depth):
             self._move(command, code.vector_at(self.ring, slot * problem.command), problem.command)
         for memory, length in ((self.gust, problem.gust), (self.wind, 6)):
@@ -208,6 +214,9 @@ class _Kernel:
         if self.problem.measure is not None:
             measured = self.measured
             code.call(self.call["measure"], state, self.draws, self.noise, code.vector_at(measured, 1))
+        if self.sensors is not None:
+            measured = self.measured
+            self.sensors.read(time, state, self.draws, code.vector_at(measured, 1))
         code.store(time, measured)
         before, after = self._memories(tick)
         code.call(self.board, before, measured, self.none, self.P, self.none, after, command)

@@ -19,7 +19,7 @@ from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, arguments, write_k
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
-from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Stretch
+from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
@@ -36,8 +36,10 @@ from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_n
 from flypend.plants.motors import motor_timing, timing_size
 from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, seen_by_mujoco, substeps
 from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surroundings
-from flypend.plants.plant import Noise, Plant, Wind
+from flypend.plants.noise import Noise
+from flypend.plants.plant import Plant, Wind
 from flypend.plants.schedule import steps_in, within_period
+from flypend.plants.sensing import START_TICK, first_estimate, first_memory, sensing
 
 WIDTH = 8
 # Runs per piece of work; MuJoCo flies them one by one, some tens of milliseconds each.
@@ -285,15 +287,28 @@ def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
         timing=timing_size(plant) if plant.engine == "equations" else 1 + STEP_NUMBERS,
         period=1 / plant.rate,
         random=is_random(plant),
+        sensing=_sensing(loop) if plant.sensors is not None else None,
         touch=touch_of(true, "up", by_rotors=True),
     )
 
 
 def _begin(loop: Loop) -> Program:
-    """Return (rotors) → (memory of the board, idle command)."""
-    rotors = ca.SX.sym("r", len(loop.vehicle.rotor_spins))
-    outputs = [ca.densify(initial_memory(loop, rotors)), ca.densify(ca.SX(idle_command(loop, rotors)))]
-    return lower(ca.Function("begin", [rotors], outputs))
+    """Return (rotors) → (memory of the board, idle command); with sensors, (rotors, estimate)."""
+    rotors, estimate = ca.SX.sym("r", len(loop.vehicle.rotor_spins)), ca.SX.sym("s", SIZE)
+    inputs = [rotors] if loop.sampled.sensors is None else [rotors, estimate]
+    outputs = [ca.densify(initial_memory(loop, *inputs)), ca.densify(ca.SX(idle_command(loop, rotors)))]
+    return lower(ca.Function("begin", inputs, outputs))
+
+
+def _sensing(loop: Loop) -> Sensing:
+    sensors, period, state = loop.sampled.sensors, 1 / loop.sampled.rate, ca.SX.sym("s", SIZE)
+    memory = ca.densify(first_memory(sensors, period, state))
+    return Sensing(
+        begin=lower(ca.Function("sensors_begin", [state], [memory])),
+        estimate=lower(first_estimate(sensors)),
+        sense=lower(sensing(sensors, loop.vehicle, period)),
+        tick=START_TICK,
+    )
 
 
 def _judge(loop: Loop, criterion: Criterion) -> ca.Function:

@@ -272,7 +272,9 @@ def _check(made: Study) -> None:
 
 def _random(plant: AnyPlant) -> bool:
     """Whether `plant` is random."""
-    return isinstance(plant, Sampled) and (plant.noise is not None or plant.wind is not None)
+    return isinstance(plant, Sampled) and (
+        plant.noise is not None or plant.sensors is not None or plant.wind is not None
+    )
 
 
 def _check_plants(made: Study) -> None:
@@ -286,7 +288,7 @@ def _check_plants(made: Study) -> None:
         made.plant_at(place * step)
 
 
-def standard(law: str, vehicle: str | None, plant: str, runs: int, seed: int, duration: float | None) -> dict[str, Any]:
+def standard(law: str, vehicle: str | None, plant: Any, runs: int, seed: int, duration: float | None) -> dict[str, Any]:
     """Return the standard study of a law: y uniform on S², R on SO(3), rates and velocities in balls.
 
     By default the paper's laws have 6.5 s to bring the rod to their e₃, at any position, and all others have 10 s to

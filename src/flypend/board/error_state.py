@@ -1,0 +1,195 @@
+"""Errors of an estimate on R³ × SO(3) × S², and how their covariance evolves.
+
+The error has 13 numbers, in this order: δc and δv of the centre of mass c = x + a y, a = m l/(M+m), and of its
+velocity; δθ of the attitude, in the world frame; η and σ of the rod and its rate, in a frame B = (b, y × b) of the
+tangent plane at y that moves with the rod without turning about it:
+
+    R = exp(δθ^) R̂,   y = unit(ŷ + B η),   ẏ = P_y (ŷ_dot + B σ).
+
+With the force φ of the vehicle on its rotors' axes (world frame), u = φ/(M l) and w = Bᵀ ẏ, to first order
+
+    δċ = δv,   δv̇ = δθ × φ/(M+m),   δθ̇ = R δω,   η̇ = σ,   σ̇ = ((y·u − |w|²) 1 + w wᵀ) η + Bᵀ (u × δθ).
+
+Error and attitude do not enter where they have no effect: the centre of mass does not feel the rod, neither feels yaw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from flypend.geometry import cross, dot, hat, tangent_part, unit
+from flypend.model import State
+from flypend.plants.cascade import rotation_by
+from flypend.plants.noise import Noise
+
+CENTRE, VELOCITY, TURN, ROD, SWING = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 11), slice(11, 13)
+ERRORS = 13
+COVARIANCE = ERRORS * (ERRORS + 1) // 2  # numbers of the lower triangle
+
+
+class Reading(NamedTuple):
+    """One number read: its `difference` from what was expected, its `row` (1, 13) of sensitivities, its variance.
+
+    `fresh` is 1 if it has arrived and 0 if not.
+    """
+
+    difference: Any
+    row: Any
+    variance: float
+    fresh: Any
+
+
+def lever(vehicle: Any) -> Any:
+    """Distance of the centre of mass from the pivot, a = m l/(M+m), m."""
+    return vehicle.m * vehicle.l / (vehicle.M + vehicle.m)
+
+
+def frame(b: Any, y: Any) -> Any:
+    """Return B (3, 2) for its first column `b` (3,) at the rod `y`."""
+    return ca.horzcat(b, cross(y, b))
+
+
+def carried_frame(b: Any, y: Any, y_after: Any) -> Any:
+    """Return the tangent vector `b` (3,) at `y` carried to `y_after` by the shortest rotation."""
+    return b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)
+
+
+def any_tangent(y: Any) -> Any:
+    """Return some unit vector (3,) tangent at `y`."""
+    level = ca.fabs(y[0]) < 0.7
+    return unit(tangent_part(y, ca.vertcat(level, 1 - level, 0)))
+
+
+def unpacked(numbers: Any) -> Any:
+    """Return the covariance (13, 13) of its `numbers` (91,), the lower triangle by rows."""
+    P = ca.SX(ERRORS, ERRORS)
+    for place, (i, j) in enumerate(zip(*np.tril_indices(ERRORS), strict=True)):
+        P[int(i), int(j)] = P[int(j), int(i)] = numbers[place]
+    return P
+
+
+def packed(P: Any) -> Any:
+    """Return the numbers (91,) of a covariance (13, 13)."""
+    return ca.vertcat(*(P[int(i), int(j)] for i, j in zip(*np.tril_indices(ERRORS), strict=True)))
+
+
+def first_covariance(start: Noise, s: State, B: Any, vehicle: Any) -> Any:
+    """Return the covariance (13, 13) of an estimate `s` with errors `start`."""
+    a, y_dot = lever(vehicle), B.T @ s.y_dot
+    J = ca.SX.eye(ERRORS)
+    J[CENTRE, ROD] = a * B
+    J[VELOCITY, SWING] = a * B
+    J[VELOCITY, ROD] = -a * s.y @ y_dot.T  # ẏ stays tangent
+    variances = [start.x**2] * 3 + [start.x_dot**2] * 3 + [start.attitude**2] * 3
+    variances += [start.y**2] * 2 + [start.y_dot**2] * 2
+    return J @ ca.diag(ca.SX(variances)) @ J.T
+
+
+def updated(P: Any, readings: Sequence[Reading]) -> tuple[Any, Any]:
+    """Return the error (13,) that `readings` tell, one by one, and its covariance (13, 13) after them."""
+    error = ca.SX(ERRORS, 1)
+    for difference, row, variance, fresh in readings:
+        seen = P @ row.T
+        gain = fresh * seen / (row @ seen + variance)
+        error = error + gain * (difference - row @ error)
+        P = unpacked(packed(P - gain @ seen.T))
+    return error, P
+
+
+def corrected(s: State, b: Any, error: Any, vehicle: Any) -> tuple[State, Any, Any]:
+    """Return the estimate `s` and the tangent vector `b`, corrected by an `error` (13,), and the turn (3, 3)."""
+    B, a = frame(b, s.y), lever(vehicle)
+    turn = rotation_by(error[TURN])
+    y = unit(s.y + B @ error[ROD])
+    y_dot = tangent_part(y, s.y_dot + B @ error[SWING])
+    x = s.x + error[CENTRE] + a * (s.y - y)
+    x_dot = s.x_dot + error[VELOCITY] + a * (s.y_dot - y_dot)
+    R = turn @ s.R
+    R = R @ (3 * ca.SX.eye(3) - R.T @ R) / 2  # one Newton step of the polar decomposition
+    return State(x=x, x_dot=x_dot, R=R, omega=s.omega, y=y, y_dot=y_dot), unit(tangent_part(y, b)), turn
+
+
+class Densities(NamedTuple):
+    """Spectral densities of what drives the errors.
+
+    Specific forces on vehicle and bob beyond the model, (m/s²)²/Hz each, and the error of the angular velocity,
+    (rad/s)²/Hz.
+    """
+
+    force: Any
+    turning: float
+
+
+def spread(P: Any, s: State, b: Any, force: Any, vehicle: Any, h: float, densities: Densities) -> Any:
+    """Return the covariance (13, 13) a time `h` (s) after `P` at the state `s`, under the vehicle's `force` (3,), N."""
+    B, M, m = frame(b, s.y), vehicle.M, vehicle.m
+    u, w = force / (M * vehicle.l), B.T @ s.y_dot
+    F = ca.SX.eye(ERRORS)
+    F[CENTRE, VELOCITY] = h * ca.SX.eye(3)
+    F[VELOCITY, TURN] = -h / (M + m) * hat(force)
+    F[ROD, SWING] = h * ca.SX.eye(2)
+    F[SWING, ROD] += h * ((dot(s.y, u) - dot_2(w, w)) * ca.SX.eye(2) + w @ w.T)
+    F[SWING, TURN] = h * B.T @ hat(u)
+    Q = ca.SX(ERRORS, ERRORS)
+    for share, pull in ((M / (M + m), -1), (m / (M + m), 1)):
+        G = ca.SX(ERRORS, 3)
+        G[VELOCITY, :] = share * ca.SX.eye(3)
+        G[SWING, :] = pull / vehicle.l * B.T
+        Q += h * densities.force * G @ G.T
+    Q[TURN, TURN] += h * densities.turning * ca.SX.eye(3)
+    return F @ P @ F.T + Q
+
+
+def dot_2(a: Any, b: Any) -> Any:
+    """Inner product of two vectors (2, 1)."""
+    return a[0] * b[0] + a[1] * b[1]
+
+
+# Rows of readings -------------------------------------------------------------------------------------------------
+
+
+def position_rows(b: Any, y: Any, age: Any, vehicle: Any) -> Any:
+    """Return the sensitivities (3, 13) of the pivot's position `age` seconds ago, x = c − a y."""
+    B, a = frame(b, y), lever(vehicle)
+    H = ca.SX(3, ERRORS)
+    H[:, CENTRE], H[:, VELOCITY] = ca.SX.eye(3), -age * ca.SX.eye(3)
+    H[:, ROD], H[:, SWING] = -a * B, a * age * B
+    return H
+
+
+def attitude_rows() -> Any:
+    """Return the sensitivities (3, 13) of the turn from an estimated attitude to the one read, world frame."""
+    H = ca.SX(3, ERRORS)
+    H[:, TURN] = ca.SX.eye(3)
+    return H
+
+
+def rod_rows(age: Any) -> Any:
+    """Return the sensitivities (2, 13) of Bᵀ y `age` seconds ago."""
+    H = ca.SX(2, ERRORS)
+    H[:, ROD], H[:, SWING] = ca.SX.eye(2), -age * ca.SX.eye(2)
+    return H
+
+
+def joint_rows(B: Any, y: Any, age: Any) -> Any:
+    """Return the sensitivities (2, 13) of Bᵀ R̂ Rᵀ y: the rod as seen from the vehicle."""
+    H = rod_rows(age)
+    H[:, TURN] = B.T @ hat(y)
+    return H
+
+
+def rod_rate_rows(B: Any, y: Any, y_dot: Any) -> Any:
+    """Return the sensitivities (2, 13) of Bᵀ (R̂ Rᵀ (y × ẏ) × ŷ): the rod's rate as seen from the vehicle."""
+    H = ca.SX(2, ERRORS)
+    H[:, SWING] = ca.SX.eye(2)
+    H[:, TURN] = -B.T @ cross(y, y_dot) @ y.T
+    return H
+
+
+def turned_by(R: Any) -> Any:
+    """Return the rotation vector (3,) of a small turn `R` (3, 3), to second order."""
+    return ca.vertcat(R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]) / 2

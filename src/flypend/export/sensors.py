@@ -1,0 +1,78 @@
+"""The C texts of a flight computer with sensors: two files beside those of the law."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flypend.compile.c99 import Precision, call, function, routine_function, used_inputs
+from flypend.compile.program import Program
+from flypend.export import records
+from flypend.export.interface import Interface, Sensing
+from flypend.export.source import initializer, numbers_of, record_of, struct
+from flypend.plants.sensing import readings_size
+from flypend.plants.sensors import Sensors
+
+FILES = ("flypend_sensors.h", "flypend_sensors.c")
+
+
+def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> dict[str, Any]:
+    """What the templates of FILES take beside the values of the law's own."""
+    readings, size = records.readings_record(sensing.sensors), readings_size(sensing.sensors)
+    programs: dict[str, Program] = {"begin": sensing.begin, "sound": sensing.sound}
+    programs |= {program.name: program for program in sensing.board.programs}
+    texts = [function(program, precision) for program in programs.values()]
+    inputs = [readings, records.STATE, made.params]
+    inputs += [records.PATH] * made.follows + [made.gains] * made.has_gains
+    given = ("computer->memory", "m", "path", "g", "p")
+    locals_ = (
+        made.follows * "    flypend_real path[FLYPEND_PATH];\n"
+        + made.has_gains * "    flypend_real g[FLYPEND_GAINS];\n"
+    )
+    if not made.follows:
+        locals_ += "    (void)reference;\n"
+    fill = (
+        made.follows * "    path_numbers(reference, path);\n"
+        + made.has_gains * "    gains_numbers(&computer->gains, g);\n"
+    )
+    checks = ["path, FLYPEND_PATH"] * made.follows + ["g, FLYPEND_GAINS"] * made.has_gains
+    if checks:
+        finite = " && ".join(f"numbers({check})" for check in checks)
+        fill += f"    if (!({finite})) {{\n        return FLYPEND_NOT_FINITE;\n    }}\n"
+    return {
+        "programs": "\n\n".join([*texts, routine_function(sensing.board, precision)]),
+        "conversions": "\n\n".join([*map(numbers_of, inputs), record_of(records.STATE), record_of(made.rotors)]),
+        "readings_struct": struct(readings),
+        "readings_length": str(size),
+        "sensors_memory": str(sensing.board.inputs[0]),
+        "estimate_place": str(sensing.board.inputs[0] - len(sensing.begin.outputs[0]) + _own(sensing)),
+        "call_begin": call(sensing.begin, ("rotors.force", "s", "p"), ["computer->memory"]),
+        "call_sound": call(sensing.sound, ("r",), ["defect"]),
+        "call_board": f"fly({', '.join(given[i] for i in used_inputs(sensing.board))}, after, command);",
+        "hover": initializer(records.REFERENCE, [0.0] * records.REFERENCE.length, precision),
+        "locals": locals_,
+        "null": " || (reference == NULL)" if made.follows else "",
+        "fill": fill,
+        "command_delay": f"{sensing.sensors.command_delay or 0.0:.3g}",
+        "sensor_table": "\n".join(f" *   {line}" for line in _table(sensing.sensors)),
+        "start": _start(sensing.sensors),
+    }
+
+
+def _own(sensing: Sensing) -> int:
+    """Place of the estimate in the memory: it begins with what `begin` copies of the state."""
+    outputs, operations = sensing.begin.outputs[0], sensing.begin.operations
+    return next(i for i, number in enumerate(outputs) if operations[number][:2] == ("input", (1, 0)))
+
+
+def _table(sensors: Sensors) -> list[str]:
+    return [
+        f"{name}: {s.rate:g} Hz, noise {s.noise:g}, latency {s.latency:g} s"
+        + (f", steps {s.quantisation:.4g}" if s.quantisation else "")
+        for name, s in sensors.streams.items()
+    ]
+
+
+def _start(sensors: Sensors) -> str:
+    s = sensors.start
+    vehicle = f"{s.x:g} m, {s.x_dot:g} m/s, {s.attitude:g} rad, {s.omega:g} rad/s"
+    return f"{vehicle}, and {s.y:g} rad, {s.y_dot:g} 1/s of the rod"

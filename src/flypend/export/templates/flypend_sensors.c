@@ -1,0 +1,171 @@
+/* The $law law for the vehicle $vehicle with an estimator, by flypend $version. Generated: change the law, not this file. */
+#include "flypend_sensors.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+#ifdef __FAST_MATH__
+#error "-ffast-math lets a compiler assume that no number is NaN, and drops the checks below"
+#endif
+
+#define FLYPEND_STATE 24
+#define FLYPEND_FORCES 6
+#define FLYPEND_READINGS $readings_length
+#define FLYPEND_PATH $path_length
+#define FLYPEND_GAINS $gains_length
+#define FLYPEND_PARAMS_LENGTH $params_length
+#define FLYPEND_MARK $mark
+/* Where the estimate lies in the memory. */
+#define FLYPEND_ESTIMATE $estimate_place
+
+$programs
+
+$conversions
+
+static int numbers(const flypend_real *values, int count)
+{
+    int all = 1;
+    for (int i = 0; i < count; i++) {
+        all = all && (values[i] >= -$largest) && (values[i] <= $largest);
+    }
+    return all;
+}
+
+/* Whether the parameters are usable, and the least forces for them. */
+static flypend_status least_forces(const flypend_params *params, flypend_rotors *rotors)
+{
+    const flypend_wrench none = {0, {0, 0, 0}};
+    flypend_status status;
+    if (params == NULL) {
+        for (int i = 0; i < FLYPEND_ROTORS; i++) {
+            rotors->force[i] = 0;
+        }
+        return FLYPEND_NULL;
+    }
+    status = flypend_mix(&none, params, rotors);
+    if (status == FLYPEND_OK) {
+        for (int i = 0; i < FLYPEND_ROTORS; i++) {
+            rotors->force[i] = params->rotor_least;
+        }
+    }
+    return status;
+}
+
+flypend_status flypend_sensors_begin(flypend_sensors *computer, const flypend_gains *gains, const flypend_params *params,
+                                     const flypend_state *estimate)
+{
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
+    flypend_rotors rotors;
+    flypend_wrench wrench;
+    if ((computer == NULL) || (gains == NULL) || (estimate == NULL)) {
+        return FLYPEND_NULL;
+    }
+    computer->mark = 0;
+    const flypend_status usable = least_forces(params, &rotors);
+    if (usable != FLYPEND_OK) {
+        return usable;
+    }
+    /* The bare law refuses what is no state. */
+    static const flypend_reference hover = $hover;
+    const flypend_status state = flypend_step(estimate, &hover, gains, params, &wrench);
+    if ((state != FLYPEND_OK) && (state != FLYPEND_SINGULAR)) {
+        return state;
+    }
+    params_numbers(params, p);
+    state_numbers(estimate, s);
+    $call_begin
+    if (!numbers(computer->memory, FLYPEND_SENSORS_MEMORY)) {
+        return FLYPEND_SINGULAR;
+    }
+    computer->gains = *gains;
+    computer->mark = FLYPEND_MARK;
+    return FLYPEND_OK;
+}
+
+static int has_begun(const flypend_sensors *computer)
+{
+    return (computer != NULL) && (computer->mark == FLYPEND_MARK) && numbers(computer->memory, FLYPEND_SENSORS_MEMORY);
+}
+
+/* No readings at all. */
+static void nothing(flypend_real *r)
+{
+    for (int i = 0; i < FLYPEND_READINGS; i++) {
+        r[i] = -1;
+    }
+}
+
+static flypend_status check_readings(const flypend_readings *readings, flypend_real *r)
+{
+    flypend_real defect[2];
+    if (readings == NULL) {
+        return FLYPEND_NULL;
+    }
+    readings_numbers(readings, r);
+    if (!numbers(r, FLYPEND_READINGS)) {
+        return FLYPEND_NOT_FINITE;
+    }
+    $call_sound
+    if (!(defect[0] <= 2 * FLYPEND_TOLERANCE)) {
+        return FLYPEND_ROD;
+    }
+    return (defect[1] <= FLYPEND_ROTATION_TOLERANCE * FLYPEND_ROTATION_TOLERANCE) ? FLYPEND_OK : FLYPEND_ATTITUDE;
+}
+
+flypend_status flypend_sensors_step(flypend_sensors *computer, const flypend_readings *readings,
+                                    const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors)
+{
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real m[1 + FLYPEND_READINGS]; /* the law does not depend on time: that stays 0 */
+    flypend_real command[FLYPEND_ROTORS];
+    flypend_real after[FLYPEND_SENSORS_MEMORY];
+$locals    if (rotors == NULL) {
+        return FLYPEND_NULL;
+    }
+    const flypend_status usable = least_forces(params, rotors);
+    if (usable != FLYPEND_OK) {
+        return usable;
+    }
+    if ((computer == NULL)$null) {
+        return FLYPEND_NULL;
+    }
+    if (!has_begun(computer)) {
+        return FLYPEND_NOT_BEGUN;
+    }
+    params_numbers(params, p);
+$fill    m[0] = 0;
+    const flypend_status status = check_readings(readings, m + 1);
+    if (status != FLYPEND_OK) {
+        nothing(m + 1);
+    }
+    $call_board
+    if (!(numbers(command, FLYPEND_ROTORS) && numbers(after, FLYPEND_SENSORS_MEMORY))) {
+        return FLYPEND_SINGULAR;
+    }
+    for (int i = 0; i < FLYPEND_SENSORS_MEMORY; i++) {
+        computer->memory[i] = after[i];
+    }
+    rotors_of(command, rotors);
+    return status;
+}
+
+flypend_status flypend_sensors_estimate(const flypend_sensors *computer, flypend_state *estimate)
+{
+    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
+    if (estimate == NULL) {
+        return FLYPEND_NULL;
+    }
+    if (!has_begun(computer)) {
+        return FLYPEND_NOT_BEGUN;
+    }
+    for (int i = 0; i < FLYPEND_STATE; i++) {
+        s[i] = computer->memory[FLYPEND_ESTIMATE + i];
+    }
+    for (int i = FLYPEND_STATE; i < FLYPEND_STATE + FLYPEND_FORCES; i++) {
+        s[i] = 0;
+    }
+    state_of(s, estimate);
+    return FLYPEND_OK;
+}

@@ -1,0 +1,222 @@
+"""Sensors as data: what is measured of the state, how often, how late and how well."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from types import MappingProxyType
+from typing import Any, Literal
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.plants.noise import Noise
+
+# What a pilot's own estimate, or that of an estimator which has run for a while, may be wrong by.
+START = Noise(x=0.02, x_dot=0.2, attitude=0.03, omega=0.05, y=0.03, y_dot=0.2)
+Rates = Literal["estimated", "differenced"]
+# Longest latency of a reading, s; the estimator remembers the flight that long.
+LONGEST_LATENCY = 0.2
+
+
+@errors.named_arguments
+@dataclass(frozen=True, kw_only=True)
+class Sensor:
+    """A stream of readings, the first at time 0.
+
+    Parameters
+    ----------
+    rate : float
+        Readings per second, Hz. Of several readings in one control period, the newest counts.
+    noise : float
+        Standard deviation of white noise per axis, in the unit of the reading.
+    latency : float
+        From the instant of a reading until the flight computer has it, s.
+    dropouts : float
+        Probability that a reading never arrives.
+    quantisation : float
+        Step of the readings, rad; for joint angles only.
+    """
+
+    rate: float
+    noise: float = 0.0
+    latency: float = 0.0
+    dropouts: float = 0.0
+    quantisation: float = 0.0
+
+    @property
+    def variance(self) -> float:
+        """Variance of a reading per axis; quantisation counts as uniform noise."""
+        return float(self.noise**2 + self.quantisation**2 / 12)
+
+    def check(self, name: str) -> None:
+        """Raise InputError if a field is out of range; messages begin with `name`."""
+        errors.number(f"{name}.rate", self.rate, above=0, at_most=1e5, unit="Hz")
+        errors.number(f"{name}.noise", self.noise, at_least=0)
+        errors.number(f"{name}.latency", self.latency, at_least=0, at_most=LONGEST_LATENCY, unit="s")
+        errors.number(f"{name}.dropouts", self.dropouts, at_least=0)
+        errors.number(f"{name}.quantisation", self.quantisation, at_least=0, unit="rad")
+        if self.dropouts >= 1:
+            raise InputError(f"{name}.dropouts", "a probability below 1", f"{self.dropouts:g}")
+        if self.quantisation and not name.endswith("joints"):
+            raise InputError(f"{name}.quantisation", "0, except for joint angles", f"{self.quantisation:g}")
+        if self.variance == 0:
+            raise InputError(f"{name}.noise", "a number > 0, by which the estimator weighs readings", "0")
+
+
+@errors.named_arguments
+@dataclass(frozen=True, kw_only=True)
+class Sensors:
+    """What measures vehicle and rod, and what the estimator on board expects beyond it.
+
+    Parameters
+    ----------
+    position : Sensor, optional
+        Position of the pivot, world frame, m.
+    attitude : Sensor, optional
+        Rotation from body to world; noise in rad.
+    rod : Sensor, optional
+        Direction of the rod, world frame; noise in rad.
+    gyro : Sensor
+        Angular velocity, body frame, rad/s.
+    accelerometer : Sensor, optional
+        Specific force at the centre of mass, averaged over the last control period, body frame, m/s².
+    joints : Sensor, optional
+        Two joint angles of the rod, rad: its direction in the body frame.
+    rod_gyro : Sensor, optional
+        Gyroscope of an IMU on the rod: angular velocity y × ẏ in the body frame, rad/s.
+    start : Noise
+        Standard deviations of the error of the estimate with which a flight begins.
+    rates : "estimated" or "differenced"
+        By the estimator, or, as a negative control, the differences of the last two poses, which must be measured.
+    force_error : float
+        Density of the specific forces on vehicle and on bob that the model lacks in hover, m/s²/√Hz. Forces that last
+        are estimated; this is about those that change.
+    manoeuvre_error : float
+        What is added to it per departure of the specific force from that of hover, 1/√Hz.
+    moment_error : float
+        Density of the angular acceleration that the model lacks, rad/s²/√Hz.
+    command_delay : float, optional
+        Delay from measurement to command that the estimator assumes, s; default that of the plant.
+
+    Raises
+    ------
+    InputError
+        If a field is out of range, or something needed is not measured: position and angular velocity, the rod by
+        direction or joint angles.
+    """
+
+    position: Sensor | None = None
+    attitude: Sensor | None = None
+    rod: Sensor | None = None
+    gyro: Sensor | None = None
+    accelerometer: Sensor | None = None
+    joints: Sensor | None = None
+    rod_gyro: Sensor | None = None
+    start: Noise = START
+    rates: Rates = "estimated"
+    force_error: float = 5e-4
+    manoeuvre_error: float = 3e-3
+    moment_error: float = 1.0
+    command_delay: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in STREAMS:
+            sensor = getattr(self, name)
+            if isinstance(sensor, Mapping):
+                sensor = Sensor(**sensor)
+                object.__setattr__(self, name, sensor)
+            if sensor is not None and not isinstance(sensor, Sensor):
+                raise InputError(f"sensors.{name}", "a Sensor or a table", repr(sensor))
+            if sensor is not None:
+                sensor.check(f"sensors.{name}")
+        if isinstance(self.start, Mapping):
+            object.__setattr__(self, "start", Noise(**self.start))
+        if not isinstance(self.start, Noise):
+            raise InputError("sensors.start", "a Noise or a table", repr(self.start))
+        errors.one_of("sensors.rates", self.rates, ("estimated", "differenced"))
+        errors.number("sensors.force_error", self.force_error, above=0)
+        errors.number("sensors.manoeuvre_error", self.manoeuvre_error, at_least=0)
+        errors.number("sensors.moment_error", self.moment_error, above=0)
+        if self.command_delay is not None:
+            errors.number("sensors.command_delay", self.command_delay, at_least=0, at_most=0.5, unit="s")
+        self._check_complete()
+
+    def _check_complete(self) -> None:
+        needed = ["position", "gyro"]
+        if self.rates == "differenced":
+            needed += ["attitude", "rod"]
+        for name in needed:
+            if getattr(self, name) is None:
+                raise InputError(f"sensors.{name}", "a Sensor", "none")
+        if self.rod is None and self.joints is None:
+            raise InputError("sensors.rod", "a Sensor, or one of the joints", "neither")
+
+    @property
+    def streams(self) -> dict[str, Sensor]:
+        """The sensors that there are, by name."""
+        return {name: getattr(self, name) for name in STREAMS if getattr(self, name) is not None}
+
+    def replace(self, **changes: Any) -> Sensors:
+        """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
+        errors.only_known("sensors", changes, [entry.name for entry in fields(self)])
+        return replace(self, **changes)
+
+    def noisier(self, factor: float) -> Sensors:
+        """Return a copy with the noise of every sensor times `factor`; the estimator is told."""
+        return self.replace(**{n: replace(s, noise=factor * s.noise) for n, s in self.streams.items()})
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fields as plain tables, without what is not there; `Sensors(**…)` takes them back."""
+        return {name: value for name, value in asdict(self).items() if value is not None}
+
+
+STREAMS = ("position", "attitude", "rod", "gyro", "accelerometer", "joints", "rod_gyro")
+
+_POSE = {"rate": 200.0, "latency": 0.01}
+_GYRO = Sensor(rate=500.0, noise=2e-2)
+SUITES: Mapping[str, Sensors | None] = MappingProxyType(
+    {
+        "perfect": None,
+        # Poses of vehicle and rod by cameras, and a gyroscope.
+        "mocap": Sensors(
+            position=Sensor(noise=1e-3, **_POSE),
+            attitude=Sensor(noise=3.5e-3, **_POSE),
+            rod=Sensor(noise=3.5e-3, **_POSE),
+            gyro=_GYRO,
+        ),
+        # An IMU of a hobby flight controller on a vibrating frame, encoders of 12 bits in the joint, and the position
+        # of an ultra-wideband or visual system.
+        "onboard": Sensors(
+            position=Sensor(rate=100.0, noise=1e-2, latency=0.01),
+            gyro=_GYRO,
+            accelerometer=Sensor(rate=500.0, noise=0.2),
+            joints=Sensor(rate=500.0, noise=1e-3, quantisation=2 * np.pi / 4096),
+        ),
+    }
+)
+
+
+def sensors_called(given: Any, field: str = "plant.sensors") -> Sensors | None:
+    """Return sensors given as a record, by name of a suite, or as a table on top of `base` (a suite); None if perfect.
+
+    In such a table, the table of a sensor overrides fields of the suite's. Raises InputError, with the name `field`.
+    """
+    if given is None or isinstance(given, Sensors):
+        return given
+    if isinstance(given, str):
+        return SUITES[errors.one_of(field, given, SUITES)]
+    if not isinstance(given, Mapping):
+        raise InputError(field, "a Sensors, a suite (" + ", ".join(SUITES) + ") or a table", repr(given))
+    table = dict(given)
+    name = table.pop("base", "perfect")
+    base = SUITES[errors.one_of(f"{field}.base", name, SUITES)]
+    if base is None and not table:
+        return None
+    errors.only_known(field, table, [entry.name for entry in fields(Sensors)])
+    known = base.to_dict() if base is not None else {}
+    for key, value in table.items():
+        nested = isinstance(value, Mapping) and isinstance(known.get(key), Mapping)
+        known[key] = {**known[key], **value} if nested else value
+    return Sensors(**known)

@@ -1,0 +1,318 @@
+"""The estimator: its error equations against the motion, its sensitivities against its sensors, and what it claims."""
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.board import error_state
+from flypend.board.believed import Believed
+from flypend.board.computer import SteppedBoard
+from flypend.board.estimator import Filter, steady_gain
+from flypend.board.expected import Expected
+from flypend.board.program import board, initial_memory
+from flypend.compile.llvm.random import normals
+from flypend.compile.numeric import as_numpy
+from flypend.flight import sampled
+from flypend.flight.kernels import sampled_kernel
+from flypend.flight.request import Flight
+from flypend.plants import SUITES, Plant, Sensor, Wind
+from flypend.plants.equations import EquationsEngine
+from flypend.plants.loop import Loop
+from flypend.plants.sensing import WIDTH, draws_size, first_memory, readings_size, sensing
+
+VEHICLE = fp.vehicle("hehn2011")
+LAW = fp.laws.inverted().bind(VEHICLE)
+NONE = np.zeros(0)
+ERRORS = error_state.ERRORS
+
+
+def wrong_by(state, b, error):
+    """The packed state (24,) of which `state` is the estimate with this error."""
+    packed, tangent, e = ca.SX.sym("s", 24), ca.SX.sym("b", 3), ca.SX.sym("e", ERRORS)
+    s, _, _ = error_state.corrected(fp.State.symbolic(packed), tangent, e, VEHICLE)
+    return np.asarray(ca.Function("f", [packed, tangent, e], [s.packed()])(state, b, error)).ravel()
+
+
+def error_of(truth, estimate, b):
+    """The error (13,) of an estimate (24,), whose rod has the frame of `b`, to first order."""
+    t, e = fp.State.trusted(truth), fp.State.trusted(estimate)
+    B, a = np.stack([b, np.cross(e.y, b)], axis=1), error_state.lever(VEHICLE)
+    turn = t.R @ e.R.T
+    theta = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
+    centre, velocity = t.x - e.x + a * (t.y - e.y), t.x_dot - e.x_dot + a * (t.y_dot - e.y_dot)
+    return np.concatenate([centre, velocity, theta, B.T @ t.y, B.T @ (t.y_dot - e.y_dot)])
+
+
+def some_state(seed):
+    state = fp.State.random(np.random.default_rng(seed))
+    tangent = np.cross(state.y, [0.3, -0.5, 0.8])
+    return state.packed(), tangent / np.linalg.norm(tangent)
+
+
+def test_an_error_is_put_in_and_found_again():
+    state, b = some_state(1)
+    error = 1e-5 * np.random.default_rng(2).standard_normal(ERRORS)
+    # Of second order in the error.
+    np.testing.assert_allclose(error_of(wrong_by(state, b, error), state, b), error, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_errors_move_as_the_motion_of_two_neighbours_tells(seed):
+    state, b = some_state(seed)
+    rotors, h, size = np.random.default_rng(seed).uniform(0.5, 3.0, 4), 1e-3, 1e-5
+
+    def later(packed):
+        engine = EquationsEngine(VEHICLE)
+        engine.reset(packed, rotors)
+        engine.step(rotors, h, np.zeros(6))
+        return engine.packed
+
+    after = later(state)
+    y, y_after = state[18:21], after[18:21]
+    b_after = np.asarray(ca.DM(error_state.carried_frame(*map(ca.DM, (b, y, y_after))))).ravel()
+    P = ca.SX.sym("P", ERRORS, ERRORS)
+    packed, tangent = ca.SX.sym("s", 24), ca.SX.sym("b", 3)
+    s = fp.State.symbolic(packed)
+    force = float(np.sum(rotors)) * s.z
+    spread = error_state.spread(P, s, tangent, force, VEHICLE, h, error_state.Densities(0.0, 0.0))
+    covariance = ca.Function("f", [P, packed, tangent], [ca.densify(spread)])
+    for i in range(ERRORS):
+        unit = np.zeros(ERRORS)
+        unit[i] = size
+        moved = error_of(later(wrong_by(state, b, unit)), after, b_after) / size
+        predicted = np.asarray(covariance(np.outer(unit, unit) / size**2, state, b))
+        # One Euler step of 1 ms: (h λ)²/2 with rates up to 40 1/s² and |ẏ| = 3 1/s, and the size of the error.
+        np.testing.assert_allclose(predicted, np.outer(moved, moved), atol=2e-4)
+
+
+def test_a_covariance_of_the_start_is_that_of_its_errors():
+    state, b = some_state(5)
+    start = fp.Noise(x=0.02, x_dot=0.3, attitude=0.02, y=0.03, y_dot=0.4)
+    s = fp.State.symbolic(ca.DM(state))
+    B = error_state.frame(ca.DM(b), s.y)
+    P = np.asarray(ca.DM(error_state.first_covariance(start, s, B, VEHICLE)))
+    rng, errors = np.random.default_rng(0), []
+    suite = SUITES["mocap"].replace(start=start)
+    guess = as_numpy(sampled.first_estimate(suite))
+    for draws in rng.standard_normal((4000, 18)):
+        errors.append(error_of(guess(state, draws), state, b))
+    found = np.cov(np.array(errors).T, bias=True)
+    scale = np.sqrt(np.outer(np.diag(P), np.diag(P)))
+    # Standard error of a covariance of 4,000: 1/√4000 = 0.016 of the scale; 91 entries; errors of 3 % of second order.
+    assert np.max(np.abs(found - P) / scale) < 0.08
+
+
+# What the sensors are expected to read ------------------------------------------------------------------------------
+
+QUIET = Sensor(rate=500.0, noise=1e-9)
+LATE = {name: Sensor(rate=173.0, noise=1e-3, latency=0.011) for name in ("position", "attitude", "rod", "rod_gyro")}
+EVERYTHING = fp.Sensors(
+    **LATE, gyro=Sensor(rate=500.0, noise=1e-2, latency=0.004), accelerometer=Sensor(rate=400.0, noise=0.1),
+    joints=Sensor(rate=300.0, noise=1e-3, latency=0.001), start=fp.Noise(),
+)  # fmt: skip
+
+
+def without_noise(suite):
+    """The same sensors with readings that are exact, as far as a noise must not be 0."""
+    streams = {n: Sensor(rate=stream.rate, noise=1e-12, latency=stream.latency) for n, stream in suite.streams.items()}
+    return suite.replace(**streams)
+
+
+def flown(suite, seed, duration, wind=None, world=None):
+    """A flight that records true states (n, 24), estimates (n, 24), and memories of the estimator.
+
+    With other sensors in the `world` than the board believes, it begins without error.
+    """
+    plant = Plant(sensors=suite, wind=wind, seed=seed)
+    loop, period = Loop(VEHICLE, LAW, plant), 1 / plant.rate
+    ticks = round(duration / period)
+    start = fp.State.random(np.random.default_rng(seed)).packed()
+    estimate = start if world is not None else sampled.estimate_at_start(plant, start)
+    least = np.full(4, VEHICLE.rotor_limits[0])
+    computer, engine = SteppedBoard(loop, least, estimate), EquationsEngine(VEHICLE)
+    engine.reset(start, least)
+    sense = as_numpy(sensing(world or suite, VEHICLE, period))
+    memory = np.asarray(ca.DM(first_memory(suite, period, start))).ravel()
+    draws = normals(seed, ticks, draws_size(suite))
+    gust = np.random.default_rng(seed).standard_normal((ticks, 6)) * (0 if wind is None else 1)
+    if wind is not None:
+        gust *= np.repeat([wind.gust_on_vehicle, wind.gust_on_bob], 3)
+    columns = ([], [], [])
+    for k in range(ticks):
+        memory, readings = sense(memory, k * period, engine.packed, draws[k])
+        command = computer.command(k * period, readings)
+        for column, value in zip(columns, (engine.packed, computer.estimated, computer.filtered), strict=True):
+            column.append(np.array(value))
+        engine.step(command, period, gust[k])
+    return tuple(np.array(column) for column in columns)
+
+
+@pytest.mark.parametrize("suite", [SUITES["mocap"], SUITES["onboard"], EVERYTHING], ids=["mocap", "onboard", "all"])
+def test_without_noise_and_errors_the_estimate_is_the_truth(suite):
+    """Every expectation, latency and interpolation is right, or the estimate would leave the truth."""
+    truth, estimates, _ = flown(suite, 3, 1.5, world=without_noise(suite))
+    s, e = fp.State.trusted(truth), fp.State.trusted(estimates)
+    # Readings between ticks are placed linearly in time: 15 m/s² · h²/8 = 8e-6 m, and 1e-4 rad of a turn.
+    assert np.max(np.abs(s.x - e.x)) < 1e-4
+    assert np.max(np.abs(s.y - e.y)) < 1e-3
+    assert np.max(np.abs(s.R - e.R)) < 1e-3
+    assert np.max(np.abs(s.omega - e.omega)) < 5e-2  # a gyroscope 4 ms late, through rotor moments of 200 rad/s²
+
+
+def moved_back(packed, age):
+    """The state (24,) `age` seconds before, if pivot and rod moved on straight lines and nothing turned."""
+    s = fp.State.trusted(packed)
+    y = s.y - age * s.y_dot
+    y_dot = s.y_dot - y * (y @ s.y_dot) / (y @ y)
+    x, y = s.x - age * s.x_dot, y / np.linalg.norm(y)
+    return fp.State(x=x, x_dot=s.x_dot, R=s.R, omega=s.omega, y=y, y_dot=y_dot).packed()
+
+
+@pytest.mark.parametrize("age", [0.0, 0.004], ids=["now", "late"])
+def test_sensitivities_are_those_of_the_sensors(age):
+    """The rows of every stream, against readings of a state that is wrong by a small error."""
+    suite = fp.Sensors(**dict.fromkeys(("position", "attitude", "rod", "joints", "rod_gyro"), QUIET), gyro=QUIET)
+    history = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE)).history
+    packed, tangent, readings = ca.SX.sym("s", 24), ca.SX.sym("b", 3), ca.SX.sym("r", readings_size(suite))
+    estimate = fp.State.symbolic(packed)
+    rows = Expected(suite, history, readings, estimate, tangent, ca.SX.eye(3), ca.SX(0, 1)).readings(VEHICLE)
+    differences = ca.Function("f", [packed, tangent, readings], [ca.vertcat(*(row.difference for row in rows))])
+    sensitivities = ca.Function("f", [packed, tangent, readings], [ca.vertcat(*(row.row for row in rows))])
+    sense = as_numpy(sensing(suite, VEHICLE, 0.002))
+    (state, b), size = some_state(8), 1e-5
+
+    def read(truth):
+        then = moved_back(truth, age)
+        memory = np.asarray(ca.DM(first_memory(suite, 0.002, then))).ravel()
+        found = sense(memory, 0.002, then, np.zeros(draws_size(suite)))[1]
+        found[np.cumsum([WIDTH[name] + 1 for name in suite.streams]) - 1] = age
+        return found
+
+    at_rest = np.asarray(differences(state, b, read(state))).ravel()
+    rows_found = np.asarray(sensitivities(state, b, read(state)))
+    for i, unit in enumerate(np.eye(ERRORS)):
+        moved = np.asarray(differences(state, b, read(wrong_by(state, b, size * unit)))).ravel()
+        # Of first order in the age: |ẏ| a is 1 %; and of the size of the error.
+        np.testing.assert_allclose((moved - at_rest) / size, rows_found[:, i], atol=0.05 if age else 1e-3)
+
+
+# What it claims -----------------------------------------------------------------------------------------------------
+
+
+def normalised(suite, flights, duration, density):
+    """Normalised squared errors (flights, instants) in a world that is as uncertain as the filter believes."""
+    suite = suite.replace(force_error=density, manoeuvre_error=0.0)
+    kick = density * np.sqrt(500.0)  # of each control period, m/s²
+    wind = Wind(gust_on_vehicle=kick * VEHICLE.M, gust_on_bob=kick * VEHICLE.m)
+    return np.array([squared(suite, flown(suite, 100 + seed, duration, wind)) for seed in range(flights)])
+
+
+def squared(suite, records):
+    """Normalised squared errors of the `records` of a flight, every 0.2 s."""
+    filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE))
+    found = []
+    for truth, estimate, memory in list(zip(*records, strict=True))[100::100]:
+        parts, P = filtering.split(memory), np.zeros((ERRORS, ERRORS))
+        P[np.tril_indices(ERRORS)] = parts.covariance
+        error = error_of(truth, estimate, np.asarray(parts.frame))
+        found.append(error @ np.linalg.solve(P + np.tril(P, -1).T, error))
+    return found
+
+
+def check_consistent(found):
+    """A χ² with 13 degrees of freedom has variance 26; errors 0.2 s apart count as independent."""
+    bound = 3 * np.sqrt(26 / found.size)
+    assert abs(np.mean(found) - ERRORS) < bound, (np.mean(found), bound)
+
+
+@pytest.mark.parametrize("name", ["mocap", "onboard"])
+def test_errors_are_as_large_as_it_claims(name):
+    check_consistent(normalised(SUITES[name], 8, 1.6, density=0.1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["mocap", "onboard"])
+def test_errors_are_as_large_as_it_claims_in_many_flights(name):
+    check_consistent(normalised(SUITES[name], 60, 4.0, density=0.1))
+
+
+@pytest.mark.parametrize("name", ["mocap", "onboard"])
+def test_a_world_as_the_model_has_it_is_not_claimed_to_be_known_better(name):
+    """The filter expects forces that this world lacks: its errors are no larger than it claims."""
+    found = np.array([squared(SUITES[name], flown(SUITES[name], seed, 1.6)) for seed in range(6)])
+    assert np.mean(found) < ERRORS + 3 * np.sqrt(26 / found.size)
+    assert np.mean(found) > ERRORS / 3  # and not so much smaller that the claim says nothing
+
+
+def test_a_filter_that_trusts_its_sensors_too_much_is_found_out():
+    """Negative control of the test above: poses twice as noisy as the filter believes."""
+    world = SUITES["mocap"]
+    half = {n: Sensor(rate=s.rate, latency=s.latency, noise=s.noise / 2) for n, s in world.streams.items()}
+    believed = world.replace(**half)
+    found = squared(believed, flown(believed, 7, 1.6, world=world))
+    assert np.mean(found) > ERRORS + 3 * np.sqrt(26 / len(found))
+
+
+def test_a_steady_gain_solves_its_riccati_equation():
+    for wander, noise in ((1e-3, 4e-4), (1.0, 1.0), (1e-6, 1.0)):
+        gain = steady_gain(wander, noise)
+        after = 1.0
+        for _ in range(20_000):
+            before = after + wander
+            after = before * noise / (before + noise)
+        assert gain == pytest.approx((after + wander) / (after + wander + noise), rel=1e-9)
+
+
+# One source ---------------------------------------------------------------------------------------------------------
+
+BOARDS = {
+    "mocap": Plant(sensors="mocap"),
+    "onboard": Plant(sensors="onboard", rate=400.0),
+    "all": Plant(sensors=EVERYTHING, delay=0.003),
+    "rates": Plant(sensors="mocap", interface="rates", rate=50.0, delay=0.03),
+    "differenced": Plant(sensors=SUITES["mocap"].replace(rates="differenced")),
+}
+
+
+@pytest.mark.parametrize("name", BOARDS)
+def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
+    loop, rng = Loop(VEHICLE, LAW, BOARDS[name]), np.random.default_rng(3)
+    least, start = np.full(4, VEHICLE.rotor_limits[0]), fp.State.random(rng).packed()
+    stepped, made = SteppedBoard(loop, least, start), board(loop)
+    step, memory = as_numpy(made.step), initial_memory(loop, least, start)
+    assert len(memory) == made.step.numel_in(0)
+    suite, period = BOARDS[name].sensors, 1 / BOARDS[name].rate
+    sense = as_numpy(sensing(suite, VEHICLE, period))
+    seen = np.asarray(ca.DM(first_memory(suite, period, start))).ravel()
+    for k in range(30):
+        seen, readings = sense(seen, k * period, start, rng.standard_normal(draws_size(suite)))
+        command = stepped.command(k * period, readings)
+        memory, given = step(memory, np.append(k * period, readings), NONE, NONE, NONE)
+        np.testing.assert_allclose(given, command, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "engine"),
+    [
+        ("mocap", "equations"),
+        ("onboard", "mujoco"),
+        ("differenced", "equations"),
+        *(pytest.param(name, "equations", marks=pytest.mark.slow) for name in ("onboard", "all", "rates")),
+        *(pytest.param(name, "mujoco", marks=pytest.mark.slow) for name in ("mocap", "all", "rates", "differenced")),
+    ],
+)
+def test_a_kernel_flies_what_the_python_reference_flies(name, engine):
+    if engine == "mujoco":
+        pytest.importorskip("mujoco")
+    plant = BOARDS[name].replace(engine=engine, wind=Wind(on_vehicle=(0.1, 0, 0), gust_on_vehicle=0.1))
+    starts, duration = fp.State.random(np.random.default_rng(4), 2), 0.4
+    ticks = sampled.number_of_ticks(duration, plant)
+    flown_ = sampled_kernel(Loop(VEHICLE, LAW, plant), fp.Criterion()).fly(
+        starts.packed(), duration, judge_at=[ticks], first_seed=5
+    )
+    for i in range(2):
+        flight = Flight(vehicle=VEHICLE, law=LAW, starts=starts[i], duration=duration, plant=plant, seed=5 + i)
+        reference = sampled.fly_stepwise(flight).packed[-1]
+        # Order of operations only; a closed loop over 200 ticks, in which angles of steps of a joint may round over.
+        np.testing.assert_allclose(flown_.final[i], reference, rtol=1e-6, atol=1e-6)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from flypend.model.rod import rod_with_bob, uniform_rod
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle, vehicle
-    from flypend.planning import Plan, plan
+    from flypend.planning import Plan, plan, track
     from flypend.plants import Ideal, Noise, Plant, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -58,7 +58,7 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
-    "planning": ("Plan", "plan"),
+    "planning": ("Plan", "plan", "track"),
     "plants": ("Ideal", "Noise", "Plant", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
@@ -114,6 +114,7 @@ __all__ = [
     "simulate_ensemble",
     "study",
     "sweep",
+    "track",
     "trial",
     "tune",
     "uniform_rod",

@@ -115,7 +115,7 @@ def test_a_time_too_short_is_told():
     assert not plan
     assert plan.status == "failed"
     assert plan.reason == "inverted hover is not reached"
-    assert "failed (inverted hover is not reached)" in repr(plan)
+    assert repr(plan).startswith("<Plan for hehn2011: failed (inverted hover is not reached): 0.40 s, ")
 
 
 def test_a_time_limit_is_kept_and_told():

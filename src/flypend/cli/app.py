@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import check, examples, listing, studies, theorem, viewing
+from flypend.cli import check, examples, listing, planning, studies, theorem, viewing
 from flypend.cli.options import LAW_HELP, laws_option, out_option, path, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.compile.aside import left_behind
@@ -311,6 +311,7 @@ def export_c(law: str, vehicle: str, out: Path, precision: str, rate: float, lig
 
 for _command in (
     theorem.theorem,
+    planning.plan,
     *studies.COMMANDS,
     *check.COMMANDS,
     *viewing.COMMANDS,

@@ -2,5 +2,6 @@
 
 from flypend.planning.planner import plan
 from flypend.planning.result import Plan
+from flypend.planning.tracking import track
 
-__all__ = ["Plan", "plan"]
+__all__ = ["Plan", "plan", "track"]

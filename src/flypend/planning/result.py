@@ -74,10 +74,15 @@ class Plan:
     guess: int
 
     def __repr__(self) -> str:
-        """Return vehicle, duration, excursion and status in one line."""
+        """Return the vehicle and what `told` says."""
+        return f"<Plan for {self.vehicle.name}: {self.told}>"
+
+    @property
+    def told(self) -> str:
+        """Duration, excursion, status and what it took, in one line."""
         why = f" ({self.reason})" if self.reason else ""
-        told = f"{self.duration:.2f} s, excursion {self.excursion:.3f} m, {self.status}{why}"
-        return f"<Plan for {self.vehicle.name}: {told}, solved in {1e3 * self.solve_time:.0f} ms>"
+        reached = f"{self.duration:.2f} s, excursion {self.excursion:.3f} m"
+        return f"{self.status}{why}: {reached}, solved in {1e3 * self.solve_time:.0f} ms"
 
     def __bool__(self) -> bool:
         """Whether the plan can be flown: False if it failed."""

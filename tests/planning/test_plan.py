@@ -5,6 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.geometry import norm
+from flypend.planning.check import Limits, broken
 from flypend.plants.equations import EquationsEngine
 
 HEHN = fp.vehicle("hehn2011")
@@ -108,6 +109,31 @@ def test_wishes_are_kept_at_all_samples(wish):
         assert max(plan.x[:, 2].max(), tip[:, 2].max()) <= 0.6 + slack
     else:
         assert np.max(norm(plan.x_dot)) <= 0.9 + slack
+
+
+@pytest.mark.parametrize("mount", ["hub", "cup"])
+def test_the_rod_stays_on_its_mount(mount):
+    vehicle = HEHN.replace(mount=mount)
+    starts = {"hub": np.array([1, 0, -7]) / np.sqrt(50), "cup": (np.sin(0.4), 0, np.cos(0.4))}
+    start = fp.State(y=starts[mount])
+    plan = fp.plan(vehicle, start)
+    check_end(plan)
+    assert np.min(plan.trajectory.clearance) > 0
+    if mount == "cup":
+        assert np.all(plan.trajectory.tension <= 0)
+    # Without the wish the rod goes where it must not.
+    free = fp.plan(HEHN, start)
+    assert broken(free.packed, free.rotor_forces, vehicle, Limits(None, None, None, 0.0)).startswith("the rod ")
+
+
+@pytest.mark.parametrize("degrees", [20, 40])
+def test_a_leaning_rod_is_caught_above_the_horizon(degrees):
+    """Optimal control with rotor forces that may begin anywhere needs 0.46 and 1.15 m."""
+    angle = np.radians(degrees)
+    plan = fp.plan(HEHN, fp.State(y=(np.sin(angle), 0, np.cos(angle))), lean=np.pi / 2)
+    check_end(plan)
+    assert np.min(plan.y[:, 2]) > 0
+    assert plan.excursion < 1.25 * {20: 0.46, 40: 1.15}[degrees]
 
 
 def test_a_time_too_short_is_told():

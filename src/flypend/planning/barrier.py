@@ -14,7 +14,7 @@ import casadi as ca
 from flypend.planning.coordinates import MOTION, POSITION, VELOCITY, retract
 from flypend.planning.riccati import packed_cost, packed_to_go
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import SHARED, Wishes, end_errors, inequalities, running_cost
+from flypend.planning.wishes import SHARED, Wishes, end_errors, inequalities, nearness, running_cost
 
 
 class Barrier:
@@ -29,10 +29,12 @@ class Barrier:
         here, command = retract(stage.before, delta), stage.command + upsilon
         self._g = inequalities(here, command, shared + epsilon, numbers, wishes, stage.machine)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
+        self._near = nearness(here, stage.before, numbers, wishes, stage.machine)
         self._cost, self._end = running_cost(command, numbers), end_errors(here)
         self.inequalities, self.end_size = int(self._g.numel()), int(self._end.numel())
         self._slack, self._dual = ca.SX.sym("s", self.inequalities), ca.SX.sym("z", self.inequalities)
         self._mu, self._numbers = ca.SX.sym("mu"), numbers
+        self._weight = numbers[-2] if wishes.mounted is not None else 0
         self._point = [stage.before, stage.command, shared, numbers, stage.machine.numbers]
 
     def _function(self, name: str, inputs: list[Any], *outputs: Any) -> ca.Function:
@@ -48,7 +50,7 @@ class Barrier:
         """
         k, g = self._exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
-        merit = self._cost - self._mu * ca.sum1(ca.log(slack))
+        merit = self._cost + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
         summary = ca.vertcat(merit, ca.sum1(slack[k:] - g[k:]) if k < g.numel() else 0)
         return self._function("values", [*self._point, self._slack, self._mu], summary, slack)
 
@@ -58,14 +60,14 @@ class Barrier:
         push = self._mu / s - z / s * (self._g - s)
         J_x, J_u, J_e = self._J
         weight = ca.diag(z / s)
-        H, gradient = ca.hessian(self._cost, delta)
+        N_x = ca.jacobian(self._near, delta)
         r = ca.gradient(self._cost, upsilon)
-        Q = ca.densify(H + ca.mtimes([J_x.T, weight, J_x]) + self._bent())
+        Q = ca.densify(self._weight * ca.mtimes(N_x.T, N_x) + ca.mtimes([J_x.T, weight, J_x]) + self._bent())
         R = ca.diag(ca.jacobian(r, upsilon) + ca.mtimes([J_u.T, weight, J_u]))
         cost = packed_cost(
             ca.vertcat(*(Q[i, j] for j in range(Q.size1()) for i in range(j + 1))),
             R,
-            gradient - ca.mtimes(J_x.T, push),
+            self._weight * ca.mtimes(N_x.T, self._near) - ca.mtimes(J_x.T, push),
             ca.mtimes([J_x.T, weight, J_e]),
             r - ca.mtimes(J_u.T, push),
             ca.mtimes([J_e.T, weight, J_e]),

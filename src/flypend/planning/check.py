@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from flypend.flight.touch import touched
 from flypend.geometry import norm
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.mount import margins, part_names
+from flypend.model.mount import margins
 
 
 @dataclass(frozen=True)
@@ -22,12 +23,15 @@ class Limits:
         Lowest and highest corner of the box that pivot and rod stay in, m.
     speed : float, optional
         Largest speed of the pivot, m/s.
+    lean : float, optional
+        Largest angle between the rod and the vertical, rad.
     tolerance : float
-        By how much a length or, in m/s, a speed may be exceeded.
+        By how much a length or, in m/s, a speed or, in rad, an angle may be exceeded.
     """
 
     walls: Any
     speed: float | None
+    lean: float | None
     tolerance: float
 
 
@@ -44,10 +48,12 @@ def broken(packed: Any, rotor_forces: Any, vehicle: Vehicle, limits: Limits) -> 
             return f"the box is left by {out:.3g} m"
     if limits.speed is not None and (over := float(np.max(norm(state.x_dot))) - limits.speed) > limits.tolerance:
         return f"the speed is exceeded by {over:.3g} m/s"
+    if limits.lean is not None and (over := float(np.max(np.arccos(state.y[:, 2]))) - limits.lean) > limits.tolerance:
+        return f"the rod leans {over:.3g} rad too far"
     if vehicle.mount != "gimbal":
         wrench = rotor_forces @ vehicle.mixing().T
         found = margins(state, Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
         least = np.min(found, axis=0)
         if np.min(least) < 0:
-            return f"the rod touches {part_names(vehicle)[int(np.argmin(least))]}"
+            return touched(vehicle, int(np.argmin(least)))
     return ""

@@ -27,6 +27,7 @@ MOST_ITERATIONS = 60
 DENSE = 4  # samples per stage
 # Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
+MOUNT_FIRST, MOUNT_GROWTH, MOUNT_LAST = 1e-4, 2.0, 10.0
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
 
 
@@ -42,6 +43,7 @@ def plan(
     floor: float | None = None,
     ceiling: float | None = None,
     speed: float | None = None,
+    lean: float | None = None,
     clearance: float = 0.01,
     time_limit: float = 5.0,
 ) -> Plan:
@@ -68,6 +70,8 @@ def plan(
         Lowest and highest height of pivot and rod, m.
     speed : float, optional
         Largest speed of the pivot, m/s.
+    lean : float, optional
+        Largest angle between the rod and the vertical, rad: π/2 keeps it above the horizon.
     clearance : float
         Distance that the rod of a hub or cup keeps from what it can touch, m.
     time_limit : float
@@ -83,7 +87,7 @@ def plan(
     InputError
         If an argument is out of range, or the start breaks a wish.
     """
-    asked = request(vehicle, start, objective, target, rotors, walls_of(box, floor, ceiling), speed, clearance)
+    asked = request(vehicle, start, objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance)
     limit = errors.number("time_limit", time_limit, above=0, unit="s")
     horizons: Sequence[float] = HORIZONS
     if duration is not None:
@@ -125,6 +129,8 @@ def _solved(asked: Request, horizon: float, deadline: float) -> Plan:
     solver = Solver(compiled, *_guessed(asked, guess, stages, horizon / stages))
     best, steady, iterations = np.inf, 0, 0
     while iterations < MOST_ITERATIONS and steady < STEADY_FOR and time.monotonic() < deadline:
+        if asked.wishes.mounted is not None:
+            solver.insist(-2, min(MOUNT_LAST, MOUNT_FIRST * MOUNT_GROWTH**iterations))
         solver.improve()
         iterations += 1
         score, lane, _ = _judged(solver, asked)
@@ -143,6 +149,8 @@ def _judged(solver: Solver, asked: Request) -> tuple[float, int, str]:
     """Return cost and lane of the best that can be flown; else infinity, the nearest lane, and what it lacks."""
     ends, closed, kept = solver.end <= 1, solver.gap <= CLOSED, solver.violation <= TOLERANCE
     cost = asked.objective["excursion"] * solver.excursion**2 + solver.effort
+    if asked.wishes.mounted is not None:
+        cost = solver.merit  # with what it costs to be near a part
     flyable = ends & closed & kept & np.isfinite(cost)
     if np.any(flyable):
         lane = int(np.argmin(np.where(flyable, cost, np.inf)))
@@ -167,7 +175,10 @@ def _guessed(asked: Request, guess: Stagewise, stages: int, h: float) -> tuple[P
     problem = Problem(stages, timing, _same(units.numbers(vehicle)), _same(asked.numbers))
     states, commands = lanes(stages + 1, SIZE + n), lanes(stages, n)
     states[0] = asked.start[:, None]
-    style, limits = _same(styles(vehicle)), _same(vehicle.rotor_limits / units.force)
+    style, limits = (
+        _same(styles(vehicle, falls=not asked.wishes.lean and vehicle.mount != "cup")),
+        _same(vehicle.rotor_limits / units.force),
+    )
     guess(stages, states, style, limits, timing, problem.vehicle, states[1:], commands)
     return problem, states, commands
 

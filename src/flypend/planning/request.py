@@ -64,7 +64,15 @@ class Request:
 
 
 def request(
-    vehicle: Vehicle, start: State, objective: Any, target: Any, rotors: Any, walls: Any, speed: Any, clearance: Any
+    vehicle: Vehicle,
+    start: State,
+    objective: Any,
+    target: Any,
+    rotors: Any,
+    walls: Any,
+    speed: Any,
+    lean: Any,
+    clearance: Any,
 ) -> Request:
     """Check the arguments of `planning.plan`; `walls` (2, 3) are from `walls_of`. Raises InputError."""
     if not isinstance(vehicle, Vehicle):
@@ -84,14 +92,16 @@ def request(
         numbers += [vehicle.reach / units.length, *np.clip((walls - goal) / units.length, -FAR, FAR).ravel()]
     if speed is not None:
         numbers.append(_speed(speed, start) * units.time / units.length)
+    if lean is not None:
+        numbers.append(np.cos(_lean(lean, start)))
     mounted = None if vehicle.mount == "gimbal" else vehicle
     if mounted is not None:
-        numbers.append(errors.number("clearance", clearance, at_least=0, unit="m") / units.length)
+        numbers += [0.0, errors.number("clearance", clearance, at_least=0, unit="m") / units.length]
     packed = start.packed()
     packed[:3] -= goal
     begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
-    limits = Limits(walls, speed, TOLERANCE * units.length)
-    wishes = Wishes(box=walls is not None, speed=speed is not None, mounted=mounted)
+    limits = Limits(walls, speed, lean, TOLERANCE * units.length)
+    wishes = Wishes(box=walls is not None, speed=speed is not None, lean=lean is not None, mounted=mounted)
     return Request(vehicle, units, weights, goal, begin, limits, wishes, np.array(numbers))
 
 
@@ -129,6 +139,14 @@ def _speed(speed: Any, start: State) -> float:
     if begin >= fastest:
         raise InputError("speed", f"more than the {begin:.3g} m/s of the start", f"{fastest:g}")
     return fastest
+
+
+def _lean(lean: Any, start: State) -> float:
+    most = errors.number("lean", lean, above=0, at_most=np.pi, unit="rad")
+    begin = float(np.arccos(start.y[2]))
+    if begin >= most:
+        raise InputError("lean", f"more than the {begin:.3g} rad of the start", f"{most:g}")
+    return most
 
 
 def _forces(rotors: Any, low: float, high: float, n: int) -> Any:

@@ -177,6 +177,10 @@ class Solver:
         here = (self.states, self.commands, self._shared, self._slack, self._slack)
         self.merit, self.violation, self.end = self._value(*here, self.gap)
 
+    def insist(self, place: int, weight: float) -> None:
+        """Set the number at `place` of the wishes, a `weight`, in all lanes."""
+        self._problem.numbers[place] = weight
+
     def improve(self) -> None:
         """Do one iteration."""
         k, p, N = self._k, self._problem, self._problem.stages

@@ -18,6 +18,8 @@ END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot
 
 # Places of the numbers that every plan has: weights of the shared parameter and of effort, rotor limits.
 SHARED, EFFORT, LOW, HIGH, BASE = 0, 1, 2, 3, 4
+DIFFERENCE = 1e-4
+SOFT = 0.03  # rod lengths, or weights: by so much too near, the rod costs its full weight
 
 
 @dataclass(frozen=True)
@@ -30,18 +32,21 @@ class Wishes:
         Whether pivot and far end of the rod stay in a box.
     speed : bool
         Whether the speed of the pivot is limited.
+    lean : bool
+        Whether the lean of the rod is limited.
     mounted : Vehicle, optional
         A vehicle whose mount limits the rod; None for a gimbal.
     """
 
     box: bool = False
     speed: bool = False
+    lean: bool = False
     mounted: Vehicle | None = None
 
     @property
     def numbers(self) -> int:
-        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, margin to the mount."""
-        return BASE + 7 * self.box + self.speed + (self.mounted is not None)
+        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, lowest y₃, mount."""
+        return BASE + 7 * self.box + self.speed + self.lean + 2 * (self.mounted is not None)
 
     def exact(self, rotors: int) -> int:
         """Return how many inequalities, the first ones, can always be kept: limits of `rotors` rotors and the ball."""
@@ -72,15 +77,40 @@ def inequalities(state: Any, command: Any, shared: Any, numbers: Any, wishes: Wi
     if wishes.speed:
         g.append(numbers[place] - dot(s.x_dot, s.x_dot) / numbers[place])
         place += 1
-    if wishes.mounted is not None:
-        g.append(margin(s, state[SIZE:], wishes.mounted, machine) - numbers[place])
+    if wishes.lean:
+        g.append(s.y[2] - numbers[place])
     return ca.vertcat(*g)
 
 
-def margin(state: State, rotors: Any, mounted: Vehicle, machine: Scaled) -> Any:
-    """Return the least of `model.mount.margins` of the vehicle `mounted`: a distance in rod lengths, or in weights."""
-    tension = rod_tension(state, Wrench(ca.mtimes(machine.mixing()[0, :], rotors), ca.SX(3, 1)), machine.vehicle)
-    return least_margin(rod_in_body(state, "up")[0], -tension * mounted.l, mounted)[0] / mounted.l
+def nearness(state: Any, about: Any, numbers: Any, wishes: Wishes, machine: Scaled) -> Any:
+    """Return by how much the rod is nearer to leaving its mount than it should be, (1,) or (0,), in units of `SOFT`.
+
+    Its square costs the last but one of `numbers`; the last is the margin to keep, the least of `model.mount.margins`,
+    in rod lengths or weights. The margin is linear in `state` about the state `about`: its own derivatives do not exist
+    everywhere, differences do.
+    """
+    mounted = wishes.mounted
+    if mounted is None:
+        return ca.SX(0, 1)
+    here, there = (_held_by(place, machine) for place in (state, about))
+
+    def margin(held: Any) -> Any:
+        return least_margin(held[:3], held[3] * mounted.l, mounted)[0] / mounted.l
+
+    slopes = []
+    for i in range(4):
+        step = DIFFERENCE * ca.SX(ca.DM.eye(4)[:, i])
+        slopes.append((margin(there + step) - margin(there - step)) / (2 * DIFFERENCE))
+    kept = margin(there) + ca.dot(ca.vertcat(*slopes), here - there)
+    return ca.fmax(0, (numbers[-1] - kept) / SOFT)
+
+
+def _held_by(state: Any, machine: Scaled) -> Any:
+    """Return the rod in the body frame (3,) and its push on the vehicle, in weights."""
+    s = State.symbolic(state[:SIZE])
+    thrust = ca.mtimes(machine.mixing()[0, :], state[SIZE:])
+    tension = rod_tension(s, Wrench(thrust, ca.SX(3, 1)), machine.vehicle)
+    return ca.vertcat(rod_in_body(s, "up")[0], -tension)
 
 
 def running_cost(command: Any, numbers: Any) -> Any:

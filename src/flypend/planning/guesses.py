@@ -29,8 +29,8 @@ from flypend.planning.stage import Stage
 from flypend.plants.lag import held
 
 # Per style: largest acceleration of the pivot, k, bandwidth of its position, E*, k_c, the height y₃ above which the rod
-# is balanced, and its squared speed up to which it is. They were chosen on 40 starts of hehn2011, so that many starts are
-# solved from several of them.
+# is balanced, and its squared speed up to which it is. They were chosen on 40 starts of hehn2011, so that many starts
+# are solved from several of them.
 PUMPS = np.array(
     [
         (0.5, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5),

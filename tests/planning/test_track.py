@@ -18,7 +18,7 @@ START = fp.random_starts(3, seed=2026)[1]
 
 @pytest.fixture(scope="module")
 def planned():
-    return fp.plan(HEHN, START)
+    return fp.plan(HEHN, START, time_limit=120.0)
 
 
 @pytest.fixture(scope="module")

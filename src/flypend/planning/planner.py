@@ -139,6 +139,8 @@ def _solved(asked: Request, horizon: float, deadline: float) -> Plan:
     solver.measure()
     _, lane, lacks = _judged(solver, asked)
     took = time.process_time() - begin
+    if lacks and time.monotonic() >= deadline:
+        lacks += " within the time limit"
     unfinished = "" if steady >= STEADY_FOR else "the solver had not converged"
     states, commands = solver.states[:, :, lane].copy(), solver.commands[:, :, lane].copy()
     dense = _dense(asked, compiled, states, commands, horizon / stages / DENSE)

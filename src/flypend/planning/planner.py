@@ -52,7 +52,8 @@ def plan(
     Parameters
     ----------
     vehicle : Vehicle
-        Vehicle parameters; its rotor limits, rotor lag and mount are constraints.
+        Vehicle parameters; its rotor limits, rotor lag and mount are constraints. As laws do, a plan takes pivot
+        offset, friction of the joint, spin of the rod and air as zero.
     start : State
         A single state, e₃ up.
     objective : "excursion", "effort", "time" or dict

@@ -157,6 +157,6 @@ def _independent_step(vehicle: Vehicle) -> Any:
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
     timing = ca.SX.sym("h", TIMING_SIZE)
     forces, after = held(rotors, command, timing)
-    moved = runge_kutta_step(packed, forces.mixed(vehicle.mixing()), None, timing[0], vehicle, (0.0, 0.0, 0.0))
+    moved = runge_kutta_step(packed, forces, None, timing[0], vehicle)
     outputs = [ca.densify(moved), ca.densify(after)]
     return as_numpy(ca.Function("independent", [packed, rotors, command, timing], outputs))

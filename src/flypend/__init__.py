@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from flypend.model.rod import rod_with_bob, uniform_rod
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle, vehicle
+    from flypend.planning import Plan, plan, track
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -57,6 +58,7 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
+    "planning": ("Plan", "plan", "track"),
     "plants": ("Ideal", "Noise", "Plant", "Sensor", "Sensors", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
@@ -85,6 +87,7 @@ __all__ = [
     "Noise",
     "Objective",
     "Outcome",
+    "Plan",
     "Plant",
     "Sensitivity",
     "Sensor",
@@ -105,6 +108,7 @@ __all__ = [
     "linearise",
     "load",
     "metrics",
+    "plan",
     "random_starts",
     "rod_with_bob",
     "sensitivity",
@@ -112,6 +116,7 @@ __all__ = [
     "simulate_ensemble",
     "study",
     "sweep",
+    "track",
     "trial",
     "tune",
     "uniform_rod",

@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import check, examples, listing, studies, theorem, viewing
+from flypend.cli import check, examples, listing, planning, studies, theorem, viewing
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
@@ -330,6 +330,7 @@ def export_c(
 
 for _command in (
     theorem.theorem,
+    planning.plan,
     *studies.COMMANDS,
     *check.COMMANDS,
     *viewing.COMMANDS,

@@ -1,0 +1,83 @@
+"""The command that plans a flight."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from flypend.cli.options import out_option, path, vehicle_option
+from flypend.cli.terminal import bold, console
+
+if TYPE_CHECKING:
+    from flypend.model import State, Vehicle
+
+
+@click.command()
+@click.argument("what", required=False)
+@vehicle_option
+@out_option("plan.nc", "Output file (.nc): the planned run.")
+@click.option("--objective", default="excursion", help="What to make small: excursion, effort or time.")
+@click.option("--duration", type=float, help="Time until hover, s; default long enough.")
+@click.option("--floor", type=float, metavar="M", help="Lowest height of pivot and rod.")
+@click.option("--ceiling", type=float, metavar="M", help="Largest height of pivot and rod.")
+@click.option("--cube", type=float, metavar="M", help="Side of a cube about the target that pivot and rod stay in.")
+@click.option("--speed", type=float, metavar="M/S", help="Largest speed of the pivot.")
+@click.option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
+@click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
+def plan(
+    what: str | None,
+    vehicle: str,
+    out: Path,
+    objective: str,
+    duration: float | None,
+    floor: float | None,
+    ceiling: float | None,
+    cube: float | None,
+    speed: float | None,
+    fly: str | None,
+    html: Path | None,
+) -> None:
+    """Plan an optimal flight to inverted hover: from the start in WHAT, a run file, or else from hanging at rest.
+
+    A run file also names the vehicle; its law and duration do not matter.
+    """
+    from flypend.files.whole import check_file
+    from flypend.flight.metrics import metrics
+    from flypend.flight.simulate import simulate
+    from flypend.planning import plan as planned
+    from flypend.planning import track
+
+    for file, ending in ((out, ".nc"), (html, ".html")):
+        if file is not None:
+            check_file(file, (ending,))
+    machine, start = _from(what, vehicle)
+    box = None if cube is None else ((-cube / 2,) * 3, (cube / 2,) * 3)
+    found = planned(machine, start, objective, duration=duration, box=box, floor=floor, ceiling=ceiling, speed=speed)
+    console.print(f"{machine.name}: {found.told}", markup=False)
+    found.trajectory.save(out)
+    console.print(f"The plan is {bold(out)}.")
+    if not found:
+        sys.exit(1)
+    shown, ghosts = found.trajectory, []
+    if fly is not None:
+        shown, ghosts = simulate(machine, track(found), start, found.duration + 2, plant=fly), [found.trajectory]
+        flown = metrics(shown)
+        verdict = "stands" if flown.success else f"does not stand ({flown.cause})"
+        console.print(f"Flown on {fly}: {verdict}, excursion {flown.excursion:.3f} m.")
+    if html is not None:
+        shown.to_html(html, ghost=ghosts)
+        console.print(f"The replay is {bold(html)}.")
+
+
+def _from(what: str | None, name: str) -> tuple[Vehicle, State]:
+    """Return vehicle and start, e₃ up, of the run file `what`; without one, the vehicle `name` with its rod hanging."""
+    from flypend import model
+    from flypend.settings.runfile import run_file
+
+    if what is None:
+        return model.vehicle(name), model.State(y=(0.0, 0.0, -1.0))
+    flight = run_file(what).flight
+    return flight.vehicle, flight.starts.seen(flight.law.e3)

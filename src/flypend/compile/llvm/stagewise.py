@@ -1,0 +1,98 @@
+"""A function applied to every stage of a horizon, in order, for one problem per lane.
+
+What a stage writes, later ones may read, so that the same loop maps a function over stages and runs a recursion through
+them, forward or backward.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from llvmlite import ir
+from numpy.typing import NDArray
+
+from flypend.compile.llvm import jit
+from flypend.compile.llvm.emit import define_routine
+from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
+from flypend.compile.routine import Routine, lower_calls
+
+WIDTH = 8
+ALIGNMENT = 64  # bytes
+
+
+def lanes(*shape: int) -> NDArray[np.float64]:
+    """Return zeros of this `shape` with a last axis of lanes, for a `Stagewise`."""
+    length = math.prod(shape) * WIDTH
+    raw = np.zeros(length + ALIGNMENT // 8)
+    first = -raw.ctypes.data % ALIGNMENT // 8
+    return raw[first : first + length].reshape((*shape, WIDTH))
+
+
+@dataclass(frozen=True)
+class Stagewise:
+    """A compiled loop over stages.
+
+    Called with the number of stages and one address per input and output, at the first stage. Arrays are of doubles,
+    (stages, length, WIDTH), from `lanes`.
+    """
+
+    native: jit.Native
+
+    def __call__(self, count: int, *arrays: Any) -> None:
+        """Run all stages; `arrays` are NumPy arrays, C-contiguous from their first entry on."""
+        self.native(count, *(array.ctypes.data for array in arrays))
+
+
+def stagewise(function: ca.Function, shared: Sequence[int] = (), *, backward: bool = False) -> Stagewise:
+    """Compile a loop over stages that calls `function` with entry k of every array at stage k.
+
+    Parameters
+    ----------
+    function : Function
+        Of dense vectors; MX functions as in `compile.routine`.
+    shared : sequence of int
+        Inputs and outputs, by place (outputs after inputs), that are one vector for all stages.
+    backward : bool
+        Whether the last stage comes first.
+    """
+    routine = lower_calls(_of_calls(function))
+    lengths = [*routine.inputs, *(len(cells) for cells in routine.outputs)]
+    strides = [0 if i in shared else length for i, length in enumerate(lengths)]
+
+    def module() -> ir.Module:
+        lanes = Lanes(ir.Module("flypend"), WIDTH)
+        _write(lanes, routine, strides, backward)
+        return lanes.module
+
+    kinds = [ctypes.c_int64, *[ctypes.c_void_p] * len(lengths)]
+    return Stagewise(jit.build(f"stagewise {strides} {backward} {routine!r}", module, "kernel", kinds))
+
+
+def _of_calls(function: ca.Function) -> ca.Function:
+    """Return `function`, if it is an SX function as one that calls it."""
+    if not function.is_a("SXFunction"):
+        return function
+    inputs = [ca.MX.sym(f"i{i}", function.nnz_in(i)) for i in range(function.n_in())]
+    return ca.Function(f"{function.name()}_called", inputs, function.call(inputs))
+
+
+def _write(lanes: Lanes, routine: Routine, strides: Sequence[int], backward: bool) -> None:
+    stage = define_routine(lanes, routine)
+    kernel = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, *[POINTER] * len(strides)]), "kernel")
+    kernel.attributes.alignstack = 64
+    code = Code(lanes, ir.IRBuilder(kernel.append_basic_block()))
+    count, *arrays = kernel.args
+    with code.count(count) as i:
+        k = code.builder.sub(code.builder.sub(count, ir.Constant(I64, 1)), i) if backward else i
+        code.call(stage, *(_at(code, array, k, stride) for array, stride in zip(arrays, strides, strict=True)))
+    code.builder.ret_void()
+
+
+def _at(code: Code, array: ir.Value, k: ir.Value, stride: int) -> ir.Value:
+    return code.vector_at(array, code.builder.mul(k, ir.Constant(I64, stride))) if stride else array

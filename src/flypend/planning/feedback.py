@@ -1,0 +1,141 @@
+"""Feedback along a plan: the time-varying linear-quadratic regulator on the tangent space.
+
+It minimises Σ |δ|² + |υ|², deviations in units of the largest acceptable ones (Bryson's rule), along the linearised
+plan and then for ever in hover, whose cost to go the recursion begins with. No limit enters: where the plan holds a
+rotor at its limit, feedback acts one way only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.compile.llvm.stagewise import lanes
+from flypend.geometry import E3, cross, unit
+from flypend.model import State
+from flypend.model.state import SIZE
+from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turned
+from flypend.planning.kernels import kernels
+from flypend.planning.result import Plan
+from flypend.planning.riccati import packed_cost
+from flypend.planning.scaled import Units
+from flypend.planning.wishes import Wishes
+from flypend.plants.lag import step_timing
+
+# Largest acceptable deviations, own units: position, velocity, attitude, spin, rod, its rate; heading; command.
+ACCEPTABLE = (0.3, 0.5, 0.5, 2.0, 0.1, 0.3)
+HEADING, COMMAND = 2.0, 0.5
+HOVER_STAGES = 300  # after so many the cost to go of hover has settled: 25 √(l/g)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Feedback:
+    """Nominal states, commands and gains, stage by stage; then those of hover.
+
+    The command at a deviation is commands[k] − gains[k] · deviation, with the `deviation` from the nominal state in SI
+    units: 18 + n numbers, rod and rate as vectors of the world, so that no basis is needed.
+
+    Parameters
+    ----------
+    stage : float
+        Duration of a stage, s.
+    states : (stages + 1, 24 + n)
+        Nominal states and rotor forces; the last is hover.
+    commands : (stages + 1, n)
+        Nominal commands, N.
+    gains : (stages + 1, n, 18 + n)
+        Gains.
+    """
+
+    stage: float
+    states: Array
+    commands: Array
+    gains: Array
+
+
+def regulator(plan: Plan) -> Feedback:
+    """Return the feedback along `plan`. Raises ValueError if it failed: a plan that misses hover is not to be flown."""
+    if not plan:
+        raise ValueError(f"the plan failed: {plan.reason}")
+    vehicle, units = plan.vehicle, Units.of(plan.vehicle)
+    count = len(plan.commands)
+    per_stage = (len(plan.t) - 1) // count
+    hover = _hover(plan)
+    planned = np.column_stack([plan.packed, plan.rotor_forces])[::per_stage]
+    states = np.concatenate([planned[:-1], np.tile(hover, (HOVER_STAGES + 1, 1))])
+    commands = np.concatenate([plan.commands, np.tile(hover[SIZE:], (HOVER_STAGES, 1))])
+    found = _gains(vehicle, units, states, commands, plan.stage / units.time)[: count + 1]
+    return Feedback(plan.stage, states[: count + 1], commands[: count + 1], found)
+
+
+def _hover(plan: Plan) -> Array:
+    """Return hover at the target with the heading at the end of the plan."""
+    z, forward = E3, unit(np.append(plan.R[-1, :2, 0], 0.0))
+    R = np.column_stack([forward, cross(z, forward), z])
+    share = plan.vehicle.weight * plan.vehicle.unmixing()[:, 0]
+    return np.append(State(x=plan.target, R=R, y=E3).packed(), share)
+
+
+def _gains(vehicle: Any, units: Units, states: Array, commands: Array, h: float) -> Array:
+    """Return the gains (stages, n, 18 + n) of the regulator in SI units, by one recursion from zero cost to go."""
+    n, count = commands.shape[1], len(commands)
+    compiled = kernels(n, Wishes())
+    shape = compiled.shape
+    own, forces, timing, numbers = lanes(count + 1, SIZE + n), lanes(count, n), lanes(4), lanes(13 + 3 * n)
+    own[:] = (states / units.states(n))[..., None]
+    forces[:] = (commands / units.force)[..., None]
+    timing[:] = step_timing(vehicle.rotor_lag / units.time, h)[:, None]
+    numbers[:] = units.numbers(vehicle)[:, None]
+    A, B, d = lanes(count, shape.A.nnz()), lanes(count, shape.B.nnz()), lanes(count, shape.n)
+    compiled.linearised(count, own, own[1:], forces, timing, numbers, d, A, B)
+    cost, to_go, found = lanes(count, shape.of_stage), lanes(count + 1, shape.to_go), lanes(count, shape.gains)
+    cost[:] = _cost(n)[:, None]
+    compiled.backward(count, to_go[1:], A, B, d, cost, lanes(2), to_go, found)
+    K = -found[:, : n * shape.n, 0].reshape(count, shape.n, n).transpose(0, 2, 1)
+    b = np.array([np.array(ca.DM(ca.evalf(plane(ca.SX(ca.DM(y)))))) for y in states[:-1, 18:21]])
+    whole = np.concatenate(
+        [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
+        axis=2,
+    )
+    return whole * units.force / _units_of_deviation(units, n)
+
+
+def _cost(n: int) -> Array:
+    weights = np.concatenate([np.repeat(1 / np.square(ACCEPTABLE), (3, 3, 3, 3, 2, 2)), np.zeros(n)])
+    weights[ATTITUDE.stop - 1] = 1 / HEADING**2
+    Q = np.diag(weights)
+    upper = [Q[i, j] for j in range(MOTION + n) for i in range(j + 1)]
+    none = np.zeros(MOTION + n)
+    R = np.full(n, 1 / COMMAND**2)
+    # Nothing depends on the shared parameter; its curvature only must not vanish.
+    cost = packed_cost(*(ca.DM(part) for part in (upper, R, none, none, np.zeros(n), 1.0, 0.0)))
+    return np.array(cost).ravel()
+
+
+def _units_of_deviation(units: Units, n: int) -> Array:
+    rate = 1 / units.time
+    return np.concatenate(
+        [[units.length] * 3, [units.length * rate] * 3, [1.0] * 3, [rate] * 3, [1.0] * 3, [rate] * 3, [units.force] * n]
+    )
+
+
+def deviation(rotors: int) -> ca.Function:
+    """Return (nominal, state) → deviation (18 + n,), SI units, of states with the forces of `rotors` n, (24 + n,).
+
+    It is `coordinates.local` with rod and rate as vectors.
+    """
+    nominal, state = ca.SX.sym("nominal", SIZE + rotors), ca.SX.sym("state", SIZE + rotors)
+    s, o = State.symbolic(nominal[:SIZE]), State.symbolic(state[:SIZE])
+    M = ca.mtimes(s.R.T, o.R)
+    skew = ca.vertcat(M[2, 1] - M[1, 2], M[0, 2] - M[2, 0], M[1, 0] - M[0, 1])
+    attitude = 2 / ca.fmax(1 + ca.trace(M), 0.1) * skew
+    turn = between(s.y, o.y)
+    swing = turned(-turn, cross(o.y, o.y_dot)) - cross(s.y, s.y_dot)
+    parts = [o.x - s.x, o.x_dot - s.x_dot, attitude, o.omega - s.omega, turn, swing, state[SIZE:] - nominal[SIZE:]]
+    return ca.Function("deviation", [nominal, state], [ca.densify(ca.vertcat(*parts))])

@@ -1,0 +1,124 @@
+"""Guesses from which plans begin: a rod pumped up by a pivot that hardly moves, in several styles.
+
+A guess follows the equations of the rod and asks the thrust for the pivot's acceleration a; the vehicle turns towards
+that thrust as if nothing limited its rotors. So it has gaps, which the solver closes. In own units, with
+E = |H|²/2 + y₃ the energy of the rod, which is 1 upright and at rest,
+
+    Ė = −a · ẏ,   d(H₃)/dt = −a · (e₃ × y),   F = (M+m)(e₃ + a) + m ÿ,
+
+so that a = −k (E* − E) ẏ + k_c H₃ (e₃ × y) pumps, and stops the rod from circling. Near the top, a balances it instead.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
+from flypend.geometry import E3, cross, dot, norm
+from flypend.model import State, Vehicle
+from flypend.model.state import SIZE
+from flypend.planning.coordinates import cayley, turned
+from flypend.planning.riccati import solved
+from flypend.planning.scaled import Units
+from flypend.planning.stage import Stage
+from flypend.plants.lag import held
+
+# Per style: largest acceleration of the pivot, k, bandwidth of its position, E*, k_c, the height y₃ above which the rod
+# is balanced, and its squared speed up to which it is. They were chosen on 40 starts of hehn2011, so that many starts
+# are solved from several of them.
+PUMPS = np.array(
+    [
+        (0.5, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5),
+        (1.0, 2.0, 1.5, 1.0, 1.0, 0.9, 1.5),
+        (2.0, 4.0, 1.5, 1.0, 1.0, 0.9, 1.5),
+        (1.0, 2.0, 2.5, 1.0, 1.0, 0.9, 1.5),
+        (2.0, 2.0, 2.5, 1.0, 1.0, 0.9, 1.5),
+        (0.3, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5),
+        (4.0, 4.0, 2.0, 1.0, 1.0, 0.9, 1.5),
+        (0.7, 1.5, 1.2, 1.05, 0.7, 0.9, 1.5),
+    ]
+)
+# For a rod that may not fall: balanced from the start, with accelerations and bandwidths from small to large.
+CATCHES = np.array(
+    [(largest, 1.0, bandwidth, 1.0, 0.5, -0.5, 1e3) for largest in (1.0, 2.0, 3.0, 5.0) for bandwidth in (0.3, 0.7)]
+)
+SUBSTEPS = 3
+POLES = 0.7  # −p, all four of the balanced rod near the top: ẍ = a, ÿ = y − a
+KICK = 0.5  # acceleration that moves a hanging rod at rest
+ATTITUDE_SHARE = 0.5  # stiffness of the attitude per largest angular acceleration, 1/rad
+
+assert len(PUMPS) == len(CATCHES) == WIDTH
+
+
+def styles(vehicle: Vehicle, *, falls: bool) -> NDArray[np.float64]:
+    """Return the styles (8, lanes) for `vehicle`, the last entry being the stiffness of its attitude, own units.
+
+    `falls` is whether the rod may fall and be pumped up again.
+    """
+    units = Units.of(vehicle)
+    low, high = vehicle.rotor_limits
+    moments = vehicle.mixing()[1:3]
+    largest = np.sum(np.abs(moments), axis=1) * (high - low) / 2 / np.diag(vehicle.I)[:2]
+    stiffness = ATTITUDE_SHARE * float(np.min(largest)) * units.time**2
+    return np.vstack([(PUMPS if falls else CATCHES).T, np.full(WIDTH, stiffness)])
+
+
+@lru_cache(maxsize=8)
+def pumping(rotors: int) -> Stagewise:
+    """Return the compiled guess (state, style, limits, timing, vehicle) → state after a stage, and command."""
+    return stagewise(_pump(Stage(rotors)), shared=(1, 2, 3, 4))
+
+
+def _pump(stage: Stage) -> ca.Function:
+    machine, s = stage.machine, State.symbolic(stage.before[:SIZE])
+    style, limits = ca.SX.sym("style", 8), ca.SX.sym("limits", 2)
+    h, e3 = stage.timing[0] / SUBSTEPS, ca.SX(ca.DM(E3))
+    x, x_dot, R, omega, y, H = s.x, s.x_dot, s.R, s.omega, s.y, cross(s.y, s.y_dot)
+    for _ in range(SUBSTEPS):
+        a = _acceleration(x, x_dot, y, H, style, e3)
+        H_dot = -cross(y, e3 + a)
+        F = e3 + a + machine.m * (cross(H_dot, y) - dot(H, H) * y)
+        z_d = ca.mtimes(R.T, F / ca.sqrt(dot(F, F) + 1e-4))
+        tilt = 2 * cross(e3, z_d) / (1.1 + z_d[2])
+        turning = style[7] * tilt - 1.8 * ca.sqrt(style[7]) * omega
+        turning[2] = -2 * omega[2]
+        x_dot, omega = x_dot + h * a, omega + h * turning
+        x, R = x + h * x_dot, ca.mtimes(R, cayley(h * omega))
+        H = H + h * H_dot
+        y = turned(h * H, y)
+        H = H - dot(H, y) * y
+    wrench = ca.vertcat(ca.fmax(dot(F, R[:, 2]), 0), ca.mtimes(machine.I, turning))
+    mixing = machine.mixing()
+    wanted = ca.mtimes(mixing.T, solved(ca.mtimes(mixing, mixing.T), wrench))
+    command = ca.fmin(ca.fmax(wanted, limits[0]), limits[1])
+    _, rotors = held(stage.before[SIZE:], command, stage.timing)
+    moved = State.symbolic(ca.vertcat(x, x_dot, ca.vec(R.T), omega, y, cross(H, y))).packed()
+    inputs = [stage.before, style, limits, stage.timing, machine.numbers]
+    return ca.Function("pump", inputs, ca.cse([ca.densify(ca.vertcat(moved, rotors)), ca.densify(command)]))
+
+
+def _acceleration(x: Any, x_dot: Any, y: Any, H: Any, style: Any, e3: Any) -> Any:
+    """Return the acceleration of the pivot that a `style` wishes."""
+    largest, gain, bandwidth, energy, uncircle, top, slow, _ = ca.vertsplit(style)
+    y_dot, speed = cross(H, y), dot(H, H)
+    pump = -gain * (energy - speed / 2 - y[2]) * y_dot + uncircle * H[2] * cross(e3, y)
+    high = _smooth_step(25 * (y[2] - top)) * _smooth_step(4 * (slow - speed))
+    hangs = ca.logic_and(speed + 1 - y[2] ** 2 < 0.02, y[2] < 0)
+    kick = ca.if_else(hangs, KICK, 0) * ca.SX([1, 0, 0])
+    back = -(bandwidth**2) * x - 1.6 * bandwidth * x_dot
+    p = POLES
+    balance = (1 + 6 * p**2 + p**4) * y + 4 * p * (1 + p**2) * y_dot + p**4 * x + 4 * p**3 * x_dot
+    balance[2] = back[2]
+    a = (1 - high) * (pump + back) + high * balance + kick
+    a[2] = 0.6 * a[2]
+    return a * ca.fmin(1, largest / (norm(a) + 1e-9))
+
+
+def _smooth_step(value: Any) -> Any:
+    """Return a step from 0 to 1 about `value` 0, without an exponential."""
+    return (1 + value / ca.sqrt(1 + value**2)) / 2

@@ -1,0 +1,69 @@
+"""The compiled programs of the solver, for machines with some number of rotors and some wishes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from flypend.compile.llvm.stagewise import Stagewise, stagewise
+from flypend.planning.barrier import Barrier
+from flypend.planning.riccati import Shape, backward, forward
+from flypend.planning.stage import Stage
+from flypend.planning.wishes import Wishes
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """What the solver calls; the functions of the same name say what goes in and out.
+
+    Parameters
+    ----------
+    shape : Shape
+        Patterns of the derivatives.
+    inequalities, exact, end_size : int
+        Number of inequalities, of the exact ones among them, and of errors at the end.
+    linearised, rollout, step : Stagewise
+        See `plan.stage.Stage`.
+    backward, forward : Stagewise
+        See `plan.riccati`.
+    values, terms, steps, end : Stagewise
+        See `plan.barrier.Barrier`.
+    """
+
+    shape: Shape
+    inequalities: int
+    exact: int
+    end_size: int
+    linearised: Stagewise
+    rollout: Stagewise
+    step: Stagewise
+    backward: Stagewise
+    forward: Stagewise
+    values: Stagewise
+    terms: Stagewise
+    steps: Stagewise
+    end: Stagewise
+
+
+@lru_cache(maxsize=32)
+def kernels(rotors: int, wishes: Wishes) -> Kernels:
+    """Return the compiled programs for machines with this many `rotors`, and `wishes`; from the cache if possible."""
+    stage = Stage(rotors)
+    barrier = Barrier(stage, wishes)
+    linearised, A, B = stage.linearised()
+    shape = Shape(A, B)
+    return Kernels(
+        shape=shape,
+        inequalities=barrier.inequalities,
+        exact=wishes.exact(rotors),
+        end_size=barrier.end_size,
+        linearised=stagewise(linearised, shared=(3, 4)),
+        rollout=stagewise(stage.rollout(), shared=(5, 6, 7, 8, 9)),
+        step=stagewise(stage.step(), shared=(2, 3)),
+        backward=stagewise(backward(shape), shared=(5,), backward=True),
+        forward=stagewise(forward(shape), shared=(1,)),
+        values=stagewise(barrier.values(), shared=(2, 3, 4, 6)),
+        terms=stagewise(barrier.terms(), shared=(2, 3, 4, 7)),
+        steps=stagewise(barrier.steps(), shared=(2, 3, 4, 7, 10)),
+        end=stagewise(barrier.end(), shared=(1, 2)),
+    )

@@ -1,0 +1,168 @@
+"""What is to be planned: checked, and in the machine's own units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.geometry import E3, norm
+from flypend.model import State, Vehicle
+from flypend.planning.check import Limits
+from flypend.planning.scaled import Units
+from flypend.planning.wishes import Wishes
+
+STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
+TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
+FAR = 1e6  # rod lengths: no wall
+# Each objective has a little of the other, without which its problem has no unique solution.
+LEAST = {"excursion": 1e-3, "effort": 1e-4}
+OBJECTIVES: Mapping[str, Mapping[str, float]] = MappingProxyType(
+    {"excursion": {"excursion": 1.0}, "effort": {"effort": 1.0}, "time": {"excursion": 1.0}}
+)
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be planned.
+
+    Parameters
+    ----------
+    vehicle, units : Vehicle, Units
+        The vehicle and its units.
+    objective : dict
+        Weights of "excursion" and "effort".
+    target : (3,)
+        Where the pivot is to hover, m.
+    start : (24 + n,)
+        State and rotor forces at the start, in own units, about the target.
+    limits : Limits
+        What every sample of the plan must keep.
+    wishes, numbers : Wishes, (k,)
+        The inequalities and their numbers, in own units, about the target.
+    """
+
+    vehicle: Vehicle
+    units: Units
+    objective: dict[str, float]
+    target: NDArray[np.float64]
+    start: NDArray[np.float64]
+    limits: Limits
+    wishes: Wishes
+    numbers: NDArray[np.float64]
+
+    @property
+    def rotors(self) -> int:
+        """Number of rotors."""
+        return len(self.vehicle.rotor_spins)
+
+
+def request(
+    vehicle: Vehicle,
+    start: State,
+    objective: Any,
+    target: Any,
+    rotors: Any,
+    walls: Any,
+    speed: Any,
+    lean: Any,
+    clearance: Any,
+) -> Request:
+    """Check the arguments of `planning.plan`; `walls` (2, 3) are from `walls_of`. Raises InputError."""
+    if not isinstance(vehicle, Vehicle):
+        raise InputError("vehicle", "a Vehicle", repr(vehicle)[:80])
+    if not isinstance(start, State) or start.batch_shape:
+        raise InputError("start", "a single State", repr(start)[:80])
+    units, n = Units.of(vehicle), len(vehicle.rotor_spins)
+    low, high = (float(limit) for limit in vehicle.rotor_limits)
+    if n * high <= vehicle.weight:
+        raise InputError("vehicle", f"rotors that lift {vehicle.weight:.3g} N", f"{n * high:.3g} N at most")
+    weights, goal = _weights(objective), errors.array("target", target, (3,))
+    per_command = weights["effort"] / STAGES_PER_UNIT / n
+    numbers = [weights["excursion"], per_command, low / units.force, high / units.force]
+    if walls is not None:
+        _check_inside(walls, vehicle, start.x, start.y, "start")
+        _check_inside(walls, vehicle, goal, E3, "target")
+        numbers += [vehicle.reach / units.length, *np.clip((walls - goal) / units.length, -FAR, FAR).ravel()]
+    if speed is not None:
+        numbers.append(_speed(speed, start) * units.time / units.length)
+    if lean is not None:
+        numbers.append(np.cos(_lean(lean, start)))
+    mounted = None if vehicle.mount == "gimbal" else vehicle
+    if mounted is not None:
+        numbers += [0.0, errors.number("clearance", clearance, at_least=0, unit="m") / units.length]
+    packed = start.packed()
+    packed[:3] -= goal
+    begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
+    limits = Limits(walls, speed, lean, TOLERANCE * units.length)
+    wishes = Wishes(box=walls is not None, speed=speed is not None, lean=lean is not None, mounted=mounted)
+    return Request(vehicle, units, weights, goal, begin, limits, wishes, np.array(numbers))
+
+
+def walls_of(box: Any, floor: Any, ceiling: Any) -> Any:
+    """Return the lowest and highest corner (2, 3), m, of `box` with `floor` and `ceiling`; None for no wall.
+
+    Raises InputError.
+    """
+    walls = np.array([[-np.inf] * 3, [np.inf] * 3])
+    if box is not None:
+        try:
+            walls = np.array(box, dtype=float)
+        except (TypeError, ValueError):
+            walls = np.array(np.nan)
+        if walls.shape != (2, 3) or np.any(np.isnan(walls)):
+            raise InputError("box", "numbers of shape (2, 3)", repr(box)[:80])
+    if floor is not None:
+        walls[0, 2] = max(walls[0, 2], errors.number("floor", floor, unit="m"))
+    if ceiling is not None:
+        walls[1, 2] = min(walls[1, 2], errors.number("ceiling", ceiling, unit="m"))
+    if np.any(walls[0] >= walls[1]):
+        raise InputError("box", "a lowest corner below the highest", walls.tolist())
+    return None if np.all(np.isinf(walls)) else walls
+
+
+def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> None:
+    points = np.stack([x, x + vehicle.reach * y])
+    if np.any(points <= walls[0]) or np.any(points >= walls[1]):
+        raise InputError("box", f"one that holds pivot and rod at the {where}", walls.tolist())
+
+
+def _speed(speed: Any, start: State) -> float:
+    fastest = errors.number("speed", speed, above=0, unit="m/s")
+    begin = float(norm(start.x_dot))
+    if begin >= fastest:
+        raise InputError("speed", f"more than the {begin:.3g} m/s of the start", f"{fastest:g}")
+    return fastest
+
+
+def _lean(lean: Any, start: State) -> float:
+    most = errors.number("lean", lean, above=0, at_most=np.pi, unit="rad")
+    begin = float(np.arccos(start.y[2]))
+    if begin >= most:
+        raise InputError("lean", f"more than the {begin:.3g} rad of the start", f"{most:g}")
+    return most
+
+
+def _forces(rotors: Any, low: float, high: float, n: int) -> Any:
+    forces = np.full(n, low) if rotors is None else errors.array("rotors", rotors, (n,))
+    if np.any(forces < low) or np.any(forces > high):
+        raise InputError("rotors", f"forces from {low:g} to {high:g} N", forces.tolist())
+    return forces
+
+
+def _weights(objective: Any) -> dict[str, float]:
+    """Return the weights of excursion and effort."""
+    if isinstance(objective, Mapping):
+        errors.only_known("objective", objective, LEAST)
+        given = {name: errors.number(f"objective.{name}", value, at_least=0) for name, value in objective.items()}
+        if not any(given.values()):
+            raise InputError("objective", "a weight > 0", dict(objective))
+    else:
+        given = dict(OBJECTIVES[errors.one_of("objective", objective, OBJECTIVES)])
+    return {name: max(given.get(name, 0.0), least) for name, least in LEAST.items()}

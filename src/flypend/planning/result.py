@@ -1,0 +1,162 @@
+"""A plan: states, rotor forces and commands over time, how good it is, and how it was found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.compile.numeric import as_numpy
+from flypend.flight.outcome import Outcome
+from flypend.flight.trajectory import Trajectory
+from flypend.geometry import norm
+from flypend.model import State, Vehicle
+from flypend.model.state import SIZE, split
+from flypend.plants.equations import runge_kutta_step
+from flypend.plants.lag import TIMING_SIZE, held, step_timing
+
+Array = NDArray[np.float64]
+Status = Literal["optimal", "feasible", "failed"]
+
+INDEPENDENT_STEP = 1e-3  # s
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Plan:
+    """A planned flight to inverted hover; SI units, world frame with e₃ up.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        Vehicle parameters.
+    objective : dict
+        Weights of what was minimised, by name.
+    target : (3,)
+        Where the pivot is to hover, m.
+    t : (n,)
+        Times, s: `dense` in each stage.
+    packed : (n, 24)
+        States at these times, in the order of `State.packed`.
+    rotor_forces : (n, k)
+        Forces of the k rotors at these times, N.
+    commands : (stages, k)
+        Rotor forces commanded, N, each held for `stage` seconds.
+    stage : float
+        Duration of a stage, s.
+    status : "optimal", "feasible" or "failed"
+        Whether it ends in hover and keeps all limits, and if so whether its solver had converged.
+    reason : str
+        Why it failed, or is not optimal; empty for an optimal plan.
+    solve_time : float
+        Processor time that the solver took, s.
+    iterations : int
+        Iterations of the solver.
+    guess : int
+        The style of the guess that led here.
+    """
+
+    vehicle: Vehicle
+    objective: dict[str, float]
+    target: Array
+    t: Array
+    packed: Array
+    rotor_forces: Array
+    commands: Array
+    stage: float
+    status: Status
+    reason: str
+    solve_time: float
+    iterations: int
+    guess: int
+
+    def __repr__(self) -> str:
+        """Return the vehicle and what `told` says."""
+        return f"<Plan for {self.vehicle.name}: {self.told}>"
+
+    @property
+    def told(self) -> str:
+        """Duration, excursion, status and what it took, in one line."""
+        why = f" ({self.reason})" if self.reason else ""
+        reached = f"{self.duration:.2f} s, excursion {self.excursion:.3f} m"
+        return f"{self.status}{why}: {reached}, solved in {1e3 * self.solve_time:.0f} ms"
+
+    def __bool__(self) -> bool:
+        """Whether the plan can be flown: False if it failed."""
+        return self.status != "failed"
+
+    @property
+    def duration(self) -> float:
+        """Duration, s."""
+        return float(self.t[-1])
+
+    @property
+    def excursion(self) -> float:
+        """Largest distance of the pivot from the target, m."""
+        return float(np.max(norm(self.x - self.target)))
+
+    @property
+    def effort(self) -> float:
+        """Root mean square of the rotor forces, relative to each rotor's share of the weight."""
+        share = self.vehicle.weight / len(self.vehicle.rotor_spins)
+        return float(np.sqrt(np.mean(self.rotor_forces**2)) / share)
+
+    @property
+    def states(self) -> State:
+        """The states as one batch."""
+        return State.trusted(self.packed)
+
+    x = property(lambda self: self.packed[:, 0:3], doc="Pivot position (n, 3), m.")
+    x_dot = property(lambda self: self.packed[:, 3:6], doc="Pivot velocity (n, 3), m/s.")
+    R = property(lambda self: self.packed[:, 6:15].reshape(-1, 3, 3), doc="Rotation from body to world (n, 3, 3).")
+    omega = property(lambda self: self.packed[:, 15:18], doc="Angular velocity (n, 3), body frame, rad/s.")
+    y = property(lambda self: self.packed[:, 18:21], doc="Rod direction (n, 3).")
+    y_dot = property(lambda self: self.packed[:, 21:24], doc="Rate of the rod direction (n, 3), 1/s.")
+
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """The plan as a run, for replays (also as a ghost), files and metrics."""
+        wrench = self.rotor_forces @ self.vehicle.mixing().T
+        return Trajectory(
+            t=self.t, **split(self.packed), thrust=wrench[:, 0], moment=wrench[:, 1:], rotor_forces=self.rotor_forces,
+            drift=np.zeros((0, 3)), outcome=Outcome("completed", self.duration), e3="up", vehicle=self.vehicle,
+            law="plan", gains={}, x_ref=np.tile(self.target, (len(self.t), 1)),
+        )  # fmt: skip
+
+    def to_html(self, path: str | Path | None = None) -> str:
+        """Render a replay of the plan, as `Trajectory.to_html` does, and write it to `path` if given."""
+        return self.trajectory.to_html(path)
+
+    @cached_property
+    def end_error(self) -> float:
+        """Distance between the ends of the plan and of an independent integration of its commands.
+
+        The larger of the distance of the pivots, m, and that of the rods, both as they are: a flight without feedback
+        amplifies whatever two integrators do differently. The equations are those of `model.motion`, by the classical
+        Runge-Kutta method and projection, in steps of 1 ms at most.
+        """
+        step, lag = _independent_step(self.vehicle), self.vehicle.rotor_lag
+        count = max(1, int(np.ceil(self.stage / INDEPENDENT_STEP - 1e-9)))
+        timing = step_timing(lag, self.stage / count)
+        state, rotors = self.packed[0], self.rotor_forces[0]
+        for command in self.commands:
+            for _ in range(count):
+                state, rotors = step(state, rotors, command, timing)
+        off = state - self.packed[-1]
+        return float(max(norm(off[0:3]), norm(off[18:21])))
+
+
+def _independent_step(vehicle: Vehicle) -> Any:
+    """Return (state, rotors, command, timing) → (state, rotors) after a Runge-Kutta step of the whole state."""
+    import casadi as ca
+
+    n = len(vehicle.rotor_spins)
+    packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
+    timing = ca.SX.sym("h", TIMING_SIZE)
+    forces, after = held(rotors, command, timing)
+    moved = runge_kutta_step(packed, forces, None, timing[0], vehicle)
+    outputs = [ca.densify(moved), ca.densify(after)]
+    return as_numpy(ca.Function("independent", [packed, rotors, command, timing], outputs))

@@ -1,0 +1,286 @@
+"""The solver: Gauss-Newton differential dynamic programming with a primal-dual barrier, one problem per lane.
+
+Each iteration linearises all stages, solves the linear-quadratic problem by `riccati`, and flies its feedback through
+the nonlinear equations, shortening the step until the merit falls. A guess may have gaps between its stages; a step of
+length α leaves 1 − α of them. docs/planning/limit.md derives it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.compile.llvm.stagewise import WIDTH, lanes
+from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
+from flypend.planning.kernels import Kernels
+from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED
+
+Lanes = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Numbers of the method, in the machine's own units, in which the cost is of order one.
+
+    Parameters
+    ----------
+    barrier, least_barrier, cooling : float
+        First and last μ, and its factor after a good step.
+    damping, least_damping, most_damping : float
+        First, least and largest damping of commands.
+    state_damping : float
+        Damping of states, as a share of that of commands.
+    worse, better : float
+        Factors of the damping after a step that failed, and after a long one.
+    shrink : float
+        Factor of the step length while the merit does not fall.
+    attempts : int
+        Most step lengths per iteration.
+    room : float
+        Largest share of the room to a limit that one step takes.
+    turn : float
+        Largest change of attitude or rod in one step, rad.
+    spread : float
+        Largest ratio between a multiplier and μ/s, either way.
+    end_weight : float
+        Weight of the squared errors at the end.
+    """
+
+    barrier: float = 1e-3
+    least_barrier: float = 1e-6
+    cooling: float = 0.8
+    damping: float = 3e-3
+    least_damping: float = 1e-6
+    most_damping: float = 1e6
+    state_damping: float = 0.1
+    worse: float = 8.0
+    better: float = 1 / 3
+    shrink: float = 0.4
+    attempts: int = 8
+    room: float = 0.99
+    turn: float = 2.0
+    spread: float = 100.0
+    end_weight: float = 0.005
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is to be planned, one problem per lane, in each machine's own units.
+
+    Parameters
+    ----------
+    stages : int
+        Number of stages.
+    timing : (4, lanes)
+        Timing of a stage; see `plants.lag.step_timing`.
+    vehicle : (k, lanes)
+        Numbers of the machines; see `scaled.Units.numbers`.
+    numbers : (j, lanes)
+        Numbers of the wishes; see `wishes.Wishes.numbers`.
+    """
+
+    stages: int
+    timing: Lanes
+    vehicle: Lanes
+    numbers: Lanes
+
+
+class Solver:
+    """The state of the method on a `problem`, beginning with guessed states and commands.
+
+    Parameters
+    ----------
+    kernels : Kernels
+        The compiled programs.
+    problem : Problem
+        The problem.
+    states : (stages + 1, 24 + n, lanes)
+        Guessed states and rotor forces; the first is the start and stays.
+    commands : (stages, n, lanes)
+        Guessed commands.
+    settings : Settings
+        Numbers of the method.
+
+    Attributes
+    ----------
+    states, commands
+        The best so far.
+    merit, violation, gap, end : (lanes,)
+        Merit, sum of what inequalities lack, sum of all gaps, and largest error at the end in tolerances.
+    promise : (lanes,)
+        By how much the linear-quadratic problem expected the merit to fall at the last step.
+    """
+
+    def __init__(
+        self, kernels: Kernels, problem: Problem, states: Lanes, commands: Lanes, settings: Settings | None = None
+    ) -> None:
+        self._k, self._problem = kernels, problem
+        self._set = settings = settings or Settings()
+        N, k, shape = problem.stages, kernels.inequalities, kernels.shape
+        self.states, self.commands = states, commands
+        self._limits = lanes(3)
+        self._limits[:] = problem.numbers[LOW], problem.numbers[HIGH], np.full(WIDTH, settings.room)
+        low, high = self._limits[0], self._limits[1]
+        inside = 0.02 * (high - low)
+        np.clip(commands, low + inside, high - inside, out=commands)
+        self._mu, self._shared, self._length = lanes(1), lanes(1), lanes(1)
+        self._damping, self._weight, self._offset = lanes(2), lanes(1), lanes(kernels.end_size)
+        self._mu[:], self._weight[:] = settings.barrier, settings.end_weight
+        self._damp(np.full(WIDTH, settings.damping))
+        self._shared[:] = 1.05 * np.max(_squared(states), axis=0) + 0.05
+        self._slack, self._dual = lanes(N, k), lanes(N, k)
+        self._slack[:] = 0.1
+        self._A, self._B, self._d = lanes(N, shape.A.nnz()), lanes(N, shape.B.nnz()), lanes(N, shape.n)
+        self._cost, self._to_go, self._gains = (
+            lanes(N, shape.of_stage),
+            lanes(N + 1, shape.to_go),
+            lanes(N, shape.gains),
+        )
+        self._delta, self._upsilon, self._epsilon = lanes(N + 1, shape.n), lanes(N, shape.k), lanes(1)
+        self._costate = lanes(N, 1)
+        self._s_step, self._z_step, self._shares = lanes(N, k), lanes(N, k), lanes(N, 2)
+        self._summary, self._price = lanes(N, 2), np.ones((2, WIDTH))
+        self._new_states, self._new_commands, self._new_shared = lanes(*states.shape[:2]), lanes(N, shape.k), lanes(1)
+        self._trial, self._new_slack = lanes(N, k), lanes(N, k)
+        self._end, self._errors = lanes(1, shape.to_go), lanes(1, kernels.end_size)
+        self.merit, self.violation, self.gap, self.end, self.promise = (np.full(WIDTH, np.inf) for _ in range(5))
+        self._value(states, commands, self._shared, self._slack, self._slack, 0.0)
+        self._dual[:] = self._mu / self._slack
+
+    @property
+    def excursion(self) -> Lanes:
+        """Largest distance of the pivot from the origin at the stages, (lanes,)."""
+        distance: Lanes = np.sqrt(np.max(_squared(self.states), axis=0))
+        return distance
+
+    @property
+    def barrier(self) -> Lanes:
+        """The barrier parameter μ, (lanes,)."""
+        mu: Lanes = self._mu[0]
+        return mu
+
+    @property
+    def effort(self) -> Lanes:
+        """Sum over the stages of the cost of the commands, (lanes,)."""
+        own: Lanes = self._problem.numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2
+        return own
+
+    def measure(self) -> None:
+        """Measure violation, gap and end of the states and commands as they are."""
+        p, N = self._problem, self._problem.stages
+        self._k.linearised(
+            N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B
+        )
+        self.gap = np.sum(np.abs(self._d), axis=(0, 1))
+        here = (self.states, self.commands, self._shared, self._slack, self._slack)
+        self.merit, self.violation, self.end = self._value(*here, self.gap)
+
+    def insist(self, place: int, weight: float) -> None:
+        """Set the number at `place` of the wishes, a `weight`, in all lanes."""
+        self._problem.numbers[place] = weight
+
+    def improve(self) -> None:
+        """Do one iteration."""
+        k, p, N = self._k, self._problem, self._problem.stages
+        point = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
+        k.linearised(N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B)
+        k.terms(N, *point, self._slack, self._dual, self._mu, self._cost)
+        k.end(1, self.states[N:], p.numbers, self._weight, self._offset, self._errors, self._to_go[N:])
+        k.backward(N, self._to_go[1:], self._A, self._B, self._d, self._cost, self._damping, self._to_go, self._gains)
+        c, g, v = self._to_go[0, -3:]
+        self._epsilon[0] = -g / c
+        self.promise = g * g / (2 * c) - v
+        k.forward(
+            N, self._delta, self._epsilon, self._A, self._B, self._d, self._gains, self._to_go[1:], self._delta[1:],
+            self._upsilon, self._costate,
+        )  # fmt: skip
+        moves = (self._delta, self._upsilon, self._epsilon)
+        k.steps(N, *point, self._slack, self._dual, self._mu, *moves, self._s_step, self._z_step, self._shares)
+        self.gap = np.sum(np.abs(self._d), axis=(0, 1))
+        self._price = self._prices()
+        here = (self.states, self.commands, self._shared, self._slack, self._slack)
+        self.merit, self.violation, self.end = self._value(*here, self.gap)
+        self._search()
+
+    def _prices(self) -> Lanes:
+        """Return the prices (2, lanes) of gaps and violations: above all multipliers, so that neither is worth it."""
+        dual = np.max(self._dual[:, self._k.exact :], axis=(0, 1), initial=0.0)
+        return np.maximum(1.0, 1.2 * np.array([np.max(self._costate, axis=(0, 1)), dual]))
+
+    def _search(self) -> None:
+        """Shorten the step until the merit falls, lane by lane, and take it."""
+        settings = self._set
+        turns = np.max(np.abs(self._delta[:, TURNS]), axis=(0, 1))
+        used = np.max(self._shares, axis=0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            longest, dual_length = np.fmin(1.0, settings.room / used)
+            length = np.fmin(longest, settings.turn / turns)
+        found = np.zeros(WIDTH, dtype=bool)
+        for _ in range(settings.attempts):
+            self._fly(length)
+            trial = (self._new_states, self._new_commands, self._new_shared, self._trial, self._new_slack)
+            merit, _, _ = self._value(*trial, (1 - length) * self.gap)
+            found |= merit < self.merit
+            if np.all(found):
+                break
+            length = np.where(found, length, settings.shrink * length)
+        pairs = ((self.states, trial[0]), (self.commands, trial[1]), (self._shared, trial[2]), (self._slack, trial[4]))
+        for old, new in pairs:
+            np.copyto(old, new, where=found)
+        self._dual += np.where(found, dual_length, 0.0) * self._z_step
+        self._adapt(np.where(found, length, 0.0))
+
+    def _fly(self, length: Lanes) -> None:
+        """Fly a step of this `length` (lanes,) into the new states and commands, with trial values of the slacks."""
+        k, p, N = self._k, self._problem, self._problem.stages
+        self._new_states[0], self._length[0] = self.states[0], length
+        k.rollout(
+            N, self.states, self.commands, self._d, self._gains, self._new_states, self._length, self._epsilon,
+            self._limits, p.timing, p.vehicle, self._new_states[1:], self._new_commands,
+        )  # fmt: skip
+        # The ball grows if need be, so that its slack keeps the same share as those of the commands.
+        kept = _squared(self._new_states[:N]) + (1 - self._set.room) * self._slack[:, k.exact - 1]
+        self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], np.max(kept, axis=0))
+        self._trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._s_step[:, k.exact :]
+
+    def _value(
+        self, states: Lanes, commands: Lanes, shared: Lanes, trial: Lanes, slack: Lanes, gap: Lanes | float
+    ) -> tuple[Lanes, Lanes, Lanes]:
+        """Return merit, violation and largest error at the end, each (lanes,), and write the slacks."""
+        k, p, N = self._k, self._problem, self._problem.stages
+        k.values(N, states, commands, shared, p.numbers, p.vehicle, trial, self._mu, self._summary, slack)
+        k.end(1, states[N:], p.numbers, self._weight, self._offset, self._errors, self._end)
+        own, violation = np.sum(self._summary, axis=0)
+        with np.errstate(over="ignore", invalid="ignore"):
+            missed = np.sum((self._errors[0] + self._offset) ** 2, axis=0)
+            merit = p.numbers[SHARED] * shared[0] + own + self._weight[0] * missed / 2
+            merit += self._price[0] * gap + self._price[1] * violation
+        return merit, violation, np.max(np.abs(self._errors[0]), axis=0)
+
+    def _adapt(self, length: Lanes) -> None:
+        """Adapt damping and barrier to the `length` of the step, and keep the multipliers near μ/s."""
+        settings = self._set
+        damping = self._damping[1]
+        damping = np.where(length >= 0.5, settings.better * damping, damping)
+        damping = np.where(length < 0.2, settings.worse * damping, damping)
+        self._damp(np.clip(damping, settings.least_damping, settings.most_damping))
+        cooled = np.maximum(settings.cooling * self._mu[0], settings.least_barrier)
+        self._mu[0] = np.where(length >= 0.3, cooled, self._mu[0])
+        middle = self._mu / self._slack
+        np.clip(self._dual, middle / settings.spread, middle * settings.spread, out=self._dual)
+
+    def _damp(self, damping: Lanes) -> None:
+        self._damping[:] = self._set.state_damping * damping, damping
+
+
+# Coordinates that turn: attitude and rod.
+TURNS = [*range(ATTITUDE.start, ATTITUDE.stop), *range(ROD.start, ROD.stop)]
+
+
+def _squared(states: Lanes) -> Lanes:
+    """Return the squared distances (stages, lanes) of the pivot from the origin."""
+    x = states[:, POSITION]
+    distances: Lanes = np.sum(x * x, axis=1)
+    return distances

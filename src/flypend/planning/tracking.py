@@ -1,0 +1,135 @@
+"""`track`: a controller that flies a plan with feedback, and gives way to another law if it is thrown off."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from flypend.board.believed import Believed
+from flypend.board.computer import FlightComputer, SteppedBoard
+from flypend.board.program import initial_memory, predicting, remembering
+from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
+from flypend.laws import Computer, Controller, Law, inverted
+from flypend.laws.references import hover
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.state import SIZE
+from flypend.planning.feedback import Feedback, deviation, regulator
+from flypend.planning.result import Plan
+from flypend.planning.scaled import Units
+from flypend.plants.equations import rotor_step
+from flypend.plants.lag import step_timing
+from flypend.plants.loop import Loop
+
+# The plan is left when the rod is this far from where it should be, rad, or the pivot, rod lengths.
+FAR_ROD, FAR_PIVOT = 0.8, 1.5
+NONE = np.zeros(0)
+STILL = np.zeros(6)
+
+
+def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> Controller:
+    """Return a controller that flies `plan` from time 0 and then hovers at its target.
+
+    Parameters
+    ----------
+    plan : Plan
+        The plan, which starts where the flight starts.
+    latency : float
+        Delay to compensate, s, as in `laws.Computer`.
+    otherwise : Law, optional
+        The law that takes over for good once rod or pivot are too far from the plan; default the inverted law about the
+        target.
+
+    Raises
+    ------
+    InputError
+        If the plan failed.
+    """
+    if not isinstance(plan, Plan) or not plan:
+        raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
+    law = otherwise or inverted(hover(plan.target))
+    feedback = regulator(plan)
+    return Controller(
+        name="track",
+        function=_no_wrench,
+        reference=hover(plan.target),
+        computer=Computer(latency=latency),
+        flight_computer=lambda loop, rotors: Tracker(feedback, plan.vehicle, law, loop, rotors),
+        because="it follows a table",
+    )
+
+
+def _no_wrench(t: float, state: State) -> Wrench:
+    """Refuse to give a wrench: the flight computer of a tracked plan commands the rotors one by one."""
+    raise InputError("law", "one that gives a wrench", "track, which commands rotor forces")
+
+
+class Tracker:
+    """The flight computer of a tracked plan: the board's prediction and rotor model around a `feedback`.
+
+    Parameters
+    ----------
+    feedback : Feedback
+        The plan with its gains.
+    vehicle : Vehicle
+        The vehicle of the plan.
+    law : Law
+        What takes over.
+    loop : Loop
+        The closed loop that is flown.
+    rotors : (n,)
+        Initial rotor forces, N.
+    """
+
+    def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: Any) -> None:
+        if loop.sampled.interface != "wrench":
+            raise InputError("plant.interface", "wrench: a plan commands rotor forces", loop.sampled.interface)
+        believed = Believed.numbers(loop.vehicle)
+        self._feedback, self._loop, self._law = feedback, loop, law
+        self._predict, self._remember = as_numpy(predicting(loop, believed)), as_numpy(remembering(loop, believed))
+        self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
+        self._step, self._deviation = _compiled(vehicle)
+        self._lag, self._limits = vehicle.rotor_lag, vehicle.rotor_limits
+        self._far = FAR_PIVOT * Units.of(vehicle).length
+        self._other: FlightComputer | None = None
+
+    @property
+    def following(self) -> bool:
+        """Whether the plan is still followed."""
+        return self._other is None
+
+    def command(self, t: float, measured: Any) -> Any:
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, at time `t` (s)."""
+        if self._other is not None:
+            return self._other.command(t, measured)
+        measurement = np.append(t, measured)
+        kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
+        wanted, nominal, k = self._nominal(t + self._loop.law.computer.latency)
+        off = self._deviation(nominal, np.append(state, rotors))
+        if not (np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[0:3]) < self._far):
+            loop = Loop(self._loop.vehicle, self._law.bind(self._loop.vehicle), self._loop.plant)
+            self._other = SteppedBoard(loop, self._memory[: len(rotors)])
+            return self._other.command(t, measured)
+        command = np.clip(wanted - self._feedback.gains[k] @ off, *self._limits)
+        self._memory = self._remember(self._memory, kept, measurement, forces, command, NONE)
+        return command
+
+    def _nominal(self, t: float) -> tuple[Any, Any, int]:
+        """Return the nominal command and state at `t`, and the number of the stage."""
+        f = self._feedback
+        k = min(int(t / f.stage + 1e-9), len(f.commands) - 1)
+        into = t - k * f.stage
+        if k == len(f.commands) - 1 or into < 1e-9:
+            return f.commands[k], f.states[k], k
+        state, rotors = self._step(
+            f.states[k, :SIZE], f.states[k, SIZE:], f.commands[k], STILL, step_timing(self._lag, round(into, 9))
+        )
+        return f.commands[k], np.append(state, rotors), k
+
+
+@lru_cache(maxsize=16)
+def _compiled(vehicle: Vehicle) -> tuple[Any, Any]:
+    """Return the step of the plant and the deviation from a nominal state, for numbers."""
+    return as_numpy(rotor_step(vehicle, windy=False)), as_numpy(deviation(len(vehicle.rotor_spins)))

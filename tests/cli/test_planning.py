@@ -1,0 +1,31 @@
+"""The command plan: what it prints and writes, from a run file and without one."""
+
+import pytest
+
+import flypend as fp
+from flypend.cli import app as cli
+
+
+def test_a_swing_up_is_planned_and_flown(tmp_path, capsys):
+    out, page = tmp_path / "plan.nc", tmp_path / "plan.html"
+    cli.app(["plan", "-o", str(out), "--ceiling", "0.7", "--fly", "rotors", "--html", str(page)], standalone_mode=False)
+    told = capsys.readouterr().out
+    assert "hehn2011: optimal: 3.00 s" in told
+    assert "Flown on rotors: stands" in told
+    run = fp.load(out)
+    assert run.law == "plan"
+    assert run.x[:, 2].max() < 0.7
+    assert page.read_text().startswith("<!doctype html")
+
+
+def test_a_run_file_gives_vehicle_and_start(tmp_path, capsys):
+    out = tmp_path / "plan.nc"
+    with pytest.raises(SystemExit) as ended:
+        cli.app(["plan", "4", "--duration", "0.2", "-o", str(out)], standalone_mode=False)
+    assert ended.value.code == 1
+    assert "nayak2018: failed (inverted hover is not reached)" in capsys.readouterr().out
+
+
+def test_a_bad_ending_is_refused_before_any_work(tmp_path):
+    with pytest.raises(fp.InputError, match="nc"):
+        cli.app(["plan", "-o", str(tmp_path / "plan.html")], standalone_mode=False)

@@ -86,12 +86,12 @@ def test_without_forces_momentum_and_energy_stay():
     assert after[3] == pytest.approx(before[3], rel=1e-8)  # (5 rad/s · 2 ms)⁴ a step, in rounds that add up
 
 
-# A prediction over 24 ms, against steps of 0.1 ms. Motion capture errs by 3.5e-3 rad and 2e-2 rad/s.
+# A prediction over 28 ms, against steps of 0.1 ms. Motion capture errs by 3.5e-3 rad and 2e-2 rad/s.
 
 
-@pytest.mark.parametrize(("speed", "axis", "rates"), [(3.0, 1e-4, 1e-3), (20.0, 4e-4, 1e-2)])
+@pytest.mark.parametrize(("speed", "axis", "rates"), [(3.0, 2e-4, 1e-3), (20.0, 4e-4, 1e-2)])
 @pytest.mark.parametrize("commands", ["saturating at random", "switching once", "a ramp"])
-def test_one_step_predicts_24_ms_of_commands(commands, speed, axis, rates):
+def test_one_step_predicts_28_ms_of_commands(commands, speed, axis, rates):
     vehicle, rng = fp.vehicle("hehn2011"), np.random.default_rng(8)
     low, high = vehicle.rotor_limits
     step, engine, mixing = step_of(vehicle), EquationsEngine(vehicle), vehicle.mixing()
@@ -99,19 +99,19 @@ def test_one_step_predicts_24_ms_of_commands(commands, speed, axis, rates):
     for start in starts:
         rotors = rng.uniform(low, high, 4)
         if commands == "saturating at random":
-            given = rng.choice([low, high], (12, 4))
+            given = rng.choice([low, high], (14, 4))
         elif commands == "switching once":
-            before, after, at = *rng.choice([low, high], (2, 4)), rng.integers(1, 12)
-            given = np.where(np.arange(12)[:, None] < at, before, after)
+            before, after, at = *rng.choice([low, high], (2, 4)), rng.integers(1, 14)
+            given = np.where(np.arange(14)[:, None] < at, before, after)
         else:
             before, after = rng.uniform(low, high, (2, 4))
-            given = before + (after - before) * np.linspace(0, 1, 12)[:, None]
+            given = before + (after - before) * np.linspace(0, 1, 14)[:, None]
         engine.reset(start, rotors)
         for command in given:
             for _ in range(20):
                 engine.step(command, 1e-4, np.zeros(6))
-        ramp, end = held_in_turn(rotors, list(given), [2e-3] * 12, vehicle.rotor_lag)
-        state = step(start, mixing @ ramp.mean, mixing @ ramp.change, np.zeros(6), 0.024)
+        ramp, end = held_in_turn(rotors, list(given), [2e-3] * 14, vehicle.rotor_lag)
+        state = step(start, mixing @ ramp.mean, mixing @ ramp.change, np.zeros(6), 0.028)
         error = np.abs(state - engine.packed)
         assert np.max(error[6:15]) < axis
         assert max(np.max(error[15:18]), np.max(error[21:])) < rates

@@ -19,7 +19,7 @@ from flypend.plants.schedule import Segment, in_steps, steps_in
 
 # Longest step of a prediction, s, and how far the vehicle may turn within one, rad, at √α, which is about the fastest
 # that a law turns it by purpose; α is its largest angular acceleration.
-TWIN_STEP, TWIN_TURN = 25e-3, 0.5
+TWIN_STEP, TWIN_TURN = 28e-3, 0.5
 # The same with a rate loop on board, whose forces follow the rotation: a quarter of the rotor lag.
 LOOP_STEP = 5e-3
 

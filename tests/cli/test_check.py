@@ -1,34 +1,14 @@
 """`flypend check`: what it writes, what it refuses, and what its exit code says."""
 
 import json
-import signal
-import sys
 
 import numpy as np
 import pytest
 
 import flypend as fp
-from flypend import cli
 from flypend.files.toml import toml_text
 
 QUICK = ("--runs", "16", "--no-margins", "--no-figures")
-
-
-@pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """The command in this process, in `tmp_path`: code, what it printed, and its complaints."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
-    handler = signal.getsignal(signal.SIGTERM)
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
-        with pytest.raises(SystemExit) as exit_:
-            cli.main()
-        return exit_.value.code, *capsys.readouterr()
-
-    yield run
-    signal.signal(signal.SIGTERM, handler)
 
 
 def written(folder, **changes):

@@ -1,12 +1,9 @@
 """A law of one's own on the command line: taken everywhere, and one line and exit code 2 for every mistake in it."""
 
 import json
-import signal
 import sys
 
 import pytest
-
-from flypend import cli
 
 TEXT = """
 import numpy as np
@@ -61,22 +58,12 @@ LINES = {
 
 
 @pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """The command in this process, in a folder with laws: code, what it printed, and its complaints."""
-    monkeypatch.chdir(tmp_path)
+def call(call, tmp_path, monkeypatch):
+    """The command in a folder with laws."""
     monkeypatch.setattr(sys, "path", list(sys.path))
     for name, text in {"mine.py": TEXT, "study.toml": STUDY, "run.toml": RUN, "bad.py": "def f(:\n"}.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    handler = signal.getsignal(signal.SIGTERM)
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
-        with pytest.raises(SystemExit) as exit_:
-            cli.main()
-        return exit_.value.code, *capsys.readouterr()
-
-    yield run
-    signal.signal(signal.SIGTERM, handler)
+    return call
 
 
 @pytest.mark.parametrize("law", ["mine.py:balance", "mine.py:stepped"])

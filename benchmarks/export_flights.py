@@ -15,7 +15,7 @@ from dataclasses import replace
 import flypend as fp
 from flypend.export import compiled
 from flypend.laws import Computer
-from flypend.plants.plant import MOTION_CAPTURE
+from flypend.plants import MOTION_CAPTURE
 from flypend.studies.starts import random_starts
 
 DURATION = 10.0  # s

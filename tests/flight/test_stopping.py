@@ -37,10 +37,10 @@ print("ready", flush=True)
 
 
 def busy():
-    """Seconds to allow for the end of a process with all its imports: ten times what it takes to start an empty one."""
+    """Seconds to allow for the end of a process with all its imports: twenty times the start of an empty one."""
     begin = time.monotonic()
     subprocess.run([sys.executable, "-c", "pass"], check=True)
-    return 10 * (time.monotonic() - begin)
+    return 20 * (time.monotonic() - begin)
 
 
 def told_after(process, number, wait):

@@ -24,7 +24,7 @@ from flypend.lab.server import MOST_PAGES
 from flypend.lab.setting import setting_of
 
 # Within the bounds of a page, a hundred times the proposed gains: 37 s of processor without a budget.
-STIFF = {"attitude_bandwidth": 1800.0, "attitude_damping": 70.0}
+STIFF = {"attitude_bandwidth": 1700.0, "attitude_damping": 70.0}
 TRYING = 200  # pages at once
 HALF_OPEN = 100
 LONGEST_WAIT = 10.0  # s for the answer to a usual request

@@ -149,7 +149,7 @@ def test_equal_legends_are_told_apart():
 
     assert shown(usual) == [("inverted law", ())]
     assert shown(usual, wide) == [
-        ("inverted law", (("rod_damping", "0.4"),)),
+        ("inverted law", (("rod_damping", "0.48"),)),
         ("inverted law", (("rod_damping", "0.5"),)),
     ]
     assert [title for title, _ in shown(usual, level)] == ["inverted law, rod from 0°", "inverted law, rod from 90°"]

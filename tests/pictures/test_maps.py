@@ -211,7 +211,7 @@ def test_from_nothing_to_a_picture_in_one_command(tmp_path, monkeypatch, capsys)
         (("a.zarr", "--law", "lqr"), "map: expected a store, a study, or --law"),
         (("a.zarr",), "a.zarr: expected a store that a sweep has written, got nothing"),
         (("a.zarr", "-o", "a.jpg"), "--out: expected a file name ending in"),
-        (("--law", "lqr", "--plant", "rotor"), "plant: expected one of"),
+        (("--law", "lqr", "--plant", "rotor"), "--plant: expected one of"),
     ],
 )
 def test_mistakes_are_one_line_and_code_2(arguments, line, tmp_path, monkeypatch, capsys):

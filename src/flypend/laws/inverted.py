@@ -17,7 +17,6 @@ from __future__ import annotations
 from typing import Any
 
 import casadi as ca
-import numpy as np
 
 from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
@@ -107,12 +106,9 @@ def mounted(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
     cone = cones[vehicle.mount] if vehicle.mount in cones else CUP_SHARE * vehicle.body.cup_angle
     hub, lag = vehicle.mount == "hub", vehicle.rotor_lag / gains["lead"]
     numbers = scales(vehicle).numbers
-    authority, inertia = angular_authority(vehicle), np.diag(vehicle.inertia)
     return {
         "passage": passage_of(vehicle) if hub else None, "cone": cone, "side": float(hub), "lag_left": lag,
-        "authority": authority, "haste": numbers["haste"], "shift": numbers["shift"],
-        "turn_rate": TURN * np.sqrt(authority),
-        "fast_spin": max(inertia[0], inertia[1]) / inertia[2] * np.sqrt(authority),
+        "haste": numbers["haste"], "shift": numbers["shift"],
     }  # fmt: skip
 
 
@@ -149,7 +145,10 @@ def inverted_control(
         steering = steered(state, heading(state, ahead[0], caught, k.coast_time), k.passage)
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
     clear = ca.SX.sym("clear")
-    calm = 1 - smooth_step(((state.omega[2] / k.fast_spin) ** 2 - CALM**2) / (SPUN**2 - CALM**2))
+    authority, inertia = angular_authority(vehicle), vehicle.I
+    turn_rate = TURN * ca.sqrt(authority)
+    fast_spin = ca.fmax(inertia[0, 0], inertia[1, 1]) / inertia[2, 2] * ca.sqrt(authority)
+    calm = 1 - smooth_step(((state.omega[2] / fast_spin) ** 2 - CALM**2) / (SPUN**2 - CALM**2))
     pose = Pose(height, steering.aside, clear)
     present = force(nearer, low_rod(*nearer, state.z, k), pose)
     f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
@@ -185,8 +184,8 @@ def inverted_control(
     bandwidth = k.attitude_bandwidth * (1 + k.haste * low)
     stiffness, damping = bandwidth**2, 2 * k.attitude_damping * bandwidth
     # Turn no faster than the vehicle can stop; the bare spring would turn it at stiffness / damping per radian.
-    u_z = stiffness * limited_force(spring, k.turn_rate * damping / stiffness) - damping * v_e
-    u_z = calm * u_z + (1 - calm) * soft(u_z, k.authority / 2)
+    u_z = stiffness * limited_force(spring, turn_rate * damping / stiffness) - damping * v_e
+    u_z = calm * u_z + (1 - calm) * soft(u_z, authority / 2)
 
     # What is left of the rotors' lag turns a spinning body on before they act.
     yaw = steering.yaw - k.yaw_damping * state.omega[2]

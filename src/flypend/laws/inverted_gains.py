@@ -8,6 +8,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+import casadi as ca
 import numpy as np
 
 from flypend.errors import InputError
@@ -98,11 +99,15 @@ def scales(vehicle: Vehicle) -> Scales:
     )
 
 
-def angular_authority(vehicle: Vehicle) -> float:
-    """Return the largest angular acceleration, rad/s², arm · range / inertia: the lesser of roll and pitch."""
-    low, high = vehicle.rotor_limits
-    lever = np.abs(vehicle.mixing()[1:3]).sum(axis=1) / 2
-    return float(np.min(lever * (high - low) / np.diag(vehicle.inertia)[:2]))
+def angular_authority(vehicle: Any) -> Any:
+    """Return the largest angular acceleration, rad/s², arm · range / inertia: the lesser of roll and pitch.
+
+    The numbers of `vehicle` may be symbolic.
+    """
+    span, mixing = vehicle.rotor_limits[1] - vehicle.rotor_limits[0], vehicle.mixing()
+    roll, pitch = (ca.sum2(ca.fabs(mixing[i : i + 1, :])) / 2 * span / vehicle.I[i - 1, i - 1] for i in (1, 2))
+    least = ca.fmin(roll, pitch)
+    return least if isinstance(least, ca.SX) else float(least)
 
 
 def _attitude_bandwidth(vehicle: Vehicle) -> float:

@@ -187,8 +187,8 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         damping = 2 * k.attitude_damping * bandwidth
         spring = geo.tangent_part(z, z_d) / np.sqrt((1 + z @ z_d) / 2 + 0.014)
         spring += 0.03 * ((1 - z @ z_d) / 2) ** 4 * R[:, 0]
-        turn = bandwidth**2 * spring
-        turn /= (1 + (np.linalg.norm(turn) / (k.turn_rate * damping)) ** 8) ** 0.125
+        turn, turn_rate = bandwidth**2 * spring, 1.3 * np.sqrt(inverted_gains.angular_authority(vehicle))
+        turn /= (1 + (np.linalg.norm(turn) / (turn_rate * damping)) ** 8) ** 0.125
         u = turn - damping * v_e
         # ω̇ for z̈ = −|ż|² z + u, turned back by what the body spins while the rotors lag.
         wanted = R.T @ np.cross(z, u) + omega[2] * R.T @ z_dot

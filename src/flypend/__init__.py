@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from flypend.model.air import Air
     from flypend.model.body import Body
     from flypend.model.rod import rod_with_bob, uniform_rod
+    from flypend.model.shipped import vehicle
     from flypend.model.state import State, Wrench
-    from flypend.model.vehicle import Vehicle, vehicle
+    from flypend.model.vehicle import Vehicle
     from flypend.planning import Plan, plan, track
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check

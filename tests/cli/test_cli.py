@@ -579,6 +579,19 @@ def test_laws_and_vehicles_are_listed_with_gains_units_and_defaults(call):
     assert call("laws", "lqqr")[0] == 2
 
 
+def test_a_vehicle_is_told_as_its_file_and_drawn(call, tmp_path):
+    """What is told is a file again, from which one's own vehicle begins."""
+    code, told, _ = call("vehicles", "crazyflie")
+    assert code == 0
+    (tmp_path / "mine.toml").write_text(told, encoding="utf-8")
+    assert fp.vehicle(tmp_path / "mine.toml") == fp.vehicle("crazyflie")
+    assert "arXiv 2404.07837" in told
+    assert call("vehicles", "mine.toml", "-o", "mine.svg")[0] == 0
+    assert (tmp_path / "mine.svg").read_text(encoding="utf-8").startswith("<?xml")
+    for wrong in (("nope",), ("nope.toml",), ("hehn2011", "-o", "a.txt"), ("-o", "a.png")):
+        assert call("vehicles", *wrong)[0] == 2
+
+
 def test_a_pipe_gets_whole_lines(tmp_path):
     """A table of the laws has lines of more than 80 columns; a terminal would wrap them."""
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.model.vehicle import vehicle_names
+from flypend.model.shipped import vehicle_names
 from flypend.plants import Plant
 
 # RotorPy at commit 9b760b8: mass, inertia, arm, thrust, yaw, drag, inflow, lift and lag per rotor speed.

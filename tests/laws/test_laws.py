@@ -12,8 +12,8 @@ from flypend import geometry as geo
 from flypend.laws import Guard, law_from_dict, law_names
 from flypend.laws.closed_loop import close_loop
 from flypend.model import equations_of_motion
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import split
-from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
 
 VEHICLE = fp.vehicle("nayak2018")

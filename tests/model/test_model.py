@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 import flypend as fp
 from flypend import geometry as geo
 from flypend.model import equations_of_motion, total_energy
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import SHAPES, project, seen_packed, split
-from flypend.model.vehicle import vehicle_names
 
 EPS = 1e-15
 property_test = settings(max_examples=50, deadline=None, derandomize=True)

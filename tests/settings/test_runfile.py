@@ -16,8 +16,8 @@ import flypend as fp
 from flypend.flight.request import Flight
 from flypend.flight.simulate import fly
 from flypend.laws import law_from_dict, law_names
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import SHAPES
-from flypend.model.vehicle import vehicle_names
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, plant_of, run_file
 

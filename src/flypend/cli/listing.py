@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
 
 from flypend.cli.options import vehicle_option
-from flypend.cli.terminal import console
+from flypend.cli.terminal import bold, console
 
 
 @click.command()
@@ -27,10 +28,34 @@ def laws(name: str | None, vehicle: str) -> None:
 
 
 @click.command()
-def vehicles() -> None:
-    """List the vehicles with mass, bob, rod, the rotors' largest force over the weight, and rotor lag."""
+@click.argument("vehicle", required=False)
+@click.option("-o", "--out", type=click.Path(path_type=Path), help="Draw VEHICLE into this file, .png, .pdf or .svg.")
+def vehicles(vehicle: str | None, out: Path | None) -> None:
+    """List the vehicles. VEHICLE, a name or a TOML file: its TOML, or with -o a drawing with mounts and gaps."""
     from flypend import model
-    from flypend.model.vehicle import vehicle_names
+    from flypend.errors import InputError
+    from flypend.model.shipped import vehicle_text
+
+    if vehicle is None:
+        if out is not None:
+            raise InputError("-o", "a VEHICLE to draw", "none")
+        console.print(_vehicles())
+        return
+    text = vehicle_text(vehicle)
+    if out is None:
+        click.echo(text, nl=False)
+        return
+    from flypend.files.whole import save_figure
+    from flypend.pictures.machine import machine_figure
+
+    save_figure(machine_figure(model.vehicle(vehicle)), out)
+    console.print(f"The drawing is {bold(out)}.")
+
+
+def _vehicles() -> Any:
+    """The table of the package's vehicles."""
+    from flypend import model
+    from flypend.model.shipped import vehicle_names
 
     found = _table("vehicle", "mass kg", "bob kg", "rod m", "thrust/weight", "lag s", "rotors", "gravity m/s²")
     for name in vehicle_names():
@@ -39,7 +64,7 @@ def vehicles() -> None:
         ratio = f"{rotors * v.rotor_limits[1] / v.weight:.3g}"
         numbers = (f"{x:g}" for x in (v.mass, v.bob_mass, v.rod_length))
         found.add_row(name, *numbers, ratio, f"{v.rotor_lag:g}", str(rotors), f"{v.gravity:g}")
-    console.print(found)
+    return found
 
 
 def _gains(law: Any, machine: Any) -> Any:

@@ -18,7 +18,7 @@ from flypend.envs.randomise import Randomisation
 from flypend.envs.task import Task
 from flypend.errors import InputError
 from flypend.model import Vehicle
-from flypend.model.vehicle import vehicle as vehicle_named
+from flypend.model.shipped import vehicle as vehicle_named
 from flypend.plants.plant import ROTORS, Sampled
 
 TASKS: Mapping[str, Callable[..., Task]] = {

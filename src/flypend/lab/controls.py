@@ -12,7 +12,7 @@ from flypend.lab.own import OwnLaws
 from flypend.lab.setting import LONGEST, Setting, plain
 from flypend.laws import Controller, Law, law_names
 from flypend.model import State, Vehicle
-from flypend.model.vehicle import vehicle_names
+from flypend.model.shipped import vehicle_names
 from flypend.paper import experiment, experiment_names
 from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 

@@ -20,8 +20,8 @@ from flypend.lab.gains import sliders_of
 from flypend.lab.own import NONE, OwnLaws
 from flypend.laws import Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import FLIP, SHAPES
-from flypend.model.vehicle import vehicle_names
 from flypend.plants import Ideal
 from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
 

@@ -28,8 +28,9 @@ from flypend.model.dynamics import (
     total_energy,
 )
 from flypend.model.motion import disturbed_motion, equations_of_motion
+from flypend.model.shipped import vehicle
 from flypend.model.state import State, Wrench
-from flypend.model.vehicle import Vehicle, vehicle
+from flypend.model.vehicle import Vehicle
 
 __all__ = [
     "Rates",

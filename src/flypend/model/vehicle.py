@@ -5,7 +5,6 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from importlib import resources
 from pathlib import Path
 from typing import Any, Self
 
@@ -289,37 +288,6 @@ def read_toml(path: str | Path) -> dict[str, Any]:
         raise InputError(str(path), "a TOML file in UTF-8", told) from None
     except ValueError as error:  # no TOML, or a name that no file can have
         raise InputError(str(path), "a TOML file", error) from None
-
-
-def vehicle_names() -> list[str]:
-    """Names of the vehicles shipped with the package."""
-    folder = resources.files("flypend") / "vehicles"
-    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
-
-
-def vehicle(name: str | Path) -> Vehicle:
-    """Load the vehicle `name` shipped with the package, or the TOML file at the path `name`. Raises InputError."""
-    if isinstance(name, Path) or (isinstance(name, str) and name.endswith(".toml")):
-        return Vehicle.from_toml(name)
-    errors.one_of("vehicle", name, vehicle_names())
-    with resources.as_file(resources.files("flypend") / "vehicles" / f"{name}.toml") as path:
-        return Vehicle.from_toml(path)
-
-
-def told(machine: Vehicle) -> str:
-    """Return the name of a vehicle with what differs from the shipped vehicle of that name: "hehn2011, mass 0.6"."""
-    if machine.name not in vehicle_names():
-        return machine.name
-    own, shipped = machine.to_dict(), vehicle(machine.name).to_dict()
-    changed = {name: value for name, value in own.items() if value != shipped.get(name)}
-    return ", ".join([machine.name, *(f"{name} {_short(value)}".strip() for name, value in changed.items())])
-
-
-def _short(value: Any) -> str:
-    """Format a value for a line; nothing for a table."""
-    if isinstance(value, dict):
-        return ""
-    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _inertia(value: Any) -> Any:

@@ -12,7 +12,7 @@ from flypend.files import whole
 from flypend.files.staging import staged
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
-from flypend.model.vehicle import told
+from flypend.model.shipped import told
 from flypend.paper.claims import Verdict
 from flypend.paper.proved import claims_of
 from flypend.pictures.style import Style

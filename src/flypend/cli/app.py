@@ -16,6 +16,7 @@ import click
 
 from flypend import __version__
 from flypend.cli import check, examples, listing, planning, studies, theorem, viewing
+from flypend.cli.ahead import import_ahead
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
@@ -112,7 +113,7 @@ def run(
     from flypend.files.whole import check_file
     from flypend.flight.feasibility import forewarned
     from flypend.flight.simulate import fly
-    from flypend.model.vehicle import told as vehicle_told
+    from flypend.model.shipped import told as vehicle_told
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
     from flypend.report.flight import check_movies
@@ -214,6 +215,7 @@ def compare(
     settings = {**settings, "plant": asked}
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
+    import_ahead("flypend.pictures.studies")
     with counter() as tell:
         result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
     failed = failed_runs(result, names, asked, duration)
@@ -255,6 +257,7 @@ def ladder(
     rungs = rungs_for(machine)
     chosen = {name: rung_named(name, rungs) for name in rung or rungs}
     check_writable(out)
+    import_ahead("flypend.pictures.studies")
     with counter() as tell:
         result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
     write_ladder(result, settings, out)

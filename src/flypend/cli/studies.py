@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from flypend.cli.ahead import import_ahead
 from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, sensors_option
 from flypend.cli.terminal import bold, complaints, console, lines, resumable, stepped, tell_how
 
@@ -82,7 +83,6 @@ def draw_map(
     """
     from flypend.errors import InputError, require
     from flypend.files.whole import FIGURES, save_figure
-    from flypend.pictures.maps import map_figure
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
 
@@ -101,8 +101,11 @@ def draw_map(
     store = what
     if content is not None:
         store = out.with_suffix(".zarr")
+        import_ahead("flypend.pictures.maps")
         sweep_into(store, content, workers, force)
     assert store is not None
+    from flypend.pictures.maps import map_figure
+
     save_figure(map_figure(store, x=x, y=y), out)
     console.print(f"The map is in {bold(out)}.")
 

@@ -41,6 +41,7 @@ bench: setup
 # The site of the documentation, in docs/_build: open index.html there. Needs no network once set up.
 docs: setup
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build
+	$(BIN)/python paper/build.py docs/_build/paper.html
 	@echo open docs/_build/index.html
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
@@ -95,4 +96,4 @@ size:
 	test $$(cut -f1 $(FRESH)/size) -le 700
 
 clean:
-	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out docs/_build .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out docs/_build docs/jupyter_execute .pytest_cache .mypy_cache .ruff_cache

@@ -11,7 +11,7 @@ project = "flypend"
 author = "The flypend authors"
 release = version = __version__
 extensions = [
-    "myst_parser",
+    "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_click",
@@ -19,7 +19,7 @@ extensions = [
     "sphinxcontrib.programoutput",
 ]
 
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "jupyter_execute"]
 html_theme = "furo"
 html_title = "flypend"
 html_show_sphinx = False
@@ -29,6 +29,12 @@ html_theme_options = {"navigation_with_keys": True}
 
 myst_heading_anchors = 3  # headings are link targets, as where the repository is read
 suppress_warnings = ["myst.header"]
+
+# The tutorials are run with every build.
+nb_execution_mode = "force"
+nb_execution_show_tb = True
+nb_execution_timeout = 300
+nb_merge_streams = True
 
 napoleon_google_docstring = False
 napoleon_use_rtype = False

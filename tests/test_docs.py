@@ -49,6 +49,24 @@ def test_the_site_needs_no_network(site):
     assert not found
 
 
+def test_tutorials_were_run_and_can_be_taken_along(site):
+    tutorials = sorted((ROOT / "docs" / "tutorials").glob("*-*.md"))
+    assert len(tutorials) > 5
+    for path in tutorials:
+        page = (site / "tutorials" / f"{path.stem}.html").read_text(encoding="utf-8")
+        assert "cell_output" in page
+        assert len(list((site / "_downloads").rglob(f"{path.stem}.ipynb"))) == 1
+
+
+def test_the_paper_resolves_its_citations_and_cites_what_it_lists(tmp_path):
+    out = tmp_path / "paper.html"
+    subprocess.run([sys.executable, str(ROOT / "paper" / "build.py"), str(out)], check=True)  # a warning fails
+    page = out.read_text(encoding="utf-8")
+    listed = re.findall(r"^@\w+{(\w+),", (ROOT / "paper" / "paper.bib").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert len(listed) > 8
+    assert set(re.findall(r'id="ref-(\w+)"', page)) == set(listed)
+
+
 QUESTIONS = {
     "install": "how-to/install", "gains": "reference/gains", "circle": "how-to/circle", "export": "how-to/export",
     "failed": "how-to/why-failed", "default plant": "how-to/plant", "own law": "how-to/own-law", "map": "how-to/map",

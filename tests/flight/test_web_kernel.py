@@ -146,7 +146,7 @@ def test_the_module_takes_two_things_and_gives_one(tmp_path):
         console.log(names(WebAssembly.Module.imports(module)), names(WebAssembly.Module.exports(module)));
     """
     said = subprocess.run(["node", "-e", script], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-    assert said.split() == ["__linear_memory,__stack_pointer,exp", "kernel,room,shown,turned"]
+    assert said.split() == ["__linear_memory,__stack_pointer,exp", "context_size,kernel,shown,turned"]
 
 
 def rooted():

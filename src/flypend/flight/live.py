@@ -19,6 +19,7 @@ from flypend.flight.request import SAMPLE_PERIOD, Flight
 from flypend.flight.touch import touched
 from flypend.flight.verdict import MISSED, POSES, goal
 from flypend.laws import BoundLaw
+from flypend.model import State
 from flypend.model.mount import part_names
 from flypend.model.state import SIZE
 from flypend.pages.sliders import gain_sliders, plant_sliders, slider, sliders_of
@@ -28,6 +29,8 @@ from flypend.plants.knobs import LONGEST_DELAY, knob_values
 from flypend.plants.loop import Loop
 
 DURATIONS = (2.0, 30.0)  # s
+FURTHEST = 2.0  # m, that the reference moves
+RANDOM = 40  # starts that a page holds, each drawn from `State.random`
 
 
 def live_data(flight: Flight | None) -> dict[str, Any]:
@@ -76,11 +79,21 @@ def offered(flight: Flight) -> dict[str, Any]:
     knobs = plant_sliders(plant, vehicle)
     if plant.sensors is not None:
         knobs = [entry for entry in knobs if entry["path"] != "plant.noise"]
+    drawn = [State.random(np.random.default_rng(seed)) for seed in range(RANDOM)]
     return {
-        "first": first, "sliders": [*gains, *knobs, lasting],
+        "first": first, "sliders": [*gains, *knobs, *_places(law, plant), lasting],
         "starts": {"as flown": first["start"], **starts()},
+        "randoms": [plain(state) for state in drawn],
         "seed": flight.seed or 0,
     }  # fmt: skip
+
+
+def _places(law: BoundLaw, plant: Sampled) -> list[dict[str, Any]]:
+    """Return the sliders that move the reference of a live flight, m: none without one, or with estimated places."""
+    if law.reference is None or plant.sensors is not None:
+        return []
+    words = {"x": "along e₁", "y": "along e₂", "z": "up"}
+    return [slider(f"origin.{k}", "place", said, "m", 0.0, -FURTHEST, FURTHEST) for k, said in words.items()]
 
 
 def engine_facts(loop: Loop) -> dict[str, Any]:
@@ -96,7 +109,7 @@ def engine_facts(loop: Loop) -> dict[str, Any]:
         "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)],
         "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate,
         "judge": max(1, round(SAMPLE_PERIOD * plant.rate)), "e3": law.e3, "rod": true.rod_length,
-        "masses": {"bob": true.bob_mass, "vehicle": true.mass}, "moves": plant.sensors is None,
+        "masses": {"bob": true.bob_mass, "vehicle": true.mass},
         "clear": true.mount != "gimbal",
         "words": {
             "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSES[law.e3],

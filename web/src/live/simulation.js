@@ -15,7 +15,7 @@ export class Simulation {
     const doubles = (length) => engine.reserve(Float64Array, length), integers = (length) => engine.reserve(BigInt64Array, length);
     const { state, rotors, gains, plant, reductions, knobs, judge } = facts, row = state + rotors;
     const room = integers(1);
-    engine.call("room", room);
+    engine.call("context_size", room);
     this.at = {
       starts: doubles(row), parameters: doubles(Math.max(gains.length, 1)), plant: doubles(plant), seeds: integers(1),
       sample_ticks: integers(MOST + 1), judged: integers(MOST + 1), rows: integers(MOST + 2), samples: doubles((MOST + 1) * row),
@@ -79,13 +79,12 @@ export class Simulation {
       rows[i] = BigInt(i);
     }
     rows[count] = BigInt(count);
-    at.samples.view().fill(NaN, 0, count * row);
     const numbers = { runs: 1n, ticks: BigInt(last), sample_count: BigInt(count), row_count: BigInt(count), begun: BigInt(begun) };
     engine.call("kernel", ...facts.arguments.map((name) => numbers[name] ?? at[name] ?? null));
     this.tick = last;
     this.ended = at.status.view()[0] !== 0n;
-    const flown = at.samples.view().slice(0, count * row), end = flown.findIndex(Number.isNaN);
-    return end < 0 ? flown : flown.slice(0, end - (end % row));
+    const whole = this.ended ? Math.floor(at.end.view()[0] / facts.period + 1e-6) - first + 1 : count;
+    return at.samples.view().slice(0, Math.max(whole, 0) * row);
   }
 
   /**

@@ -45,17 +45,17 @@ def arguments(problem: SampledProblem) -> tuple[str, ...]:
 def write_kernel(lanes: Lanes, problem: SampledProblem) -> None:
     """Emit the function "kernel" for `problem` into the module of `lanes`; for its arguments see `arguments`.
 
-    For flights in pieces there is another function, "room", which stores the length of the context in bytes. Their
-    kernel flies one group of `lanes.width` runs.
+    For flights in pieces, which fly one group of `lanes.width` runs, there is another function: "context_size" stores
+    the length of the context in bytes.
     """
     kinds = [I64 if name in INTEGERS else POINTER for name in arguments(problem)]
     function = ir.Function(lanes.module, ir.FunctionType(VOID, kinds), "kernel")
     kernel = _Kernel(lanes, problem, function)
     kernel.write()
     if kernel.code.context is not None:
-        room = ir.Function(lanes.module, ir.FunctionType(VOID, [POINTER]), "room")
-        builder = ir.IRBuilder(room.append_basic_block())
-        builder.store(ir.Constant(I64, kernel.code.context.size), room.args[0])
+        told = ir.Function(lanes.module, ir.FunctionType(VOID, [POINTER]), "context_size")
+        builder = ir.IRBuilder(told.append_basic_block())
+        builder.store(ir.Constant(I64, kernel.code.context.size), told.args[0])
         builder.ret_void()
 
 

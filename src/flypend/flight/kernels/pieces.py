@@ -84,7 +84,7 @@ def pieces_kernel(loop: Loop, criterion: Criterion) -> PiecesKernel:
 def _compiled(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
     problem = pieces_problem(loop, criterion)
     code, room = jit.build_object(*written(problem, 1), native()), np.zeros(1, dtype=np.int64)
-    jit.Native(code, "room", (ctypes.c_void_p,))(room.ctypes.data)
+    jit.Native(code, "context_size", (ctypes.c_void_p,))(room.ctypes.data)
     return jit.Native(code, "kernel", tuple(argument_kinds(problem))), int(room[0])
 
 
@@ -151,6 +151,7 @@ class PiecewiseFlight:
         self._kernel.function(*(given[name] if name in INTEGERS else address(given[name]) for name in names))
         self.ticks = last
         flown: NDArray[np.float64] = samples[0]
+        flown[kept / self._loop.sampled.rate > float(self._given["end"][0]) + 1e-9] = np.nan  # there it has ended
         return flown
 
     @property

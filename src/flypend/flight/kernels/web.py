@@ -26,7 +26,7 @@ def web_kernel(loop: Loop, criterion: Criterion) -> bytes:
     """Return a module that flies `loop` in pieces and judges by `criterion`, compiled or from the cache.
 
     Its functions are "kernel", with the arguments `ARGUMENTS` and `RESUMED_ARGUMENTS` of
-    `flypend.compile.llvm.sampled` in that order; "room", which stores the bytes of a context; "turned", from
+    `flypend.compile.llvm.sampled` in that order; "context_size", which stores its bytes; "turned", from
     `flypend.plants.knobs` to the kernel's argument "plant"; and `shown`.
 
     Raises
@@ -43,7 +43,7 @@ def web_kernel(loop: Loop, criterion: Criterion) -> bytes:
             define(Lanes(made, 1, target=wasm32()), program).linkage = "external"
         return made
 
-    names = ["kernel", "room", *(program.name for program in programs)]
+    names = ["kernel", "context_size", *(program.name for program in programs)]
     return module(jit.build_object(f"{key} {programs!r}", whole, wasm32()), names)
 
 

@@ -15,7 +15,7 @@ from flypend.model import Vehicle
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.measurement import NOISE_SIZE, WIND_SIZE, wind_numbers
 from flypend.plants.noise import Noise
-from flypend.plants.plant import Plant, Sampled, Wind
+from flypend.plants.plant import Sampled, Wind
 from flypend.plants.schedule import PLANT_STEP, SAME
 
 # Knobs and their lengths: rotor lag and delay, s; noise, as the fields of `Noise`; where the origin is seen, m, so that
@@ -68,9 +68,9 @@ def longest_step(plant: Sampled) -> float:
     return 1 / plant.rate_loop_rate if plant.interface == "rates" else PLANT_STEP
 
 
-def depth(plant: Plant) -> int:
-    """Return the number of commands to buffer for any delay up to `LONGEST_DELAY`, or that of `plant`."""
-    return 2 + int(np.floor((max(LONGEST_DELAY, plant.delay) + SAME) * plant.rate))
+def depth(plant: Sampled) -> int:
+    """Return the number of commands to buffer for any delay up to that of `plant`."""
+    return 2 + int(np.floor((plant.delay + SAME) * plant.rate))
 
 
 def _intervals(delay: Any, period: float, longest: float) -> list[tuple[Any, Any, Any]]:

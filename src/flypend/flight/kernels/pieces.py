@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.board.believed import Believed
+from flypend.board.estimator import assumed_delay
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, RESUMED_ARGUMENTS
@@ -33,11 +34,11 @@ from flypend.flight.kernels.sampled import argument_kinds, sampled_problem, stru
 from flypend.model import State
 from flypend.model.state import SIZE, seen_packed
 from flypend.plants.equations import struck
-from flypend.plants.knobs import KNOBS, STRETCHES, depth, knob_values, turned
+from flypend.plants.knobs import KNOBS, LONGEST_DELAY, STRETCHES, depth, knob_values, turned
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import measurement
 from flypend.plants.noise import Noise
-from flypend.plants.plant import Wind
+from flypend.plants.plant import Sampled, Wind
 
 # What makes the structure of a plant random, whatever its numbers.
 _GUSTY = Wind(gust_on_vehicle=1.0)
@@ -48,17 +49,28 @@ def pieces_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
 
     Raises InputError for a law that is not compiled, or a plant that is not simulated by the built-in equations.
     """
-    plant = loop.sampled
+    made = replace(loop, plant=pieces_structure(loop.sampled))
+    problem = sampled_problem(made, criterion, Believed.limited(loop.vehicle))
+    strike = lower(struck(made.sampled.true_vehicle(loop.vehicle)))
+    seen = None if problem.measure is None else lower(measurement(moved=True))
+    return replace(problem, measure=seen, resuming=Resuming(strike, STRETCHES, depth(made.sampled)), flown=())
+
+
+def pieces_structure(plant: Sampled) -> Sampled:
+    """Return `plant` without the numbers that flights in pieces take as inputs: equal ones share machine code.
+
+    Its delay is the longest that they take; an estimator goes on to assume the delay of `plant`. Raises InputError for
+    a plant that is not simulated by the built-in equations.
+    """
     if plant.engine != "equations":
         raise InputError("plant.engine", "equations, for a flight in pieces", plant.engine)
-    whole = plant.replace(
-        noise=plant.noise or (Noise() if plant.sensors is None else None), wind=plant.wind or _GUSTY
-    )  # fmt: skip
-    made = replace(loop, plant=structure(whole).replace(delay=0.0))
-    problem = sampled_problem(made, criterion, Believed.limited(loop.vehicle))
-    strike = lower(struck(plant.true_vehicle(loop.vehicle)))
-    seen = None if problem.measure is None else lower(measurement(moved=True))
-    return replace(problem, measure=seen, resuming=Resuming(strike, STRETCHES, depth(plant)), flown=())
+    sensors, noise = plant.sensors, plant.noise
+    if sensors is None:
+        noise = noise or Noise()
+    else:
+        sensors = sensors.replace(command_delay=assumed_delay(plant))
+    whole = plant.replace(sensors=sensors, noise=noise, wind=plant.wind or _GUSTY)
+    return structure(whole).replace(delay=max(plant.delay, LONGEST_DELAY))
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +88,7 @@ class PiecesKernel:
 
 def pieces_kernel(loop: Loop, criterion: Criterion) -> PiecesKernel:
     """Return the kernel of flights of `loop` in pieces, compiled or from the cache. Raises as `pieces_problem`."""
-    function, room = _compiled(replace(loop, plant=loop.sampled.replace(seed=0)), criterion)
+    function, room = _compiled(replace(loop, plant=pieces_structure(loop.sampled)), criterion)
     return PiecesKernel(loop, function, room)
 
 

@@ -7,17 +7,25 @@ import { build } from "esbuild";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 const out = resolve(process.argv[2] ?? join(here, "../src/flypend/pages/web"));
+const common = {
+  absWorkingDir: here, bundle: true, minify: true, format: "iife", target: ["chrome100", "firefox100", "safari15.4"], charset: "ascii",
+};
+
+/** `import text from "worker:./file.js"`: the file, bundled, as text, for a worker that a page makes of it. */
+const worker = {
+  name: "worker",
+  setup({ onResolve, onLoad }) {
+    onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({ path: resolve(resolveDir, path.slice(7)), namespace: "worker" }));
+    onLoad({ filter: /./, namespace: "worker" }, async ({ path }) => {
+      const { outputFiles } = await build({ ...common, entryPoints: [path], write: false });
+      return { contents: outputFiles[0].text, loader: "text" };
+    });
+  },
+};
+
 await mkdir(out, { recursive: true });
 await build({
-  absWorkingDir: here,
-  entryPoints: ["src/replay.js", "src/lab.js"],
-  bundle: true,
-  minify: true,
-  format: "iife",
-  target: ["chrome100", "firefox100", "safari15.4"],
-  charset: "ascii",
-  legalComments: "inline",
-  loader: { ".css": "text" },
-  outdir: out,
+  ...common, entryPoints: ["src/replay.js", "src/lab.js", "src/live.js"], legalComments: "inline", loader: { ".css": "text" }, outdir: out,
+  plugins: [worker],
 });
 await copyFile(join(here, "node_modules/three/LICENSE"), join(out, "THREE-LICENSE.txt"));

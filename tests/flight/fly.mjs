@@ -1,15 +1,14 @@
-// Calls a kernel through the engine of the pages: a JSON of names, arrays and integers comes in, the arrays go out.
+// Flies a module through the simulation of the pages: a JSON of facts, start, seed and pieces comes in, rows go out.
 import { readFileSync, writeFileSync } from "node:fs";
-import { Engine } from "../../web/src/engine.js";
+import { Simulation } from "../../web/src/live/simulation.js";
 
-const [, , code, names, from, to] = process.argv;
-const KINDS = { float64: Float64Array, int64: BigInt64Array };
-const given = {};
-for (const [name, { kind, bytes, number }] of Object.entries(JSON.parse(readFileSync(from)))) {
-  if (kind) given[name] = new KINDS[kind](Uint8Array.from(Buffer.from(bytes, "base64")).buffer);
-  else given[name] = BigInt(number);
-}
-const engine = await Engine.from(readFileSync(code), names.split(","));
-engine.call(given);
-const out = Object.entries(given).filter(([, value]) => ArrayBuffer.isView(value));
-writeFileSync(to, JSON.stringify(Object.fromEntries(out.map(([name, { buffer }]) => [name, Buffer.from(buffer).toString("base64")]))));
+const [, , code, from, to] = process.argv;
+const { facts, start, seed, pieces } = JSON.parse(readFileSync(from));
+const simulation = await Simulation.from(readFileSync(code), facts);
+simulation.begin(start, seed);
+const rows = pieces.map(({ ticks, gains, knobs, impulses }) => {
+  simulation.tune(gains ?? {});
+  simulation.turn(knobs ?? {});
+  return Buffer.from(simulation.advance(ticks, impulses).buffer);
+});
+writeFileSync(to, JSON.stringify({ rows: Buffer.concat(rows).toString("base64"), outcome: simulation.outcome() }));

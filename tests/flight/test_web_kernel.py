@@ -12,11 +12,11 @@ from llvmlite import ir
 import flypend as fp
 from flypend.compile import wasm
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import wasm32
-from flypend.flight.criterion import REDUCTIONS
-from flypend.flight.kernels.sampled import plant_numbers, sampled_kernel
+from flypend.flight.kernels.pieces import pieces_kernel
+from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_kernel
+from flypend.flight.live import engine_facts
 from flypend.laws.references import circle
 from flypend.model.state import seen_packed
 from flypend.plants import plant
@@ -29,35 +29,22 @@ SEED = 7
 CHANGE = np.random.default_rng(1).standard_normal(24)
 
 
-def flown_by_page(loop, starts, tmp_path, width=1):
-    """States and rotor forces at `KEPT` times, and the reductions, of flights of the module."""
-    runs, n = len(starts), len(loop.vehicle.rotor_spins)
-    count = round(DURATION * loop.sampled.rate)
-    keep = np.arange(0, count + 1, count // KEPT)
-    least = np.full((runs, n), loop.vehicle.rotor_limits[0])
-    given = {
-        "starts": np.concatenate([seen_packed(starts.packed(), loop.law.e3), least], axis=1),
-        "parameters": np.zeros((runs, 1)), "plant": plant_numbers(loop),
-        "seeds": SEED + np.arange(runs), "runs": runs, "ticks": count, "sample_ticks": keep, "sample_count": len(keep),
-        "judged": np.ones_like(keep), "rows": np.arange(len(keep) + 1), "row_count": len(keep),
-        "samples": np.full((runs, len(keep), 24 + n), np.nan), "reductions": np.zeros((runs, len(REDUCTIONS))),
-        "final": np.zeros((runs, 24)), "end": np.zeros(runs), "status": np.zeros(runs, dtype=np.int64),
-        "stop": np.zeros(1, dtype=np.int64),
-    }  # fmt: skip
-    told = {
-        name: {"kind": str(value.dtype), "bytes": base64.b64encode(np.ascontiguousarray(value)).decode()}
-        if isinstance(value, np.ndarray) else {"number": value}
-        for name, value in given.items()
-    }  # fmt: skip
+def flown_by_page(loop, starts, tmp_path, pieces=None):
+    """States and rotor forces at every tick of the module's flights, (runs, ticks, 24 + n), and how they ended."""
+    facts = engine_facts(loop)
     code, into, out = (tmp_path / name for name in ("kernel.wasm", "in.json", "out.json"))
-    code.write_bytes(web_kernel(loop, fp.Criterion(), width))
-    into.write_text(json.dumps(told))
-    subprocess.run(["node", Path(__file__).with_name("fly.mjs"), code, ",".join(ARGUMENTS), into, out], check=True)
-    found = {
-        name: np.frombuffer(base64.b64decode(text), given[name].dtype)
-        for name, text in json.loads(out.read_text()).items()
-    }
-    return {name: found[name].reshape(given[name].shape) for name in ("samples", "reductions", "end", "status")}
+    code.write_bytes(base64.b64decode(facts.pop("code")))
+    pieces = pieces or [{"ticks": round(DURATION * loop.sampled.rate)}]
+    flown, ends = [], []
+    for i, start in enumerate(np.atleast_2d(seen_packed(starts.packed(), loop.law.e3))):
+        into.write_text(json.dumps({"facts": facts, "start": start.tolist(), "seed": SEED + i, "pieces": pieces}))
+        subprocess.run(["node", Path(__file__).with_name("fly.mjs"), code, into, out], check=True)
+        told = json.loads(out.read_text())
+        rows = np.frombuffer(base64.b64decode(told["rows"])).reshape(-1, 24 + len(loop.vehicle.rotor_spins))
+        count = 1 + sum(piece["ticks"] for piece in pieces)
+        flown.append(np.pad(rows, ((0, count - len(rows)), (0, 0)), constant_values=np.nan))
+        ends.append(told["outcome"])
+    return np.array(flown), ends
 
 
 def flown_here(loop, starts):
@@ -67,14 +54,17 @@ def flown_here(loop, starts):
     return kernel.fly(starts.packed(), DURATION, judge_at=keep, keep_at=keep, first_seed=SEED, workers=1)
 
 
-def assert_equal(loop, starts, tmp_path, width=1):
+def assert_equal(loop, starts, tmp_path):
     """Closer than 1e-9, or, where a flight amplifies rounding, than what a change of the start by 1e-12 makes of it.
 
     A flight that makes 1e-3 of that is chaos, which no two processors share.
     """
-    page, here = flown_by_page(loop, starts, tmp_path, width), flown_here(loop, starts)
-    own = seen_packed(page["samples"][..., :24], loop.law.e3)
-    assert np.array_equal(page["status"], here.code)
+    (page, ends), here = flown_by_page(loop, starts, tmp_path), flown_here(loop, starts)
+    own = seen_packed(page[:, :: (page.shape[1] - 1) // KEPT, :24], loop.law.e3)
+    assert [end["status"] for end in ends] == here.code.tolist()
+    # Judged at every hundredth of a second there, and 60 times here: of what is reduced, the effort hardly differs.
+    effort = [(end["reductions"][5], there[5]) for end, there in zip(ends, here.reductions, strict=True)]
+    np.testing.assert_allclose(*np.transpose(effort)[:, here.code == 0], rtol=0.05)
     scale, kept = 1 + np.abs(here.samples[..., :24]), here.samples[..., :24]
     beside = flown_here(loop, fp.State.trusted(starts.packed() + 1e-12 * CHANGE)).samples[..., :24]
     apart = np.maximum.accumulate(np.nanmax(np.abs(beside - kept) / scale, axis=-1), axis=-1)
@@ -94,6 +84,13 @@ def loop_of(law, vehicle="hehn2011", through="rotors"):
     return Loop(machine, getattr(fp.laws, law)().bind(machine), plant(through) if isinstance(through, str) else through)
 
 
+REAL = plant("rotors").replace(
+    delay=0.006,
+    noise=Noise(x=1e-3, x_dot=1e-2, attitude=2e-3, omega=1e-2, y=2e-3, y_dot=2e-2),
+    wind=Wind(gust_on_vehicle=0.1, gust_on_bob=0.01),
+)
+
+
 @pytest.mark.parametrize("vehicle", ["hehn2011", "nayak2018", "crazyflie"])
 @pytest.mark.parametrize("law", LAWS)
 def test_a_page_flies_what_the_package_flies(law, vehicle, tmp_path):
@@ -102,15 +99,9 @@ def test_a_page_flies_what_the_package_flies(law, vehicle, tmp_path):
         assert error.max() < 1e-9
 
 
-@pytest.mark.parametrize("width", [1, 2])
-def test_noise_gusts_delay_and_observer_are_those_of_the_package(tmp_path, width):
-    real = plant("rotors").replace(
-        delay=0.006,
-        noise=Noise(x=1e-3, x_dot=1e-2, attitude=2e-3, omega=1e-2, y=2e-3, y_dot=2e-2),
-        wind=Wind(gust_on_vehicle=0.1, gust_on_bob=0.01),
-    )
+def test_noise_gusts_delay_and_observer_are_those_of_the_package(tmp_path):
     starts = fp.random_starts(4, 11)
-    error = assert_equal(loop_of("inverted", through=real), starts, tmp_path, width)
+    error = assert_equal(loop_of("inverted", through=REAL), starts, tmp_path)
     assert error.shape == (4, KEPT + 1)
 
 
@@ -118,6 +109,30 @@ def test_a_reference_that_moves_is_followed(tmp_path):
     machine = fp.vehicle("hehn2011")
     law = fp.laws.inverted(reference=circle(radius=0.5, rate=1.5))
     assert_equal(Loop(machine, law.bind(machine), plant("rotors")), start(), tmp_path)
+
+
+def test_what_changes_on_the_way_changes_it_as_in_the_package(tmp_path):
+    rng, loop = np.random.default_rng(3), loop_of("inverted", through=REAL)
+    loop = Loop(loop.vehicle, loop.law, loop.plant, ("rod_bandwidth", "throw_speed"))
+    pieces, flight = [], pieces_kernel(loop, fp.Criterion()).begin(start()[0], seed=SEED)
+    here = []
+    for ticks in (1, 400, 99, 1000, 500, 1000):
+        piece = {
+            "ticks": ticks, "impulses": rng.normal(0, 0.05, 6).tolist(),
+            "gains": {"rod_bandwidth": loop.law.gains["rod_bandwidth"] * rng.uniform(0.9, 1.1)},
+            "knobs": {
+                "delay": [rng.uniform(0, 0.02)], "lag": [rng.uniform(0.01, 0.05)], "gust_on_vehicle": [0.05],
+                "on_bob": rng.normal(0, 0.1, 3).tolist(), "origin": rng.normal(0, 0.2, 3).tolist(),
+            },
+        }  # fmt: skip
+        pieces.append(piece)
+        flight.tune(piece["gains"])
+        flight.turn(**piece["knobs"])
+        here.append(flight.advance(ticks, piece["impulses"]))
+    # The page keeps no knob that a piece does not tell; here all pieces tell the same ones.
+    page, _ = flown_by_page(loop, start(), tmp_path, pieces)
+    assert flight.status == "completed"
+    np.testing.assert_allclose(page[0], np.concatenate(here), atol=1e-9)
 
 
 # The module -----------------------------------------------------------------------------------------------------------
@@ -131,7 +146,7 @@ def test_the_module_takes_two_things_and_gives_one(tmp_path):
         console.log(names(WebAssembly.Module.imports(module)), names(WebAssembly.Module.exports(module)));
     """
     said = subprocess.run(["node", "-e", script], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-    assert said.split() == ["__linear_memory,__stack_pointer", "kernel"]
+    assert said.split() == ["__linear_memory,__stack_pointer,exp", "context_size,kernel,shown,turned"]
 
 
 def rooted():

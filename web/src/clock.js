@@ -7,7 +7,7 @@ export const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 export class Clock {
   /** From `start` to `end`, in seconds of flight; `changed` is called whenever anything here changes. */
   constructor(start, end, changed) {
-    Object.assign(this, { start, end, changed, time: start, speed: 1, playing: false });
+    Object.assign(this, { start, end, changed, time: start, speed: 1, playing: false, drive: null });
   }
 
   /** Another start and end; the time stays if it lies between. */
@@ -16,9 +16,17 @@ export class Clock {
     this.seek(this.time);
   }
 
+  /** Let `drive` (elapsed seconds of the wall, speed) say where the time goes, which has then no end; null: play as usual. */
+  follow(drive) {
+    this.drive = drive;
+    this.playing = Boolean(drive);
+    this.changed();
+  }
+
   play() {
-    if (this.time >= this.end) this.time = this.start;
-    this.playing = this.end > this.start;
+    if (this.drive) this.time = this.end;
+    else if (this.time >= this.end) this.time = this.start;
+    this.playing = Boolean(this.drive) || this.end > this.start;
     this.changed();
   }
 
@@ -53,6 +61,10 @@ export class Clock {
   /** Let `elapsed` seconds of the wall pass. */
   tick(elapsed) {
     if (!this.playing) return;
+    if (this.drive) {
+      this.drive(elapsed, this.speed);
+      return;
+    }
     this.time = Math.min(this.time + elapsed * this.speed, this.end);
     if (this.time >= this.end) this.pause();
   }

@@ -34,7 +34,7 @@ export class Player {
 
   show() {
     const { clock } = this;
-    const icon = clock.playing ? "pause" : clock.time >= clock.end && clock.end > clock.start ? "again" : "play";
+    const icon = clock.playing ? "pause" : !clock.drive && clock.time >= clock.end && clock.end > clock.start ? "again" : "play";
     if (this.shown !== icon) {
       this.shown = icon;
       this.icon.setAttribute("d", ICONS[icon]);

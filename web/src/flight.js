@@ -15,11 +15,11 @@ export function floats(base64) {
 }
 
 export class Flight {
-  /** `record` is one entry of `runs` that flypend.replay writes: facts about the run, and `columns` in base64. */
+  /** `record` is one entry of `runs` that flypend.replay writes: facts about the run, and `columns`, arrays or in base64. */
   constructor(record) {
     const { columns, ...facts } = record;
     Object.assign(this, facts);
-    this.columns = Object.fromEntries(Object.entries(columns).map(([name, text]) => [name, floats(text)]));
+    this.columns = Object.fromEntries(Object.entries(columns).map(([name, values]) => [name, typeof values === "string" ? floats(values) : values]));
     this.t = this.columns.t;
     this.rotors = this.vehicle.rotor_positions.length;
     this.turned = angles(this);
@@ -66,8 +66,8 @@ export class Flight {
     };
   }
 
-  /** Values to plot over `t`: "y3", "z3", "thrust", "distance" from the reference, "clearance", or "rotor k". */
-  series(name) {
+  /** Values to plot over `t` from sample `from` on: "y3", "z3", "thrust", "distance" from the reference, "clearance", or "rotor k". */
+  series(name, from = 0) {
     const rotor = /^rotor (\d+)$/.exec(name);
     const read = {
       y3: (i) => this.columns.y[3 * i + 2],
@@ -76,20 +76,23 @@ export class Flight {
       clearance: (i) => this.columns.clearance[i],
       distance: (i) => Math.hypot(...this.sample("x", i).map((value, k) => value - this.columns.x_ref[3 * i + k])),
     }[name] ?? ((i) => this.columns.rotor_forces[this.rotors * i + Number(rotor[1]) - 1]);
-    return Float32Array.from(this.t, (_, i) => read(i));
+    return Float32Array.from({ length: this.t.length - from }, (_, i) => read(from + i));
   }
 }
 
-/** Angle of every rotor at every sample, so that the picture at a time does not depend on how one got there. */
-function angles(flight) {
+/**
+ * Angle of every rotor at every sample, so that the picture at a time does not depend on how one got there; `turned` are those
+ * of the first samples, if they are known.
+ */
+export function angles(flight, turned = []) {
   const { t, rotors, columns, vehicle } = flight;
   const share = vehicle.weight > 0 ? vehicle.weight / rotors : 1;
   const rate = (i, k) => {
     const force = columns.rotor_forces[i * rotors + k] / share;
     return 2 * Math.PI * TURNS_IN_HOVER * Math.sign(force) * Math.sqrt(Math.min(Math.abs(force), 9));
   };
-  const turned = [new Array(rotors).fill(0)];
-  for (let i = 1; i < t.length; i++) {
+  if (!turned.length) turned.push(new Array(rotors).fill(0));
+  for (let i = turned.length; i < t.length; i++) {
     turned.push(turned[i - 1].map((angle, k) => angle + (t[i] - t[i - 1]) * (rate(i, k) + rate(i - 1, k)) / 2));
   }
   return turned;

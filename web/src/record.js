@@ -12,7 +12,6 @@ export class Recorder {
   constructor(viewer, done) {
     const { width, height } = viewer.parts.canvas;
     Object.assign(this, { viewer, done, kept: [], film: Object.assign(document.createElement("canvas"), { width, height }) });
-    this.context = this.film.getContext("2d");
     this.media = new MediaRecorder(this.film.captureStream(RATE), { mimeType: movieKind(), videoBitsPerSecond: 8e6 });
     this.media.addEventListener("dataavailable", ({ data }) => this.kept.push(data));
     this.media.addEventListener("stop", () => done(this.given ? null : new Blob(this.kept, { type: this.media.mimeType })));
@@ -20,29 +19,23 @@ export class Recorder {
 
   start() {
     const { clock } = this.viewer;
-    clock.seek(clock.start);
+    if (!clock.drive) clock.seek(clock.start);
     this.media.start();
     clock.play();
     this.frame();
   }
 
+  /** End it: given up, unless the flight has no end of its own. */
   stop() {
-    this.given = true;
+    this.given = !this.viewer.clock.drive;
     this.#end();
   }
 
   /** Take the picture that has just been drawn. */
   frame() {
-    const { viewer, context, film } = this, { canvas } = viewer.parts, { clock } = viewer, colours = viewer.theme.colours;
-    const scale = film.height / canvas.clientHeight, size = 14 * scale;
-    context.fillStyle = colours.sky;
-    context.fillRect(0, 0, film.width, film.height);
-    context.drawImage(canvas, 0, 0, film.width, film.height);
-    Object.assign(context, { fillStyle: colours.ink, textBaseline: "top", font: `600 ${size}px system-ui, sans-serif` });
-    context.fillText(viewer.title, size, size);
-    context.font = `${size}px system-ui, sans-serif`;
-    context.fillText(`${clock.time.toFixed(2)} s, ${clock.speed}× real time`, size, 2.4 * size);
-    if (clock.playing || clock.time < clock.end) return;
+    const { viewer, film } = this, { clock } = viewer, colours = viewer.theme.colours;
+    const { context, size } = paint(viewer, film);
+    if (clock.drive || clock.playing || clock.time < clock.end) return;
     viewer.flights.forEach(({ title, verdict }, i) => {
       context.fillStyle = verdict.good ? colours.good : colours.alarm;
       context.fillText(viewer.flights.length > 1 ? `${title}: ${verdict.words}` : verdict.words, size, (4 + 1.4 * i) * size);
@@ -56,11 +49,36 @@ export class Recorder {
   }
 }
 
-/** Offer a `movie` as a file called `name`. */
-export function save(movie, name) {
+/** Paint on `film` what `viewer` has just drawn, with title and time; returns the context and the size of a letter. */
+function paint(viewer, film) {
+  const { clock, parts: { canvas }, theme: { colours } } = viewer, context = film.getContext("2d");
+  const scale = film.height / canvas.clientHeight, size = 14 * scale;
+  context.fillStyle = colours.sky;
+  context.fillRect(0, 0, film.width, film.height);
+  context.drawImage(canvas, 0, 0, film.width, film.height);
+  Object.assign(context, { fillStyle: colours.ink, textBaseline: "top", font: `600 ${size}px system-ui, sans-serif` });
+  context.fillText(viewer.title, size, size);
+  context.font = `${size}px system-ui, sans-serif`;
+  context.fillText(`${clock.time.toFixed(2)} s, ${clock.speed}× real time`, size, 2.4 * size);
+  return { context, size };
+}
+
+/** Have the next picture of `viewer`, with title and time, as a PNG told to `done`. */
+export function picture(viewer, done) {
+  const { width, height } = viewer.parts.canvas, film = Object.assign(document.createElement("canvas"), { width, height });
+  viewer.shoot = () => {
+    viewer.shoot = null;
+    paint(viewer, film);
+    film.toBlob(done, "image/png");
+  };
+  viewer.wake();
+}
+
+/** Offer a file called `name`; the `ending` of a movie is that of its kind. */
+export function save(blob, name, ending = blob.type.includes("mp4") ? "mp4" : "webm") {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(movie);
-  link.download = `${name}.${movie.type.includes("mp4") ? "mp4" : "webm"}`;
+  link.href = URL.createObjectURL(blob);
+  link.download = `${name}.${ending}`;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

@@ -1,18 +1,21 @@
 // Which quantities of which flights are plotted, and how: colour and marks tell the quantity, dashes tell the flight.
 
 import { MARKS } from "./marks.js";
+import { indexBefore } from "./numbers.js";
 
 export const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]];
 export const ROTORS = ["rotor1", "rotor2", "rotor3", "rotor4"];
 const LEAST_DISTANCE = 0.05; // m: an axis of the position error shows at least this, not the noise of the integration
 
-/** Options of the plots of `flights`, for `Plot`. */
-export function plots(flights) {
-  const [first] = flights;
-  const start = Math.min(...flights.map((flight) => flight.start)), end = Math.max(...flights.map((flight) => flight.end));
+/** Options of the plots of `flights`, for `Plot`: from the time `since`, up to which the first may have gone on, or all. */
+export function plots(flights, since = -Infinity) {
+  const [first] = flights, going = since > -Infinity;
+  const start = Math.max(since, Math.min(...flights.map((flight) => flight.start)));
+  const end = going ? first.end : Math.max(...flights.map((flight) => flight.end));
   const line = (name, label, role, mark, of = flights) => of.map((flight, k) => {
     const i = flights.indexOf(flight), style = { dash: DASHES[i], width: i ? 1.3 : 1.8, opacity: i ? 0.75 : 1 };
-    return { label: k ? "" : label, role, mark: k ? "" : mark, ...style, t: flight.t, values: flight.series(name) };
+    const from = going ? indexBefore(flight.t, start) : 0;
+    return { label: k ? "" : label, role, mark: k ? "" : mark, ...style, t: flight.t.subarray(from), values: flight.series(name, from) };
   });
   const touches = flights.filter((flight) => flight.verdict.part).map((flight) => flight.end);
   const axis = { start, end, touches };

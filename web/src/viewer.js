@@ -44,26 +44,41 @@ export class Viewer {
     this.last = null;
   }
 
-  /** Show other runs, packed as in the page; the clock stays where it is as far as they last, the camera as it looks. */
+  /** Show other runs, packed as in the page or flights; the clock stays where it is as far as they last, the camera as it looks. */
   load(runs) {
     const first = !this.stage;
-    this.flights = runs.map((record) => new Flight(record));
+    this.flights = runs.map((record) => (record instanceof Flight ? record : new Flight(record)));
     const ends = this.flights.map((flight) => flight.end), starts = this.flights.map((flight) => flight.start);
     this.clock.span(Math.min(...starts), Math.max(...ends));
     this.player.mark(this.flights);
     legend(this.parts.legend, this.flights);
     this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
-    const wanted = plots(this.flights);
-    for (const plot of this.plots.splice(wanted.length)) plot.root.remove();
-    wanted.forEach((options, i) => {
-      if (this.plots[i]) this.plots[i].load(options);
-      else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
-    });
+    this.#plot(plots(this.flights));
     this.#stage();
     if (first) this.#begin();
     this.layouts.root.hidden = this.flights.length < 2;
     if (this.flights.length < 2) this.layout("overlay");
     this.#redraw();
+    this.wake();
+  }
+
+  #plot(wanted) {
+    for (const plot of this.plots.splice(wanted.length)) plot.root.remove();
+    wanted.forEach((options, i) => {
+      if (this.plots[i]) this.plots[i].load(options);
+      else this.plots.push(new Plot(this.parts.plots, options, (t) => this.clock.seek(t)));
+    });
+  }
+
+  /** The first flight has grown: go to its end, show its last `span` seconds, and in the plots too if it is `time` for that. */
+  grown(span, time) {
+    const [flight] = this.flights;
+    Object.assign(this.clock, { start: flight.start, end: flight.end, time: flight.end });
+    this.stage?.grow(span);
+    if (time) {
+      this.#plot(plots(this.flights, flight.end - span));
+      this.#redraw();
+    }
     this.wake();
   }
 
@@ -196,6 +211,7 @@ export class Viewer {
       moving = stage.render(elapsed || 1 / 60);
       this.captions.show(stage, clock.time, this.theme.colours);
       this.recorder?.frame();
+      this.shoot?.();
     }
     this.player.show();
     for (const plot of this.plots) plot.show(clock.time);

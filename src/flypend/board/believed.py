@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,3 +36,17 @@ class Believed:
     def numbers(cls, vehicle: Vehicle) -> Believed:
         """The nominal `vehicle` with its parameters as constants of the equations."""
         return cls(vehicle, len(vehicle.rotor_spins), vehicle.rotor_lag)
+
+    @classmethod
+    def limited(cls, vehicle: Vehicle) -> Believed:
+        """The nominal `vehicle` with its parameters as constants, and symbols for least and largest rotor force, N."""
+        limits = ca.SX.sym("limits", 2)
+        return cls(_limited(vehicle, limits), len(vehicle.rotor_spins), vehicle.rotor_lag, limits)
+
+
+def _limited(vehicle: Vehicle, limits: Any) -> Any:
+    """Return a copy of `vehicle` whose rotor limits are symbols, which its class would refuse."""
+    twin = copy(vehicle)
+    object.__setattr__(twin, "rotor_limits", (limits[0], limits[1]))
+    object.__setattr__(twin, "seen", lambda e3: _limited(vehicle.seen(e3), limits))
+    return twin

@@ -10,7 +10,7 @@ import traceback
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -30,6 +30,9 @@ from flypend.cli.options import (
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.compile.aside import left_behind
 from flypend.errors import InputError
+
+if TYPE_CHECKING:
+    from flypend.flight.request import Flight
 
 
 class _Commands(click.Group):
@@ -90,6 +93,9 @@ def paper(out: Path, quick: bool, style: str) -> None:
 @click.option("--figures/--no-figures", default=True, help="Draw the figures (--no-figures also skips the movies).")
 @click.option("--controller", help="python, or the law as exported, compiled C: c (double) or c-float.")
 @click.option("--html", type=path, metavar="FILE", help="Also write the replay, a page for any browser.")
+@click.option(
+    "--live", is_flag=True, help="The page of --html flies by itself: poke, pull, start anywhere, move gains."
+)
 @style_option
 def run(
     what: str,
@@ -100,6 +106,7 @@ def run(
     figures: bool,
     controller: str | None,
     html: Path | None,
+    live: bool,
     style: str,
 ) -> None:
     """Fly WHAT: one experiment of the paper (1, 2, 2-projected, 3, 4, 5), or a TOML file with your own.
@@ -132,6 +139,8 @@ def run(
     check_writable(out)
     if html is not None:
         check_file(html, (".html",))
+    if live:
+        check_live(flight, html)
     trajectory = fly(flight)
     # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
@@ -150,7 +159,7 @@ def run(
         progress=draw,
     )
     if html is not None:
-        trajectory.to_html(html)
+        trajectory.to_html(html, live=live)
     console.print(
         f"{told(flight.law, flight.vehicle)} on {vehicle_told(flight.vehicle)}: {trajectory.outcome}", markup=False
     )
@@ -158,9 +167,19 @@ def run(
     if verdicts:
         title = f"{THEOREMS.get(trajectory.law, 'Theorem 1')}: which claim holds"
         console.print(summary_table({(trajectory.law, what): verdicts}, title=title))
-    console.print(f"Results are in {bold(out)}{f', the replay is {bold(html)}' if html else ''}.")
+    page = f", the {'live page' if live else 'replay'} is {bold(html)}" if html else ""
+    console.print(f"Results are in {bold(out)}{page}.")
     if trajectory.outcome.status != "completed":
         sys.exit(1)
+
+
+def check_live(flight: Flight, html: Path | None) -> None:
+    """Raise InputError unless a page `html` is asked for, and can fly `flight` by itself."""
+    from flypend.flight.live import live_loop
+
+    if html is None:
+        raise InputError("--live", "--html FILE, the page that flies", "none")
+    live_loop(flight)
 
 
 starts_option = click.option(

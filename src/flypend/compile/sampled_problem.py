@@ -83,6 +83,25 @@ class Sensing:
 
 
 @dataclass(frozen=True)
+class Resuming:
+    """What a flight in pieces takes at the beginning of each piece, and an ordinary one has compiled in.
+
+    Parameters
+    ----------
+    strike : Program
+        (state, impulses (6,) on vehicle and bob, N s) → state.
+    stretches : int
+        Number of intervals in a control tick; their ages and steps are inputs.
+    depth : int
+        Number of commands to buffer.
+    """
+
+    strike: Program
+    stretches: int
+    depth: int
+
+
+@dataclass(frozen=True)
 class SampledProblem:
     """A sampled flight as programs.
 
@@ -118,6 +137,8 @@ class SampledProblem:
         Whether random numbers are drawn.
     touch : Touch, optional
         What ends a flight as collided.
+    resuming : Resuming, optional
+        For flights in pieces, through equations; in place of `flown`.
     """
 
     board: Routine
@@ -134,6 +155,7 @@ class SampledProblem:
     random: bool
     touch: Touch | None = None
     sensing: Sensing | None = None
+    resuming: Resuming | None = None
 
     @property
     def memory(self) -> int:
@@ -166,10 +188,16 @@ class SampledProblem:
         return self.begin.inputs[0]
 
     @property
-    def inputs(self) -> tuple[int, int, int]:
-        """Lengths of the inputs shared by all flights of a call: timings, noise parameters and wind parameters."""
+    def inputs(self) -> tuple[int, int, int, int, int]:
+        """Lengths of the inputs shared by all flights of a call.
+
+        They are ages and steps of the intervals of a flight in pieces, timings, noise parameters, wind parameters, and
+        parameters of the board.
+        """
         noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
-        return self.timing * len(self.flown), noise, wind
+        stretches = self.resuming.stretches if self.resuming else len(self.flown)
+        schedule = 2 * stretches if self.resuming else 0
+        return schedule, self.timing * stretches, noise, wind, self.board.inputs[4]
 
     @property
     def gust(self) -> int:
@@ -186,4 +214,4 @@ class SampledProblem:
     @property
     def depth(self) -> int:
         """Number of commands to buffer: those in transit and the current one."""
-        return 1 + max(stretch.age for stretch in self.flown)
+        return self.resuming.depth if self.resuming else 1 + max(stretch.age for stretch in self.flown)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -95,7 +96,9 @@ def simulate(
 def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
     """Fly a request with a single start by `engine`, "kernel" or "scipy", as in `simulate`."""
     errors.one_of("engine", engine, ENGINES)
-    return _ideal(flight, engine) if isinstance(flight.plant, Ideal) else _sampled(flight, flight.plant, engine)
+    plant = flight.plant
+    run = _ideal(flight, engine) if isinstance(plant, Ideal) else _sampled(flight, plant, engine)
+    return replace(run, flight=flight)
 
 
 def _ideal(flight: Flight, engine: str) -> Trajectory:

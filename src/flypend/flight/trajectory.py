@@ -24,6 +24,8 @@ from flypend.model.state import FLIP, SHAPES, E3Direction
 if TYPE_CHECKING:
     import xarray
 
+    from flypend.flight.request import Flight
+
 _DRIFT_OF = ("length of y", "tangency of y_dot", "orthogonality of R")
 _STATE = tuple(SHAPES)
 _ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces", "x_ref")
@@ -61,6 +63,8 @@ class Trajectory:
         Reference position, m; default the origin.
     interpolant : callable, optional
         Dense output, from times to packed states; not saved to files.
+    flight : Flight, optional
+        What was flown, for pages that fly on; not saved to files.
     """
 
     t: Any
@@ -82,6 +86,7 @@ class Trajectory:
     gains: Mapping[str, Any]
     x_ref: Any = None
     interpolant: Callable[[Any], Any] | None = None
+    flight: Flight | None = None
 
     def __post_init__(self) -> None:
         if self.x_ref is None:
@@ -164,6 +169,7 @@ class Trajectory:
             x_ref=self.x_ref @ FLIP,
             e3="down" if self.e3 == "up" else "up",
             interpolant=None,
+            flight=None,
         )
 
     def to_xarray(self) -> xarray.Dataset:
@@ -224,6 +230,7 @@ class Trajectory:
         title: str | None = None,
         layout: str = "overlay",
         speed: float = 1.0,
+        live: bool = False,
     ) -> str:
         """Render a replay of this run: one HTML page that opens from disk, offline, in any browser.
 
@@ -239,6 +246,10 @@ class Trajectory:
             The other runs as ghosts in the same view, or each in its own view. A button on the page switches.
         speed : float
             Initial flight time over playback time, > 0. A menu on the page changes it.
+        live : bool
+            Whether the page flies by itself: pokes, starts, gains and a hand on the rod are answered by the equations,
+            as WebAssembly. For flights through a sampled plant of the built-in equations, under a compiled law, flown
+            in this session; the other runs stay as they were.
 
         Returns
         -------
@@ -248,8 +259,8 @@ class Trajectory:
         Raises
         ------
         InputError
-            If there are more than four runs, the layout is unknown, the speed is not positive, or the file is not
-            writable.
+            If there are more than four runs, the layout is unknown, the speed is not positive, the file is not
+            writable, or the run cannot be `live`.
         """
         from flypend.flight.verdict import verdict  # imported here: most runs are never shown
         from flypend.pages import replay
@@ -258,7 +269,8 @@ class Trajectory:
         if not (isinstance(others, Sequence) and all(isinstance(other, Trajectory) for other in others)):
             raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
         runs = [self, *others]
-        text = replay.page(runs, [verdict(run) for run in runs], title=title, layout=layout, speed=speed)
+        verdicts = [verdict(run) for run in runs]
+        text = replay.page(runs, verdicts, title=title, layout=layout, speed=speed, live=_live(self) if live else None)
         if path is not None:
             with whole_file(path, (".html",)) as partial:
                 partial.write_text(text, encoding="utf-8")
@@ -269,6 +281,12 @@ class Trajectory:
         from flypend.pages import replay
 
         return replay.frame(self.to_html())
+
+
+def _live(run: Trajectory) -> dict[str, Any]:
+    from flypend.flight.live import live_data
+
+    return live_data(run.flight)
 
 
 def load(path: str | Path) -> Trajectory:

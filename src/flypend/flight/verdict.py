@@ -11,6 +11,7 @@ from flypend.flight.metrics import metrics
 from flypend.flight.touch import touched_part
 from flypend.model.state import E3Direction
 
+POSES = {"up": "upright", "down": "rod along e₃, which hangs,"}
 MISSED = {"rod": "rod not settled", "axis": "vehicle not level", "position": "off its reference"}
 
 Run = Any  # flypend.Trajectory, not imported: its module imports this one
@@ -38,8 +39,7 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
         if part is not None:
             words += f", {run.outcome.reason}"
     elif judged.success:
-        pose = "upright" if run.e3 == "up" else "rod along e₃, which hangs,"
-        words = f"{pose} after {judged.settling:.1f} s, {distance}"
+        words = f"{POSES[run.e3]} after {judged.settling:.1f} s, {distance}"
     else:
         words = f"{MISSED.get(judged.cause, judged.cause)} during the last second, {distance}"
     return {

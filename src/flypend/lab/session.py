@@ -22,9 +22,10 @@ from flypend.lab.export import python, toml
 from flypend.lab.flying import fly
 from flypend.lab.map import region
 from flypend.lab.own import NONE, OwnLaws
-from flypend.lab.setting import plain, setting_of
+from flypend.lab.setting import setting_of
 from flypend.lab.tuning import tuned
 from flypend.pages import replay
+from flypend.pages.starts import plain
 
 log = logging.getLogger(__name__)
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands overflow the parser's stack

@@ -16,12 +16,13 @@ import numpy as np
 from flypend import errors, geometry
 from flypend.errors import InputError
 from flypend.flight.request import Flight
-from flypend.lab.gains import sliders_of
 from flypend.lab.own import NONE, OwnLaws
 from flypend.laws import Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.shipped import vehicle_names
 from flypend.model.state import FLIP, SHAPES
+from flypend.pages.sliders import sliders_of
+from flypend.pages.starts import plain
 from flypend.plants import Ideal
 from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
 
@@ -111,11 +112,6 @@ def _law(given: dict[str, Any], own: OwnLaws) -> Law | Controller:
         law = law.with_gains(gains, "law.gains")
         _check_gains(law, vehicle)
     return law
-
-
-def plain(state: State) -> dict[str, Any]:
-    """Return the fields of `state` as lists."""
-    return {name: getattr(state, name).tolist() for name in SHAPES}
 
 
 def _start(given: Any) -> State:

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
 from flypend.flight.verdict import goal
-from flypend.lab.gains import sliders_of
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
+from flypend.pages.sliders import sliders_of
 from flypend.plants import Sampled
 
 MOST = 48

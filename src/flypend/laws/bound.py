@@ -87,7 +87,7 @@ class BoundLaw:
 
     Parameters
     ----------
-    name, e3, control, uses_forces, reference, path
+    name, e3, control, uses_forces, reference, path, check
         As in `Law`.
     vehicle : Vehicle
         The nominal vehicle.
@@ -121,6 +121,7 @@ class BoundLaw:
     path: Path | None = None
     fixed: tuple[str, ...] = ()
     theorem: Callable[[BoundLaw, State], Guarantee] | None = None
+    check: Callable[[Mapping[str, Any]], None] | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))

@@ -161,4 +161,5 @@ class Law:
             path=self.path,
             fixed=self.fixed,
             theorem=self.theorem,
+            check=self.check,
         )

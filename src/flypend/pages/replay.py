@@ -33,6 +33,8 @@ Run = Any  # flypend.Trajectory, not imported: its module imports this one
 
 # The page may run inline scripts but fetch nothing.
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
+# A page that flies runs machine code, in a worker that is made of text of the page.
+LIVE_POLICY = POLICY.replace("script-src 'unsafe-inline'", "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:")
 
 PAGE = """<!doctype html>
 <html lang="en">
@@ -59,8 +61,9 @@ def page(
     title: str | None = None,
     layout: str = "overlay",
     speed: float = 1.0,
+    live: dict[str, Any] | None = None,
 ) -> str:
-    """Return the HTML of a page that replays `runs`.
+    """Return the HTML of a page that replays `runs`, or with `live` flies on from the first.
 
     Parameters
     ----------
@@ -75,6 +78,8 @@ def page(
         Whether the other runs appear as ghosts in the scene of the first, or in scenes of their own; a button toggles.
     speed : float
         Initial playback speed, flight time over playback time, > 0.
+    live : dict, optional
+        What the page flies by itself: see `flypend.flight.live`.
 
     Raises
     ------
@@ -93,9 +98,11 @@ def page(
             for run, verdict, name in zip(runs, verdicts, names(runs), strict=True)
         ],
     }
+    policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "live")
     return PAGE.format(
-        policy=html.escape(POLICY), title=html.escape(str(data["title"])), data=embedded(data), program=program()
-    )
+        policy=html.escape(policy), title=html.escape(str(data["title"])), data=embedded(data | (live or {})),
+        program=program(name),
+    )  # fmt: skip
 
 
 def frame(text: str, height: int = 640) -> str:

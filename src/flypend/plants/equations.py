@@ -95,6 +95,20 @@ def stepped(
     return ca.cse([ca.densify(moved), ca.densify(after)])  # type: ignore[no-any-return]
 
 
+def struck(vehicle: Vehicle) -> ca.Function:
+    """Return the CasADi function (state (24,), impulses (6,) on vehicle and bob, N s) → state, e₃ up.
+
+    Accelerations are affine in external forces, so an impulse makes velocities jump by their derivative times it.
+    """
+    packed, forces, impulses = ca.SX.sym("s", SIZE), ca.SX.sym("F", 6), ca.SX.sym("J", 6)
+    motion = disturbed_motion(
+        State.symbolic(packed), Wrench(ca.SX(0), ca.SX.zeros(3)), vehicle, "up", force_on_vehicle=forces[:3],
+        force_on_bob=forces[3:], pivot_offset=vehicle.pivot_offset,
+    )  # fmt: skip
+    jump = ca.mtimes(ca.jacobian(motion.packed(), forces), impulses)
+    return ca.Function("strike", [packed, impulses], [ca.cse(ca.densify(packed + jump))])
+
+
 def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: Vehicle, plant: Plant = ROTORS) -> Any:
     """Return the state (24, 1), e₃ up, after a classical Runge-Kutta step and projection onto the manifold, in CasADi.
 

@@ -53,8 +53,8 @@ def step_timing(lag: float, duration: float) -> Any:
     return np.array([duration, end, mean, _change(1.0, end, mean, lag / duration)])
 
 
-def symbolic_timing(lag: Any, duration: float) -> Any:
-    """Return `step_timing` (4, 1) of a `lag` > 0 that is a CasADi expression."""
+def symbolic_timing(lag: Any, duration: Any) -> Any:
+    """Return `step_timing` (4, 1) of a `lag` > 0 that is a CasADi expression, as may be the `duration`, s."""
     end = ca.exp(-duration / lag)
     mean = (1 - end) * lag / duration
     return ca.vertcat(duration, end, mean, _change(1.0, end, mean, lag / duration))

@@ -46,21 +46,25 @@ def wind_numbers(wind: Wind | None, period: float) -> Any:
     return np.array([decay, *gusty, *wind.on_vehicle, *wind.on_bob, *knocking])
 
 
-def measurement() -> ca.Function:
-    """CasADi function (state (24,), draws (18,), `noise_numbers`) → measured state (24,), on the manifold."""
+def measurement(*, moved: bool = False) -> ca.Function:
+    """CasADi function (state (24,), draws (18,), `noise_numbers`) → measured state (24,), on the manifold.
+
+    If the origin is `moved`, the numbers end with the position (3,) at which it is seen, m.
+    """
     packed, draws, sigma = ca.SX.sym("s", SIZE), ca.SX.sym("n", 18), ca.SX.sym("sigma", NOISE_SIZE)
+    origin = ca.SX.sym("o", 3 if moved else 0)
     noise = dict(zip((entry.name for entry in fields(Noise)), ca.vertsplit(sigma), strict=True))
     s, draw = State.symbolic(packed), [draws[3 * i : 3 * i + 3] for i in range(6)]
     y = unit(s.y + noise["y"] * tangent_part(s.y, draw[4]))
     measured = State(
-        x=s.x + noise["x"] * draw[0],
+        x=s.x + noise["x"] * draw[0] - (origin if moved else 0),
         x_dot=s.x_dot + noise["x_dot"] * draw[1],
         R=s.R @ rotation_by(noise["attitude"] * draw[2]),
         omega=s.omega + noise["omega"] * draw[3],
         y=y,
         y_dot=tangent_part(y, s.y_dot + noise["y_dot"] * draw[5]),
     )
-    return ca.Function("measure", [packed, draws, sigma], [ca.cse(ca.densify(measured.packed()))])
+    return ca.Function("measure", [packed, draws, ca.vertcat(sigma, origin)], [ca.cse(ca.densify(measured.packed()))])
 
 
 def gusts(*, knocks: bool = True) -> ca.Function:

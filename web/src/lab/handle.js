@@ -1,15 +1,17 @@
-// The rod at the start, to be dragged over the sphere of its directions, or turned by the arrow keys.
+// The rod in the hand: at the start, dragged over the sphere of its directions; in a flight that goes on, pulled by the bob.
 
 import { Raycaster, Vector2 } from "three";
 
 import { dot, unit } from "../numbers.js";
 
 const TURN = Math.PI / 36; // by an arrow key
+const ARM = 0.6; // rod lengths, by which an arrow key pulls
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class Handle {
-  /** Over the scene of `viewer`; `moved` is told the direction of the rod, e3 up. */
-  constructor(viewer, moved) {
-    Object.assign(this, { viewer, moved, ray: new Raycaster() });
+  /** Over the scene of `viewer`; `moved` is told the direction of the rod, `pulled` a place in space or null; e3 up. */
+  constructor(viewer, moved, pulled) {
+    Object.assign(this, { viewer, moved, pulled, ray: new Raycaster(), going: false });
     this.root = document.createElement("button");
     Object.assign(this.root, { type: "button", className: "handle", title: "Drag the rod (arrow keys turn it)" });
     this.root.setAttribute("aria-label", "Rod at the start");
@@ -23,16 +25,18 @@ export class Handle {
     this.root.addEventListener("pointermove", (event) => this.held && this.#drag(event));
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) this.root.addEventListener(name, () => this.#hold(false));
     this.root.addEventListener("keydown", (event) => this.#key(event));
+    for (const name of ["keyup", "blur"]) this.root.addEventListener(name, () => this.going && !this.held && this.pulled(null));
   }
 
   get flyer() {
     return this.viewer.stage?.flyers[0];
   }
 
-  /** Go where the bob is; there is nothing to drag later than at the start. */
-  show() {
+  /** Go where the bob is; there is nothing to drag later than at the start, unless the flight goes on: `going`. */
+  show(going) {
     const { viewer, flyer } = this, { clock } = viewer;
-    this.root.hidden = !flyer || clock.playing || clock.time > clock.start + 1e-9;
+    if (going !== this.going) this.#name(going);
+    this.root.hidden = !flyer || (!going && (clock.playing || clock.time > clock.start + 1e-9));
     if (this.root.hidden) return;
     const [left, top] = viewer.stage.screen(0, viewer.stage.factor).bob;
     if (!this.held) this.y = flyer.pose.y;
@@ -40,9 +44,19 @@ export class Handle {
     this.root.style.transform = `translate(${left}px, ${top}px)`;
   }
 
+  #name(going) {
+    this.going = going;
+    this.root.title = going ? "Pull the bob and fling it (arrow keys pull)" : "Drag the rod (arrow keys turn it)";
+    this.root.setAttribute("aria-label", going ? "Bob in flight" : "Rod at the start");
+  }
+
   #hold(held) {
     if (this.held === held) return;
     this.held = held;
+    if (this.going) {
+      if (!held) this.pulled(null);
+      return;
+    }
     this.viewer.stage.hold("rod", held);
     this.viewer.wake();
   }
@@ -53,16 +67,36 @@ export class Handle {
     const across = (event.clientX - area.left - view.left) / view.width, down = (event.clientY - area.top - view.top) / view.height;
     this.ray.setFromCamera(new Vector2(2 * across - 1, 1 - 2 * down), view.camera);
     const from = this.ray.ray.origin.toArray(), way = this.ray.ray.direction.toArray();
+    if (this.going) {
+      this.pulled(this.#across(from, way, view.back));
+      return;
+    }
     // A flight that has just come has no pose before its first frame; its pivot starts where that of the last did.
     const pivot = flyer.pose?.x ?? this.pivot, radius = flyer.flight.vehicle.rod_length * viewer.stage.factor;
     this.y = nearest(from.map((value, k) => (value - pivot[k]) / radius), way, this.y);
     this.moved(this.y);
   }
 
+  /** Where a ray meets the plane through the bob that faces the camera. */
+  #across(from, way, back) {
+    const bob = this.#bob(), distance = dot(bob.map((value, k) => value - from[k]), back) / dot(way, back);
+    return from.map((value, k) => value + distance * way[k]);
+  }
+
+  #bob() {
+    const { pose, flight } = this.flyer;
+    return pose.x.map((value, k) => value + flight.vehicle.rod_length * pose.y[k]);
+  }
+
   #key(event) {
-    const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    const steps = ARROWS[event.key];
     if (!steps) return;
     event.preventDefault();
+    if (this.going) {
+      const { right: across, up: along } = this.viewer.stage.views[0], arm = ARM * this.flyer.flight.vehicle.rod_length;
+      this.pulled(this.#bob().map((value, k) => value + arm * (steps[0] * across[k] + steps[1] * along[k])));
+      return;
+    }
     const { right, up } = this.viewer.stage.views[0], sine = Math.sin(TURN);
     this.y = unit(this.y.map((value, k) => value + sine * (steps[0] * right[k] + steps[1] * up[k])));
     this.moved(this.y);

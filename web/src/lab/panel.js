@@ -5,43 +5,50 @@ import { Group, Slider } from "./slider.js";
 const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
 const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
 
-const HTML = `
+/** The sections; what only a server can do is left out of a page that has none. */
+const html = (served) => `
   <section><h2>Flight <button type="button" class="small undo" title="Take back the last change (Ctrl+Z)" disabled>undo</button>
     <button type="button" class="small redo" title="Do it again (Ctrl+Shift+Z)" disabled>redo</button></h2>
-    <label class="row">Vehicle <select data-path="vehicle.base"></select></label>
+    ${served ? `<label class="row">Vehicle <select data-path="vehicle.base"></select></label>
     <label class="row">Mount <select data-path="vehicle.mount"></select></label>
     <label class="row">Law <select data-path="law.name"></select></label>
-    <label class="row">Plant <select data-path="plant.base"></select></label>
+    <label class="row">Plant <select data-path="plant.base"></select></label>` : ""}
+    <div class="row two live"><button type="button" class="go" aria-pressed="false" title="Let the flight go on, and take the bob in hand (l)">Fly live</button>
+    <button type="button" class="again" title="Begin again (r)">Reset</button></div>
     <div class="flight"></div></section>
   <section><h2>Start</h2>
     <div class="chips starts"></div>
-    <div class="chips papers"><span>paper</span></div>
-    <div class="rod"></div><p class="hint">or drag the rod in the picture at 0 s</p></section>
+    ${served ? `<div class="chips papers"><span>paper</span></div>` : ""}
+    <div class="rod"></div><p class="hint">or drag the rod in the picture at 0 s; in a live flight, pull it</p></section>
   <section class="poke"><h2>Poke <small></small></h2>
     <div class="row two"><button type="button" data-on="bob">Poke bob</button><button type="button" data-on="vehicle">Poke vehicle</button></div>
     <label class="row">Direction <select class="way" aria-label="Direction"></select></label>
     <div class="strength"></div>
     <button type="button" class="unpoke" hidden>Remove pokes</button></section>
+  <section class="has-place"><h2>Place to hold <button type="button" class="small reset" title="The reference as it is by itself">reset</button></h2><div class="place"></div></section>
   <section class="has-gains"><h2>Gains <button type="button" class="small reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
   <section class="has-plant"><h2>Plant <button type="button" class="small reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
-  <section><h2>Export</h2>
+  ${served ? `<section><h2>Export</h2>
     <div class="row two"><button type="button" data-export="toml">TOML</button><button type="button" data-export="python">Python</button></div>
     <div class="export" hidden><textarea readonly rows="9" spellcheck="false" aria-label="Export"></textarea>
-    <div class="row two"><button type="button" class="copy">Copy</button><a class="save" download>Save</a></div></div></section>`;
+    <div class="row two"><button type="button" class="copy">Copy</button><a class="save" download>Save</a></div></div></section>` : ""}`;
 
 export class Panel {
   /** `lab` has setting, offer, and what the buttons do. */
   constructor(parent, lab) {
     this.lab = lab;
     this.root = document.createElement("section");
-    Object.assign(this.root, { className: "panel", innerHTML: HTML, ariaLabel: "Controls" });
+    this.served = Boolean(lab.offer.vehicles);
+    Object.assign(this.root, { className: "panel", innerHTML: html(this.served), ariaLabel: "Controls" });
     parent.querySelector("header").after(this.root); // before the picture, for those who go by keys
-    this.groups = Object.fromEntries(["gains", "plant", "flight"].map((name) =>
+    this.groups = Object.fromEntries(["gains", "plant", "flight", "place"].map((name) =>
       [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
-    this.#choices();
+    this.selects = [];
+    if (this.served) this.#choices();
+    this.#buttons();
     this.#starts();
     this.#pokes();
-    this.#exports();
+    if (this.served) this.#exports();
   }
 
   #find(selector) {
@@ -60,10 +67,17 @@ export class Panel {
       select.addEventListener("change", () => this.lab.choose(path, select.value));
       return select;
     });
+  }
+
+  #buttons() {
+    this.#find(".go").addEventListener("click", () => this.lab.running.toggle());
+    this.#find(".again").addEventListener("click", () => this.lab.restart());
+    this.#find(".live").hidden = !this.lab.link.begin;
     this.#find(".undo").addEventListener("click", () => this.lab.setting.undo());
     this.#find(".redo").addEventListener("click", () => this.lab.setting.redo());
     this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
     this.#find(".has-plant .reset").addEventListener("click", () => this.lab.reset("plant"));
+    this.#find(".has-place .reset").addEventListener("click", () => this.lab.reset("place"));
   }
 
   #starts() {
@@ -76,7 +90,7 @@ export class Panel {
     };
     for (const [name, start] of Object.entries(starts)) chip(".starts", name, "At rest at the origin", () => lab.start(start));
     chip(".starts", "random", "Any attitude of rod and vehicle, any rates", () => lab.start({ random: Math.floor(Math.random() * 1e9) }));
-    for (const [name, setting] of Object.entries(experiments)) chip(".papers", name, `Experiment ${name} of the paper, its vehicle and law`, () => lab.preset(setting));
+    for (const [name, setting] of Object.entries(experiments ?? {})) chip(".papers", name, `Experiment ${name} of the paper, its vehicle and law`, () => lab.preset(setting));
     const facts = [
       { path: "start.y.tilt", words: "rod from upright", unit: "°", low: 0, high: 180, value: 180 },
       { path: "start.y.heading", words: "heading", unit: "°", low: -180, high: 180, value: 0 },
@@ -96,6 +110,17 @@ export class Panel {
       button.addEventListener("click", () => this.poke(button.dataset.on));
     }
     this.#find(".unpoke").addEventListener("click", () => this.lab.unpoke());
+  }
+
+  /** Show whether the flight goes on. */
+  live(on) {
+    this.#find(".go").setAttribute("aria-pressed", String(on));
+    this.#find(".unpoke").hidden = on || !this.lab.setting.value.pokes?.length;
+  }
+
+  /** Show whether a flight is pinned. */
+  pins(pinned) {
+    this.pin.setAttribute("aria-pressed", String(pinned));
   }
 
   poke(on) {
@@ -149,20 +174,27 @@ export class Panel {
       [tilt, heading].forEach((angle, i) => this.rod[i].show({ ...this.rod[i].facts, value: angle }));
     }
     const pokes = value.pokes ?? [];
-    this.#find(".unpoke").hidden = pokes.length === 0;
+    this.#find(".unpoke").hidden = pokes.length === 0 || this.lab.running.on;
     this.#find(".poke small").textContent = pokes.length ? `at ${pokes.map((poke) => poke.time.toFixed(1)).join(", ")} s` : "";
   }
 
-  /** Show what the server said with a flight. */
+  /** Show what the engine said with a flight. */
   flight({ sliders, toml, python }) {
-    for (const [name, group] of Object.entries(this.groups)) group.show(sliders.filter((facts) => facts.group === name));
-    this.#find(".has-plant").hidden = this.groups.plant.sliders.length === 0;
+    this.sliders(sliders);
     this.texts = { toml, python };
-    this.#export();
+    if (this.served) this.#export();
     this.complain("", "");
   }
 
-  /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */  complain(message, field, path) {
+  sliders(sliders) {
+    for (const [name, group] of Object.entries(this.groups)) group.show(sliders.filter((facts) => facts.group === name));
+    this.#find(".has-plant").hidden = this.groups.plant.sliders.length === 0;
+    this.#find(".has-gains").hidden = this.groups.gains.sliders.length === 0;
+    this.#find(".has-place").hidden = this.groups.place.sliders.length === 0;
+  }
+
+  /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */
+  complain(message, field, path) {
     for (const old of this.root.querySelectorAll(".complaint")) old.remove();
     if (!message) return;
     const controls = [...this.root.querySelectorAll("[data-path]")];

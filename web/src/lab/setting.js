@@ -9,7 +9,7 @@ export class Setting {
   constructor(first, changed) {
     Object.assign(this, { first, changed, value: read() ?? structuredClone(first), past: [], future: [] });
     this.unreadable = location.hash.length > 1 && !read();
-    addEventListener("pagehide", () => this.#keep());
+    addEventListener("pagehide", () => this.keep());
     addEventListener("hashchange", () => {
       const value = read();
       if (value && JSON.stringify(value) !== JSON.stringify(this.value)) this.replace(value);
@@ -71,17 +71,18 @@ export class Setting {
   /** Take the numbers of a start that was asked for in other words; nothing changes by it. */
   adopt(start) {
     this.value.start = start;
-    this.#keep();
+    this.keep();
   }
 
   #tell() {
     clearTimeout(this.waiting);
-    this.waiting = setTimeout(() => this.#keep(), HASH_DELAY);
+    this.waiting = setTimeout(() => this.keep(), HASH_DELAY);
     this.changed(this.value);
   }
 
-  #keep() {
-    history.replaceState(null, "", `#${encodeURIComponent(JSON.stringify(this.value))}`);
+  /** Write the setting into the address, where there is one: a page within a page has none. */
+  keep() {
+    if (location.protocol !== "about:") history.replaceState(null, "", `#${encodeURIComponent(JSON.stringify(this.value))}`);
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { Group, Mesh, MeshBasicMaterial, TorusGeometry } from "three";
 
-import { norm } from "../numbers.js";
+import { indexBefore, norm } from "../numbers.js";
 import { upright } from "../flight.js";
 import { Model } from "./model.js";
 import { Ribbon } from "./ribbon.js";
@@ -34,6 +34,17 @@ export class Flyer extends Group {
       this.marker.add(mesh);
     }
     this.add(this.track, this.trail, this.planned, this.marker, this.model);
+  }
+
+  /** Draw what a growing flight has flown of late: the last `span` seconds. */
+  grow(span) {
+    const { flight } = this, { t } = flight, rod = flight.vehicle.rod_length;
+    const times = Array.from(t.subarray(indexBefore(t, flight.end - span)));
+    const poses = times.map((time) => upright(flight.at(time), flight.e3));
+    this.pivots = poses.map((pose) => pose.x);
+    this.bobs = poses.map((pose) => pose.x.map((value, k) => value + rod * pose.y[k]));
+    this.trail.put(this.bobs, times);
+    this.track.put(this.pivots, times);
   }
 
   /** Take `pose`, in the frame of the run. */

@@ -48,17 +48,6 @@ export class Ribbon extends Mesh {
     const geometry = new InstancedBufferGeometry();
     geometry.setAttribute("position", new Float32BufferAttribute([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0], 3));
     geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    const count = Math.max(points.length - 1, 0), lengths = [0];
-    for (let i = 1; i < points.length; i++) {
-      lengths.push(lengths[i - 1] + Math.hypot(...points[i].map((value, k) => value - points[i - 1][k])));
-    }
-    const pairs = (values) => Float32Array.from({ length: 2 * count }, (_, i) => values[(i >> 1) + (i & 1)]);
-    const set = (name, values, width) => geometry.setAttribute(name, new InstancedBufferAttribute(values, width));
-    set("from", Float32Array.from(points.slice(0, count).flat()), 3);
-    set("to", Float32Array.from(points.slice(1).flat()), 3);
-    set("times", pairs(times), 2);
-    set("lengths", pairs(lengths), 2);
-    geometry.instanceCount = count;
     super(geometry, new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT,
       uniforms: {
@@ -68,7 +57,34 @@ export class Ribbon extends Mesh {
       },
     }));
     this.frustumCulled = false;
+    this.put(points, times);
+  }
+
+  /** Take another path. */
+  put(points, times) {
+    const { geometry } = this, count = Math.max(points.length - 1, 0), lengths = [0];
+    for (let i = 1; i < points.length; i++) {
+      lengths.push(lengths[i - 1] + Math.hypot(...points[i].map((value, k) => value - points[i - 1][k])));
+    }
+    const pair = (values) => (i) => values[(i >> 1) + (i & 1)];
+    this.#set("from", 3, count, (i) => points[Math.floor(i / 3)][i % 3]);
+    this.#set("to", 3, count, (i) => points[Math.floor(i / 3) + 1][i % 3]);
+    this.#set("times", 2, count, pair(times));
+    this.#set("lengths", 2, count, pair(lengths));
+    geometry.instanceCount = count;
     this.visible = count > 0;
+  }
+
+  /** Fill an attribute, in the room that it has if that is enough: what the graphics card holds is written over. */
+  #set(name, width, count, value) {
+    let attribute = this.geometry.getAttribute(name);
+    if (!attribute || attribute.count < count) {
+      if (attribute) this.geometry.dispose();
+      attribute = new InstancedBufferAttribute(new Float32Array(width * (attribute ? 2 * count : count)), width);
+      this.geometry.setAttribute(name, attribute);
+    }
+    for (let i = 0; i < width * count; i++) attribute.array[i] = value(i);
+    attribute.needsUpdate = true;
   }
 
   /** Show the path up to the time `now`, for a viewport of `width` by `height` pixels. */

@@ -45,6 +45,18 @@ export class Stage {
     if (this.colours) this.colour(this.colours);
   }
 
+  /** Show what the first flight, one that grows, has flown of late: its last `span` seconds. */
+  grow(span) {
+    const [flyer] = this.flyers;
+    flyer.grow(span);
+    const { centre, half } = bounds([...flyer.pivots, ...flyer.bobs]), reach = flyer.flight.vehicle.reach;
+    this.world.ground = Math.min(this.world.ground, centre[2] - half[2] - 0.35 * reach);
+    const low = centre.map((value, k) => Math.min(value - half[k], this.box.centre[k] - this.box.half[k]));
+    const high = centre.map((value, k) => Math.max(value + half[k], this.box.centre[k] + this.box.half[k]));
+    this.box = { centre: low.map((value, k) => (value + high[k]) / 2), half: low.map((value, k) => (high[k] - value) / 2) };
+    if (!this.holds.size) this.rig.box = this.box;
+  }
+
   /** Free what was shown before: once the new is drawn, so that it finds the shaders that both use. */
   #free() {
     for (const thing of this.left.splice(0)) {

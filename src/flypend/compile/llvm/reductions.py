@@ -27,9 +27,9 @@ class Reductions:
         self.kinds = tuple(kinds)
         self._observe = define(code.lanes, observe)
         self._values = code.reserve(len(kinds))
-        self._sums = code.reserve(len(kinds))
+        self._sums = code.keep(len(kinds))
         # Of the last sample: its time, and the values. The time of the first one; whether there is one.
-        self._before, self._when, self._first, self._any = (code.reserve(n) for n in (len(kinds), 1, 1, 1))
+        self._before, self._when, self._first, self._any = (code.keep(n) for n in (len(kinds), 1, 1, 1))
 
     def reset(self, lane: ir.Value) -> None:
         """Start a new run in `lane`."""

@@ -18,30 +18,45 @@ from flypend.compile.llvm.runge_kutta import COLLIDED, COMPLETED, DIVERGED, UNDE
 from flypend.compile.llvm.sensors import Sensors
 from flypend.compile.llvm.stopping import not_stopped
 from flypend.compile.llvm.touching import Touching
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
+from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Context, Lanes, Value
 from flypend.compile.llvm.worlds import MUJOCO_ARGUMENTS, Equations, Mujoco, Way, World
 from flypend.compile.sampled_problem import GUSTS, EquationsProblem, SampledProblem
 from flypend.model.state import MAX_STATE
 
-INTEGERS = ("runs", "ticks", "sample_count", "row_count")
+INTEGERS = ("runs", "ticks", "sample_count", "row_count", "begun")
 ARGUMENTS = (
     "starts", "parameters", "plant", "seeds", "runs", "ticks",
     "sample_ticks", "sample_count", "judged", "rows", "row_count",
     "samples", "reductions", "final", "end", "status", "clearance", "part", "stop",
 )  # fmt: skip
+# Arguments for a flight in pieces: what one call leaves to the next, the ticks that are flown already, and impulses
+# (runs, 6) on vehicle and bob, N s, in effect at once. A call flies on to `ticks`; `sample_ticks` are of the piece.
+RESUMED_ARGUMENTS = ("context", "begun", "impulses")
 STRANDS = 4  # partial sums, which hide the latency of additions
 
 
 def arguments(problem: SampledProblem) -> tuple[str, ...]:
-    """Names of the kernel's arguments for `problem`: `ARGUMENTS`, and for MuJoCo `MUJOCO_ARGUMENTS`."""
+    """Names of the kernel's arguments for `problem`: `ARGUMENTS`, and those for MuJoCo or for flights in pieces."""
+    if problem.resuming is not None:
+        return ARGUMENTS + RESUMED_ARGUMENTS
     return ARGUMENTS if isinstance(problem.world, EquationsProblem) else ARGUMENTS + MUJOCO_ARGUMENTS
 
 
 def write_kernel(lanes: Lanes, problem: SampledProblem) -> None:
-    """Emit the function "kernel" for `problem` into the module of `lanes`; for its arguments see `arguments`."""
+    """Emit the function "kernel" for `problem` into the module of `lanes`; for its arguments see `arguments`.
+
+    For flights in pieces, which fly one group of `lanes.width` runs, there is another function: "context_size" stores
+    the length of the context in bytes.
+    """
     kinds = [I64 if name in INTEGERS else POINTER for name in arguments(problem)]
     function = ir.Function(lanes.module, ir.FunctionType(VOID, kinds), "kernel")
-    _Kernel(lanes, problem, function).write()
+    kernel = _Kernel(lanes, problem, function)
+    kernel.write()
+    if kernel.code.context is not None:
+        told = ir.Function(lanes.module, ir.FunctionType(VOID, [POINTER]), "context_size")
+        builder = ir.IRBuilder(told.append_basic_block())
+        builder.store(ir.Constant(I64, kernel.code.context.size), told.args[0])
+        builder.ret_void()
 
 
 class _Kernel:
@@ -49,27 +64,30 @@ class _Kernel:
 
     def __init__(self, lanes: Lanes, problem: SampledProblem, function: ir.Function) -> None:
         self.lanes, self.problem = lanes, problem
-        self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
         self.at = dict(zip(arguments(problem), function.args, strict=True))
+        context = Context(self.at["context"]) if problem.resuming else None
+        self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()), context)
         # The board's memory slides through a longer one, so that the commands in transit, a queue, stay where they are.
         slide = problem.board.slide()
         self.board = define_routine(lanes, problem.board, slide, inline=True)
         self.stride = slide or problem.memory
         self.strides = -(-problem.memory // self.stride)  # then it is moved back to where it does not overlap itself
         programs = {name: getattr(problem, name) for name in ("begin", "measure", "gusts")}
+        programs["strike"] = problem.resuming.strike if problem.resuming else None
         self.call = {name: define(lanes, p, inline=True) for name, p in programs.items() if p is not None}
         self.normals = define_normals(lanes, problem.drawn) if problem.random else None
         self.sensors = Sensors(code, problem.sensing) if problem.sensing is not None else None
         n, k = problem.size, problem.rotors
-        self.states = code.reserve(2 * (1 + n + k))  # before and after a tick, in turn; each preceded by the time
+        self.states = code.keep(2 * (1 + n + k))  # before and after a tick, in turn; each preceded by the time
         self.measured, self.none = code.reserve(1 + problem.measured), code.reserve(1)
-        self.memory = code.reserve(self.strides * self.stride + problem.memory)
-        self.P, self.wind = code.reserve(problem.gains), code.reserve(6)
-        self.gust = code.reserve(problem.gust)
-        self.ring = code.reserve(problem.depth * problem.command)
+        self.memory = code.keep(self.strides * self.stride + problem.memory)
+        self.P, self.wind, self.t = code.reserve(problem.gains), code.reserve(6), code.reserve(1)
+        self.gust = code.keep(problem.gust)
+        self.ring = code.keep(problem.depth * problem.command)
         self.draws = code.reserve(max(PER_TICK, whole_blocks(problem.drawn.stop)))
-        self.t, self.alive, self.status, self.end = (code.reserve(1) for _ in range(4))
-        self.timings, self.noise, self.blowing = (code.reserve(length) for length in problem.inputs)
+        self.alive, self.status, self.end = (code.keep(1) for _ in range(3))
+        self.given = [code.reserve(length) for length in problem.inputs]
+        self.schedule, self.timings, self.noise, self.blowing, self.params = self.given
         self.seeds, self.tick_of_lane = code.reserve(lanes.width, I64), code.reserve(lanes.width, I64)
         self.cursor = code.reserve(1, I64)
         self.results = Reductions(code, problem.judge, problem.reductions)
@@ -88,11 +106,12 @@ class _Kernel:
         self._load_inputs()
         with code.count(PER_TICK) as i:  # without random numbers, all draws are 0
             code.store(0.0, self.draws, i)
-        with code.count(groups) as group:
+        with code.count(groups if self.problem.resuming is None else 1) as group:
             self.first = builder.mul(group, ir.Constant(I64, width))
-            self._begin()
-            self._sample(ir.Constant(I64, 0))
-            with code.count(self.at["ticks"]) as tick, code.when(self._flying()):
+            self._load_runs()
+            begun = self._begin() if self.problem.resuming is None else self._resume()
+            with code.count(builder.sub(self.at["ticks"], begun)) as flown, code.when(self._flying()):
+                tick = builder.add(begun, flown)
                 self._tick(tick)
                 self._sample(builder.add(tick, ir.Constant(I64, 1)))
             self._store_results()
@@ -107,7 +126,7 @@ class _Kernel:
     def _load_inputs(self) -> None:
         """Broadcast the plant parameters to all lanes."""
         code, place = self.code, 0
-        for memory, length in zip((self.timings, self.noise, self.blowing), self.problem.inputs, strict=True):
+        for memory, length in zip(self.given, self.problem.inputs, strict=True):
             for i in range(length):
                 number = code.scalar(self.at["plant"], ir.Constant(I64, place + i), ir.DoubleType())
                 code.store(code.value(number), memory, i)
@@ -127,14 +146,38 @@ class _Kernel:
         odd = builder.mul(builder.and_(tick, ir.Constant(I64, 1)), ir.Constant(I64, length))
         return self.code.vector_at(self.states, builder.add(odd, ir.Constant(I64, 1)))
 
-    def _begin(self) -> None:
+    def _load_runs(self) -> None:
+        """Load gains and seeds, and put the cursor to the first sample."""
+        code = self.code
+        with code.count(self.lanes.width) as lane:
+            run = self._run(lane)
+            self._copy(self.at["parameters"], run, self.P, lane, self.problem.gains)
+            code.put(code.scalar(self.at["seeds"], run, I64), self.seeds, lane)
+        code.builder.store(ir.Constant(I64, 0), self.cursor)
+
+    def _resume(self) -> ir.Value:
+        """Begin, or go on from the context; then strike. Returns the ticks that are flown already."""
+        code, begun = self.code, self.at["begun"]
+        with code.when(code.builder.icmp_signed("==", begun, ir.Constant(I64, 0))):
+            self._begin()
+        code.store(code.select(code.load(self.alive) > 0.0, self._last(), code.load(self.end)), self.end)
+        state, impulses = self._state(begun), code.reserve(6)
+        with code.count(self.lanes.width) as lane:
+            self._copy(self.at["impulses"], self._run(lane), impulses, lane, 6)
+        with code.when(code.any(code.load(self.alive) > 0.0)):
+            code.call(self.call["strike"], state, impulses, state)
+        return begun
+
+    def _last(self) -> Value:
+        """The time of the last tick, s."""
+        return self.code.value(self.code.builder.sitofp(self.at["ticks"], self.lanes.scalar)) * self.problem.period
+
+    def _begin(self) -> ir.Value:
+        """Begin at the starts; return the tick, 0."""
         code, problem = self.code, self.problem
         state = self._state(ir.Constant(I64, 0))
         with code.count(self.lanes.width) as lane:
-            run = self._run(lane)
-            self._copy(self.at["starts"], run, state, lane, problem.size + problem.rotors)
-            self._copy(self.at["parameters"], run, self.P, lane, problem.gains)
-            code.put(code.scalar(self.at["seeds"], run, I64), self.seeds, lane)
+            self._copy(self.at["starts"], self._run(lane), state, lane, problem.size + problem.rotors)
             self.results.reset(lane)
         command = code.reserve(problem.command)
         memory, _ = self._memories(ir.Constant(I64, 0))
@@ -150,11 +193,11 @@ class _Kernel:
         self.world.begin(self.first, state)
         code.store(1.0, self.alive)
         code.store(float(COMPLETED), self.status)
-        ticks = code.value(code.builder.sitofp(self.at["ticks"], self.lanes.scalar))
-        code.store(ticks * self.problem.period, self.end)
-        code.builder.store(ir.Constant(I64, 0), self.cursor)
+        code.store(self._last(), self.end)
         if self.touching is not None:
             self._end_runs(self.touching.begin(state, code.load(self.alive) > 0.0), COLLIDED, code.value(0.0))
+        self._sample(ir.Constant(I64, 0))
+        return ir.Constant(I64, 0)
 
     def _copy(self, rows: ir.Value, row: ir.Value, memory: ir.Value, lane: ir.Value, length: int) -> None:
         code, builder = self.code, self.code.builder
@@ -192,12 +235,10 @@ class _Kernel:
         if problem.gusts is not None:
             drawn = code.vector_at(self.draws, GUSTS)
             code.call(self.call["gusts"], self.gust, drawn, self.blowing, self.gust, self.wind)
-        source = state
-        for place, stretch in enumerate(problem.flown):
-            timing = code.vector_at(self.timings, place * problem.timing)
-            held = code.vector_at(self.ring, self._slot(tick, stretch.age))
-            self.world.advance(place, stretch, held, self.wind, timing, Way(source, after))
-            source = after
+        if problem.resuming is None:
+            self._advance(tick, state, after)
+        else:
+            self._advance_by_schedule(tick, state, after, problem.resuming.stretches)
         self.world.show(after)
         with code.when(code.any(self._far(after))):
             self._end_runs(self._lost(after), DIVERGED, time)
@@ -206,6 +247,30 @@ class _Kernel:
             self._end_runs(touched, COLLIDED, time + share * problem.period)
         with code.when(code.any(code.load(self.alive) <= 0.0)):
             self._keep_ended(state, after)
+
+    def _advance(self, tick: ir.Value, state: ir.Value, after: ir.Value) -> None:
+        """Fly the intervals of the tick."""
+        code, source = self.code, state
+        for place, stretch in enumerate(self.problem.flown):
+            timing = code.vector_at(self.timings, place * self.problem.timing)
+            held = code.vector_at(self.ring, self._slot(tick, stretch.age))
+            self.world.advance(place, stretch, held, self.wind, timing, Way(source, after))
+            source = after
+
+    def _advance_by_schedule(self, tick: ir.Value, state: ir.Value, after: ir.Value, stretches: int) -> None:
+        """Fly the intervals that the schedule tells, some of which may be empty."""
+        code = self.code
+        assert isinstance(self.world, Equations)
+        self._move(state, after, self.problem.size + self.problem.rotors)
+        for place in range(stretches):
+            age, steps = (code.scalar(self.schedule, self._entry(2 * place + i)) for i in range(2))
+            held = code.vector_at(self.ring, self._slot(tick, code.builder.fptosi(age, I64)))
+            timing = code.vector_at(self.timings, place * self.problem.timing)
+            self.world.repeat(code.builder.fptosi(steps, I64), held, self.wind, timing, after)
+
+    def _entry(self, vector: int) -> ir.Value:
+        """Index of the first lane of a vector."""
+        return ir.Constant(I64, vector * self.lanes.width)
 
     def _command(self, tick: ir.Value, time: Value, state: ir.Value, command: ir.Value) -> None:
         """Run the flight computer on what it measures of `state`, and store its `command`."""
@@ -219,7 +284,7 @@ class _Kernel:
             self.sensors.read(time, state, self.draws, code.vector_at(measured, 1))
         code.store(time, measured)
         before, after = self._memories(tick)
-        code.call(self.board, before, measured, self.none, self.P, self.none, after, command)
+        code.call(self.board, before, measured, self.none, self.P, self.params, after, command)
         with code.when(code.builder.icmp_signed("==", self._left(tick), one)):
             self._move(after, self._memories(ir.Constant(I64, 0))[0], self.problem.memory)
 
@@ -249,10 +314,11 @@ class _Kernel:
             code.put(tick, self.tick_of_lane, ir.Constant(I64, lane))
         code.call(self.normals, self.seeds, self.tick_of_lane, self.draws)
 
-    def _slot(self, tick: ir.Value, age: int) -> ir.Value:
+    def _slot(self, tick: ir.Value, age: int | ir.Value) -> ir.Value:
         """Index of the first vector of the command computed `age` ticks before `tick`."""
         builder, depth = self.code.builder, ir.Constant(I64, self.problem.depth)
-        slot = builder.srem(builder.add(builder.sub(tick, ir.Constant(I64, age)), depth), depth)
+        back = ir.Constant(I64, age) if isinstance(age, int) else age
+        slot = builder.srem(builder.add(builder.sub(tick, back), depth), depth)
         return builder.mul(slot, ir.Constant(I64, self.problem.command))
 
     def _move(self, source: ir.Value, target: ir.Value, length: int) -> None:

@@ -20,7 +20,7 @@ class Sensors:
         self._estimate = define(code.lanes, sensing.estimate)
         self._begin = define(code.lanes, sensing.begin)
         self._sense = define(code.lanes, sensing.sense, inline=True)
-        self._memory = code.reserve(sensing.sense.inputs[0])
+        self._memory = code.keep(sensing.sense.inputs[0])
         self._draws, self._estimated = code.reserve(whole_blocks(used.stop)), code.reserve(sensing.estimate.inputs[0])
         self._ticks, self._t = code.reserve(code.lanes.width, I64), code.reserve(1)
 

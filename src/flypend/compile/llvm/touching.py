@@ -21,9 +21,10 @@ class Touching:
         self._code, self._at = code, at
         self._room, self._touching = define(code.lanes, touch.room), define(code.lanes, touch.touching)
         self._bound, self._found = code.reserve(1), code.reserve(3)  # distance, share of the tick, part
-        self._least, self._part, self._interval = (code.reserve(1) for _ in range(3))
-        for memory in (self._least, self._part):  # also for lanes that never receive a run
-            code.store(INFINITY, memory)
+        self._least, self._part, self._interval = code.keep(1), code.keep(1), code.reserve(1)
+        if code.context is None:  # also for lanes that never receive a run
+            for memory in (self._least, self._part):
+                code.store(INFINITY, memory)
 
     def begin(self, state: ir.Value, new: Value) -> Value:
         """Start the flights of the lanes `new` at `state`; return which of them touch there."""

@@ -72,6 +72,11 @@ class Equations:
             with self._code.count(stretch.steps - 1):
                 self._advance(command, wind, timing, Way(way.target, way.target))
 
+    def repeat(self, steps: ir.Value, command: ir.Value, wind: ir.Value, timing: ir.Value, state: ir.Value) -> None:
+        """Advance `state` in place by a number of `steps` that is known when the kernel runs, else as `advance`."""
+        with self._code.count(steps):
+            self._advance(command, wind, timing, Way(state, state))
+
     def _advance(self, command: ir.Value, wind: ir.Value, timing: ir.Value, way: Way) -> None:
         """Take one step."""
         code, size = self._code, self._size

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -12,10 +13,12 @@ import numpy as np
 from llvmlite import ir
 from numpy.typing import ArrayLike, NDArray
 
+from flypend.board.believed import Believed
 from flypend.board.command import idle_command
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, arguments, write_kernel
+from flypend.compile.llvm.target import Target
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
@@ -249,22 +252,31 @@ def _mujoco_filters(loop: Loop) -> bool:
 def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
     problem = sampled_problem(loop, criterion)
     width = WIDTH if isinstance(problem.world, EquationsProblem) else 1
+    key, module = written(problem, width)
+    return SampledKernel(loop, criterion, jit.build(key, module, "kernel", argument_kinds(problem)), key)
+
+
+def written(problem: SampledProblem, width: int, target: Target | None = None) -> tuple[str, Callable[[], ir.Module]]:
+    """Return the cache key of the kernel of `problem`, `width` flights at a time, and what writes its module."""
 
     def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), width)
+        lanes = Lanes(ir.Module("flypend"), width, target=target)
         write_kernel(lanes, problem)
         return lanes.module
 
-    kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in arguments(problem)]
-    key = f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}"
-    return SampledKernel(loop, criterion, jit.build(key, module, "kernel", kinds), key)
+    return f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}", module
 
 
-def sampled_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
-    """Return the flights of `loop` and `criterion` as programs."""
+def argument_kinds(problem: SampledProblem) -> list[Any]:
+    """Return the ctypes types of the arguments of the kernel of `problem`."""
+    return [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in arguments(problem)]
+
+
+def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None = None) -> SampledProblem:
+    """Return the flights of `loop` and `criterion` as programs; `believed` as in `flypend.board.program.board`."""
     vehicle, plant = loop.vehicle, loop.sampled
     true = plant.true_vehicle(vehicle)
-    flight_computer = board(loop)
+    flight_computer = board(loop, believed)
     rates = plant.interface == "rates"
     world: EquationsProblem | MujocoProblem
     if plant.engine == "equations":

@@ -1,0 +1,113 @@
+"""The sliders of a page: gains of a law and numbers of a plant, with their ranges and values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from typing import Any
+
+from flypend.errors import InputError
+from flypend.laws import BoundLaw, Controller, Law
+from flypend.model import Vehicle
+from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
+
+_NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
+BISECTIONS = 12  # to a fifth of a per cent of a slider with a range of a factor of four either way
+FACTOR = 4.0  # a gain's slider spans its default divided and multiplied by this
+
+
+def sliders_of(law: Law | BoundLaw | Controller) -> tuple[str, ...]:
+    """Return the names of the gains of `law` that have sliders: numeric gains with a label."""
+    return tuple(name for name, gain in law.table.items() if gain.label and gain.numeric)
+
+
+def gain_sliders(law: Law | BoundLaw | Controller, vehicle: Vehicle, given: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the sliders of the gains of `law` for `vehicle`, with the values `given`; see `slider`."""
+    out = []
+    for name in sliders_of(law):
+        gain = law.table[name]
+        low, high, log = _reach(gain.value(vehicle))
+        reach = (max(low, gain.bounds.low), min(high, gain.bounds.high))
+        found = slider(f"law.gains.{name}", "gains", gain.label, gain.unit, given[name], *reach, log=log)
+        out.append(found | {"allowed": _allowed(law, given, name, found["low"], found["high"])})
+    return out
+
+
+def _allowed(
+    law: Law | BoundLaw | Controller, given: Mapping[str, Any], name: str, low: float, high: float
+) -> list[float]:
+    """Between `low` and `high`, how far the gain `name` may go while the others stay as `given`."""
+    check = None if isinstance(law, Controller) else law.check
+    if check is None:
+        return [low, high]
+
+    def refused(value: float) -> bool:
+        try:
+            check({**given, name: value})
+        except InputError:
+            return True
+        return False
+
+    return [_last_good(refused, given[name], end) for end in (low, high)]
+
+
+def _last_good(refused: Callable[[float], bool], good: float, end: float) -> float:
+    """Where, on the way from a `good` value to `end`, values begin to be `refused`; `end` if none is. By bisection."""
+    if not refused(end):
+        return end
+    bad = end
+    for _ in range(BISECTIONS):
+        middle = (good + bad) / 2
+        good, bad = (good, middle) if refused(middle) else (middle, bad)
+    return good
+
+
+def _reach(usual: float) -> tuple[float, float, bool]:
+    """Range of the slider of a gain whose default is `usual`, and whether it is logarithmic."""
+    if usual > 0:
+        return usual / FACTOR, usual * FACTOR, True
+    return (usual * FACTOR, -usual * FACTOR, False) if usual < 0 else (-1.0, 1.0, False)
+
+
+def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
+    """Return the sliders of the numbers of `plant` that a page may change, for a law of `vehicle`; see `slider`."""
+    least, largest = vehicle.rotor_limits
+    share = vehicle.weight / len(vehicle.rotor_spins)
+    lag = vehicle.rotor_lag if plant.lag is None else plant.lag
+    noise, wind = plant.noise or Noise(), plant.wind or Wind()
+    level = noise.x / MOTION_CAPTURE.x
+    high = 0.5 * vehicle.weight
+    return [
+        slider(
+            "vehicle.rotor_limits", "plant", "rotor limit", "N", largest, 1.1 * share, 5 * share, put=[least, {"#": 1}]
+        ),
+        slider("plant.lag", "plant", "rotor lag", "s", lag, 0.0, 0.1),
+        slider("plant.delay", "plant", "delay", "s", plant.delay, 0.0, 0.1),
+        slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0, put=_NOISE),
+        slider(
+            "plant.wind.on_vehicle", "plant", "wind along e₁", "N", wind.on_vehicle[0], -high, high,
+            put=[{"#": 1}, 0.0, 0.0],
+        ),
+        slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, 0.0, high),
+    ]  # fmt: skip
+
+
+def slider(
+    path: str,
+    group: str,
+    words: str,
+    unit: str,
+    value: float,
+    low: float,
+    high: float,
+    log: bool = False,
+    put: Any = None,
+) -> dict[str, Any]:
+    """One slider; its range is widened to include `value`.
+
+    `put` is what the page writes at `path`, where {"#": factor} stands for factor times the value; None for the value.
+    """
+    return {
+        "path": path, "group": group, "words": words, "unit": unit, "value": float(value),
+        "low": float(min(low, value)), "high": float(max(high, value)), "log": log, "put": put, "allowed": None,
+    }  # fmt: skip

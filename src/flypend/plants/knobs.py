@@ -1,0 +1,112 @@
+"""Numbers of a sampled plant that a flight may change on its way: from knobs to the inputs of its machine code.
+
+A flight in pieces takes them anew with each piece; see `flypend.flight.kernels.pieces`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import astuple
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.model import Vehicle
+from flypend.plants.lag import symbolic_timing
+from flypend.plants.measurement import NOISE_SIZE, WIND_SIZE, wind_numbers
+from flypend.plants.noise import Noise
+from flypend.plants.plant import Sampled, Wind
+from flypend.plants.schedule import PLANT_STEP, SAME
+
+# Knobs and their lengths: rotor lag and delay, s; noise, as the fields of `Noise`; where the origin is seen, m, so that
+# a law holds another place; constant forces and gusts on vehicle and bob, N; least and largest force of a rotor, N.
+KNOBS = {
+    "lag": 1, "delay": 1, "noise": NOISE_SIZE, "origin": 3, "on_vehicle": 3, "on_bob": 3, "gust_on_vehicle": 1,
+    "gust_on_bob": 1, "rotor_limits": 2,
+}  # fmt: skip
+STRETCHES = 2  # intervals of a tick: under the command before, and under the one that arrives
+LONGEST_DELAY = 0.1  # s
+LEAST_LAG = 1e-6  # s; a shorter one is none
+
+
+def knob_values(vehicle: Vehicle, plant: Sampled) -> dict[str, list[float]]:
+    """Return the knobs of `plant`, flown by a computer that believes in `vehicle`; see `KNOBS`."""
+    wind, noise = plant.wind or Wind(), plant.noise or Noise()
+    return {
+        "lag": [float(plant.true_vehicle(vehicle).rotor_lag)],
+        "delay": [float(plant.delay)],
+        "noise": [float(value) for value in astuple(noise)],
+        "origin": [0.0, 0.0, 0.0],
+        "on_vehicle": [float(value) for value in wind.on_vehicle],
+        "on_bob": [float(value) for value in wind.on_bob],
+        "gust_on_vehicle": [float(wind.gust_on_vehicle)],
+        "gust_on_bob": [float(wind.gust_on_bob)],
+        "rotor_limits": [float(limit) for limit in vehicle.rotor_limits],
+    }
+
+
+def turned(plant: Sampled) -> ca.Function:
+    """Return the CasADi function (knobs) → the inputs of a flight in pieces through `plant`.
+
+    They are age and steps of each interval, its timing, noise and origin unless there are sensors, wind, rotor limits:
+    see `SampledProblem.inputs`.
+    """
+    knobs = ca.SX.sym("knobs", sum(KNOBS.values()))
+    ends = np.cumsum([0, *KNOBS.values()]).tolist()
+    of = dict(zip(KNOBS, ca.vertsplit(knobs, ends), strict=True))
+    period = 1 / plant.rate
+    intervals = _intervals(of["delay"], period, longest_step(plant))
+    schedule = [ca.vertcat(age, steps) for age, steps, _ in intervals]
+    timings = [_timing(of["lag"], plant, while_ / ca.fmax(steps, 1)) for _, steps, while_ in intervals]
+    seen = [] if plant.sensors is not None else [of["noise"], of["origin"]]
+    numbers = ca.vertcat(*schedule, *timings, *seen, _wind(of, plant, period), of["rotor_limits"])
+    return ca.Function("turned", [knobs], [ca.cse(ca.densify(numbers))])
+
+
+def longest_step(plant: Sampled) -> float:
+    """Return the longest step of the equations through `plant`, s."""
+    return 1 / plant.rate_loop_rate if plant.interface == "rates" else PLANT_STEP
+
+
+def depth(plant: Sampled) -> int:
+    """Return the number of commands to buffer for any delay up to that of `plant`."""
+    return 2 + int(np.floor((plant.delay + SAME) * plant.rate))
+
+
+def _intervals(delay: Any, period: float, longest: float) -> list[tuple[Any, Any, Any]]:
+    """Age, steps and duration (s) of the intervals of a tick, as `within_period` and `steps_in`; one may be empty."""
+    whole = ca.floor((delay + SAME) / period)
+    rest = delay - whole * period
+    rest = ca.if_else(rest > SAME, rest, 0)
+    first = ca.if_else(rest > 0, _count(rest, longest), 0)
+    second = _count(period - rest, longest)
+    return [(whole + 1, first, rest), (whole, second, period - rest)]
+
+
+def _count(duration: Any, longest: float) -> Any:
+    """Return the fewest steps of at most `longest` (s) in a `duration`, at least one; a page lends no ceiling."""
+    return ca.fmax(1, -ca.floor(SAME - duration / longest))
+
+
+def _timing(lag: Any, plant: Sampled, duration: Any) -> Any:
+    """As `motor_timing`, of symbols."""
+    falling = _held(lag, duration)
+    return falling if plant.spin_up == 1.0 else ca.vertcat(falling, _held(plant.spin_up * lag, duration))
+
+
+def _held(lag: Any, duration: Any) -> Any:
+    while_ = ca.fmax(duration, SAME)  # of an interval that is empty nothing is used
+    numbers = symbolic_timing(ca.fmax(lag, LEAST_LAG), while_)
+    return ca.vertcat(while_, ca.if_else(lag > LEAST_LAG, numbers[1:], ca.DM.zeros(3)))
+
+
+def _wind(of: dict[str, Any], plant: Sampled, period: float) -> Any:
+    """As `wind_numbers`, whose decay and knocks are those of `plant`."""
+    still = Wind() if plant.wind is None else plant.wind
+    fixed = wind_numbers(still, period)
+    added = float(np.sqrt(1 - fixed[0] ** 2))
+    blown = ca.vertcat(
+        fixed[0], added * of["gust_on_vehicle"], added * of["gust_on_bob"], of["on_vehicle"], of["on_bob"], fixed[9:]
+    )
+    assert blown.numel() == WIND_SIZE
+    return blown

@@ -1,0 +1,150 @@
+"""Flights in pieces: equal to flights that are not interrupted, and to those whose numbers are compiled in."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.compile.numeric import as_numpy
+from flypend.flight.kernels.pieces import pieces_kernel
+from flypend.flight.kernels.sampled import plant_numbers, sampled_kernel
+from flypend.plants import plant
+from flypend.plants.equations import struck
+from flypend.plants.knobs import KNOBS, knob_values, turned
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Noise, Wind
+
+MACHINE = fp.vehicle("hehn2011")
+CALM = plant("rotors")
+REAL = CALM.replace(delay=0.006, noise=Noise(x=1e-3, y=2e-3, omega=1e-2), wind=Wind(gust_on_vehicle=0.1))
+SEEN = CALM.replace(sensors="mocap")
+START = fp.State(y=(0.6, 0.0, 0.8), y_dot=(0, 0.2, 0), x=(0.1, 0, 0))
+TICKS = 1500
+CRITERION = fp.Criterion()
+
+
+def loop_of(through=CALM, law=None, vehicle=MACHINE, parameters=()):
+    return Loop(vehicle, (law or fp.laws.inverted()).bind(vehicle), through, parameters)
+
+
+def in_pieces(loop, lengths=(TICKS,), seed=3, **knobs):
+    flight = pieces_kernel(loop, CRITERION).begin(START, seed=seed)
+    flight.turn(**knobs)
+    return np.concatenate([flight.advance(length) for length in lengths])
+
+
+def at_once(loop, seed=3, start=START):
+    """The same flight by the ordinary kernel, eight at a time."""
+    every = np.arange(TICKS + 1)
+    flown = sampled_kernel(loop, CRITERION).fly(
+        start.packed()[None], TICKS / loop.sampled.rate, judge_at=every, keep_at=every, first_seed=seed, workers=1
+    )
+    return flown.samples[0]
+
+
+@pytest.mark.parametrize("through", [CALM, REAL, plant("hehn2011"), SEEN])
+def test_a_flight_in_pieces_is_the_flight_itself_bit_by_bit(through):
+    loop, lengths = loop_of(through), np.random.default_rng(5).integers(1, 90, 100)
+    lengths = lengths[: np.searchsorted(np.cumsum(lengths), TICKS)]
+    lengths = [*lengths.tolist(), TICKS - int(lengths.sum())]
+    assert np.array_equal(in_pieces(loop, lengths), in_pieces(loop))
+
+
+@pytest.mark.parametrize("through", [CALM, REAL, plant("hehn2011"), SEEN.replace(delay=0.007), CALM.replace(lag=0)])
+def test_it_is_the_flight_of_the_ordinary_kernel(through):
+    # 1e-9: the same operations in another order, over three seconds of a flight that settles.
+    np.testing.assert_allclose(in_pieces(loop_of(through)), at_once(loop_of(through)), atol=1e-9)
+
+
+def test_another_delay_is_that_of_a_plant_that_has_it():
+    law = fp.laws.inverted()
+    for delay in (0.0, 0.0013, 0.002, 0.0095, 0.02):
+        wanted = at_once(loop_of(CALM.replace(delay=delay), law))
+        np.testing.assert_allclose(in_pieces(loop_of(CALM, law), delay=[delay]), wanted, atol=1e-9)
+
+
+def test_other_rotor_limits_are_those_of_a_vehicle_that_has_them():
+    limits = [MACHINE.rotor_limits[0], 0.45 * MACHINE.weight]
+    other = MACHINE.replace(rotor_limits=limits)
+    law = fp.laws.inverted().with_gains(dict(fp.laws.inverted().bind(MACHINE).numbers))
+    own = in_pieces(loop_of(CALM, law), rotor_limits=limits)
+    assert own[:, 24:].max() <= limits[1] + 1e-12
+    np.testing.assert_allclose(own, at_once(loop_of(CALM, law, other)), atol=1e-9)
+    assert np.abs(own - in_pieces(loop_of(CALM, law))).max() > 0.1
+
+
+def test_a_moved_origin_moves_the_flight():
+    place = np.array([0.4, -0.3, 0.2])
+    moved = in_pieces(loop_of(), origin=place)
+    start = START.packed()
+    start[:3] -= place
+    wanted = at_once(loop_of(), start=fp.State.from_packed(start))
+    wanted[:, :3] += place
+    np.testing.assert_allclose(moved, wanted, atol=1e-9)
+
+
+def test_gains_that_change_are_those_of_another_law():
+    loop = loop_of(parameters=("rod_bandwidth",))
+    value = 1.1 * loop.law.gains["rod_bandwidth"]
+    flight = pieces_kernel(loop, CRITERION).begin(START, gains={"rod_bandwidth": value})
+    other = loop_of(law=fp.laws.inverted(rod_bandwidth=value))
+    np.testing.assert_allclose(flight.advance(TICKS), at_once(other), atol=1e-9)
+
+
+def test_an_impulse_is_the_change_of_momentum():
+    strike, start = as_numpy(struck(MACHINE)), fp.State.random(np.random.default_rng(2))
+    impulses = np.array([0.3, -0.1, 0.2, 0.01, 0.05, -0.02])
+    after = fp.State.from_packed(strike(start.packed(), impulses))
+    M, m, l = MACHINE.M, MACHINE.m, MACHINE.l
+    momentum = [(M + m) * s.x_dot + m * l * s.y_dot for s in (start, after)]
+    np.testing.assert_allclose(momentum[1] - momentum[0], impulses[:3] + impulses[3:], atol=1e-14)
+    # Along the rod the two bodies share what they get; across it, each keeps its own: of the bob, m (ẋ + l ẏ).
+    across = np.eye(3) - np.outer(start.y, start.y)
+    bob = [m * (s.x_dot + l * s.y_dot) for s in (start, after)]
+    np.testing.assert_allclose(across @ (bob[1] - bob[0]), across @ impulses[3:], atol=1e-14)
+    assert np.array_equal(strike(start.packed(), np.zeros(6)), start.packed())
+
+
+def test_knobs_are_the_numbers_of_the_plant():
+    rng = np.random.default_rng(9)
+    for name in ("rotors", "hehn2011"):
+        base = plant(name)
+        turn = as_numpy(turned(base))
+        for _ in range(40):
+            lag, delay = (
+                rng.choice([0.0, rng.uniform(0.002, 0.1)]),
+                rng.choice([0.0, 1 / base.rate, rng.uniform(0, 0.1)]),
+            )
+            blown = Wind(on_vehicle=rng.normal(size=3), gust_on_bob=rng.uniform(), on_bob=rng.normal(size=3))
+            whole = base.replace(lag=lag, delay=delay, noise=Noise(y=0.1), wind=blown)
+            numbers = turn(np.concatenate(list(knob_values(MACHINE, whole).values())))
+            wanted = plant_numbers(loop_of(whole))
+            (age, steps), timing = numbers[:4].reshape(2, 2).T, numbers[4:12].reshape(2, 4)
+            kept = steps > 0
+            assert age[1] == np.floor((delay + 1e-9) * base.rate)
+            assert age[0] == age[1] + 1
+            found = np.concatenate([timing[kept].ravel(), numbers[12:18], numbers[21:33]])
+            # The change of a ramp is twelve times a difference of numbers near one, times (lag / step)², at most 1e6.
+            np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-8 if lag > 0 else 1e-15)
+            assert np.sum(steps * timing[:, 0]) == pytest.approx(1 / base.rate, abs=1e-9)
+
+
+def test_what_is_no_knob_and_no_gain_is_refused():
+    flight = pieces_kernel(loop_of(), CRITERION).begin(START)
+    with pytest.raises(fp.InputError, match="lag"):
+        flight.turn(leg=[0.1])
+    with pytest.raises(fp.InputError, match="origin"):
+        flight.turn(origin=[0.1])
+    with pytest.raises(fp.InputError, match="gains"):
+        flight.tune({"rod_bandwidth": 3.0})
+    with pytest.raises(fp.InputError, match="engine"):
+        pieces_kernel(loop_of(plant("mujoco")), CRITERION)
+    assert sum(KNOBS.values()) == 21
+
+
+def test_a_flight_that_has_ended_goes_nowhere():
+    flight = pieces_kernel(loop_of(law=fp.laws.lqr()), CRITERION).begin(START)
+    hit = flight.advance(100, [0, 0, 0, 0, 0, 1e9])
+    assert flight.status == "diverged"
+    assert not flight.flying
+    assert np.isnan(hit[-1]).all()
+    assert np.isnan(flight.advance(10)).all()

@@ -1,0 +1,388 @@
+"""A page that flies by itself, in a real browser without a screen or a network, beside the package's own kernels."""
+
+import itertools
+import json
+import time
+from urllib.parse import quote
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.flight.kernels.pieces import pieces_kernel
+from flypend.flight.live import live_data, live_loop
+from flypend.flight.verdict import goal
+from flypend.plants import MOTION_CAPTURE, plant
+
+SMALL = {"width": 900, "height": 520}
+WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+
+
+@pytest.fixture
+def visit(chromium, tmp_path):
+    """Open the live page of a run from disk, offline; at the end nothing was requested and nothing complained."""
+    contexts, asked, complaints, number = [], [], [], itertools.count()
+
+    def open_(run, hash_="", **setting):
+        path = tmp_path / f"{next(number)}.html"
+        run.to_html(path, live=True)
+        context = chromium.new_context(offline=True, **{"viewport": SMALL, "color_scheme": "light"} | setting)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.goto(path.as_uri() + hash_)
+        shown(page)
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert complaints == []
+    assert [url for url in asked if not url.startswith(("file://", "data:,", "blob:"))] == []
+
+
+@pytest.fixture(scope="module")
+def run():
+    start = fp.State(y=(0.6, 0, 0.8), omega=(0.5, -1, 2), x=(0.3, -0.2, 0.1))
+    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, 6.0)
+
+
+def until(page, condition, argument=None):
+    for _ in range(800):
+        if page.evaluate(condition, argument):
+            return
+        time.sleep(0.03)
+    raise AssertionError(condition)
+
+
+def shown(page):
+    """Wait for the flight of the present setting."""
+    until(page, "() => window.flypend && flypend.number() > 0 && flypend.shown() === flypend.number()")
+
+
+def poses(page, times):
+    """State and rotor forces that the page shows at `times`."""
+    told = page.evaluate("times => times.map((t) => (flypend.seek(t), flypend.pose(0)))", list(map(float, times)))
+    names = ("x", "x_dot", "R", "y", "y_dot", "rotor_forces")
+    return {name: np.array([pose[name] for pose in told]) for name in names} | {"t": np.array([p["t"] for p in told])}
+
+
+def flown(run, setting):
+    """The flight of a page's `setting` by the package: rows of state and rotor forces, one for each tick, e₃ up."""
+    loop, rate = live_loop(run.flight), run.flight.plant.rate
+    start = fp.State(**setting["start"]).seen(run.e3)
+    flight = pieces_kernel(loop, goal(run.e3)).begin(start, seed=run.flight.seed or 0, gains=setting["law"]["gains"])
+    given, knobs = setting["plant"], {}
+    knobs |= {name: [given[name]] for name in ("lag", "delay") if name in given}
+    knobs |= {"noise": list(given["noise"].values())} if "noise" in given else {}
+    knobs |= {"rotor_limits": setting["vehicle"]["rotor_limits"]} if "rotor_limits" in setting["vehicle"] else {}
+    flight.turn(**knobs)
+    rows, impulses, mass = [], np.zeros(6), {"bob": run.vehicle.bob_mass, "vehicle": run.vehicle.mass}
+    for poke in setting["pokes"]:
+        rows.append(flight.advance(round(poke["time"] * rate) - flight.ticks, impulses))
+        place = 3 if poke["on"] == "bob" else 0
+        impulses = np.zeros(6)
+        impulses[place : place + 3] = mass[poke["on"]] * np.array(poke["velocity"])
+    rows.append(flight.advance(round(setting["duration"] * rate), impulses))
+    return np.concatenate(rows)
+
+
+def assert_flies(page, run, atol=1e-9):
+    """What the page shows is what the package flies: at the times that it shows, to rounding."""
+    rows, rate = flown(run, page.evaluate("flypend.setting()")), run.flight.plant.rate
+    end = page.evaluate("flypend.duration()")
+    assert end == pytest.approx((len(rows) - 1) / rate, abs=1e-9)
+    seen = poses(page, np.round(np.linspace(0, end - 0.01, 60), 2))  # every hundredth of a second is a sample
+    ticks = np.rint(seen["t"] * rate).astype(int)
+    scale = 1 + np.abs(rows[ticks])
+    for name, place in {"x": slice(0, 3), "y": slice(18, 21), "rotor_forces": slice(24, None)}.items():
+        assert np.max(np.abs(seen[name] - rows[ticks, place]) / scale[:, place]) < atol, name
+
+
+def go_to(page, setting):
+    """Bring the page to `setting` by its address."""
+    page.evaluate("hash => { location.hash = hash; }", quote(json.dumps(setting)))
+    for _ in range(200):
+        if page.evaluate("flypend.setting()") == setting:
+            return shown(page)
+        time.sleep(0.03)
+    raise AssertionError(setting)
+
+
+# The same flight ------------------------------------------------------------------------------------------------------
+
+
+def test_it_opens_with_the_flight_that_was_recorded(visit, run):
+    page = visit(run)
+    seen = poses(page, run.t[::50])
+    for name in ("x", "x_dot", "R", "y", "y_dot", "rotor_forces"):
+        np.testing.assert_allclose(seen[name], getattr(run, name)[::50], atol=1e-9, err_msg=name)
+    assert page.evaluate("flypend.verdict().good") is True
+    assert page.locator("header > .verdict").inner_text().startswith("upright after")
+    assert page.locator(".plot").count() == 4
+
+
+def test_it_is_small_and_begins_soon(visit, run, tmp_path):
+    assert len(run.to_html(live=True)) < 1.2e6
+    page = visit(run)
+    worked = page.evaluate("flypend.timings()[0].server")
+    assert worked < 1000, worked  # ms in the worker, for a flight of six seconds; 20 on an idle machine
+
+
+def test_pokes_gains_limits_and_delay_are_flown_as_by_the_package(visit, run):
+    page, gains = visit(run), run.flight.law.gains
+    setting = page.evaluate("flypend.setting()") | {
+        "law": {"name": "inverted", "gains": {"rod_bandwidth": 1.05 * gains["rod_bandwidth"]}},
+        "plant": {"lag": 0.025, "delay": 0.007},
+        "vehicle": {"rotor_limits": [0.05, 3.1]},
+        "pokes": [
+            {"time": 2.5, "on": "bob", "velocity": [0.6, 0.2, 0]},
+            {"time": 3.25, "on": "vehicle", "velocity": [0, -0.4, 0.1]},
+        ],
+    }
+    before = poses(page, [3.0])["x"]
+    go_to(page, setting)
+    assert page.evaluate("flypend.duration()") == pytest.approx(3.25 + 6)
+    assert_flies(page, run)
+    assert np.abs(poses(page, [3.0])["x"] - before).max() > 0.01
+
+
+def random_settings(first, run, count, seed=4):
+    """Settings that differ from `first` in everything that a page may change."""
+    rng, gains = np.random.default_rng(seed), run.flight.law.gains
+    for _ in range(count):
+        start = fp.State.random(rng)
+        named = ("rod_damping", "height_bandwidth", "attitude_damping")
+        yield first | {
+            "law": {"name": "inverted", "gains": {name: gains[name] * rng.uniform(0.9, 1.15) for name in named}},
+            "plant": {
+                "lag": rng.uniform(0.01, 0.04), "delay": rng.uniform(0, 0.012),
+                "noise": {name: rng.uniform(0, 0.3) * getattr(MOTION_CAPTURE, name) for name in vars(MOTION_CAPTURE)},
+            },
+            "start": {name: np.asarray(getattr(start, name)).tolist() for name in first["start"]},
+            "pokes": [{"time": round(rng.uniform(1, 4), 3), "on": "bob", "velocity": rng.normal(0, 0.3, 3).tolist()}],
+        }  # fmt: skip
+
+
+def fly_random(page, run, count):
+    first = page.evaluate("flypend.setting()")
+    for setting in random_settings(first, run, count):
+        go_to(page, setting)
+        # A flight that amplifies a change of the start by 1e-12 to more than the bound cannot be nearer than that.
+        rows, beside = flown(run, setting), json.loads(json.dumps(setting))
+        beside["start"]["x"][0] += 1e-12
+        apart = np.abs(flown(run, beside) - rows).max()
+        assert_flies(page, run, max(1e-9, 10 * apart))
+
+
+def test_random_settings_are_flown_as_by_the_package(visit, run):
+    fly_random(visit(run), run, 3)
+
+
+@pytest.mark.slow
+def test_a_hundred_random_settings_are_flown_as_by_the_package(visit, run):
+    fly_random(visit(run), run, 100)
+
+
+@pytest.mark.parametrize("law", ["corrected", "lqr", "almost_global"])
+def test_other_laws_fly_too(visit, law):
+    rod = (0.1, 0, np.sqrt(0.99))
+    other = fp.simulate(fp.vehicle("hehn2011"), getattr(fp.laws, law)(), fp.State(y=rod), 2.0)
+    page = visit(other)
+    seen = poses(page, other.t[::20])
+    for name in ("x", "R", "y", "rotor_forces"):
+        np.testing.assert_allclose(seen[name], getattr(other, name)[::20], atol=1e-9, err_msg=name)
+    assert page.locator(".has-gains").is_visible() == (law != "lqr")
+
+
+def test_a_rod_that_touches_ends_the_flight_in_the_page_too(visit):
+    down = np.array([0, -np.sin(2.5), np.cos(2.5)])
+    start = fp.State(y=down, y_dot=fp.geometry.project_tangent(down, np.array([0, 9.0, 0])))
+    hit = fp.simulate(fp.vehicle("hehn2011").replace(mount="hub"), fp.laws.lqr(), start, 2.0)
+    assert hit.outcome.status == "collided"
+    page = visit(hit)
+    assert hit.outcome.reason in page.evaluate("flypend.verdict().words")
+    assert page.evaluate("flypend.duration()") == pytest.approx(hit.t[-1], abs=2e-3)
+    assert page.locator(".plot").count() == 5
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().over")
+
+
+# A flight that goes on ------------------------------------------------------------------------------------------------
+
+
+def test_it_flies_on_answers_pokes_and_keeps_two_hundred_of_them(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.seek(6)")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 3050")
+    assert abs(page.evaluate("flypend.pose(0)")["y"][2] - 1) < 1e-3
+    page.keyboard.press("p")
+    until(page, "() => flypend.pose(0).y[2] < 0.999")
+    page.evaluate(
+        """async () => { for (let i = 0; i < 199; i++) {
+            flypend.poke(i % 2 ? 'bob' : 'vehicle', [0.02 * Math.cos(i), 0.02 * Math.sin(i), 0.01]);
+            if (i % 10 === 0) await new Promise((done) => setTimeout(done, 5));
+        } }"""
+    )
+    until(page, "() => flypend.live().poked === 200")
+    tick = page.evaluate("flypend.live().tick")
+    until(page, "tick => flypend.live().tick > tick + 500", tick)
+    assert not page.evaluate("flypend.live().over")
+    pose = page.evaluate("flypend.pose(0)")
+    assert np.isfinite(np.concatenate([np.ravel(value) for value in pose.values()])).all()
+    assert np.linalg.norm(pose["y"]) == pytest.approx(1, abs=1e-9)
+    page.keyboard.press("l")
+    shown(page)
+    assert page.evaluate("flypend.duration()") == pytest.approx(6)
+
+
+def test_the_bob_is_pulled_by_pointer_and_by_key(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.seek(6), flypend.go(true)")
+    until(page, "() => flypend.live().tick > 3020")
+    handle = page.locator(".handle")
+    box = handle.bounding_box()
+    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(*middle)
+    page.mouse.down()
+    page.mouse.move(middle[0] + 120, middle[1], steps=4)
+    until(page, "() => flypend.live().pulled")
+    until(page, "() => Math.hypot(flypend.pose(0).y[0], flypend.pose(0).y[1]) > 0.03")
+    page.mouse.up()
+    until(page, "() => !flypend.live().pulled")
+    handle.focus()
+    page.keyboard.down("ArrowLeft")
+    until(page, "() => flypend.live().pulled")
+    page.keyboard.up("ArrowLeft")
+    until(page, "() => !flypend.live().pulled")
+
+
+def test_the_reference_is_moved_while_it_flies(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.seek(6), flypend.go(true)")
+    slider = page.locator("[data-path='origin.z'] input")
+    slider.fill("250")  # of 400 steps from −2 to 2 m: half a metre
+    until(page, "() => flypend.pose(0).x_ref[2] > 0.49")
+    until(page, "() => flypend.pose(0).x[2] > 0.4")
+    page.locator(".has-place .reset").click()
+    until(page, "() => flypend.pose(0).x_ref[2] === 0")
+
+
+def test_it_stops_scrubs_and_begins_again(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().tick > 100")
+    page.keyboard.press(" ")
+    tick = page.evaluate("flypend.live().tick")
+    page.evaluate("flypend.seek(0.05)")
+    assert page.evaluate("flypend.time()") == pytest.approx(0.05)
+    page.wait_for_timeout(300)
+    assert page.evaluate("flypend.live().tick") <= tick + 50  # one piece may have been under way
+    page.keyboard.press(" ")
+    until(page, "tick => flypend.live().tick > tick + 60", tick)
+    tick = page.evaluate("flypend.live().tick")
+    page.locator(".again").click()
+    until(page, "tick => flypend.live().tick < tick", tick)
+
+
+# What one takes away --------------------------------------------------------------------------------------------------
+
+
+def test_numbers_pictures_and_movies_are_saved(visit, run, tmp_path):
+    page = visit(run)
+    with page.expect_download() as got:
+        page.locator("[data-keep=csv]").click()
+    got.value.save_as(tmp_path / "flight.csv")
+    table = np.genfromtxt(tmp_path / "flight.csv", delimiter=",", names=True)
+    kept = np.searchsorted(table["t"], run.t - 1e-9)
+    for name, column in (("x_1", run.x[:, 0]), ("y_3", run.y[:, 2]), ("rotor_2", run.rotor_forces[:, 1])):
+        np.testing.assert_allclose(table[name][kept], column, atol=1e-9)
+    with page.expect_download() as got:
+        page.locator("[data-keep=png]").click()
+    got.value.save_as(tmp_path / "flight.png")
+    assert (tmp_path / "flight.png").read_bytes().startswith(b"\x89PNG")
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().tick > 50")
+    movie = page.locator("[data-name=movie]")
+    movie.click()
+    until(page, "() => flypend.live().tick > 300")
+    with page.expect_download() as got:
+        movie.click()
+    got.value.save_as(tmp_path / "flight.webm")
+    assert (tmp_path / "flight.webm").stat().st_size > 1000
+
+
+def test_a_link_leads_to_the_setting(visit, run):
+    page = visit(run)
+    slider = page.locator("[data-path='law.gains.rod_damping'] input")
+    slider.fill("230")
+    shown(page)
+    page.locator("[data-keep=link]").click()
+    setting, address = page.evaluate("[flypend.setting(), location.hash]")
+    other = visit(run, hash_=address)
+    assert other.evaluate("flypend.setting()") == setting
+    assert_flies(other, run)
+
+
+def test_a_flight_stays_as_a_ghost_while_sliders_move(visit, run):
+    page = visit(run)
+    assert page.locator(".legend p").count() == 1  # the flight that was recorded is the flight itself
+    page.locator("[data-path='law.gains.rod_damping'] input").fill("260")
+    shown(page)
+    assert page.locator(".legend p").count() == 2
+    np.testing.assert_allclose(page.evaluate("(flypend.seek(3), flypend.pose(1).x)"), run.x[300], atol=1e-5)
+    page.locator("[data-keep=pin]").click()
+    until(page, "() => document.querySelectorAll('.legend p').length === 1")
+
+
+# For everyone ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("scheme", "viewport"), [("light", WIDE), ("dark", NARROW)])
+def test_axe_finds_nothing(visit, axe, run, scheme, viewport):
+    page = visit(run, color_scheme=scheme, viewport=viewport)
+    assert axe(page) == []
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().tick > 50")
+    page.keyboard.press(" ")
+    assert axe(page) == []
+
+
+@pytest.mark.parametrize("width", [390, 768, 1280, 1920])
+def test_it_fits_every_screen(visit, run, width):
+    page = visit(run, viewport={"width": width, "height": 844 if width < 1000 else 900})
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    for name in (".go", "[data-on=bob]", "[data-keep=csv]"):
+        page.locator(name).scroll_into_view_if_needed()
+        box = page.locator(name).bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= width
+
+
+def test_what_no_page_can_fly_is_told_in_a_line(run, tmp_path):
+    machine, start = fp.vehicle("hehn2011"), fp.State(y=(0.1, 0, np.sqrt(0.99)))
+
+    def still(t, state):
+        return fp.Wrench(machine.weight, np.zeros(3))
+
+    flights = {
+        "ideal": fp.simulate(machine, fp.laws.inverted(), start, 0.1, plant="ideal"),
+        "mujoco": fp.simulate(machine, fp.laws.inverted(), start, 0.1, plant="mujoco"),
+        "callable": fp.simulate(machine, fp.Controller(name="still", function=still), start, 0.1, plant="rotors"),
+    }
+    run.save(tmp_path / "run.nc")
+    flights["session"] = fp.load(tmp_path / "run.nc")
+    for word, flight in flights.items():
+        with pytest.raises(fp.InputError, match=word) as told:
+            flight.to_html(tmp_path / "no.html", live=True)
+        assert "\n" not in str(told.value)
+    assert not (tmp_path / "no.html").exists()
+
+
+def test_random_numbers_of_the_page_are_those_of_the_plant():
+    noisy = plant("rotors").replace(noise=MOTION_CAPTURE, seed=5)
+    flight = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0.1, 0, 0.99**0.5)), 0.1, plant=noisy)
+    assert live_data(flight.flight)["offer"]["seed"] == 5

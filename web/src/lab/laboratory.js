@@ -1,0 +1,300 @@
+// The laboratory: a viewer beside controls; what they say goes to an engine, what comes back is shown at once.
+//
+// window.flypend is that of the viewer (docs/pages/replay.md) and: setting(), verdict(), number() of the last question, shown() of
+// the last flight that is shown, timings() in ms of the last ones, map() with the points so far; and live(), poke(), pull(), see
+// docs/pages/live.md.
+
+import css from "../replay.css";
+import own from "../lab.css";
+import { Choice, keys } from "../controls.js";
+import { judge } from "../layout.js";
+import { Running } from "../live/running.js";
+import { Saving } from "../live/saving.js";
+import { calm } from "../motion.js";
+import { unit } from "../numbers.js";
+import { Viewer } from "../viewer.js";
+import { Handle } from "./handle.js";
+import { Map as Disc } from "./map.js";
+import { Panel } from "./panel.js";
+import { Setting } from "./setting.js";
+
+const MAP_DELAY = 250; // ms without a change before a map is asked for
+const HOLD = 400; // ms without a slider's move before the camera goes where the new flight needs it
+
+export class Laboratory {
+  /** With the engine that `connect` makes of a listener to replies and one to the connection: see link.js, live/local.js. */
+  constructor(data, connect) {
+    this.offer = data.offer;
+    this.viewer = new Viewer(data, css + own);
+    this.pinned = data.runs;
+    this.main = document.querySelector("main");
+    this.main.classList.add("lab");
+    this.setting = new Setting(data.offer.first, () => this.changed());
+    Object.assign(this, { asked: 0, shown: 0, clock: new Map(), times: [], tab: "flight" });
+    this.#header();
+    this.link = connect((reply) => this.#told(reply), (words) => this.#say(words));
+    this.running = new Running(this);
+    this.panel = new Panel(this.main, this);
+    this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => this.running.pull(place));
+    this.disc = new Disc(this.main, (y) => {
+      this.rod(y);
+      this.show("flight");
+    });
+    this.viewer.drew = () => this.handle.show(this.running.on);
+    this.saving = new Saving(this);
+    keys({ p: () => this.panel.poke("bob"), l: () => this.running.toggle(), r: () => this.restart() });
+    this.#undoKeys();
+    if (this.setting.unreadable) this.#notice("The address holds no setting that can be read. This is the usual start.");
+    this.changed();
+  }
+
+  #header() {
+    const header = this.main.querySelector("header");
+    if (this.offer.vehicles) this.tabs = new Choice(header, "View", [["flight", "Flight", "The flight and its plots"], ["map", "Region of attraction", "From which directions of the rod it settles"]], (name) => this.show(name));
+    this.words = document.createElement("p");
+    Object.assign(this.words, { className: "verdict", ariaLive: "polite" });
+    header.append(this.words);
+    this.busy = document.createElement("p");
+    Object.assign(this.busy, { className: "busy", role: "status" });
+    this.viewer.parts.scene.append(this.busy);
+    this.note = document.createElement("p");
+    Object.assign(this.note, { className: "notice", hidden: true });
+    this.note.setAttribute("role", "alert");
+    this.viewer.parts.scene.append(this.note);
+    this.tabs?.show("flight");
+  }
+
+  #say(words) {
+    this.busy.textContent = words;
+    this.busy.hidden = !words;
+  }
+
+  /** Say `words` over the picture until the next flight, with a button that does `action`, if there is one. */
+  #notice(words, [name, action] = []) {
+    this.note.textContent = words;
+    this.note.hidden = !words;
+    if (!name) return;
+    const button = document.createElement("button");
+    Object.assign(button, { type: "button", textContent: name });
+    button.addEventListener("click", action);
+    this.note.append(" ", button);
+  }
+
+  #undoKeys() {
+    document.addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.closest("textarea")) return;
+      event.preventDefault();
+      if (event.shiftKey) this.setting.redo();
+      else this.setting.undo();
+    });
+  }
+
+  // What the controls do -----------------------------------------------------------------------------------------
+
+  slide(facts, value) {
+    this.touched = facts.path;
+    if (!this.running.on) this.#hold();
+    this.setting.slide(facts, value);
+  }
+
+  /** Hold the camera while a slider moves: flights are compared better from one place, and nothing is drawn on the way. */
+  #hold() {
+    const { stage } = this.viewer;
+    stage?.hold("slider", true);
+    clearTimeout(this.held);
+    this.held = setTimeout(() => {
+      stage?.hold("slider", false);
+      this.viewer.wake();
+    }, HOLD);
+  }
+
+  choose(path, name) {
+    this.touched = path;
+    const value = structuredClone(this.setting.value), { mount } = value.vehicle;
+    if (path === "law.name") value.law = { name, gains: {} };
+    else if (path === "vehicle.mount") value.vehicle.mount = name;
+    else if (path === "vehicle.base") Object.assign(value, { vehicle: { base: name, mount }, law: { name: value.law.name, gains: {} } });
+    else value.plant = { base: name };
+    this.setting.replace(value);
+  }
+
+  reset(group) {
+    const value = structuredClone(this.setting.value);
+    if (group === "gains") value.law.gains = {};
+    else if (group === "place") delete value.origin;
+    else Object.assign(value, { plant: { base: value.plant.base }, vehicle: { base: value.vehicle.base, mount: value.vehicle.mount } });
+    this.setting.replace(value);
+  }
+
+  /** Begin elsewhere; pokes belong to the flight that was. */
+  start(start) {
+    this.touched = "start.y.tilt";
+    if (!this.running.on) {
+      this.viewer.clock.pause();
+      this.viewer.clock.seek(this.viewer.clock.start);
+    }
+    this.setting.replace({ ...this.setting.value, start, pokes: [] });
+    this.running.restart();
+  }
+
+  /** Begin again: a live flight at its start, another with all as it was at first. */
+  restart() {
+    if (this.running.on) this.running.restart();
+    else this.preset(this.offer.first);
+  }
+
+  /** Keep the flight that is shown as a ghost, or let it go. */
+  pin() {
+    this.pinned = this.pinned.length ? [] : [{ ...this.record, title: "pinned" }];
+    this.panel.pins(this.pinned.length > 0);
+    if (!this.running.on && this.record) this.#load();
+  }
+
+  rod(y) {
+    this.start({ ...this.setting.value.start, y: unit(y) });
+  }
+
+  preset(setting) {
+    this.viewer.clock.pause();
+    this.viewer.clock.seek(this.viewer.clock.start);
+    this.steady = null;
+    this.setting.replace(setting);
+  }
+
+  /** Hit a body at the time shown; what was before stays, what came after is flown anew. */
+  poke(on, way, speed) {
+    const { clock, stage } = this.viewer;
+    const { right = [1, 0, 0], back = [0, -1, 0] } = stage?.views[0] ?? {};
+    const level = unit([back[0], back[1], 0]);
+    const [sign, along] = { right: [1, right], left: [-1, right], away: [-1, level], towards: [1, level], up: [1, [0, 0, 1]], down: [-1, [0, 0, 1]] }[way];
+    if (this.running.on) {
+      this.running.poke(on, along.map((value) => sign * speed * value));
+      return;
+    }
+    const time = Math.max(clock.time, 0);
+    const earlier = (this.setting.value.pokes ?? []).filter((poke) => poke.time < time - 1e-9);
+    this.touched = "pokes.velocity";
+    this.follow = true;
+    this.setting.replace({ ...this.setting.value, pokes: [...earlier, { time, on, velocity: along.map((value) => sign * speed * value) }] });
+  }
+
+  unpoke() {
+    this.setting.replace({ ...this.setting.value, pokes: [] });
+  }
+
+  /** Show a tab: "flight" or "map". */
+  show(tab) {
+    this.tab = tab;
+    this.main.dataset.tab = tab;
+    this.disc.root.hidden = tab !== "map";
+    this.tabs?.show(tab);
+    if (tab === "map") this.#map();
+    else {
+      clearTimeout(this.mapping);
+      this.link.ask("stop");
+    }
+  }
+
+  // Questions and answers ----------------------------------------------------------------------------------------
+
+  /** The setting has changed: ask for its flight, or tell the one that goes on. */
+  changed() {
+    this.panel.setting(this.setting.value);
+    if (this.running.on) {
+      this.running.change();
+      return;
+    }
+    this.asked = this.link.ask("fly", { setting: this.setting.value });
+    this.clock.set(this.asked, performance.now());
+    if (this.tab === "map") this.#map();
+  }
+
+  #map() {
+    const { duration, start } = this.setting.value;
+    this.disc.clear(duration, start.y);
+    this.mapped = -1;
+    clearTimeout(this.mapping);
+    this.mapping = setTimeout(() => (this.mapped = this.link.ask("map", { setting: this.setting.value })), MAP_DELAY);
+  }
+
+  #told(reply) {
+    if (reply.kind === "flight") this.#flight(reply);
+    else if (reply.kind === "map" && reply.number === this.mapped) this.disc.add(reply);
+    else if (reply.kind === "compiling" && reply.number >= this.shown) this.#say("compiling…");
+    else if (reply.kind === "error" && reply.number === this.asked) this.#error(reply);
+    else if (reply.kind === "error" && reply.number === this.mapped) this.disc.refuse(reply.message);
+  }
+
+  #flight(reply) {
+    if (reply.number < this.shown) return;
+    this.shown = reply.number;
+    this.main.classList.remove("stale");
+    if (this.flew) this.#notice("");
+    this.flew = true;
+    // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
+    this.steady ??= reply.run.direction;
+    this.record = { ...reply.run, direction: this.steady };
+    if (!this.running.on) this.#load();
+    this.verdict = reply.verdict;
+    judge(this.words, reply.verdict);
+    if (reply.number === this.asked) {
+      this.#say("");
+      this.adopt(reply.start);
+      this.panel.flight(reply);
+      if (this.follow && !calm()) this.viewer.clock.play();
+      this.follow = false;
+    }
+    const begun = this.clock.get(reply.number);
+    for (const number of this.clock.keys()) if (number <= reply.number) this.clock.delete(number);
+    requestAnimationFrame(() => {
+      this.times = [...this.times.slice(-199), { server: reply.milliseconds, picture: performance.now() - begun }];
+    });
+  }
+
+  /** Show the flight of the setting, and beside it those that are pinned unless it is they. */
+  #load() {
+    const same = JSON.stringify(this.setting.value) === JSON.stringify(this.offer.first);
+    const ghosts = this.offer.vehicles || !same || this.pinned[0]?.title === "pinned" ? this.pinned : [];
+    this.viewer.load([this.record, ...ghosts]);
+  }
+
+  /** A random start comes back in numbers, which the setting then keeps. */
+  adopt(start) {
+    if (!("random" in this.setting.value.start)) return;
+    this.setting.adopt(start);
+    this.panel.setting(this.setting.value);
+  }
+
+  #error({ number, field, message }) {
+    this.shown = number;
+    this.follow = false;
+    this.#say("");
+    this.panel.complain(message, field, this.touched);
+    this.verdict = { words: message, good: false };
+    judge(this.words, { words: "not flown", good: false, reason: message });
+    this.viewer.clock.pause();
+    if (!this.flew) this.#begin(message);
+    else {
+      this.main.classList.add("stale");
+      const undo = this.setting.past.length ? ["Undo", () => this.setting.undo()] : [];
+      this.#notice(`Not flown. ${message}. The picture is of the last flight.`, undo);
+    }
+  }
+
+  /** Nothing has been flown yet: an address that leads to no flight is no dead end. */
+  #begin(message) {
+    this.#notice(`The setting of the address cannot be flown (${message}). This is the usual start.`);
+    this.setting.replace(this.offer.first);
+  }
+
+  provide() {
+    return Object.freeze({
+      ...this.viewer.offer(),
+      setting: () => structuredClone(this.setting.value), verdict: () => this.verdict, number: () => this.asked,
+      shown: () => this.shown, timings: () => structuredClone(this.times), tab: (name) => this.show(name),
+      live: () => this.running.told(), go: (on) => this.running.go(on), poke: (on, velocity) => this.running.poke(on, velocity),
+      pull: (place) => this.running.pull(place), pin: () => this.pin(),
+      map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good }),
+    });
+  }
+}

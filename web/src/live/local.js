@@ -1,0 +1,90 @@
+// The engine of a page that flies by itself: machine code in a worker, which answers like the server of the laboratory.
+
+import source from "worker:./worker.js";
+import { request } from "./request.js";
+import { judged } from "./verdict.js";
+
+export class Local {
+  /** `told` is called with every reply to a question that is still asked. */
+  constructor({ engine, offer, runs }, told) {
+    const { code, ...facts } = engine;
+    const { columns, ...record } = runs[0];
+    Object.assign(this, { facts, offer, told, record, number: 0, waiting: null, busy: false });
+    this.worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+    this.worker.addEventListener("message", ({ data }) => this.#answer(data));
+    this.worker.postMessage({ kind: "load", code: Uint8Array.from(atob(code), (character) => character.charCodeAt(0)), facts });
+  }
+
+  /** Ask for something of a `kind`; returns its number. Only whole flights are answered here: there is no map. */
+  ask(kind, content = {}) {
+    this.number += 1;
+    if (kind === "fly") {
+      this.waiting = { number: this.number, setting: this.whole(content.setting) };
+      this.#next();
+    }
+    return this.number;
+  }
+
+  /** Begin a flight that goes on: that of `setting`, up to `tick`; `flown` is told every piece, until the next begins. */
+  begin(setting, tick, flown) {
+    this.flown = flown;
+    this.begun = ++this.number;
+    this.worker.postMessage({ kind: "begin", number: this.begun, asked: request(this.whole(setting), this.facts, this.offer.seed), until: tick });
+  }
+
+  /** Fly it on: `ticks`, gains, knobs, pokes and pull as the worker takes them. */
+  advance(content) {
+    this.worker.postMessage({ kind: "advance", number: this.begun, ...content });
+  }
+
+  /** A start that is a number becomes one of those that the package has drawn. */
+  whole(setting) {
+    const { random, ...given } = setting.start, { randoms } = this.offer;
+    return random === undefined ? setting : { ...setting, start: { ...randoms[random % randoms.length], ...given } };
+  }
+
+  #next() {
+    if (this.busy || !this.waiting) return;
+    const { number, setting } = this.waiting;
+    Object.assign(this, { busy: true, asked: setting, waiting: null });
+    this.worker.postMessage({ kind: "fly", number, asked: request(setting, this.facts, this.offer.seed) });
+  }
+
+  #answer(reply) {
+    if (reply.kind === "piece") {
+      if (reply.number === this.begun) this.flown?.(reply);
+      return;
+    }
+    const { asked } = this, { number, columns, outcome, milliseconds } = reply, verdict = judged(outcome, this.facts);
+    this.busy = false;
+    this.told({
+      kind: "flight", number, milliseconds, verdict, start: asked.start, sliders: this.sliders(asked),
+      run: { ...this.record, columns, verdict, completed: outcome.status === 0, gains: gains(asked, this.record) },
+    });
+    this.#next();
+  }
+
+  /** The sliders with the values of a setting. */
+  sliders(setting) {
+    return this.offer.sliders.map((facts) => {
+      const stored = facts.path.split(".").reduce((table, key) => table?.[key], setting);
+      return stored === undefined ? facts : { ...facts, value: read(facts.put, stored) };
+    });
+  }
+}
+
+/** What a slider's `put` was filled with to become `stored`; see setting.js. */
+function read(put, stored) {
+  if (put === null || put === undefined) return stored;
+  if ("#" in Object(put)) return stored / put["#"];
+  for (const key of Object.keys(Object(put))) {
+    const value = read(put[key], stored[key]);
+    if (typeof put[key] === "object" && Number.isFinite(value)) return value;
+  }
+  return NaN;
+}
+
+/** The gains of a legend, in which those of the setting stand for those of the flight that was recorded. */
+function gains({ law }, { gains: shown }) {
+  return shown.map(([name, value]) => [name, name in law.gains ? String(+law.gains[name].toPrecision(4)) : value]);
+}

@@ -1,0 +1,65 @@
+// The simulation beside the page: whole flights that are asked for, and one that goes on piece by piece.
+
+import { chosen, columns } from "./columns.js";
+import { Simulation } from "./simulation.js";
+
+let still, running, ready;
+
+const actions = {
+  load({ code, facts }) {
+    ready = Promise.all([Simulation.from(code, facts), Simulation.from(code, facts)]).then((made) => ([still, running] = made));
+  },
+
+  /** A whole flight. */
+  fly({ number, asked }) {
+    const begun = performance.now(), rows = flown(still, asked, asked.ticks);
+    const kept = chosen(still, rows, 0);
+    return { kind: "flown", number, columns: columns(still, rows, kept, 0), outcome: still.outcome(), milliseconds: performance.now() - begun };
+  },
+
+  /** Begin a flight that goes on, and fly it up to a tick at once. */
+  begin({ number, asked, until }) {
+    return piece(number, flown(running, asked, until), 0);
+  },
+
+  /** Fly on. */
+  advance({ number, ticks, gains, knobs, pokes, pull }) {
+    const first = running.tick + 1;
+    running.tune(gains);
+    running.turn(knobs);
+    const kicks = pokes.reduce(added, null);
+    return piece(number, pull ? running.pulled(ticks, pull, kicks) : running.advance(ticks, kicks), first);
+  },
+};
+
+function flown(simulation, { start, seed, gains, knobs, pokes }, ticks) {
+  simulation.tune(gains);
+  simulation.turn(knobs);
+  simulation.begin(start, seed);
+  const parts = [];
+  let impulses = null;
+  for (const poke of pokes.filter(({ tick }) => tick < ticks)) {
+    if (poke.tick > simulation.tick) {
+      parts.push(simulation.advance(poke.tick - simulation.tick, impulses));
+      impulses = null;
+    }
+    impulses = added(impulses, poke.impulses);
+  }
+  parts.push(simulation.advance(Math.max(ticks - simulation.tick, 1), impulses));
+  const all = new Float64Array(parts.reduce((sum, part) => sum + part.length, 0));
+  parts.reduce((place, part) => (all.set(part, place), place + part.length), 0);
+  return all;
+}
+
+const added = (sum, impulses) => (sum ? sum.map((value, i) => value + impulses[i]) : impulses);
+
+function piece(number, rows, first) {
+  const kept = chosen(running, rows, first);
+  return { kind: "piece", number, columns: columns(running, rows, kept, first), tick: running.tick, outcome: running.outcome() };
+}
+
+addEventListener("message", async ({ data }) => {
+  if (data.kind !== "load") await ready;
+  const reply = actions[data.kind](data);
+  if (reply) postMessage(reply);
+});

@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy
+from flypend.compile.llvm.stagewise import alone
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench
 from flypend.model.joint import friction
@@ -34,7 +34,7 @@ class EquationsEngine:
     """
 
     def __init__(self, vehicle: Vehicle, plant: Plant = ROTORS) -> None:
-        self._step = _compiled_step(vehicle, moving(plant))
+        self._vehicle, self._moving = vehicle, moving(plant)
         self._lag, self._plant = vehicle.rotor_lag, plant
         self.packed: Any = np.zeros(SIZE)
         self.rotors: Any = np.zeros(len(vehicle.rotor_spins))
@@ -46,12 +46,13 @@ class EquationsEngine:
     def step(self, command: Any, duration: float, wind: Any) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
         timing = motor_timing(self._lag, self._plant, duration)
-        self.packed, self.rotors = self._step(self.packed, self.rotors, command, wind, timing)
+        step = _compiled_step(self._vehicle, self._moving, bool(np.any(wind)))
+        self.packed, self.rotors = step(self.packed, self.rotors, command, wind, timing)
 
 
 @lru_cache(maxsize=64)
-def _compiled_step(vehicle: Vehicle, plant: Plant) -> Callable[..., Any]:
-    return as_numpy(rotor_step(vehicle, plant))
+def _compiled_step(vehicle: Vehicle, plant: Plant, windy: bool) -> Callable[..., Any]:
+    return alone(rotor_step(vehicle, plant, windy=windy))
 
 
 def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, name: str = "rotor_step") -> ca.Function:

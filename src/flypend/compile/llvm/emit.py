@@ -88,12 +88,15 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
 }
 
 
-def define(lanes: Lanes, program: Program, *, inline: bool = False) -> ir.Function:
+def define(lanes: Lanes, program: Program, *, inline: bool = False, exact: bool = False) -> ir.Function:
     """Define `program` as a function of the module, with one pointer to vectors per input, then one per output.
 
     All inputs are read before any output is written, so an output may alias an input. `inline` as in `Lanes.function`.
+    With `exact`, every operation is rounded by itself and in this order, as a caller's own arithmetic is.
     """
     function, code = lanes.function(program.name, len(program.inputs) + len(program.outputs), inline=inline)
+    if exact:
+        code.flags = ()
     sources, targets = function.args[: len(program.inputs)], function.args[len(program.inputs) :]
     results = emit(code, program, [partial(code.load, source) for source in sources])
     for target, values in zip(targets, results, strict=True):

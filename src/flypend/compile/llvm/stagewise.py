@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from threading import local
 from typing import Any
 
 import casadi as ca
@@ -72,6 +73,28 @@ def stagewise(function: ca.Function, shared: Sequence[int] = (), *, backward: bo
 
     kinds = [ctypes.c_int64, *[ctypes.c_void_p] * len(lengths)]
     return Stagewise(jit.build(f"stagewise {strides} {backward} {routine!r}", module, "kernel", kinds))
+
+
+def alone(function: ca.Function) -> Callable[..., Any]:
+    """Compile `function` of dense vectors as a callable on arrays, which returns a tuple of arrays.
+
+    Its arithmetic is that of the kernels of many flights, bit for bit: one lane of as many. Every thread that calls it
+    has memory of its own.
+    """
+    compiled, own = stagewise(function), local()
+    sizes = [function.nnz_in(i) for i in range(function.n_in())], [function.nnz_out(i) for i in range(function.n_out())]
+
+    def call(*values: Any) -> Any:
+        if not hasattr(own, "memory"):
+            inputs, outputs = ([lanes(size) for size in kind] for kind in sizes)
+            own.memory = inputs, outputs, [array.ctypes.data for array in (*inputs, *outputs)]
+        inputs, outputs, places = own.memory
+        for array, value in zip(inputs, values, strict=True):
+            array.T[:] = value
+        compiled.native(1, *places)
+        return tuple(array[:, 0].copy() for array in outputs)
+
+    return call
 
 
 def _of_calls(function: ca.Function) -> ca.Function:

@@ -52,7 +52,8 @@ class _Worlds:
         self.code = code = Code(lanes, ir.IRBuilder(function.append_basic_block()))
         self.at = dict(zip(ARGUMENTS, function.args, strict=True))
         programs = {name: getattr(problem, name) for name in ("begin", "command", "step", "observe", "judge")}
-        self.call = {name: define(lanes, program) for name, program in programs.items()}
+        plain = "" if problem.inner else "command"  # the forces that an action asks for, to the bit
+        self.call = {name: define(lanes, program, exact=name == plain) for name, program in programs.items()}
         self.uniforms = define_uniforms(lanes, problem.begin.inputs[0])
         self.actions = problem.command.inputs[1]
         self.seen = len(problem.observe.outputs[0])

@@ -87,6 +87,7 @@ class Code:
         self.lanes = lanes
         self.builder = builder
         self.context = context
+        self.flags = FLAGS
 
     # Memory -------------------------------------------------------------------------------------------------------
 
@@ -256,7 +257,9 @@ class Value:
 
     def _float(self, name: str, other: Value | float, swapped: bool = False) -> Value:
         pair = [self.raw, self.code.value(other).raw]
-        return Value(self.code, getattr(self.code.builder, name)(*(pair[::-1] if swapped else pair), flags=FLAGS))
+        return Value(
+            self.code, getattr(self.code.builder, name)(*(pair[::-1] if swapped else pair), flags=self.code.flags)
+        )
 
     def __add__(self, other: Value | float) -> Value:
         return self._float("fadd", other)

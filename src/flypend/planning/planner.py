@@ -21,13 +21,14 @@ from flypend.planning.result import Plan, Status
 from flypend.planning.solver import Problem, Solver
 from flypend.plants.lag import step_timing
 
-HORIZONS = (12.5, 20.0, 32.0)  # √(l/g), tried in turn: 3 s on hehn2011
+HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
 LONGEST = 60.0  # √(l/g)
-MOST_ITERATIONS = 60
+MOST_ITERATIONS = 80
 DENSE = 4  # samples per stage
 # Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
 MOUNT_FIRST, MOUNT_GROWTH, MOUNT_LAST = 1e-4, 2.0, 10.0
+NOT_REACHED, NOT_KEPT = "inverted hover is not reached", "a wish is not kept"
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
 
 
@@ -128,22 +129,27 @@ def _solved(asked: Request, horizon: float, deadline: float) -> Plan:
     begin = time.process_time()
     stages = max(2, round(horizon * STAGES_PER_UNIT))
     solver = Solver(compiled, *_guessed(asked, guess, stages, horizon / stages))
-    best, steady, iterations = np.inf, 0, 0
-    while iterations < MOST_ITERATIONS and steady < STEADY_FOR and time.monotonic() < deadline:
+    best, steady, iterations, kept = np.inf, 0, 0, None
+    while iterations < MOST_ITERATIONS and steady < STEADY_FOR and not solver.stuck and time.monotonic() < deadline:
         if asked.wishes.mounted is not None:
-            solver.insist(-2, min(MOUNT_LAST, MOUNT_FIRST * MOUNT_GROWTH**iterations))
+            weight = MOUNT_FIRST * MOUNT_GROWTH**iterations
+            solver.insist(-2, min(MOUNT_LAST, weight))
+            best = best if weight > MOUNT_LAST else np.inf  # costs under other weights do not compare
         solver.improve()
         iterations += 1
-        score, lane, _ = _judged(solver, asked)
-        steady = steady + 1 if score > (1 - STEADY) * best and solver.barrier[lane] <= STEADY_BARRIER else 0
+        score, lane, lacks = _judged(solver, asked)
+        settled = np.isfinite(best) and score > (1 - STEADY) * best and solver.barrier[lane] <= STEADY_BARRIER
+        steady = steady + 1 if settled else 0
+        if kept is None or not score > best:
+            kept = solver.states[:, :, lane].copy(), solver.commands[:, :, lane].copy(), lane, lacks
         best = min(best, score)
-    solver.measure()
-    _, lane, lacks = _judged(solver, asked)
     took = time.process_time() - begin
+    if kept is None:
+        kept = solver.states[:, :, 0], solver.commands[:, :, 0], 0, NOT_REACHED
+    states, commands, lane, lacks = kept
     if lacks and time.monotonic() >= deadline:
         lacks += " within the time limit"
     unfinished = "" if steady >= STEADY_FOR else "the solver had not converged"
-    states, commands = solver.states[:, :, lane].copy(), solver.commands[:, :, lane].copy()
     dense = _dense(asked, compiled, states, commands, horizon / stages / DENSE)
     return _told(asked, dense, commands, horizon / stages, lacks, unfinished, took, iterations, lane)
 
@@ -153,7 +159,7 @@ def _judged(solver: Solver, asked: Request) -> tuple[float, int, str]:
     ends, closed, kept = solver.end <= 1, solver.gap <= CLOSED, solver.violation <= TOLERANCE
     cost = asked.objective["excursion"] * solver.excursion**2 + solver.effort
     if asked.wishes.mounted is not None:
-        cost = solver.merit  # with what it costs to be near a part
+        cost = solver.cost  # with what it costs to be near a part
     flyable = ends & closed & kept & np.isfinite(cost)
     if np.any(flyable):
         lane = int(np.argmin(np.where(flyable, cost, np.inf)))
@@ -161,7 +167,7 @@ def _judged(solver: Solver, asked: Request) -> tuple[float, int, str]:
     lacks = np.maximum(solver.end, 1) + solver.violation / TOLERANCE + solver.gap / CLOSED
     lane = int(np.argmin(np.where(np.isfinite(lacks), lacks, np.inf)))
     wish = ends[lane] and closed[lane]
-    return np.inf, lane, "a wish is not kept" if wish else "inverted hover is not reached"
+    return np.inf, lane, NOT_KEPT if wish else NOT_REACHED
 
 
 def _same(values: Any) -> NDArray[np.float64]:

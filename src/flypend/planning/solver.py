@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
 from flypend.planning.kernels import Kernels
+from flypend.planning.stage import LEAST_ROOM
 from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED
 
 Lanes = NDArray[np.float64]
@@ -44,8 +45,13 @@ class Settings:
         Largest change of attitude or rod in one step, rad.
     spread : float
         Largest ratio between a multiplier and μ/s, either way.
-    end_weight : float
-        Weight of the squared errors at the end.
+    end_weight, most_end_weight, end_growth : float
+        First and largest weight of the squared errors at the end, and its factor per iteration while they are too
+        large at a barrier below `end_barrier`.
+    end_barrier : float
+        See `end_growth`.
+    relief : float
+        Barrier down to which a large e costs its logarithm, so that it does not outweigh the end.
     """
 
     barrier: float = 1e-3
@@ -59,10 +65,14 @@ class Settings:
     better: float = 1 / 3
     shrink: float = 0.4
     attempts: int = 8
-    room: float = 0.99
+    room: float = 0.9
     turn: float = 2.0
     spread: float = 100.0
     end_weight: float = 0.005
+    most_end_weight: float = 50.0
+    end_growth: float = 1.3
+    end_barrier: float = 1e-4
+    relief: float = 1e-4
 
 
 @dataclass(frozen=True)
@@ -109,6 +119,8 @@ class Solver:
         The best so far.
     merit, violation, gap, end : (lanes,)
         Merit, sum of what inequalities lack, sum of all gaps, and largest error at the end in tolerances.
+    cost : (lanes,)
+        The merit with the weight of e as it was asked for.
     promise : (lanes,)
         By how much the linear-quadratic problem expected the merit to fall at the last step.
     """
@@ -118,6 +130,7 @@ class Solver:
     ) -> None:
         self._k, self._problem = kernels, problem
         self._set = settings = settings or Settings()
+        self._asked = problem.numbers[SHARED].copy()
         N, k, shape = problem.stages, kernels.inequalities, kernels.shape
         self.states, self.commands = states, commands
         self._limits = lanes(3)
@@ -162,6 +175,17 @@ class Solver:
         return mu
 
     @property
+    def cost(self) -> Lanes:
+        """See the class."""
+        own: Lanes = self.merit + (self._asked - self._problem.numbers[SHARED]) * self._shared[0]
+        return own
+
+    @property
+    def stuck(self) -> bool:
+        """Whether no lane can be improved any more, whatever the damping."""
+        return bool(np.all(self._damping[1] >= self._set.most_damping))
+
+    @property
     def effort(self) -> Lanes:
         """Sum over the stages of the cost of the commands, (lanes,)."""
         own: Lanes = self._problem.numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2
@@ -184,6 +208,8 @@ class Solver:
     def improve(self) -> None:
         """Do one iteration."""
         k, p, N = self._k, self._problem, self._problem.stages
+        early = np.minimum(1.0, self._mu[0] / self._set.relief)
+        p.numbers[SHARED] = self._asked / (1 + early * self._shared[0])
         point = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
         k.linearised(N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B)
         k.terms(N, *point, self._slack, self._dual, self._mu, self._cost)
@@ -221,7 +247,8 @@ class Solver:
         for _ in range(settings.attempts):
             self._fly(length)
             trial = (self._new_states, self._new_commands, self._new_shared, self._trial, self._new_slack)
-            merit, _, _ = self._value(*trial, (1 - length) * self.gap)
+            gap = (1 - length) * self.gap
+            merit, violation, end = self._value(*trial, gap)
             found |= merit < self.merit
             if np.all(found):
                 break
@@ -229,6 +256,8 @@ class Solver:
         pairs = ((self.states, trial[0]), (self.commands, trial[1]), (self._shared, trial[2]), (self._slack, trial[4]))
         for old, new in pairs:
             np.copyto(old, new, where=found)
+        self.merit, self.violation = np.where(found, merit, self.merit), np.where(found, violation, self.violation)
+        self.gap, self.end = np.where(found, gap, self.gap), np.where(found, end, self.end)
         self._dual += np.where(found, dual_length, 0.0) * self._z_step
         self._adapt(np.where(found, length, 0.0))
 
@@ -241,7 +270,8 @@ class Solver:
             self._limits, p.timing, p.vehicle, self._new_states[1:], self._new_commands,
         )  # fmt: skip
         # The ball grows if need be, so that its slack keeps the same share as those of the commands.
-        kept = _squared(self._new_states[:N]) + (1 - self._set.room) * self._slack[:, k.exact - 1]
+        room = np.maximum((1 - self._set.room) * self._slack[:, k.exact - 1], LEAST_ROOM)
+        kept = _squared(self._new_states[:N]) + room
         self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], np.max(kept, axis=0))
         self._trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._s_step[:, k.exact :]
 
@@ -268,6 +298,9 @@ class Solver:
         self._damp(np.clip(damping, settings.least_damping, settings.most_damping))
         cooled = np.maximum(settings.cooling * self._mu[0], settings.least_barrier)
         self._mu[0] = np.where(length >= 0.3, cooled, self._mu[0])
+        missed = (self.end > MISSED) & (self._mu[0] <= settings.end_barrier)
+        grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
+        self._weight[0] = np.where(missed, grown, self._weight[0])
         middle = self._mu / self._slack
         np.clip(self._dual, middle / settings.spread, middle * settings.spread, out=self._dual)
 
@@ -275,6 +308,7 @@ class Solver:
         self._damping[:] = self._set.state_damping * damping, damping
 
 
+MISSED = 0.5  # tolerances at the end, above which its weight grows
 # Coordinates that turn: attitude and rod.
 TURNS = [*range(ATTITUDE.start, ATTITUDE.stop), *range(ROD.start, ROD.stop)]
 

@@ -8,6 +8,7 @@ length α leaves 1 − α of them. docs/planning/limit.md derives it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,21 +131,12 @@ class Solver:
     ) -> None:
         self._k, self._problem = kernels, problem
         self._set = settings = settings or Settings()
-        self._asked = problem.numbers[SHARED].copy()
         N, k, shape = problem.stages, kernels.inequalities, kernels.shape
         self.states, self.commands = states, commands
-        self._limits = lanes(3)
-        self._limits[:] = problem.numbers[LOW], problem.numbers[HIGH], np.full(WIDTH, settings.room)
-        low, high = self._limits[0], self._limits[1]
-        inside = 0.02 * (high - low)
-        np.clip(commands, low + inside, high - inside, out=commands)
+        self._limits, self._asked = lanes(3), lanes(1)
         self._mu, self._shared, self._length = lanes(1), lanes(1), lanes(1)
         self._damping, self._weight, self._offset = lanes(2), lanes(1), lanes(kernels.end_size)
-        self._mu[:], self._weight[:] = settings.barrier, settings.end_weight
-        self._damp(np.full(WIDTH, settings.damping))
-        self._shared[:] = 1.05 * np.max(_squared(states), axis=0) + 0.05
         self._slack, self._dual = lanes(N, k), lanes(N, k)
-        self._slack[:] = 0.1
         self._A, self._B, self._d = lanes(N, shape.A.nnz()), lanes(N, shape.B.nnz()), lanes(N, shape.n)
         self._cost, self._to_go, self._gains = (
             lanes(N, shape.of_stage),
@@ -159,8 +151,40 @@ class Solver:
         self._trial, self._new_slack = lanes(N, k), lanes(N, k)
         self._end, self._errors = lanes(1, shape.to_go), lanes(1, kernels.end_size)
         self.merit, self.violation, self.gap, self.end, self.promise = (np.full(WIDTH, np.inf) for _ in range(5))
-        self._value(states, commands, self._shared, self._slack, self._slack, 0.0)
-        self._dual[:] = self._mu / self._slack
+        self._begin(slice(None))
+
+    def take(self, lane: int, problem: Problem, states: Lanes, commands: Lanes, source: int) -> None:
+        """Begin another problem on a `lane`: that on the lane `source` of `problem`, `states` and `commands`."""
+        own = self._problem
+        pairs = (
+            (self.states, states), (self.commands, commands), (own.timing, problem.timing),
+            (own.vehicle, problem.vehicle), (own.numbers, problem.numbers),
+        )  # fmt: skip
+        for old, new in pairs:
+            old[..., lane] = new[..., source]
+        self._begin(lane)
+
+    def _begin(self, on: Any) -> None:
+        """Begin on the lanes `on`, with the guessed states and commands that are there."""
+        settings, numbers = self._set, self._problem.numbers
+        self._asked[0, on] = numbers[SHARED, on]
+        self._limits[0, on], self._limits[1, on], self._limits[2, on] = (
+            numbers[LOW, on],
+            numbers[HIGH, on],
+            settings.room,
+        )
+        inside = 0.02 * (numbers[HIGH, on] - numbers[LOW, on])
+        low, high = numbers[LOW, on] + inside, numbers[HIGH, on] - inside
+        self.commands[..., on] = np.clip(self.commands[..., on], low, high)
+        self._mu[..., on], self._weight[..., on], self._offset[..., on] = settings.barrier, settings.end_weight, 0.0
+        self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
+        self._shared[0, on] = 1.05 * np.max(_squared(self.states), axis=0)[on] + 0.05
+        self._slack[..., on], self._price[:, on] = 0.1, 1.0
+        for measured in (self.merit, self.violation, self.gap, self.end):
+            measured[on] = np.inf
+        # In the other lanes slacks are what they were.
+        self._value(self.states, self.commands, self._shared, self._slack, self._slack, 0.0)
+        self._dual[..., on] = self._mu[..., on] / self._slack[..., on]
 
     @property
     def excursion(self) -> Lanes:
@@ -177,13 +201,20 @@ class Solver:
     @property
     def cost(self) -> Lanes:
         """See the class."""
-        own: Lanes = self.merit + (self._asked - self._problem.numbers[SHARED]) * self._shared[0]
+        own: Lanes = self.merit + (self._asked[0] - self._problem.numbers[SHARED]) * self._shared[0]
         return own
 
     @property
-    def stuck(self) -> bool:
-        """Whether no lane can be improved any more, whatever the damping."""
-        return bool(np.all(self._damping[1] >= self._set.most_damping))
+    def value(self) -> Lanes:
+        """Excursion and effort with their weights, (lanes,)."""
+        own: Lanes = self._asked[0] * self.excursion**2 + self.effort
+        return own
+
+    @property
+    def stuck(self) -> NDArray[np.bool_]:
+        """Which lanes cannot be improved any more, whatever the damping, (lanes,)."""
+        stuck: NDArray[np.bool_] = self._damping[1] >= self._set.most_damping
+        return stuck
 
     @property
     def effort(self) -> Lanes:
@@ -201,15 +232,15 @@ class Solver:
         here = (self.states, self.commands, self._shared, self._slack, self._slack)
         self.merit, self.violation, self.end = self._value(*here, self.gap)
 
-    def insist(self, place: int, weight: float) -> None:
-        """Set the number at `place` of the wishes, a `weight`, in all lanes."""
-        self._problem.numbers[place] = weight
+    def insist(self, place: int, weight: float, on: Any) -> None:
+        """Set the number at `place` of the wishes, a `weight`, in the lanes `on`."""
+        self._problem.numbers[place, on] = weight
 
     def improve(self) -> None:
         """Do one iteration."""
         k, p, N = self._k, self._problem, self._problem.stages
         early = np.minimum(1.0, self._mu[0] / self._set.relief)
-        p.numbers[SHARED] = self._asked / (1 + early * self._shared[0])
+        p.numbers[SHARED] = self._asked[0] / (1 + early * self._shared[0])
         point = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
         k.linearised(N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B)
         k.terms(N, *point, self._slack, self._dual, self._mu, self._cost)

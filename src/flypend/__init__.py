@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from flypend.model.rod import rod_with_bob, uniform_rod
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle, vehicle
-    from flypend.planning import Plan, PlanEnsemble, plan, plan_ensemble, track
+    from flypend.planning import Plan, PlanEnsemble, plan, plan_and_track, plan_ensemble, track
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -58,7 +58,7 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
-    "planning": ("Plan", "PlanEnsemble", "plan", "plan_ensemble", "track"),
+    "planning": ("Plan", "PlanEnsemble", "plan", "plan_and_track", "plan_ensemble", "track"),
     "plants": ("Ideal", "Noise", "Plant", "Sensor", "Sensors", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
@@ -110,6 +110,7 @@ __all__ = [
     "load",
     "metrics",
     "plan",
+    "plan_and_track",
     "plan_ensemble",
     "random_starts",
     "rod_with_bob",

@@ -25,6 +25,7 @@ from flypend.planning.telling import told
 # Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
 # not.
 ORDER = (1, 3, 4, 5, 0, 7, 2, 6)
+MORE = 2  # so many more are tried where none can be flown, before the horizon grows
 CHUNK = 8 * WIDTH  # most starts that a thread takes at a time
 Progress = Callable[[int, int], Any]
 
@@ -86,7 +87,10 @@ class PlanEnsemble:
         return wilson(int(np.sum(self.success)), len(self))
 
     def percentile(self, name: str, q: float) -> float:
-        """Return percentile `q` of excursion, duration or solve_time where it is finite; NaN if there are none."""
+        """Return percentile `q` of the property `name` where it is finite; NaN if there are none.
+
+        It is "excursion", "duration" or "solve_time".
+        """
         values = getattr(self, errors.one_of("name", name, ("excursion", "duration", "solve_time")))
         values = values[np.isfinite(values)]
         return float(np.percentile(values, q)) if len(values) else float("nan")
@@ -123,7 +127,8 @@ def plan_ensemble(
     objective : "excursion", "effort" or dict
         As in `plan`, except "time".
     guesses : int
-        From how many guesses, up to 8, the best plan is taken. `plan` takes 8. More are tried where none is found.
+        From how many guesses, up to 8, the best plan is taken. `plan` takes 8. Two more are tried where none is found,
+        before the duration grows.
     workers : int, optional
         Number of threads; default one per core.
     progress : callable
@@ -162,7 +167,7 @@ def _planned(asked: Sequence[Request], horizons: Sequence[float], guesses: int) 
         left = [i for i, plan in enumerate(plans) if not plan]
         best: dict[int, Found] = {}
         for tried, style in enumerate(ORDER):
-            open_ = [i for i in left if tried < guesses or best[i].lacks]
+            open_ = [i for i in left if tried < guesses or (tried < guesses + MORE and best[i].lacks)]
             if not open_:
                 break
             for i, found in zip(open_, one_by_one([Job(asked[i], style) for i in open_], horizon), strict=True):

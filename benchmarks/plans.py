@@ -22,7 +22,7 @@ from flypend.planning.request import STAGES_PER_UNIT
 from flypend.planning.scaled import Units
 from flypend.planning.solver import Settings
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import end_errors
+from flypend.planning.wishes import BASE, END, YAW, end_errors
 from flypend.plants.lag import step_timing
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -42,10 +42,11 @@ def ipopt(plan: fp.Plan) -> tuple[float, float, str]:
     gap = stage.gap_at(delta)
     for symbols, numbers in ((stage.timing, timing), (stage.machine.numbers, units.numbers(vehicle))):
         gap = ca.substitute(gap, symbols, ca.SX(ca.DM(numbers)))
-    moved = retract(stage.before, delta)
+    moved, numbers = retract(stage.before, delta), ca.SX.zeros(BASE)
+    numbers[YAW] = END["omega"]
     leads = ca.Function("leads", [delta, stage.command, stage.before, stage.after], [gap])
     far = ca.Function("far", [delta, stage.before], [ca.sumsqr(moved[:3])])
-    end = ca.Function("end", [delta, stage.before], [end_errors(moved)])
+    end = ca.Function("end", [delta, stage.before], [end_errors(moved, numbers)])
     states = (np.column_stack([plan.packed, plan.rotor_forces]) / units.states(n))[:: (len(plan.t) - 1) // N].T
     states[:3] -= plan.target[:, None] / units.length
 

@@ -8,6 +8,8 @@ import pytest
 import flypend as fp
 from flypend.geometry import norm
 from flypend.planning.check import Limits, broken
+from flypend.planning.scaled import Units
+from flypend.planning.stage import LEAST_ROOM
 from flypend.plants.equations import EquationsEngine
 
 HEHN = fp.vehicle("hehn2011")
@@ -130,14 +132,37 @@ def test_the_rod_stays_on_its_mount(mount):
     assert broken(free.packed, free.rotor_forces, vehicle, Limits(None, None, None, 0.0))
 
 
-@pytest.mark.parametrize("degrees", [20, 40])
+@pytest.mark.parametrize("degrees", [20, 40, 60])
 def test_a_leaning_rod_is_caught_above_the_horizon(degrees):
-    """Optimal control with rotor forces that may begin anywhere needs 0.46 and 1.15 m."""
+    """Optimal control with rotor forces that may begin anywhere needs 0.46, 1.15 and 2.1 m."""
     angle = np.radians(degrees)
     plan = plan_of(HEHN, fp.State(y=(np.sin(angle), 0, np.cos(angle))), lean=np.pi / 2)
     check_end(plan)
     assert np.min(plan.y[:, 2]) > 0
-    assert plan.excursion < 1.25 * {20: 0.46, 40: 1.15}[degrees]
+    assert plan.duration < 4
+    assert plan.excursion < 1.25 * {20: 0.46, 40: 1.15, 60: 2.1}[degrees]
+
+
+def test_a_vehicle_that_hardly_turns_is_planned():
+    """nayak2018 takes four of its units, a second, for half a turn, and cannot stop a spin of its start."""
+    vehicle = fp.vehicle("nayak2018")
+    start = fp.random_starts(16, 3301)[7]
+    assert start.R[2, 2] < -0.8
+    plan = plan_of(vehicle, start)
+    assert plan
+    assert norm(plan.x[-1]) < 0.01 * vehicle.l
+    assert plan.y[-1, 2] > np.cos(0.022)
+    # Full moment changes the spin by 0.2 rad/s a second: what is left is what rotor drag could not take.
+    assert abs(plan.omega[-1, 2]) > 0.5
+
+
+def test_commands_come_no_nearer_to_their_limits_than_rounding_allows():
+    """On this start a lane drove commands to within 1e-14 of a limit, and the next barrier was infinite."""
+    plan = plan_of(fp.vehicle("nayak2018"), fp.random_starts(16, 3301)[0])
+    low, high = plan.vehicle.rotor_limits / Units.of(plan.vehicle).force
+    commands = plan.commands / Units.of(plan.vehicle).force
+    assert np.min(commands) >= low + 0.9 * LEAST_ROOM
+    assert np.max(commands) <= high - 0.9 * LEAST_ROOM
 
 
 def test_a_time_too_short_is_told():

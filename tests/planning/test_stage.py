@@ -112,7 +112,7 @@ def test_the_terms_are_the_gradient_of_the_barrier(maps, wishes):
     state = random_state(rng, HEHN) / Units.of(HEHN).states(4)
     state[:3] = rng.normal(size=3) * 0.3
     walls = [1.0, *[-3.0] * 3, *[3.0] * 3] if wishes.box else []
-    numbers = np.array([1.0, 0.3, 0.06, 2.6, *walls, *([5.0] if wishes.speed else [])])
+    numbers = np.array([1.0, 0.3, 0.06, 2.6, 0.1, *walls, *([5.0] if wishes.speed else [])])
     command, vehicle, mu = rng.uniform(0.2, 2.4, 4), Units.of(HEHN).numbers(HEHN), 0.02
 
     def merit(delta, upsilon, epsilon):

@@ -73,6 +73,28 @@ def test_hover_gains_stabilise_hover(planned):
     assert np.linalg.norm(off(hover, state)) < 1e-3 * first
 
 
+def test_a_vehicle_that_spins_hovers_as_it_spins():
+    """nayak2018 cannot stop its spin in time; feedback that expects one heading loses it."""
+    nayak, start = fp.vehicle("nayak2018"), fp.random_starts(6, 7701)[3]
+    plan = fp.plan(nayak, start, time_limit=120.0)
+    assert plan.omega[-1, 2] > 2
+    run = fp.simulate(nayak, fp.track(plan), start, 8)
+    assert fp.metrics(run).success
+    assert fp.metrics(run).excursion < 1.05 * plan.excursion
+    feedback = regulator(plan)
+
+    def expecting(loop, rotors):
+        tracker = Tracker(feedback, nayak, fp.laws.inverted(), loop, rotors)
+        tracker._hovering = tracker._deviation
+        return tracker
+
+    tracked = fp.track(plan)
+    stubborn = fp.Controller(
+        name="stubborn", function=tracked.function, computer=tracked.computer, flight_computer=expecting
+    )
+    assert fp.metrics(fp.simulate(nayak, stubborn, start, 8)).excursion > 1.3 * plan.excursion
+
+
 def test_thrown_off_the_plan_the_other_law_takes_over(planned):
     """A start other than the plan's: the rod is on the other side."""
     other = fp.State(y=-START.y, R=START.R)

@@ -10,6 +10,7 @@ from flypend.flight.tasks import LEANS, task_starts
 from flypend.report.check import check_tables, margin_cells, task_cells, verdicts, write_check
 from flypend.studies.check import caught
 from flypend.studies.check import check as examine
+from flypend.studies.possible import told
 
 HEHN = fp.vehicle("hehn2011")
 FEW = {"runs": 32, "duration": 8.0, "margins": False}
@@ -52,6 +53,21 @@ def test_a_vehicle_that_cannot_be_flown_is_a_result_with_a_reason(vehicle, law, 
     assert not found.ok
     assert any(words in reason for reason in found.reasons)
     assert words in repr(found)
+
+
+def test_what_a_law_cannot_do_is_planned_to_tell_law_from_vehicle():
+    """LQR stands no rod that falls; plans do."""
+    found = fp.check(HEHN, fp.laws.lqr(), **FEW)
+    assert not found.ok
+    assert "from 8 of 8 random starts: this vehicle can be inverted; the lqr law cannot do it" in found.possible
+    assert found.possible in repr(found)
+    assert found.to_dict()["possible"] == found.possible
+    assert any(found.possible in line for line in verdicts({"lqr": found}))
+
+
+def test_where_there_is_no_plan_no_law_is_blamed():
+    short = fp.plan_ensemble(HEHN, fp.random_starts(2, 1), duration=0.2)
+    assert told(short, "lqr") == "plans reach inverted hover from 0 of 2 random starts: no law will do much better"
 
 
 def test_rotors_without_limits_lift_anything_and_the_lag_of_the_plant_counts():

@@ -1,7 +1,9 @@
 """Plans at the physical limit: optimal flights to inverted hover, and their tracking."""
 
+from flypend.planning.autopilot import plan_and_track
+from flypend.planning.ensemble import PlanEnsemble, plan_ensemble
 from flypend.planning.planner import plan
 from flypend.planning.result import Plan
 from flypend.planning.tracking import track
 
-__all__ = ["Plan", "plan", "track"]
+__all__ = ["Plan", "PlanEnsemble", "plan", "plan_and_track", "plan_ensemble", "track"]

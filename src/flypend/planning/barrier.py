@@ -30,7 +30,7 @@ class Barrier:
         self._g = inequalities(here, command, shared + epsilon, numbers, wishes, stage.machine)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
         self._near = nearness(here, stage.before, numbers, wishes, stage.machine)
-        self._cost, self._end = running_cost(command, numbers), end_errors(here)
+        self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers)
         self.inequalities, self.end_size = int(self._g.numel()), int(self._end.numel())
         self._slack, self._dual = ca.SX.sym("s", self.inequalities), ca.SX.sym("z", self.inequalities)
         self._mu, self._numbers = ca.SX.sym("mu"), numbers

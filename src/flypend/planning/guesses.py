@@ -29,26 +29,26 @@ from flypend.planning.stage import Stage
 from flypend.plants.lag import held
 
 # Per style: largest acceleration of the pivot, k, bandwidth of its position, E*, k_c, the height y₃ above which the rod
-# is balanced, and its squared speed up to which it is. They were chosen on 40 starts of hehn2011, so that many starts
-# are solved from several of them.
+# is balanced, its squared speed up to which it is, and whether it is caught below that height instead of pumped. They
+# were chosen on 40 starts of hehn2011, so that many starts are solved from several of them.
+CATCH = ((3.0, 0.7), (4.0, 1.5), (5.0, 3.0), (8.0, 3.0))
 PUMPS = np.array(
     [
-        (0.5, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5),
-        (1.0, 2.0, 1.5, 1.0, 1.0, 0.9, 1.5),
-        (2.0, 4.0, 1.5, 1.0, 1.0, 0.9, 1.5),
-        (1.0, 2.0, 2.5, 1.0, 1.0, 0.9, 1.5),
-        (2.0, 2.0, 2.5, 1.0, 1.0, 0.9, 1.5),
-        (0.3, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5),
-        (4.0, 4.0, 2.0, 1.0, 1.0, 0.9, 1.5),
-        (0.7, 1.5, 1.2, 1.05, 0.7, 0.9, 1.5),
+        (0.5, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5, 0),
+        (1.0, 2.0, 1.5, 1.0, 1.0, 0.9, 1.5, 0),
+        (2.0, 4.0, 1.5, 1.0, 1.0, 0.9, 1.5, 0),
+        (1.0, 2.0, 2.5, 1.0, 1.0, 0.9, 1.5, 0),
+        (2.0, 2.0, 2.5, 1.0, 1.0, 0.9, 1.5, 0),
+        (0.3, 1.0, 1.0, 1.0, 0.5, 0.9, 1.5, 0),
+        (4.0, 4.0, 2.0, 1.0, 1.0, 0.9, 1.5, 0),
+        (0.7, 1.5, 1.2, 1.05, 0.7, 0.9, 1.5, 0),
     ]
 )
-# For a rod that may not fall: balanced from the start, with accelerations and bandwidths from small to large.
-CATCHES = np.array(
-    [(largest, 1.0, bandwidth, 1.0, 0.5, -0.5, 1e3) for largest in (1.0, 2.0, 3.0, 5.0) for bandwidth in (0.3, 0.7)]
-)
+# For a rod that may not fall: caught, gently and hard.
+CATCHES = np.array([(largest, k, bandwidth, 1.0, 0.5, 0.9, 1e3, 1) for largest, k in CATCH for bandwidth in (0.3, 0.7)])
 SUBSTEPS = 3
 POLES = 0.7  # −p, all four of the balanced rod near the top: ẍ = a, ÿ = y − a
+ALIGNED = 0.7  # cosine between thrust and wanted force from which the force counts as given
 KICK = 0.5  # acceleration that moves a hanging rod at rest
 ATTITUDE_SHARE = 0.5  # stiffness of the attitude per largest angular acceleration, 1/rad
 
@@ -56,7 +56,7 @@ assert len(PUMPS) == len(CATCHES) == WIDTH
 
 
 def styles(vehicle: Vehicle, *, falls: bool) -> NDArray[np.float64]:
-    """Return the styles (8, lanes) for `vehicle`, the last entry being the stiffness of its attitude, own units.
+    """Return the styles (9, lanes) for `vehicle`, the last entry being the stiffness of its attitude, own units.
 
     `falls` is whether the rod may fall and be pumped up again.
     """
@@ -76,16 +76,20 @@ def pumping(rotors: int) -> Stagewise:
 
 def _pump(stage: Stage) -> ca.Function:
     machine, s = stage.machine, State.symbolic(stage.before[:SIZE])
-    style, limits = ca.SX.sym("style", 8), ca.SX.sym("limits", 2)
+    style, limits = ca.SX.sym("style", 9), ca.SX.sym("limits", 2)
     h, e3 = stage.timing[0] / SUBSTEPS, ca.SX(ca.DM(E3))
     x, x_dot, R, omega, y, H = s.x, s.x_dot, s.R, s.omega, s.y, cross(s.y, s.y_dot)
     for _ in range(SUBSTEPS):
         a = _acceleration(x, x_dot, y, H, style, e3)
+        F = _force(a, y, H, machine.m, e3)
+        # Turned away from that force, the vehicle cannot give it.
+        thrust = ca.fmax(dot(F, R[:, 2]), 0)
+        trust = _smooth_step(10 * (thrust / ca.sqrt(dot(F, F) + 1e-4) - ALIGNED))
+        a = trust * a + (1 - trust) * (a + thrust * R[:, 2] - F)
         H_dot = -cross(y, e3 + a)
-        F = e3 + a + machine.m * (cross(H_dot, y) - dot(H, H) * y)
         z_d = ca.mtimes(R.T, F / ca.sqrt(dot(F, F) + 1e-4))
         tilt = 2 * cross(e3, z_d) / (1.1 + z_d[2])
-        turning = style[7] * tilt - 1.8 * ca.sqrt(style[7]) * omega
+        turning = style[8] * tilt - 1.8 * ca.sqrt(style[8]) * omega
         turning[2] = -2 * omega[2]
         x_dot, omega = x_dot + h * a, omega + h * turning
         x, R = x + h * x_dot, ca.mtimes(R, cayley(h * omega))
@@ -102,9 +106,14 @@ def _pump(stage: Stage) -> ca.Function:
     return ca.Function("pump", inputs, ca.cse([ca.densify(ca.vertcat(moved, rotors)), ca.densify(command)]))
 
 
+def _force(a: Any, y: Any, H: Any, m: Any, e3: Any) -> Any:
+    """Return the force of the rotors that gives the pivot the acceleration `a`."""
+    return e3 + a + m * (cross(-cross(y, e3 + a), y) - dot(H, H) * y)
+
+
 def _acceleration(x: Any, x_dot: Any, y: Any, H: Any, style: Any, e3: Any) -> Any:
     """Return the acceleration of the pivot that a `style` wishes."""
-    largest, gain, bandwidth, energy, uncircle, top, slow, _ = ca.vertsplit(style)
+    largest, gain, bandwidth, energy, uncircle, top, slow, caught, _ = ca.vertsplit(style)
     y_dot, speed = cross(H, y), dot(H, H)
     pump = -gain * (energy - speed / 2 - y[2]) * y_dot + uncircle * H[2] * cross(e3, y)
     high = _smooth_step(25 * (y[2] - top)) * _smooth_step(4 * (slow - speed))
@@ -116,6 +125,12 @@ def _acceleration(x: Any, x_dot: Any, y: Any, H: Any, style: Any, e3: Any) -> An
     balance[2] = back[2]
     a = (1 - high) * (pump + back) + high * balance + kick
     a[2] = 0.6 * a[2]
+    # The rod follows −(e₃ + a) across it: of that force the part along the rod is free, and carries it if it can.
+    up = e3 - y[2] * y
+    across = 2 * ca.sqrt(gain) * y_dot - gain * up
+    catch = y[2] * y + across - e3
+    low = caught * (1 - high)
+    a = (1 - low) * a + low * catch
     return a * ca.fmin(1, largest / (norm(a) + 1e-9))
 
 

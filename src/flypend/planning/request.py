@@ -16,10 +16,11 @@ from flypend.geometry import E3, norm
 from flypend.model import State, Vehicle
 from flypend.planning.check import Limits
 from flypend.planning.scaled import Units
-from flypend.planning.wishes import Wishes
+from flypend.planning.wishes import END, Wishes
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
+TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
 FAR = 1e6  # rod lengths: no wall
 # Each objective has a little of the other, without which its problem has no unique solution.
 LEAST = {"excursion": 1e-3, "effort": 1e-4}
@@ -85,7 +86,7 @@ def request(
         raise InputError("vehicle", f"rotors that lift {vehicle.weight:.3g} N", f"{n * high:.3g} N at most")
     weights, goal = _weights(objective), errors.array("target", target, (3,))
     per_command = weights["effort"] / STAGES_PER_UNIT / n
-    numbers = [weights["excursion"], per_command, low / units.force, high / units.force]
+    numbers = [weights["excursion"], per_command, low / units.force, high / units.force, _yaw(vehicle, units)]
     if walls is not None:
         _check_inside(walls, vehicle, start.x, start.y, "start")
         _check_inside(walls, vehicle, goal, E3, "target")
@@ -93,7 +94,8 @@ def request(
     if speed is not None:
         numbers.append(_speed(speed, start) * units.time / units.length)
     if lean is not None:
-        numbers.append(np.cos(_lean(lean, start)))
+        lowest = np.cos(_lean(lean, start))
+        numbers.append(lowest + min(TIGHTER, (float(start.y[2]) - lowest) / 2))
     mounted = None if vehicle.mount == "gimbal" else vehicle
     if mounted is not None:
         numbers += [0.0, errors.number("clearance", clearance, at_least=0, unit="m") / units.length]
@@ -154,6 +156,17 @@ def _forces(rotors: Any, low: float, high: float, n: int) -> Any:
     if np.any(forces < low) or np.any(forces > high):
         raise InputError("rotors", f"forces from {low:g} to {high:g} N", forces.tolist())
     return forces
+
+
+def _yaw(vehicle: Vehicle, units: Units) -> float:
+    """Return the tolerance of the spin about the thrust axis at the end, own units.
+
+    It is that of the other axes if rotor drag can change the spin by a unit in a unit of time. With less, the spin of a
+    start outlasts any plan, and hover does not need it to end.
+    """
+    low, high = vehicle.rotor_limits
+    authority = np.sum(np.abs(vehicle.mixing()[3])) * (high - low) / 2 / vehicle.I[2, 2] * units.time**2
+    return END["omega"] * max(1.0, 1 / float(authority))
 
 
 def _weights(objective: Any) -> dict[str, float]:

@@ -8,6 +8,7 @@ length α leaves 1 − α of them. docs/planning/limit.md derives it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
 from flypend.planning.kernels import Kernels
+from flypend.planning.stage import LEAST_ROOM
 from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED
 
 Lanes = NDArray[np.float64]
@@ -44,8 +46,13 @@ class Settings:
         Largest change of attitude or rod in one step, rad.
     spread : float
         Largest ratio between a multiplier and μ/s, either way.
-    end_weight : float
-        Weight of the squared errors at the end.
+    end_weight, most_end_weight, end_growth : float
+        First and largest weight of the squared errors at the end, and its factor per iteration while they are too
+        large at a barrier below `end_barrier`.
+    end_barrier : float
+        See `end_growth`.
+    relief : float
+        Barrier down to which a large e costs its logarithm, so that it does not outweigh the end.
     """
 
     barrier: float = 1e-3
@@ -59,10 +66,14 @@ class Settings:
     better: float = 1 / 3
     shrink: float = 0.4
     attempts: int = 8
-    room: float = 0.99
+    room: float = 0.9
     turn: float = 2.0
     spread: float = 100.0
     end_weight: float = 0.005
+    most_end_weight: float = 50.0
+    end_growth: float = 1.3
+    end_barrier: float = 1e-4
+    relief: float = 1e-4
 
 
 @dataclass(frozen=True)
@@ -109,6 +120,8 @@ class Solver:
         The best so far.
     merit, violation, gap, end : (lanes,)
         Merit, sum of what inequalities lack, sum of all gaps, and largest error at the end in tolerances.
+    cost : (lanes,)
+        The merit with the weight of e as it was asked for.
     promise : (lanes,)
         By how much the linear-quadratic problem expected the merit to fall at the last step.
     """
@@ -120,18 +133,10 @@ class Solver:
         self._set = settings = settings or Settings()
         N, k, shape = problem.stages, kernels.inequalities, kernels.shape
         self.states, self.commands = states, commands
-        self._limits = lanes(3)
-        self._limits[:] = problem.numbers[LOW], problem.numbers[HIGH], np.full(WIDTH, settings.room)
-        low, high = self._limits[0], self._limits[1]
-        inside = 0.02 * (high - low)
-        np.clip(commands, low + inside, high - inside, out=commands)
+        self._limits, self._asked = lanes(3), lanes(1)
         self._mu, self._shared, self._length = lanes(1), lanes(1), lanes(1)
         self._damping, self._weight, self._offset = lanes(2), lanes(1), lanes(kernels.end_size)
-        self._mu[:], self._weight[:] = settings.barrier, settings.end_weight
-        self._damp(np.full(WIDTH, settings.damping))
-        self._shared[:] = 1.05 * np.max(_squared(states), axis=0) + 0.05
         self._slack, self._dual = lanes(N, k), lanes(N, k)
-        self._slack[:] = 0.1
         self._A, self._B, self._d = lanes(N, shape.A.nnz()), lanes(N, shape.B.nnz()), lanes(N, shape.n)
         self._cost, self._to_go, self._gains = (
             lanes(N, shape.of_stage),
@@ -146,8 +151,40 @@ class Solver:
         self._trial, self._new_slack = lanes(N, k), lanes(N, k)
         self._end, self._errors = lanes(1, shape.to_go), lanes(1, kernels.end_size)
         self.merit, self.violation, self.gap, self.end, self.promise = (np.full(WIDTH, np.inf) for _ in range(5))
-        self._value(states, commands, self._shared, self._slack, self._slack, 0.0)
-        self._dual[:] = self._mu / self._slack
+        self._begin(slice(None))
+
+    def take(self, lane: int, problem: Problem, states: Lanes, commands: Lanes, source: int) -> None:
+        """Begin another problem on a `lane`: that on the lane `source` of `problem`, `states` and `commands`."""
+        own = self._problem
+        pairs = (
+            (self.states, states), (self.commands, commands), (own.timing, problem.timing),
+            (own.vehicle, problem.vehicle), (own.numbers, problem.numbers),
+        )  # fmt: skip
+        for old, new in pairs:
+            old[..., lane] = new[..., source]
+        self._begin(lane)
+
+    def _begin(self, on: Any) -> None:
+        """Begin on the lanes `on`, with the guessed states and commands that are there."""
+        settings, numbers = self._set, self._problem.numbers
+        self._asked[0, on] = numbers[SHARED, on]
+        self._limits[0, on], self._limits[1, on], self._limits[2, on] = (
+            numbers[LOW, on],
+            numbers[HIGH, on],
+            settings.room,
+        )
+        inside = 0.02 * (numbers[HIGH, on] - numbers[LOW, on])
+        low, high = numbers[LOW, on] + inside, numbers[HIGH, on] - inside
+        self.commands[..., on] = np.clip(self.commands[..., on], low, high)
+        self._mu[..., on], self._weight[..., on], self._offset[..., on] = settings.barrier, settings.end_weight, 0.0
+        self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
+        self._shared[0, on] = 1.05 * np.max(_squared(self.states), axis=0)[on] + 0.05
+        self._slack[..., on], self._price[:, on] = 0.1, 1.0
+        for measured in (self.merit, self.violation, self.gap, self.end):
+            measured[on] = np.inf
+        # In the other lanes slacks are what they were.
+        self._value(self.states, self.commands, self._shared, self._slack, self._slack, 0.0)
+        self._dual[..., on] = self._mu[..., on] / self._slack[..., on]
 
     @property
     def excursion(self) -> Lanes:
@@ -160,6 +197,24 @@ class Solver:
         """The barrier parameter μ, (lanes,)."""
         mu: Lanes = self._mu[0]
         return mu
+
+    @property
+    def cost(self) -> Lanes:
+        """See the class."""
+        own: Lanes = self.merit + (self._asked[0] - self._problem.numbers[SHARED]) * self._shared[0]
+        return own
+
+    @property
+    def value(self) -> Lanes:
+        """Excursion and effort with their weights, (lanes,)."""
+        own: Lanes = self._asked[0] * self.excursion**2 + self.effort
+        return own
+
+    @property
+    def stuck(self) -> NDArray[np.bool_]:
+        """Which lanes cannot be improved any more, whatever the damping, (lanes,)."""
+        stuck: NDArray[np.bool_] = self._damping[1] >= self._set.most_damping
+        return stuck
 
     @property
     def effort(self) -> Lanes:
@@ -177,13 +232,15 @@ class Solver:
         here = (self.states, self.commands, self._shared, self._slack, self._slack)
         self.merit, self.violation, self.end = self._value(*here, self.gap)
 
-    def insist(self, place: int, weight: float) -> None:
-        """Set the number at `place` of the wishes, a `weight`, in all lanes."""
-        self._problem.numbers[place] = weight
+    def insist(self, place: int, weight: float, on: Any) -> None:
+        """Set the number at `place` of the wishes, a `weight`, in the lanes `on`."""
+        self._problem.numbers[place, on] = weight
 
     def improve(self) -> None:
         """Do one iteration."""
         k, p, N = self._k, self._problem, self._problem.stages
+        early = np.minimum(1.0, self._mu[0] / self._set.relief)
+        p.numbers[SHARED] = self._asked[0] / (1 + early * self._shared[0])
         point = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
         k.linearised(N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B)
         k.terms(N, *point, self._slack, self._dual, self._mu, self._cost)
@@ -221,7 +278,8 @@ class Solver:
         for _ in range(settings.attempts):
             self._fly(length)
             trial = (self._new_states, self._new_commands, self._new_shared, self._trial, self._new_slack)
-            merit, _, _ = self._value(*trial, (1 - length) * self.gap)
+            gap = (1 - length) * self.gap
+            merit, violation, end = self._value(*trial, gap)
             found |= merit < self.merit
             if np.all(found):
                 break
@@ -229,6 +287,8 @@ class Solver:
         pairs = ((self.states, trial[0]), (self.commands, trial[1]), (self._shared, trial[2]), (self._slack, trial[4]))
         for old, new in pairs:
             np.copyto(old, new, where=found)
+        self.merit, self.violation = np.where(found, merit, self.merit), np.where(found, violation, self.violation)
+        self.gap, self.end = np.where(found, gap, self.gap), np.where(found, end, self.end)
         self._dual += np.where(found, dual_length, 0.0) * self._z_step
         self._adapt(np.where(found, length, 0.0))
 
@@ -241,7 +301,8 @@ class Solver:
             self._limits, p.timing, p.vehicle, self._new_states[1:], self._new_commands,
         )  # fmt: skip
         # The ball grows if need be, so that its slack keeps the same share as those of the commands.
-        kept = _squared(self._new_states[:N]) + (1 - self._set.room) * self._slack[:, k.exact - 1]
+        room = np.maximum((1 - self._set.room) * self._slack[:, k.exact - 1], LEAST_ROOM)
+        kept = _squared(self._new_states[:N]) + room
         self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], np.max(kept, axis=0))
         self._trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._s_step[:, k.exact :]
 
@@ -268,6 +329,9 @@ class Solver:
         self._damp(np.clip(damping, settings.least_damping, settings.most_damping))
         cooled = np.maximum(settings.cooling * self._mu[0], settings.least_barrier)
         self._mu[0] = np.where(length >= 0.3, cooled, self._mu[0])
+        missed = (self.end > MISSED) & (self._mu[0] <= settings.end_barrier)
+        grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
+        self._weight[0] = np.where(missed, grown, self._weight[0])
         middle = self._mu / self._slack
         np.clip(self._dual, middle / settings.spread, middle * settings.spread, out=self._dual)
 
@@ -275,6 +339,7 @@ class Solver:
         self._damping[:] = self._set.state_damping * damping, damping
 
 
+MISSED = 0.5  # tolerances at the end, above which its weight grows
 # Coordinates that turn: attitude and rod.
 TURNS = [*range(ATTITUDE.start, ATTITUDE.stop), *range(ROD.start, ROD.stop)]
 

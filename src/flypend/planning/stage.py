@@ -13,6 +13,8 @@ from flypend.planning.scaled import Scaled
 from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import TIMING_SIZE, held
 
+LEAST_ROOM = 1e-9  # own units: less would be lost in the rounding of a command
+
 
 def stepped(state: Any, command: Any, timing: Any, machine: Scaled) -> Any:
     """Return the state (24 + n, 1) after a step of `timing` (see `plants.lag.step_timing`) under `command` (n, 1)."""
@@ -62,15 +64,17 @@ class Stage:
 
         The new command is that of the `riccati` step, `length` of it, with feedback of the deviation of the state from
         the nominal one. It is kept within limits (3,): least, largest, and the largest share of the room between the
-        old command and each of them that it takes. What is left of the gap is 1 − `length` of it.
+        old command and each of them that it takes; `LEAST_ROOM` always stays. What is left of the gap is
+        1 − `length` of it.
         """
         n, state, length = self.coordinates, ca.SX.sym("state", SIZE + self.rotors), ca.SX.sym("length")
         gap, epsilon, limits = ca.SX.sym("gap", n), ca.SX.sym("epsilon"), ca.SX.sym("limits", 3)
         gains = ca.SX.sym("gains", self.rotors, n + 2)
         feedback = ca.mtimes(gains[:, :n], local(self.before, state))
         wanted = self.command + length * (gains[:, n] + epsilon * gains[:, n + 1]) + feedback
-        least = self.command + limits[2] * (limits[0] - self.command)
-        most = self.command + limits[2] * (limits[1] - self.command)
+        low, high = limits[0] + LEAST_ROOM, limits[1] - LEAST_ROOM
+        least = ca.fmin(ca.fmax(self.command + limits[2] * (limits[0] - self.command), low), self.command)
+        most = ca.fmax(ca.fmin(self.command + limits[2] * (limits[1] - self.command), high), self.command)
         command = ca.fmin(ca.fmax(wanted, least), most)
         led = retract(stepped(state, command, self.timing, self.machine), (length - 1) * gap)
         inputs = [self.before, self.command, gap, ca.vec(gains), state, length, epsilon, limits]

@@ -16,7 +16,7 @@ from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import hover
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import SIZE
-from flypend.planning.feedback import Feedback, deviation, regulator
+from flypend.planning.feedback import Feedback, deviation, hovering, regulator
 from flypend.planning.result import Plan
 from flypend.planning.scaled import Units
 from flypend.plants.equations import rotor_step
@@ -90,7 +90,7 @@ class Tracker:
         self._feedback, self._loop, self._law = feedback, loop, law
         self._predict, self._remember = as_numpy(predicting(loop, believed)), as_numpy(remembering(loop, believed))
         self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
-        self._step, self._deviation = _compiled(vehicle)
+        self._step, self._deviation, self._hovering = _compiled(vehicle)
         self._lag, self._limits = vehicle.rotor_lag, vehicle.rotor_limits
         self._far = FAR_PIVOT * Units.of(vehicle).length
         self._other: FlightComputer | None = None
@@ -107,7 +107,8 @@ class Tracker:
         measurement = np.append(t, measured)
         kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
         wanted, nominal, k = self._nominal(t + self._loop.law.computer.latency)
-        off = self._deviation(nominal, np.append(state, rotors))
+        deviation = self._hovering if k == len(self._feedback.commands) - 1 else self._deviation
+        off = deviation(nominal, np.append(state, rotors))
         if not (np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[0:3]) < self._far):
             loop = Loop(self._loop.vehicle, self._law.bind(self._loop.vehicle), self._loop.plant)
             self._other = SteppedBoard(loop, self._memory[: len(rotors)])
@@ -130,6 +131,7 @@ class Tracker:
 
 
 @lru_cache(maxsize=16)
-def _compiled(vehicle: Vehicle) -> tuple[Any, Any]:
-    """Return the step of the plant and the deviation from a nominal state, for numbers."""
-    return as_numpy(rotor_step(vehicle, windy=False)), as_numpy(deviation(len(vehicle.rotor_spins)))
+def _compiled(vehicle: Vehicle) -> tuple[Any, Any, Any]:
+    """Return the step of the plant, and the deviations from a nominal state and from hover, for numbers."""
+    n = len(vehicle.rotor_spins)
+    return as_numpy(rotor_step(vehicle, windy=False)), as_numpy(deviation(n)), as_numpy(hovering(n))

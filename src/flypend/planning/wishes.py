@@ -16,8 +16,9 @@ from flypend.planning.scaled import Scaled
 # Tolerances at the end, in own units.
 END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot": 0.03, "rotors": 0.15}
 
-# Places of the numbers that every plan has: weights of the shared parameter and of effort, rotor limits.
-SHARED, EFFORT, LOW, HIGH, BASE = 0, 1, 2, 3, 4
+# Places of the numbers that every plan has: weights of the shared parameter and of effort, rotor limits, and the
+# tolerance of the spin about the thrust axis at the end.
+SHARED, EFFORT, LOW, HIGH, YAW, BASE = 0, 1, 2, 3, 4, 5
 DIFFERENCE = 1e-4
 SOFT = 0.03  # rod lengths, or weights: by so much too near, the rod costs its full weight
 
@@ -118,14 +119,15 @@ def running_cost(command: Any, numbers: Any) -> Any:
     return numbers[EFFORT] * ca.sumsqr(command - 1) / 2
 
 
-def end_errors(state: Any) -> Any:
+def end_errors(state: Any, numbers: Any) -> Any:
     """Return the errors of the last state about inverted hover, in units of their tolerances."""
     s = State.symbolic(state[:SIZE])
     return ca.vertcat(
         s.x / END["x"],
         s.x_dot / END["x_dot"],
         _lean(s.z) / END["tilt"],
-        s.omega / END["omega"],
+        s.omega[:2] / END["omega"],
+        s.omega[2] / numbers[YAW],
         _lean(s.y) / END["y"],
         s.y_dot / END["y_dot"],
         (state[SIZE:] - 1) / END["rotors"],

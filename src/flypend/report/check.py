@@ -75,7 +75,7 @@ def verdicts(checks: Mapping[str, Check]) -> list[str]:
     for law, check in checks.items():
         can = "can" if check.ok else "cannot"
         lines.append(f"{check.vehicle.name} {can} be flown by {law}.")
-        lines += [f"  {reason}" for reason in (*check.reasons, *check.warnings)]
+        lines += [f"  {line}" for line in (*check.reasons, *check.warnings, check.possible) if line]
     return lines
 
 

@@ -17,6 +17,7 @@ from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_d
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 from flypend.model import Vehicle
+from flypend.planning import plan_and_track
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -47,6 +48,9 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
         return law_named(value, folder, key)
     if not isinstance(value, Mapping):
         raise InputError(key, "the name of a law, or a table", repr(value))
+    if value.get("name") == "plan":
+        only_known(key, value, ("name",))
+        return plan_and_track()
     if value.get("name") == "detuned":
         named = law_from_dict({**value, "name": "inverted", "gains": {**DETUNED, **value.get("gains", {})}}, key)
         return replace(named, name="detuned")
@@ -63,7 +67,9 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
 
 
 def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law | Controller:
-    """Return the law called `name`: one shipped with the package, "detuned" (a negative control), or a custom law.
+    """Return the law called `name`: one of the package, "detuned" (a negative control), "plan", or a custom law.
+
+    "plan" is `planning.plan_and_track`.
 
     A custom law is `file.py:function`, with the path relative to `folder` (default the current one), or
     `module:function`; modules are also searched for in the current folder. The name must lead to a Law, a Controller,
@@ -74,7 +80,9 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     """
     if ":" in name:
         return _own(name, folder, key, None)
-    if one_of(key, name, (*law_names(), "detuned")) == "detuned":
+    if one_of(key, name, (*law_names(), "detuned", "plan")) == "plan":
+        return plan_and_track()
+    if name == "detuned":
         return replace(inverted().with_gains(DETUNED), name="detuned")
     return law_from_dict({"name": name})
 

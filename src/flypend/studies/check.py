@@ -17,9 +17,11 @@ from flypend.flight.tasks import fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
 from flypend.laws.own import LawError
 from flypend.model import Vehicle
+from flypend.planning import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
+from flypend.studies.possible import STARTS, possible, told
 from flypend.studies.sweep.axes import integer
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
@@ -72,6 +74,8 @@ class Check:
         Why the vehicle cannot be flown by this law; empty if it can.
     warnings : tuple of str
         What leaves little room, though flights succeed.
+    plans : PlanEnsemble, optional
+        Plans from some of the random starts, where the law fails: what the vehicle could do.
     """
 
     vehicle: Vehicle
@@ -83,6 +87,12 @@ class Check:
     margins: Mapping[str, Margin] = field(default_factory=dict)
     reasons: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    plans: PlanEnsemble | None = None
+
+    @property
+    def possible(self) -> str:
+        """What the plans say, in a sentence; empty without plans."""
+        return "" if self.plans is None else told(self.plans, self.law)
 
     @property
     def ok(self) -> bool:
@@ -92,7 +102,7 @@ class Check:
     def __repr__(self) -> str:
         """Return verdict, tasks and margins, a line each."""
         lines = [f"<Check of {self.law} on {self.vehicle.name}: {'can' if self.ok else 'cannot'} be flown"]
-        lines += [f"  {reason}" for reason in (*self.reasons, *self.warnings)]
+        lines += [f"  {line}" for line in (*self.reasons, *self.warnings, self.possible) if line]
         for name, row in self.rows().items():
             span = f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f} %"
             lines.append(
@@ -116,6 +126,7 @@ class Check:
             "ok": self.ok,
             "reasons": list(self.reasons),
             "warnings": list(self.warnings),
+            "possible": self.possible,
             "feasibility": asdict(self.feasibility),
             "tasks": self.rows(),
             "catch": None if self.catch is None else asdict(self.catch),
@@ -180,7 +191,9 @@ def check(
         raise
     except InputError as error:
         refusal = f"the {name} law refuses the vehicle: {error}"
-        return Check(**about, reasons=(*found.doubtful, refusal))
+        some = task_starts(vehicle, STARTS, seed)["random"]
+        plans = possible(world.true_vehicle(vehicle), some, workers, progress)
+        return Check(**about, reasons=(*found.doubtful, refusal), plans=plans)
     quick = isinstance(bound, BoundLaw) and world.engine == "equations"
     usual, directions, long = USUAL if quick else SLOW
     seconds = long if duration is None else errors.number("duration", duration, above=0, unit="s")
@@ -192,7 +205,8 @@ def check(
         flight = _of_margins(vehicle, bound, world, tasks["random"], seconds, quick)
         about["margins"] = search(flight, quantities(vehicle, world), progress)
     if reasons:
-        return Check(**about, reasons=(*reasons, *found.doubtful))
+        plans = possible(world.true_vehicle(vehicle), starts["random"], workers, progress) if world.limits else None
+        return Check(**about, reasons=(*reasons, *found.doubtful), plans=plans)
     return Check(**about, warnings=found.doubtful)
 
 

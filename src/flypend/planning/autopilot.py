@@ -1,0 +1,109 @@
+"""`plan_and_track`: a controller that plans from wherever its flight begins, and tracks that plan."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from flypend import errors
+from flypend.board.computer import FlightComputer, SteppedBoard
+from flypend.errors import InputError
+from flypend.laws import Computer, Controller, Law, inverted
+from flypend.laws.references import hover
+from flypend.model import State, Wrench
+from flypend.planning.feedback import regulator
+from flypend.planning.planner import plan
+from flypend.planning.tracking import Tracker
+from flypend.plants.loop import Loop
+
+PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
+
+
+def plan_and_track(
+    objective: str | Mapping[str, float] = "excursion",
+    *,
+    target: ArrayLike = (0.0, 0.0, 0.0),
+    latency: float = 0.0,
+    otherwise: Law | None = None,
+    **wishes: Any,
+) -> Controller:
+    """Return a controller that plans a flight from its first measurement, tracks the plan, and hovers.
+
+    It flies, compares and is judged like a law, and plans for whatever vehicle it is told. Planning takes no time in
+    the flight.
+
+    Parameters
+    ----------
+    objective, target
+        As in `plan`.
+    latency : float
+        Delay to compensate, s, as in `laws.Computer`.
+    otherwise : Law, optional
+        The law that flies where there is no plan, or takes over once a flight is too far from it; default the inverted
+        law about the target.
+    **wishes
+        Further arguments of `plan`: box, floor, ceiling, speed, lean, duration, clearance.
+
+    Raises
+    ------
+    InputError
+        If a wish is unknown; other errors of `plan` come when a flight begins.
+    """
+    errors.only_known("wish", wishes, ("box", "floor", "ceiling", "speed", "lean", "duration", "clearance", "window"))
+    goal = errors.array("target", target, (3,))
+    asked = partial(plan, objective=objective, target=goal, time_limit=PATIENT, **wishes)
+    law = otherwise or inverted(hover(goal))
+    return Controller(
+        name="plan",
+        function=_no_wrench,
+        reference=hover(goal),
+        computer=Computer(latency=latency),
+        flight_computer=lambda loop, rotors: Autopilot(asked, law, loop, rotors),
+        because="it plans each flight and follows a table",
+    )
+
+
+def _no_wrench(t: float, state: State) -> Wrench:
+    """Refuse to give a wrench: the flight computer of a plan commands the rotors one by one."""
+    raise InputError("law", "one that gives a wrench", "plan, which commands rotor forces")
+
+
+class Autopilot:
+    """The flight computer that plans with `asked` (vehicle, start) at its first command, and then tracks.
+
+    Parameters
+    ----------
+    asked : callable
+        (vehicle, start, rotors=) → plan.
+    law : Law
+        What flies without a plan.
+    loop : Loop
+        The closed loop that is flown.
+    rotors : (n,)
+        Initial rotor forces, N.
+    """
+
+    def __init__(self, asked: Any, law: Law, loop: Loop, rotors: Any) -> None:
+        self._asked, self._law, self._loop, self._rotors = asked, law, loop, np.asarray(rotors, dtype=float)
+        self._flies: FlightComputer | None = None
+        self._begin = 0.0
+
+    def command(self, t: float, measured: Any) -> Any:
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, at time `t` (s)."""
+        if self._flies is None:
+            self._flies, self._begin = self._planned(measured), t
+        return self._flies.command(t - self._begin, measured)
+
+    def _planned(self, measured: Any) -> FlightComputer:
+        """Return what flies from the state `measured` on."""
+        vehicle = self._loop.vehicle
+        forces = np.clip(self._rotors, *vehicle.rotor_limits)
+        found = self._asked(vehicle, State.trusted(np.array(measured)), rotors=forces)
+        if found:
+            return Tracker(regulator(found), vehicle, self._law, self._loop, self._rotors)
+        loop = Loop(self._loop.vehicle, self._law.bind(vehicle), self._loop.plant)
+        return SteppedBoard(loop, self._rotors)

@@ -1,0 +1,186 @@
+"""Plans from many starts at once, one problem a lane, on all cores."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from flypend import errors
+from flypend.compile.llvm.stagewise import WIDTH
+from flypend.errors import InputError
+from flypend.flight.metrics import wilson
+from flypend.model import State, Vehicle
+from flypend.planning.planner import horizons_of
+from flypend.planning.request import Request, request, walls_of
+from flypend.planning.result import Plan
+from flypend.planning.search import Found, Job, one_by_one, prepared
+from flypend.planning.telling import told
+
+# Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
+# not.
+ORDER = (1, 3, 4, 5, 0, 7, 2, 6)
+MORE = 2  # so many more are tried where none can be flown, before the horizon grows
+CHUNK = 8 * WIDTH  # most starts that a thread takes at a time
+Progress = Callable[[int, int], Any]
+
+
+@dataclass(frozen=True, eq=False)
+class PlanEnsemble:
+    """Plans of one vehicle from n starts.
+
+    Parameters
+    ----------
+    plans : tuple of Plan
+        A plan for each start, in order.
+    """
+
+    plans: tuple[Plan, ...]
+
+    def __len__(self) -> int:
+        """Number of plans."""
+        return len(self.plans)
+
+    def __iter__(self) -> Iterator[Plan]:
+        """Iterate over the plans."""
+        return iter(self.plans)
+
+    def __getitem__(self, i: int) -> Plan:
+        """Return the plan from start i."""
+        return self.plans[i]
+
+    def __repr__(self) -> str:
+        """Return vehicle, share of plans that can be flown, and excursion in one line."""
+        low, high = self.interval
+        found = f"{int(np.sum(self.success))} of {len(self)} planned (95 %: {100 * low:.1f} to {100 * high:.1f} %)"
+        middle, most = (self.percentile("excursion", q) for q in (50, 95))
+        return f"<Plans for {self.plans[0].vehicle.name}: {found}, excursion {middle:.3f} / {most:.3f} m>"
+
+    @property
+    def success(self) -> NDArray[np.bool_]:
+        """Which plans can be flown, (n,)."""
+        return np.array([bool(plan) for plan in self.plans])
+
+    @property
+    def excursion(self) -> NDArray[np.float64]:
+        """Excursions (n,), m; NaN where there is no plan."""
+        return np.array([plan.excursion if plan else np.nan for plan in self.plans])
+
+    @property
+    def duration(self) -> NDArray[np.float64]:
+        """Durations (n,), s; NaN where there is no plan."""
+        return np.array([plan.duration if plan else np.nan for plan in self.plans])
+
+    @property
+    def solve_time(self) -> NDArray[np.float64]:
+        """Processor time of each plan (n,), s, all its guesses included."""
+        return np.array([plan.solve_time for plan in self.plans])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson interval of the share of plans that can be flown, 95 %."""
+        return wilson(int(np.sum(self.success)), len(self))
+
+    def percentile(self, name: str, q: float) -> float:
+        """Return percentile `q` of the property `name` where it is finite; NaN if there are none.
+
+        It is "excursion", "duration" or "solve_time".
+        """
+        values = getattr(self, errors.one_of("name", name, ("excursion", "duration", "solve_time")))
+        values = values[np.isfinite(values)]
+        return float(np.percentile(values, q)) if len(values) else float("nan")
+
+
+def plan_ensemble(
+    vehicle: Vehicle,
+    starts: State,
+    objective: str | Mapping[str, float] = "excursion",
+    *,
+    duration: float | None = None,
+    target: ArrayLike = (0.0, 0.0, 0.0),
+    rotors: ArrayLike | None = None,
+    box: ArrayLike | None = None,
+    floor: float | None = None,
+    ceiling: float | None = None,
+    speed: float | None = None,
+    lean: float | None = None,
+    clearance: float = 0.01,
+    guesses: int = 2,
+    workers: int | None = None,
+    progress: Progress = lambda *_: None,
+) -> PlanEnsemble:
+    """Plan flights of `vehicle` from each of `starts`, each guess on a lane of its own.
+
+    Plan i depends on start i alone, whatever else is in the batch and on however many cores.
+
+    Parameters
+    ----------
+    vehicle, duration, target, rotors, box, floor, ceiling, speed, lean, clearance
+        As in `plan`.
+    starts : State
+        A batch of states with one leading axis, e₃ up.
+    objective : "excursion", "effort" or dict
+        As in `plan`, except "time".
+    guesses : int
+        From how many guesses, up to 8, the best plan is taken. `plan` takes 8. Two more are tried where none is found,
+        before the duration grows.
+    workers : int, optional
+        Number of threads; default one per core.
+    progress : callable
+        Called with `(done, total)`.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or a start breaks a wish.
+    """
+    if not isinstance(starts, State) or len(starts.batch_shape) != 1:
+        raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
+    if objective == "time":
+        raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
+    first = errors.number("guesses", guesses, at_least=1, at_most=WIDTH)
+    wishes = (objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance)
+    asked = [request(vehicle, starts[i], *wishes) for i in range(len(starts))]
+    horizons = horizons_of(asked[0], duration)
+    prepared(asked[0])  # compiling takes seconds, once
+    threads = workers or os.cpu_count() or 1
+    share = min(CHUNK, WIDTH * -(-len(asked) // (WIDTH * threads)))
+    parts = [asked[i : i + share] for i in range(0, len(asked), share)]
+    plans: list[Plan] = []
+    with ThreadPoolExecutor(threads) as pool:
+        for some in pool.map(lambda part: _planned(part, horizons, int(first)), parts):
+            plans += some
+            progress(len(plans), len(asked))
+    return PlanEnsemble(tuple(plans))
+
+
+def _planned(asked: Sequence[Request], horizons: Sequence[float], guesses: int) -> list[Plan]:
+    """Return a plan for each request: with the first of `horizons` and the first styles that find one."""
+    plans: list[Plan | None] = [None] * len(asked)
+    spent = np.zeros(len(asked))
+    for horizon in horizons:
+        left = [i for i, plan in enumerate(plans) if not plan]
+        best: dict[int, Found] = {}
+        for tried, style in enumerate(ORDER):
+            open_ = [i for i in left if tried < guesses or (tried < guesses + MORE and best[i].lacks)]
+            if not open_:
+                break
+            for i, found in zip(open_, one_by_one([Job(asked[i], style) for i in open_], horizon), strict=True):
+                spent[i] += found.spent
+                if i not in best or _better(found, best[i]):
+                    best[i] = found
+        for i, plan in zip(left, told([asked[i] for i in left], [best[i] for i in left], horizon), strict=True):
+            plans[i] = replace(plan, solve_time=float(spent[i]))
+        if all(plans):
+            break
+    return [plan for plan in plans if plan is not None]
+
+
+def _better(one: Found, other: Found) -> bool:
+    """Whether `one` is to be preferred: it can be flown, or costs less."""
+    return (bool(one.lacks), one.cost) < (bool(other.lacks), other.cost)

@@ -1,0 +1,230 @@
+"""The search for plans: guesses on the lanes of a solver, watched until they settle."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.compile.llvm.stagewise import WIDTH, lanes
+from flypend.model.state import SIZE
+from flypend.planning.guesses import pumping, styles
+from flypend.planning.kernels import kernels
+from flypend.planning.request import STAGES_PER_UNIT, TOLERANCE, Request
+from flypend.planning.solver import Problem, Solver
+from flypend.plants.lag import step_timing
+
+MOST_ITERATIONS = 80
+# Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
+STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
+MOUNT_FIRST, MOUNT_GROWTH, MOUNT_LAST = 1e-4, 2.0, 10.0
+CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
+NOT_REACHED, NOT_KEPT = "inverted hover is not reached", "a wish is not kept"
+UNFINISHED = "the solver had not converged"
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Job:
+    """A guess to solve: what is `asked`, and the number of the guess's `style`."""
+
+    asked: Request
+    style: int
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What came of one or several guesses, in own units.
+
+    Parameters
+    ----------
+    states, commands : (stages + 1, 24 + n), (stages, n)
+        The best iterate.
+    cost : float
+        Its cost; infinite if it cannot be flown.
+    lacks, unfinished : str
+        Why it cannot be flown, and whether the solver had not converged; empty if not.
+    style, iterations : int
+        The style of its guess, and the iterations of the solver.
+    spent : float
+        Processor time, s: of every iteration, an equal part for each guess that was being solved.
+    """
+
+    states: Array
+    commands: Array
+    cost: float
+    lacks: str
+    unfinished: str
+    style: int
+    iterations: int
+    spent: float
+
+
+class Verdict:
+    """What the lanes of a `solver` are worth after an iteration; `mounted` rods cost what it costs to be near a part.
+
+    Attributes
+    ----------
+    cost, lacks : (lanes,)
+        The cost, infinite for what cannot be flown; and how far it is from that, in tolerances.
+    arrives, stuck : (lanes,)
+        Whether it reaches hover, whatever it breaks on the way; and whether it cannot be improved.
+    """
+
+    def __init__(self, solver: Solver, mounted: bool) -> None:
+        cost, violation = (solver.cost if mounted else solver.value), solver.violation
+        self.arrives, self.stuck = (solver.end <= 1) & (solver.gap <= CLOSED), solver.stuck
+        self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
+        lacks = np.maximum(solver.end, 1) + violation / TOLERANCE + solver.gap / CLOSED
+        self.lacks = np.where(np.isfinite(lacks), lacks, np.inf)
+
+    def of(self, on: Any) -> tuple[float, int, str]:
+        """Return cost and place of the best of the lanes `on`; of the nearest, with what it lacks, if there is none."""
+        place = int(np.argmin(self.cost[on]))
+        if np.isfinite(self.cost[on[place]]):
+            return float(self.cost[on[place]]), place, ""
+        place = int(np.argmin(self.lacks[on]))
+        return np.inf, place, NOT_KEPT if self.arrives[on[place]] else NOT_REACHED
+
+
+class Watch:
+    """Watches some `lanes` of a solver with `jobs`, of which the best counts, until that is steady."""
+
+    def __init__(self, jobs: Sequence[Job], on: Sequence[int]) -> None:
+        self._jobs, self._on = jobs, np.array(on)
+        self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
+        self._mounted = jobs[0].asked.wishes.mounted is not None
+        self._kept: tuple[Array, Array, str, int] | None = None
+        self._stuck = False
+
+    @property
+    def done(self) -> bool:
+        """Whether more iterations are not worth their time."""
+        return self._steady >= STEADY_FOR or self._iterations >= MOST_ITERATIONS or self._stuck
+
+    def before(self, solver: Solver) -> None:
+        """Prepare an iteration: rods that must not touch the vehicle cost more and more to be near it."""
+        if self._mounted:
+            weight = MOUNT_FIRST * MOUNT_GROWTH**self._iterations
+            solver.insist(-2, min(MOUNT_LAST, weight), self._on)
+            self._best = self._best if weight > MOUNT_LAST else np.inf  # costs under other weights do not compare
+
+    def after(self, solver: Solver, verdict: Verdict, spent: float) -> None:
+        """Look at the lanes after an iteration, of which `spent` (s) belongs to these lanes."""
+        score, place, lacks = verdict.of(self._on)
+        lane = int(self._on[place])
+        settled = np.isfinite(self._best) and score > (1 - STEADY) * self._best
+        self._steady = self._steady + 1 if settled and solver.barrier[lane] <= STEADY_BARRIER else 0
+        if self._kept is None or not score > self._best:
+            self._kept = solver.states[:, :, lane].copy(), solver.commands[:, :, lane].copy(), lacks, place
+        self._best = min(self._best, score)
+        self._iterations += 1
+        self._spent += spent
+        self._stuck = bool(np.all(verdict.stuck[self._on]))
+
+    def found(self, solver: Solver) -> Found:
+        """Return the best so far."""
+        first = int(self._on[0])
+        none = solver.states[:, :, first].copy(), solver.commands[:, :, first].copy(), NOT_REACHED, 0
+        states, commands, lacks, place = self._kept or none
+        unfinished = "" if self._steady >= STEADY_FOR else UNFINISHED
+        return Found(
+            states, commands, self._best, lacks, unfinished, self._jobs[place].style, self._iterations, self._spent
+        )
+
+
+def stages_of(horizon: float) -> tuple[int, float]:
+    """Return number and length of the stages of a `horizon` (√(l/g))."""
+    stages = max(2, round(horizon * STAGES_PER_UNIT))
+    return stages, horizon / stages
+
+
+def prepared(asked: Request) -> None:
+    """Compile what solves `asked`, or take it from the cache."""
+    kernels(asked.rotors, asked.wishes), pumping(asked.rotors)
+
+
+def together(asked: Request, horizon: float, deadline: float) -> Found:
+    """Solve from all styles of guesses at once, until the best is steady or the `deadline` (monotonic) is over."""
+    jobs, mounted = [Job(asked, style) for style in range(WIDTH)], asked.wishes.mounted is not None
+    solver, watch = _solver(jobs, horizon), Watch(jobs, range(WIDTH))
+    while not watch.done and time.monotonic() < deadline:
+        begin = time.thread_time()
+        watch.before(solver)
+        solver.improve()
+        watch.after(solver, Verdict(solver, mounted), time.thread_time() - begin)
+    return watch.found(solver)
+
+
+def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
+    """Solve each of `jobs` on a lane of its own; a lane that is done takes the next job.
+
+    Jobs ask for the same wishes, of vehicles with as many rotors. Lanes do not see each other: what is found for a job
+    does not depend on the others.
+    """
+    found: list[Found | None] = [None] * len(jobs)
+    mounted = jobs[0].asked.wishes.mounted is not None
+    first = [*jobs[:WIDTH], *[jobs[0]] * (WIDTH - len(jobs))]
+    solver = _solver(first, horizon)
+    watches = {lane: (lane, Watch([job], [lane])) for lane, job in enumerate(jobs[:WIDTH])}
+    following = WIDTH
+    guesses: list[tuple[Problem, Array, Array]] = []
+    while watches:
+        begin = time.thread_time()
+        for _, watch in watches.values():
+            watch.before(solver)
+        solver.improve()
+        verdict, spent = Verdict(solver, mounted), (time.thread_time() - begin) / len(watches)
+        for lane, (place, watch) in list(watches.items()):
+            watch.after(solver, verdict, spent)
+            if not watch.done:
+                continue
+            found[place] = watch.found(solver)
+            del watches[lane]
+            if following < len(jobs):
+                ahead = (following - WIDTH) % WIDTH
+                if ahead == 0:
+                    some = jobs[following : following + WIDTH]
+                    guesses = [guessed([*some, *[some[0]] * (WIDTH - len(some))], horizon)]
+                solver.take(lane, *guesses[0], ahead)
+                watches[lane] = following, Watch([jobs[following]], [lane])
+                following += 1
+    return [each for each in found if each is not None]
+
+
+def _solver(jobs: Sequence[Job], horizon: float) -> Solver:
+    asked = jobs[0].asked
+    return Solver(kernels(asked.rotors, asked.wishes), *guessed(jobs, horizon))
+
+
+def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]:
+    """Return the problem of as many `jobs` as lanes, and their guessed states and commands."""
+    stages, h = stages_of(horizon)
+    n = jobs[0].asked.rotors
+    columns = [_columns(job, h) for job in jobs]
+    timing, vehicle, numbers, style, limits, begin = (_side_by_side(some) for some in zip(*columns, strict=True))
+    states, commands = lanes(stages + 1, SIZE + n), lanes(stages, n)
+    states[0] = begin
+    pumping(n)(stages, states, style, limits, timing, vehicle, states[1:], commands)
+    return Problem(stages, timing, vehicle, numbers), states, commands
+
+
+def _columns(job: Job, h: float) -> tuple[Any, ...]:
+    """Return timing, vehicle, numbers, style, rotor limits and start of a `job`, own units."""
+    asked, vehicle, units = job.asked, job.asked.vehicle, job.asked.units
+    falls = not asked.wishes.lean and vehicle.mount != "cup"
+    return (
+        step_timing(vehicle.rotor_lag / units.time, h), units.numbers(vehicle), asked.numbers,
+        styles(vehicle, falls=falls)[:, job.style], vehicle.rotor_limits / units.force, asked.start,
+    )  # fmt: skip
+
+
+def _side_by_side(columns: Sequence[Any]) -> Array:
+    array = lanes(len(columns[0]))
+    array[:] = np.column_stack(columns)
+    return array

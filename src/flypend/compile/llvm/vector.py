@@ -87,7 +87,7 @@ class Code:
         self.lanes = lanes
         self.builder = builder
         self.context = context
-        self.flags = FLAGS
+        self.flags: tuple[str, ...] = FLAGS
 
     # Memory -------------------------------------------------------------------------------------------------------
 

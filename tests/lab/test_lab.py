@@ -25,11 +25,12 @@ from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import verdict
 from flypend.geometry import cross, dot
 from flypend.lab.controls import offer, sliders
+from flypend.lab.engine import engine_of
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked
 from flypend.lab.map import directions, region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
-from flypend.lab.session import Lanes, Slot, flights, read
+from flypend.lab.session import Lanes, Slot, engines, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
 from flypend.laws import law_names
@@ -143,6 +144,15 @@ def test_the_verdict_names_what_the_law_is_to_do():
     assert "upright" not in told["words"]
     singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
     assert verdict(fly(singular), tuned(singular).criterion)["words"].startswith("singular after ")
+
+
+def test_machine_code_is_for_laws_whose_gains_are_inputs_and_sampled_plants():
+    facts = engine_of(setting_of(asked(plant="rotors")))
+    assert facts["gains"] == [name for name in tuned(setting_of(asked(plant="rotors"))).names if name in facts["gains"]]
+    assert len(facts["code"]) > 1000
+    assert engine_of(setting_of(asked("lqr", plant="rotors"))) is None
+    [reply] = engines({"number": 3, "key": "k", "setting": asked()}, lambda: None)  # the ideal plant
+    assert (reply["number"], reply["key"], reply["engine"]) == (3, "k", None)
 
 
 # Pokes --------------------------------------------------------------------------------------------------------------

@@ -120,6 +120,46 @@ def test_a_slider_flies_anew_by_pointer_and_by_key(visit):
     assert setting(page)["law"]["gains"] == {}
 
 
+def able(page):
+    """Wait until the page has machine code for its setting."""
+    until(page, "() => !document.querySelector('.live').hidden")
+
+
+def test_the_page_flies_by_itself_what_the_server_then_confirms(visit):
+    page = visit()
+    able(page)
+    control = slider(page, "law.gains.rod_damping")
+    control.fill("214")
+    until(page, "() => flypend.timings().some(({ here }) => here)")
+    expect_flight(page)
+    shown(page)
+    expect_flight(page)
+    last = page.evaluate("flypend.timings()[flypend.timings().length - 1]")
+    assert last["here"]  # what the server confirms is not drawn again
+    slider(page, "plant.delay").fill("40")
+    shown(page)
+    expect_flight(page)
+    for law, flies in (("lqr", False), ("inverted", True)):
+        page.locator("select[data-path='law.name']").select_option(law)
+        shown(page)
+        until(page, f"() => document.querySelector('.live').hidden === {str(not flies).lower()}")
+
+
+def test_a_flight_goes_on_in_the_laboratory(visit):
+    page = visit()
+    able(page)
+    page.evaluate("flypend.seek(6)")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 3020")
+    page.locator("[data-on=bob]").click()
+    until(page, "() => flypend.live().poked === 1")
+    assert setting(page)["pokes"] == []
+    page.locator("select[data-path='plant.base']").select_option("ideal")  # which goes on nowhere
+    shown(page)
+    assert not page.evaluate("flypend.live().on")
+    expect_flight(page)
+
+
 def test_the_rod_is_dragged_over_its_sphere(visit):
     page = visit()
     handle = page.locator(".handle")

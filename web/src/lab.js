@@ -1,7 +1,7 @@
 // The laboratory with the server that has sent the page.
 
+import { Hybrid } from "./lab/hybrid.js";
 import { Laboratory } from "./lab/laboratory.js";
-import { Link } from "./lab/link.js";
 
 const data = JSON.parse(document.getElementById("flypend-data").textContent);
-window.flypend = new Laboratory(data, (told, say) => new Link(told, (open) => say(open ? "" : "no connection to the server"))).provide();
+window.flypend = new Laboratory(data, (told, say) => new Hybrid(told, say)).provide();

@@ -29,7 +29,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.lab.own import OwnLaws
 from flypend.lab.page import page
-from flypend.lab.session import Lanes, Slot, flights, maps, read, refusal
+from flypend.lab.session import Lanes, Slot, engines, flights, maps, read, refusal
 from flypend.pages import replay
 
 LARGEST_MESSAGE = 64 * 1024  # bytes; a setting needs one or two thousand
@@ -38,8 +38,9 @@ MOST_CONNECTIONS = 128  # of all kinds; a browser opens a few for a page
 SILENT = 30  # s until a connection without a request is closed
 THREADS = 2
 POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; img-src data:; "
-    "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src blob:; "
+    "style-src 'unsafe-inline'; img-src data:; connect-src 'self' ws://{host}; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 
 
@@ -136,11 +137,12 @@ class Socket(WebSocketHandler):
     """The connection to one open page."""
 
     def initialize(self, laboratory: Laboratory) -> None:
-        """Connect the page to `laboratory`, with a slot for flights and one for maps."""
+        """Connect the page to `laboratory`, with a slot for flights, one for maps and one for machine code."""
         self.laboratory = laboratory
         self.slots = {
             "fly": Slot(laboratory.flights, partial(flights, own=laboratory.own), self._send),
             "map": Slot(laboratory.maps, partial(maps, own=laboratory.own), self._send),
+            "engine": Slot(laboratory.flights, partial(engines, own=laboratory.own), self._send),
         }
 
     def prepare(self) -> None:

@@ -18,6 +18,7 @@ from flypend.errors import InputError
 from flypend.flight.verdict import verdict
 from flypend.lab.budget import Abandoned
 from flypend.lab.controls import sliders
+from flypend.lab.engine import engine_of
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly
 from flypend.lab.map import region
@@ -29,7 +30,7 @@ from flypend.pages.starts import plain
 
 log = logging.getLogger(__name__)
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands overflow the parser's stack
-KINDS = ("fly", "map", "stop")
+KINDS = ("fly", "map", "engine", "stop")
 LATELY = 5.0  # s
 GREEDY = 0.5  # s of processor time within about LATELY; a usual flight takes 0.03 s
 Send = Callable[[dict[str, Any]], Awaitable[Any]]
@@ -169,6 +170,16 @@ def maps(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always
             yield {"kind": "map", "number": number, **chunk}
     except InputError as error:
         yield refusal(error, number)
+
+
+def engines(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always) -> Iterator[dict[str, Any]]:
+    """Yield the reply to "engine": machine code with which the page flies settings like this one; None if it cannot."""
+    number, key = message.get("number"), message.get("key")
+    try:
+        facts = engine_of(setting_of(message.get("setting"), own))
+    except InputError:
+        facts = None
+    yield {"kind": "engine", "number": number, "key": key, "engine": facts}
 
 
 def refusal(error: InputError, number: Any = None) -> dict[str, Any]:

@@ -110,6 +110,7 @@ export class Laboratory {
 
   choose(path, name) {
     this.touched = path;
+    this.running.go(false);
     const value = structuredClone(this.setting.value), { mount } = value.vehicle;
     if (path === "law.name") value.law = { name, gains: {} };
     else if (path === "vehicle.mount") value.vehicle.mount = name;
@@ -155,6 +156,7 @@ export class Laboratory {
   }
 
   preset(setting) {
+    this.running.go(false);
     this.viewer.clock.pause();
     this.viewer.clock.seek(this.viewer.clock.start);
     this.steady = null;
@@ -219,6 +221,8 @@ export class Laboratory {
 
   #told(reply) {
     if (reply.kind === "flight") this.#flight(reply);
+    else if (reply.kind === "preview") this.#preview(reply);
+    else if (reply.kind === "able") this.panel.able(this.running.able);
     else if (reply.kind === "map" && reply.number === this.mapped) this.disc.add(reply);
     else if (reply.kind === "compiling" && reply.number >= this.shown) this.#say("compiling…");
     else if (reply.kind === "error" && reply.number === this.asked) this.#error(reply);
@@ -228,13 +232,7 @@ export class Laboratory {
   #flight(reply) {
     if (reply.number < this.shown) return;
     this.shown = reply.number;
-    this.main.classList.remove("stale");
-    if (this.flew) this.#notice("");
-    this.flew = true;
-    // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
-    this.steady ??= reply.run.direction;
-    this.record = { ...reply.run, direction: this.steady };
-    if (!this.running.on) this.#load();
+    if (reply.number > (this.previewed ?? 0)) this.#picture(reply);
     this.verdict = reply.verdict;
     judge(this.words, reply.verdict);
     if (reply.number === this.asked) {
@@ -244,10 +242,29 @@ export class Laboratory {
       if (this.follow && !calm()) this.viewer.clock.play();
       this.follow = false;
     }
+  }
+
+  /** Show a flight that the page has flown by itself, before the server confirms it. */
+  #preview(reply) {
+    if (reply.number <= this.shown || reply.number < (this.previewed ?? 0) || this.running.on) return;
+    this.previewed = reply.number;
+    this.#picture(reply);
+    judge(this.words, reply.verdict);
+  }
+
+  #picture(reply) {
+    this.main.classList.remove("stale");
+    if (this.flew) this.#notice("");
+    this.flew = true;
+    // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
+    this.steady ??= reply.run.direction;
+    this.record = { ...reply.run, direction: this.steady };
+    if (!this.running.on) this.#load();
     const begun = this.clock.get(reply.number);
     for (const number of this.clock.keys()) if (number <= reply.number) this.clock.delete(number);
+    if (begun === undefined) return;
     requestAnimationFrame(() => {
-      this.times = [...this.times.slice(-199), { server: reply.milliseconds, picture: performance.now() - begun }];
+      this.times = [...this.times.slice(-199), { here: reply.kind === "preview", flown: reply.milliseconds, picture: performance.now() - begun }];
     });
   }
 

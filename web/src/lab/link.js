@@ -9,9 +9,14 @@ export class Link {
     this.#open();
   }
 
+  /** A number for a question that is asked later. */
+  reserve() {
+    return ++this.number;
+  }
+
   /** Ask for something of a `kind`; returns its number. */
-  ask(kind, content = {}) {
-    const message = { kind, number: ++this.number, ...content };
+  ask(kind, content = {}, number = this.reserve()) {
+    const message = { kind, number, ...content };
     if (kind === "stop") this.last.delete("map");
     else this.last.set(kind, message);
     this.#send(message);

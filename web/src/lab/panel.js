@@ -72,7 +72,7 @@ export class Panel {
   #buttons() {
     this.#find(".go").addEventListener("click", () => this.lab.running.toggle());
     this.#find(".again").addEventListener("click", () => this.lab.restart());
-    this.#find(".live").hidden = !this.lab.link.begin;
+    this.#find(".live").hidden = true; // until there is machine code
     this.#find(".undo").addEventListener("click", () => this.lab.setting.undo());
     this.#find(".redo").addEventListener("click", () => this.lab.setting.redo());
     this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
@@ -110,6 +110,11 @@ export class Panel {
       button.addEventListener("click", () => this.poke(button.dataset.on));
     }
     this.#find(".unpoke").addEventListener("click", () => this.lab.unpoke());
+  }
+
+  /** Show whether the page can let the flight go on. */
+  able(able) {
+    this.#find(".live").hidden = !able;
   }
 
   /** Show whether the flight goes on. */
@@ -181,6 +186,7 @@ export class Panel {
   /** Show what the engine said with a flight. */
   flight({ sliders, toml, python }) {
     this.sliders(sliders);
+    this.able(this.lab.running.able);
     this.texts = { toml, python };
     if (this.served) this.#export();
     this.complain("", "");

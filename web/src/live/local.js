@@ -16,13 +16,12 @@ export class Local {
   }
 
   /** Ask for something of a `kind`; returns its number. Only whole flights are answered here: there is no map. */
-  ask(kind, content = {}) {
-    this.number += 1;
+  ask(kind, content = {}, number = ++this.number) {
     if (kind === "fly") {
-      this.waiting = { number: this.number, setting: this.whole(content.setting) };
+      this.waiting = { number, setting: this.whole(content.setting) };
       this.#next();
     }
-    return this.number;
+    return number;
   }
 
   /** Begin a flight that goes on: that of `setting`, up to `tick`; `flown` is told every piece, until the next begins. */

@@ -14,7 +14,11 @@ export class Running {
   /** Of the laboratory `lab`, whose engine may be able to. */
   constructor(lab) {
     Object.assign(this, { lab, on: false, pokes: [], pulling: null, due: 0, asked: false, drawn: 0 });
-    this.able = Boolean(lab.link.begin);
+  }
+
+  /** Whether the page has machine code for the present setting. */
+  get able() {
+    return Boolean(this.lab.link.facts);
   }
 
   toggle() {
@@ -81,9 +85,10 @@ export class Running {
   }
 
   #flown({ columns, outcome, tick }) {
+    if (!this.on) return;
     const { lab } = this, { viewer } = lab, verdict = judged(outcome, lab.link.facts);
     Object.assign(this, { asked: false, tick, over: outcome.status !== 0 });
-    if (!this.on || !columns.t.length) return;
+    if (!columns.t.length) return;
     const told = { verdict: this.over ? verdict : { words: "live", good: true }, completed: !this.over };
     if (!this.flight) {
       this.flight = new Growing({ ...lab.record, columns, ...told });

@@ -1,0 +1,119 @@
+// The engine of the laboratory: a worker with machine code shows a flight at once, the server confirms it and knows the rest.
+//
+// The server alone flies own laws, the ideal plant, pokes, rotor limits (from which laws take gains), and what a law may refuse.
+
+import { Local } from "../live/local.js";
+import { Link } from "./link.js";
+
+const REST = 150; // ms without a change until the server is asked to confirm
+
+export class Hybrid {
+  /** `told` is called with every reply, `say` with words about the connection. */
+  constructor(told, say) {
+    Object.assign(this, { told, engines: new Map(), known: null });
+    this.link = new Link((reply) => this.#reply(reply), (open) => say(open ? "" : "no connection to the server"));
+  }
+
+  /** Ask for something of a `kind`; returns its number. */
+  ask(kind, content = {}) {
+    if (kind !== "fly") return this.link.ask(kind, content);
+    const number = this.link.reserve();
+    clearTimeout(this.resting);
+    this.asked = content.setting;
+    const confirm = () => this.link.ask("fly", content, number);
+    if (this.#preview(number, content.setting)) this.resting = setTimeout(confirm, REST);
+    else confirm();
+    return number;
+  }
+
+  /** Fly `setting` here, if that is possible; whether it is. */
+  #preview(number, setting) {
+    const { local } = this;
+    if (!local || setting.pokes?.length || "random" in setting.start || !this.#allowed(setting)) return false;
+    local.ask("fly", { setting: this.#whole(setting) }, number);
+    return true;
+  }
+
+  /** The machine code for the present setting, if it has come. */
+  get local() {
+    return (this.known?.key === kind(this.asked) && !this.asked.vehicle?.rotor_limits && this.engines.get(this.known.key)) || null;
+  }
+
+  /** Whether the law takes the gains beside each other, as far as the server has said. */
+  #allowed({ law }) {
+    return this.known.sliders.every(({ path, allowed }) => {
+      const value = law.gains?.[path.slice("law.gains.".length)];
+      return !allowed || value === undefined || (value >= allowed[0] && value <= allowed[1]);
+    });
+  }
+
+  /** `setting` with the gains that the server has proposed for what it does not tell. */
+  #whole(setting) {
+    const gains = this.known.sliders.filter(({ path }) => path.startsWith("law.gains.")).map(({ path, value }) => [path.slice(10), value]);
+    const proposed = Object.fromEntries(gains.filter(([name]) => !(name in this.known.gains)));
+    return { ...setting, law: { ...setting.law, gains: { ...proposed, ...setting.law.gains } } };
+  }
+
+  #reply(reply) {
+    if (reply.kind === "engine") {
+      this.engines.set(reply.key, reply.engine && this.#made(reply.engine));
+      this.#name();
+      this.told({ kind: "able" });
+      return;
+    }
+    if (reply.kind === "flight") this.#know(reply);
+    this.told(reply);
+  }
+
+  #made(engine) {
+    return new Local({ engine, offer: { sliders: [], seed: 0 }, runs: [{}] }, (reply) => this.told({ ...reply, kind: "preview" }));
+  }
+
+  /** What the server said of a setting: its sliders, the record of its flight. */
+  #know({ number, sliders, run }) {
+    const { setting, number: last } = this.link.last.get("fly");
+    if (number !== last) return; // the answer to an earlier question
+    const key = kind(setting), { columns, ...record } = run;
+    this.known = { key, sliders, gains: setting.law.gains, record };
+    if (!this.engines.has(key)) {
+      this.engines.set(key, null);
+      const { vehicle, law, plant } = setting;
+      const plain = { vehicle: { base: vehicle.base, mount: vehicle.mount }, law: { name: law.name, gains: {} }, plant: { base: plant.base } };
+      if (plant.base !== "ideal") this.link.ask("engine", { key, setting: { ...setting, ...plain, pokes: [] } });
+    }
+    this.#name();
+  }
+
+  /** Let the machine code know what it flies. */
+  #name() {
+    const { local, known } = this;
+    if (!local) return;
+    local.record = known.record;
+    local.offer.sliders = known.sliders;
+  }
+
+  // A flight that goes on, which is this page's alone ---------------------------------------------------------------
+
+  get facts() {
+    return this.local?.facts;
+  }
+
+  begin(setting, tick, flown) {
+    this.local.begin(this.#whole(setting), tick, flown);
+  }
+
+  advance(content) {
+    this.local.advance(content);
+  }
+
+  whole(setting) {
+    return setting;
+  }
+
+  sliders(setting) {
+    return this.local.sliders(setting);
+  }
+}
+
+/** What machine code is for: vehicle, law and plant, whatever their numbers. An address may lack them. */
+const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base]);

@@ -60,6 +60,14 @@ def test_a_run_writes_its_replay_as_well(call, tmp_path):
     assert embedded(tmp_path / "flight.html")["runs"][0]["law"] == "corrected"
 
 
+def test_a_run_writes_a_page_that_flies(call, tmp_path):
+    short = ("--set", "duration=0.1", "--set", "plant=rotors", "--no-figures", "--out", "out")
+    code, told, _ = call("run", "4", *short, "--html", "live.html", "--live")
+    assert code == 0
+    assert "the live page is live.html" in " ".join(told.split())
+    assert len(embedded(tmp_path / "live.html")["engine"]["code"]) > 1000
+
+
 def test_movie(call, runs, tmp_path, monkeypatch):
     made = []
     monkeypatch.setattr(animate, "movie", lambda run, path, **options: made.append((run, path, options)))
@@ -132,6 +140,11 @@ def test_a_run_draws_in_the_style_asked_for(call, tmp_path, monkeypatch):
         (["run", "4", "--style", "slide"], "--style: expected one of paper, slides, got 'slide'"),
         (["run", "4", "--html", "a.txt"], "path: expected a file name ending in .html, got a.txt"),
         (["run", "4", "--html", "none/a.html"], "none/a.html: expected a file that can be written"),
+        (["run", "4", "--live"], "--live: expected --html FILE, the page that flies, got none"),
+        (
+            ["run", "4", "--html", "a.html", "--live"],  # the paper flies the ideal plant
+            "live: expected a sampled plant of the built-in equations, such as rotors, got the plant ideal",
+        ),
     ],
 )
 def test_bad_input_is_one_line_and_leaves_nothing(call, runs, tmp_path, arguments, line):

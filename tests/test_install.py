@@ -53,7 +53,14 @@ def test_everything_is_in_the_wheel(site):
     }
     found = {path.relative_to(site / "flypend") for path in (site / "flypend").rglob("*") if path.is_file()}
     assert found == wanted
-    some = {"py.typed", "pages/web/replay.js", "pages/web/lab.js", "vehicles/hehn2011.toml", "examples/my_law.py"}
+    some = {
+        "py.typed",
+        "pages/web/replay.js",
+        "pages/web/lab.js",
+        "pages/web/live.js",
+        "vehicles/hehn2011.toml",
+        "examples/my_law.py",
+    }
     assert {Path(name) for name in some} <= found
     (entries,) = site.glob("*.dist-info/entry_points.txt")
     assert "flypend = flypend.cli:main" in entries.read_text(encoding="utf-8")

@@ -25,7 +25,7 @@ export class Laboratory {
   /** With the engine that `connect` makes of a listener to replies and one to the connection: see link.js, live/local.js. */
   constructor(data, connect) {
     this.offer = data.offer;
-    this.viewer = new Viewer(data, css + own);
+    this.viewer = new Viewer({ ...data, runs: [] }, css + own); // until the engine has flown
     this.pinned = data.runs;
     this.main = document.querySelector("main");
     this.main.classList.add("lab");

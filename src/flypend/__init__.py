@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from flypend import laws
     from flypend.errors import InputError
-    from flypend.export import export_c
+    from flypend.export import export_c, export_plan
     from flypend.flight.criterion import Criterion
     from flypend.flight.ensemble import Ensemble, simulate_ensemble
     from flypend.flight.metrics import Metrics, metrics
@@ -44,7 +44,7 @@ __version__ = "0.2.0.dev0"
 # Where each name is defined.
 _WHERE = {
     "errors": ("InputError",),
-    "export": ("export_c",),
+    "export": ("export_c", "export_plan"),
     "flight.criterion": ("Criterion",),
     "flight.ensemble": ("Ensemble", "simulate_ensemble"),
     "flight.metrics": ("Metrics", "metrics"),
@@ -106,6 +106,7 @@ __all__ = [
     "check",
     "compare",
     "export_c",
+    "export_plan",
     "laws",
     "linearise",
     "load",

@@ -8,10 +8,12 @@ from flypend.cli import app as cli
 
 def test_a_swing_up_is_planned_and_flown(tmp_path, capsys):
     out, page = tmp_path / "plan.nc", tmp_path / "plan.html"
-    cli.app(["plan", "-o", str(out), "--ceiling", "0.7", "--fly", "rotors", "--html", str(page)], standalone_mode=False)
+    files = ["-o", str(out), "--html", str(page), "--c", str(tmp_path / "table")]
+    cli.app(["plan", *files, "--ceiling", "0.7", "--fly", "rotors"], standalone_mode=False)
     told = capsys.readouterr().out
     assert "hehn2011: optimal: 3.00 s" in told
     assert "Flown on rotors: stands" in told
+    assert "flypend_plan_command" in (tmp_path / "table" / "flypend_plan.h").read_text()
     run = fp.load(out)
     assert run.law == "plan"
     assert run.x[:, 2].max() < 0.7

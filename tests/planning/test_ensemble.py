@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.flight.tasks import task_starts
+from flypend.planning.ensemble import ORDER
 from flypend.planning.kernels import kernels
 from flypend.planning.planner import HORIZONS
 from flypend.planning.request import request
 from flypend.planning.search import Job, guessed, one_by_one
 from flypend.planning.solver import Solver
+from flypend.planning.telling import told
 
 HEHN = fp.vehicle("hehn2011")
 STARTS = fp.random_starts(11, seed=909)
@@ -36,6 +39,16 @@ def test_a_plan_does_not_depend_on_the_batch(planned):
         for i, plan in zip(some, again, strict=True):
             np.testing.assert_array_equal(plan.packed, planned[i].packed)
             np.testing.assert_array_equal(plan.commands, planned[i].commands)
+
+
+def test_a_plan_that_touches_on_the_way_is_not_the_last_word():
+    """On a hub clearance is soft in the solver, and checked afterwards: where one guess touches, another is tried."""
+    hub = HEHN.replace(mount="hub")
+    starts = task_starts(hub, 6, 3)["random"][np.array([4])]
+    asked = request(hub, starts[0], "excursion", (0, 0, 0), None, None, None, None, 0.01)
+    one = told([asked], one_by_one([Job(asked, ORDER[0])], HORIZONS[0]), HORIZONS[0])[0]
+    assert "touched" in one.reason
+    assert np.all(fp.plan_ensemble(hub, starts, guesses=1).success)
 
 
 def test_more_guesses_find_no_less(planned):

@@ -117,6 +117,20 @@ def test_wishes_are_kept_at_all_samples(wish):
         assert np.max(norm(plan.x_dot)) <= 0.9 + slack
 
 
+def test_a_rod_of_more_than_half_a_metre_is_turned_over_inside_a_cube_of_one():
+    start, corner = fp.State(x=(0, 0, 0.25), y=(0, 0, -1)), np.full(3, 0.5)
+    plan = plan_of(HEHN, start, target=(0, 0, -0.25), box=(-corner, corner))
+    check_end(plan)
+    assert np.max(np.abs([plan.x, plan.x + HEHN.reach * plan.y])) <= 0.5 + 1e-3 * HEHN.l
+
+
+def test_a_shaft_too_narrow_is_told_in_a_line():
+    start, corner = fp.State(x=(0, 0, 0.25), y=(0, 0, -1)), np.array([0.05, 0.05, 0.5])
+    plan = plan_of(HEHN, start, target=(0, 0, -0.25), box=(-corner, corner), duration=3.0)
+    assert not plan
+    assert plan.reason == "inverted hover is not reached"
+
+
 @pytest.mark.parametrize("mount", ["hub", "cup"])
 def test_the_rod_stays_on_its_mount(mount):
     vehicle = HEHN.replace(mount=mount)

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 @click.option("--cube", type=float, metavar="M", help="Side of a cube about the target that pivot and rod stay in.")
 @click.option("--speed", type=float, metavar="M/S", help="Largest speed of the pivot.")
 @click.option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
+@click.option("--c", "in_c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C.")
 @click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
 def plan(
     what: str | None,
@@ -38,6 +39,7 @@ def plan(
     cube: float | None,
     speed: float | None,
     fly: str | None,
+    in_c: Path | None,
     html: Path | None,
 ) -> None:
     """Plan an optimal flight to inverted hover: from the start in WHAT, a run file, or else from hanging at rest.
@@ -61,6 +63,11 @@ def plan(
     console.print(f"The plan is {bold(out)}.")
     if not found:
         sys.exit(1)
+    if in_c is not None:
+        from flypend.export import export_plan
+
+        export_plan(found, in_c)
+        console.print(f"The table in C is in {bold(in_c)}.")
     shown, ghosts = found.trajectory, []
     if fly is not None:
         shown, ghosts = simulate(machine, track(found), start, found.duration + 2, plant=fly), [found.trajectory]

@@ -1,6 +1,7 @@
 """The law as C99 for a flight computer, its adapters, and the compiled law flown in the loop."""
 
 from flypend.export.library import compiled
+from flypend.export.plan import export_plan
 from flypend.export.write import export_c
 
-__all__ = ["compiled", "export_c"]
+__all__ = ["compiled", "export_c", "export_plan"]

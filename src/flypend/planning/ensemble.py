@@ -19,7 +19,7 @@ from flypend.model import State, Vehicle
 from flypend.planning.planner import horizons_of
 from flypend.planning.request import Request, request, walls_of
 from flypend.planning.result import Plan
-from flypend.planning.search import Found, Job, one_by_one, prepared
+from flypend.planning.search import Job, one_by_one, prepared
 from flypend.planning.telling import told
 
 # Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
@@ -161,26 +161,26 @@ def plan_ensemble(
 
 def _planned(asked: Sequence[Request], horizons: Sequence[float], guesses: int) -> list[Plan]:
     """Return a plan for each request: with the first of `horizons` and the first styles that find one."""
-    plans: list[Plan | None] = [None] * len(asked)
+    best: list[tuple[bool, float, Plan] | None] = [None] * len(asked)  # whether it failed, its cost, and the plan
     spent = np.zeros(len(asked))
     for horizon in horizons:
-        left = [i for i, plan in enumerate(plans) if not plan]
-        best: dict[int, Found] = {}
-        for tried, style in enumerate(ORDER):
-            open_ = [i for i in left if tried < guesses or (tried < guesses + MORE and best[i].lacks)]
+        left = [i for i, each in enumerate(best) if _failed(each)]
+        for tried, style in enumerate(ORDER[: guesses + MORE]):
+            open_ = [i for i in left if tried < guesses or _failed(best[i])]
             if not open_:
                 break
-            for i, found in zip(open_, one_by_one([Job(asked[i], style) for i in open_], horizon), strict=True):
-                spent[i] += found.spent
-                if i not in best or _better(found, best[i]):
-                    best[i] = found
-        for i, plan in zip(left, told([asked[i] for i in left], [best[i] for i in left], horizon), strict=True):
-            plans[i] = replace(plan, solve_time=float(spent[i]))
-        if all(plans):
-            break
-    return [plan for plan in plans if plan is not None]
+            found = one_by_one([Job(asked[i], style) for i in open_], horizon)
+            plans = told([asked[i] for i in open_], found, horizon)
+            for i, each, plan in zip(open_, found, plans, strict=True):
+                spent[i] += each.spent
+                kept = best[i]
+                if kept is None or (not plan, each.cost) < kept[:2]:
+                    best[i] = not plan, each.cost, plan
+    return [
+        replace(each[2], solve_time=float(used)) for each, used in zip(best, spent, strict=True) if each is not None
+    ]
 
 
-def _better(one: Found, other: Found) -> bool:
-    """Whether `one` is to be preferred: it can be flown, or costs less."""
-    return (bool(one.lacks), one.cost) < (bool(other.lacks), other.cost)
+def _failed(kept: tuple[bool, float, Plan] | None) -> bool:
+    """Whether there is no plan yet that can be flown."""
+    return kept is None or kept[0]

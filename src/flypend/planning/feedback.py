@@ -30,6 +30,7 @@ from flypend.plants.lag import step_timing
 ACCEPTABLE = (0.3, 0.5, 0.5, 2.0, 0.1, 0.3)
 HEADING, COMMAND = 2.0, 0.5
 MOST_HEADING = 0.3  # rad, to which feedback in hover takes the heading
+TINY = 1e-12  # keeps a heading finite that does not exist, or is half a turn away
 HOVER_STAGES = 300  # after so many the cost to go of hover has settled: 25 √(l/g)
 
 Array = NDArray[np.float64]
@@ -147,13 +148,15 @@ def hovering(rotors: int) -> ca.Function:
 
     The heading is turned away, with the world about the vertical of the pivot, so that gains know the directions that
     the body has: a vehicle that spins when its plan ends, since rotor drag could not stop it in time, hovers as it
-    spins. Of the heading itself `MOST_HEADING` is a deviation.
+    spins. Of the heading, the double tangent of half its angle, `MOST_HEADING` is a deviation.
     """
     nominal, state = ca.SX.sym("nominal", SIZE + rotors), ca.SX.sym("state", SIZE + rotors)
     s, o = State.symbolic(nominal[:SIZE]), State.symbolic(state[:SIZE])
     a, b = s.R[:, 0], o.R[:, 0]
-    heading = ca.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
-    c, d = ca.cos(heading), ca.sin(heading)
+    across, along = a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]
+    size = ca.sqrt(across**2 + along**2 + TINY)
+    c, d = along / size, across / size
+    heading = 2 * d / (1 + c + TINY)
     turn = ca.blockcat([[c, d, 0], [-d, c, 0], [0, 0, 1]])
     x, x_dot, y, y_dot = (ca.mtimes(turn, v) for v in (o.x - s.x, o.x_dot, o.y, o.y_dot))
     home = State.symbolic(ca.vertcat(s.x + x, x_dot, ca.vec(ca.mtimes(turn, o.R).T), o.omega, y, y_dot)).packed()

@@ -7,7 +7,7 @@ changed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -53,9 +53,9 @@ def step_timing(lag: float, duration: float) -> Any:
     return np.array([duration, end, mean, _change(1.0, end, mean, lag / duration)])
 
 
-def symbolic_timing(lag: Any, duration: Any) -> Any:
+def symbolic_timing(lag: Any, duration: Any, exp: Callable[[Any], Any] = ca.exp) -> Any:
     """Return `step_timing` (4, 1) of a `lag` > 0 that is a CasADi expression, as may be the `duration`, s."""
-    end = ca.exp(-duration / lag)
+    end = exp(-duration / lag)
     mean = (1 - end) * lag / duration
     return ca.vertcat(duration, end, mean, _change(1.0, end, mean, lag / duration))
 

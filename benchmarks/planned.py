@@ -1,0 +1,142 @@
+"""What can be planned: other vehicles, random ones, leans, and ensembles.
+
+python -m benchmarks.planned vehicles --runs 50 --seed 7702 --fly 30
+python -m benchmarks.planned random --vehicles 30 --runs 8 --seed 2025
+python -m benchmarks.planned leans
+python -m benchmarks.planned pareto
+python -m benchmarks.planned ensemble --runs 500 --seed 4711 --guesses 2
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+import numpy as np
+
+import flypend as fp
+from benchmarks.vehicles import DURATION, WANTED, numbers, random_vehicle
+from flypend.flight.metrics import wilson
+
+HEHN = fp.vehicle("hehn2011")
+LEANS = {20: 0.46, 30: 0.78, 40: 1.15, 60: 2.1}  # degrees, and m that optimal control with free rotors takes
+
+
+def heavy() -> fp.Vehicle:
+    """A vehicle of 5 kg with a thrust of 1.6 weights, a bob of 0.5 kg, and sizes as in `benchmarks.vehicles`."""
+    arm, largest = 0.2 * 5 ** (1 / 3), 1.6 * 5.5 * 9.81 / 4
+    roll = 5 * (0.475 * arm) ** 2
+    return fp.Vehicle(
+        name="heavy", mass=5.0, bob_mass=0.5, rod_length=1.0, inertia=(roll, roll, 1.7 * roll),
+        rotor_positions=((arm, 0, 0), (0, -arm, 0), (-arm, 0, 0), (0, arm, 0)), rotor_spins=(1, -1, 1, -1),
+        drag_ratio=0.08 * arm, rotor_limits=(0.02 * largest, largest), rotor_lag=0.04,
+    )  # fmt: skip
+
+
+def share(good: int, runs: int) -> str:
+    """Format a share with its Wilson interval."""
+    low, high = wilson(good, runs)
+    return f"{good} of {runs} ({low:.1%} to {high:.1%})"
+
+
+def vehicles(asked: argparse.Namespace) -> None:
+    """Plan other vehicles with all guesses, and fly some of the plans."""
+    known = {
+        "hehn2011": HEHN,
+        "crazyflie, 72 ms, rod 0.5 m": fp.vehicle("crazyflie").replace(rotor_lag=0.072, rod_length=0.5),
+        "5 kg, thrust/weight 1.6": heavy(),
+        "bob 0.4 of the mass": HEHN.replace(bob_mass=0.4 * HEHN.mass),
+        "nayak2018": fp.vehicle("nayak2018"),
+    }
+    starts = fp.random_starts(asked.runs, asked.seed)
+    for name, vehicle in known.items():
+        plans = fp.plan_ensemble(vehicle, starts, guesses=8)
+        print(f"{name}: {plans}", flush=True)
+        runs = min(asked.fly, asked.runs)
+        if not runs:
+            continue
+        flown = fp.simulate_ensemble(vehicle, fp.plan_and_track(), starts[:runs], DURATION)
+        excursion = (flown.percentile("excursion", q) for q in (50, 95))
+        print(
+            f"  flown 30 s: {share(int(flown.success.sum()), runs)}, excursion p50, p95:",
+            *map("{:.3f}".format, excursion),
+        )
+
+
+def random(asked: argparse.Namespace) -> None:
+    """Plan random vehicles, beside the law."""
+    rng, starts, law = (
+        np.random.default_rng(asked.seed),
+        fp.random_starts(asked.runs, asked.seed + 1),
+        fp.laws.inverted(),
+    )
+    good, both = np.zeros((2, 0)), 0
+    for i in range(asked.vehicles):
+        vehicle = random_vehicle(rng)
+        power, agility, lag = numbers(vehicle)
+        plans = fp.plan_ensemble(vehicle, starts, guesses=2)
+        try:
+            flown = fp.simulate_ensemble(vehicle, law, starts, DURATION)
+            rate, excursion = flown.rate, flown.percentile("excursion", 50)
+        except fp.InputError:
+            rate, excursion = 0.0, np.nan
+        good = np.append(good, [[plans.success.mean()], [rate]], axis=1)
+        both += rate >= WANTED and plans.success.mean() >= WANTED
+        print(
+            f"{i:3d} thrust/weight {power:4.2f} agility {agility:7.2f} lag {lag:4.2f}: planned {good[0, -1]:4.0%} "
+            f"{plans.percentile('excursion', 50) / vehicle.l:5.2f} l, law {rate:4.0%} {excursion / vehicle.l:5.2f} l",
+            flush=True,
+        )
+    planned, by_law = (int(np.sum(row >= WANTED)) for row in good)
+    print(f"from {WANTED:.0%} of {asked.runs} starts: planned {share(planned, asked.vehicles)}, ", end="")
+    print(f"the law {share(by_law, asked.vehicles)}, both {both}")
+
+
+def leans(_: argparse.Namespace) -> None:
+    """Plan leans at rest with the rod above the horizon, in three directions."""
+    for degrees, free in LEANS.items():
+        lean, told = np.radians(degrees), []
+        for heading in (0.0, 0.3, np.pi / 4):
+            y = (np.sin(lean) * np.cos(heading), np.sin(lean) * np.sin(heading), np.cos(lean))
+            found = fp.plan(HEHN, fp.State(y=y), lean=np.pi / 2, time_limit=600)
+            told.append(f"{found.excursion:.3f} m ({found.excursion / free:.2f})" if found else found.reason)
+        print(f"{degrees}°: {', '.join(told)}")
+
+
+def pareto(_: argparse.Namespace) -> None:
+    """Plan the swing-up from hanging at rest within less and less time."""
+    hanging = fp.State(y=(0, 0, -1))
+    shortest = fp.plan(HEHN, hanging, "time", time_limit=600)
+    for duration in (3.0, 2.5, 2.0, 1.75, 1.5, 1.25, shortest.duration):
+        found = fp.plan(HEHN, hanging, duration=duration, time_limit=600)
+        print(
+            f"{duration:.2f} s: {found.excursion:.3f} m" if found else f"{duration:.2f} s: {found.reason}", flush=True
+        )
+
+
+def ensemble(asked: argparse.Namespace) -> None:
+    """Plan many starts of hehn2011 on one core, and tell the processor time."""
+    starts = fp.random_starts(asked.runs, asked.seed)
+    fp.plan_ensemble(HEHN, starts[:2], guesses=1)
+    begin = time.process_time()
+    plans = fp.plan_ensemble(HEHN, starts, guesses=asked.guesses, workers=1)
+    spent = time.process_time() - begin
+    print(f"{asked.guesses} guesses: {plans}")
+    print(f"{1e3 * spent / asked.runs:.1f} ms a plan, {asked.runs / spent:.0f} plans per second and core")
+
+
+def main() -> None:
+    """Run one of the benchmarks."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("what", choices=("vehicles", "random", "leans", "pareto", "ensemble"))
+    parser.add_argument("--runs", type=int, default=24)
+    parser.add_argument("--seed", type=int, default=7702)
+    parser.add_argument("--vehicles", type=int, default=20)
+    parser.add_argument("--guesses", type=int, default=2)
+    parser.add_argument("--fly", type=int, default=0)
+    asked = parser.parse_args()
+    {"vehicles": vehicles, "random": random, "leans": leans, "pareto": pareto, "ensemble": ensemble}[asked.what](asked)
+
+
+if __name__ == "__main__":
+    main()

@@ -25,7 +25,7 @@ from flypend.laws import BoundLaw, Law
 from flypend.laws.references import Reference
 from flypend.model import State
 from flypend.model.state import SIZE
-from flypend.planning.equilibrium import upright, weighed
+from flypend.planning.equilibrium import falls, hovers, upright, weighed
 from flypend.planning.flown import OF_STAGES, Flown
 from flypend.planning.nominal import stepping
 from flypend.planning.planner import plan_within
@@ -42,20 +42,15 @@ OF_PLAN = 1.5
 ATTEMPTS = ((12.5, 18), (12.5, 40), (20.0, 60), (32.0, 60), (12.5, 40))
 LATE = 2.0  # after a plan that was late, the next is given so many times as long
 MEASURED_AT_FIRST = 2e-3  # s, expected of an iteration that is measured
-# In hover, own units, are at most: distance, speed, lean of the thrust axis (rad), spin, lean of the rod, its rate.
-SETTLED = (0.15, 0.15, 0.2, 0.5, 0.1, 0.2)
-# It is over when y + ẏ, which grows if nothing is done, is so far from e₃, or the pivot so far away.
-FALLING, AWAY = 0.35, 2.0
 # In hover an estimator learns slowly of forces that last; until then the law is shown a position that is off by the
 # integral of the distance, of this rate, √(g/l), and at most so long, rod lengths.
 INTEGRAL, MOST_OFF = 0.06, 1.0
-ROD, AXIS = slice(18, 21), [8, 11, 14]  # of a packed state
 PAUSE = 1.0  # √(l/g), after the second failure in a row, and ever longer; after the last attempt only the law flies
 
 
 @dataclass(frozen=True, eq=False)
-class Wish:
-    """What the pilots of a controller have in common; called, it makes one. See `nmpc.nmpc` for the fields.
+class Receding:
+    """What the pilots of a controller have in common; called, it makes one. See `receding.nmpc` for the fields.
 
     `law` is what flies otherwise, `latency` what the board predicts over for plans, and `computing` None if measured.
     """
@@ -86,8 +81,8 @@ class Pilot:
 
     Parameters
     ----------
-    wish : Wish
-        What is wished.
+    receding : Receding
+        What it has in common with others.
     loop : Loop
         The closed loop that is flown.
     rotors : (n,)
@@ -103,18 +98,21 @@ class Pilot:
         Processor time of each real-time iteration, s.
     """
 
-    def __init__(self, wish: Wish, loop: Loop, rotors: Any) -> None:
+    def __init__(self, receding: Receding, loop: Loop, rotors: Any) -> None:
         if loop.sampled.interface != "wrench":
             raise InputError("plant.interface", "wrench: nmpc commands rotor forces", loop.sampled.interface)
-        self._wish, self._vehicle = wish, loop.vehicle
-        self._by_law = replace(loop, law=wish.law.bind(loop.vehicle))
-        self._by_plan = replace(loop, law=_predicting(self._by_law.law, wish.latency))
+        self._common, self._vehicle = receding, loop.vehicle
+        self._by_law = replace(loop, law=receding.law.bind(loop.vehicle))
+        self._by_plan = replace(loop, law=_predicting(self._by_law.law, receding.latency))
         self._rotors = np.asarray(rotors, dtype=float)
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
-        self._where, self._step = _moving(wish.reference), stepping(loop.vehicle)
-        self._mode, self._coming, self._flown = "waiting", None, None  # type: tuple[str, Coming | None, Flown | None]
+        self._where, self._step = _moving(receding.reference), stepping(loop.vehicle)
+        self._mode = "waiting"
+        self._coming: Coming | None = None
+        self._flown: Flown | None = None
         self._failures, self._not_before, self._patience = 0, -np.inf, 1.0
-        self._planned_command, self._off = None, np.zeros(3)  # type: Any, Any
+        self._planned_command: Any = None
+        self._off = np.zeros(3)
         self.changes: list[tuple[float, str, str]] = []
         self.plans: list[Plan] = []
         self.spent: list[float] = []
@@ -142,7 +140,7 @@ class Pilot:
 
     def _steer(self, t: float, state: Any, rotors: Any, forces: Any) -> Any:
         """Return the command for what is predicted for t + latency; both boards remember it."""
-        now = t + self._wish.latency
+        now = t + self._common.latency
         here, outside = self._relative(now, state), weighed(forces, self._where(now)[6:], self._vehicle)
         level = upright(outside, self._m)[:2]
         if self._coming is not None and now + 1e-9 >= self._coming.due:
@@ -203,7 +201,7 @@ class Pilot:
             return
         self._change(t, "planned", coming.plan.told)
         self.plans.append(coming.plan)
-        self._flown = Flown(coming.plan, coming.asked, coming.begin, self._wish.computing)
+        self._flown = Flown(coming.plan, coming.asked, coming.begin, self._common.computing)
 
     def _relative(self, t: float, state: Any) -> Any:
         """Return the `state` (24,) at time `t` relative to the reference."""
@@ -214,12 +212,12 @@ class Pilot:
     def _begin(self, t: float, state: Any, rotors: Any) -> None:
         """Plan from where the law will have brought the vehicle by the time the plan is there."""
         horizon, iterations = ATTEMPTS[self._failures]
-        each = MEASURED_AT_FIRST if self._wish.computing is None else self._wish.computing
+        each = MEASURED_AT_FIRST if self._common.computing is None else self._common.computing
         given = OF_PLAN * each * iterations * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
         begun = time.process_time()
         there = self._under_law(t, state, rotors, given)
         found, asked, why = self._planned(self._relative(t + given, there[:SIZE]), there[SIZE:], horizon, iterations)
-        took = time.process_time() - begun if self._wish.computing is None else given
+        took = time.process_time() - begun if self._common.computing is None else given
         if took > given:
             found, why, self._patience = None, "the plan is late", LATE * self._patience
         self._coming = Coming(found, asked, why, t + max(took, given), t + given)
@@ -232,7 +230,7 @@ class Pilot:
         try:
             asked = request(
                 self._vehicle, State.from_packed(here), "excursion", np.zeros(3), forces, None, None, None,
-                self._wish.clearance,
+                self._common.clearance,
             )  # fmt: skip
         except InputError as error:
             return None, None, str(error)
@@ -252,35 +250,6 @@ class Pilot:
             there = self._step(there[:SIZE], there[SIZE:], command, h)
             passed += h
         return there
-
-
-def hovers(here: Any, level: Any, units: Units) -> bool:
-    """Whether a state is so near hover that the law keeps it there.
-
-    Parameters
-    ----------
-    here : (24,)
-        The state relative to the reference.
-    level : (3,), (3,)
-        Rod and thrust axis in hover.
-    units : Units
-        Units of the vehicle.
-    """
-    own, (y, z) = here / units.of_state, level
-    rod, axis = own[ROD], own[AXIS]
-    if rod @ y < 0 or axis @ z < 0:
-        return False
-    # Spin about the thrust axis does no harm.
-    off = (own[:3], own[3:6], axis - z, own[15:17], rod - y, own[21:24])
-    return all(e @ e < most * most for e, most in zip(off, SETTLED, strict=True))
-
-
-def falls(here: Any, level: Any, units: Units) -> bool:
-    """Whether a state is so far from hover that a plan is due; see `hovers`."""
-    own, (y, _) = here / units.of_state, level
-    rod, x = own[ROD], own[:3]
-    falling = rod + own[21:24] - y
-    return bool(rod @ y < 0 or falling @ falling > FALLING**2 or x @ x > AWAY**2)
 
 
 @lru_cache(maxsize=16)

@@ -10,7 +10,7 @@ from flypend.geometry import E3
 from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
-from flypend.planning.pilot import Wish
+from flypend.planning.pilot import Receding
 from flypend.planning.request import request
 
 COMPUTING = 0.002  # s
@@ -68,7 +68,7 @@ def nmpc(
         name="nmpc",
         function=_no_wrench,
         reference=followed,
-        flight_computer=Wish(followed, law, delay, None if computing == "measured" else computing, clearance),
+        flight_computer=Receding(followed, law, delay, None if computing == "measured" else computing, clearance),
         because="it solves a problem in every stage",
     )
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from flypend.model.shipped import vehicle
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle
-    from flypend.planning import Plan, PlanEnsemble, plan, plan_and_track, plan_ensemble, track
+    from flypend.planning import Plan, PlanEnsemble, nmpc, plan, plan_and_track, plan_ensemble, track
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -59,7 +59,7 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
-    "planning": ("Plan", "PlanEnsemble", "plan", "plan_and_track", "plan_ensemble", "track"),
+    "planning": ("Plan", "PlanEnsemble", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"),
     "plants": ("Ideal", "Noise", "Plant", "Sensor", "Sensors", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
@@ -111,6 +111,7 @@ __all__ = [
     "linearise",
     "load",
     "metrics",
+    "nmpc",
     "plan",
     "plan_and_track",
     "plan_ensemble",

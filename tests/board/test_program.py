@@ -36,6 +36,27 @@ def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
         np.testing.assert_allclose(given, command, rtol=1e-12, atol=1e-12)
 
 
+def test_a_program_of_ones_own_steers_in_place_of_the_law():
+    """It gets what the law gets, and what it commands is what the board remembers."""
+    loop, least, state = Loop(VEHICLE, LAW, Plant()), np.full(4, VEHICLE.rotor_limits[0]), fp.State(y=(0.0, 0.6, 0.8))
+    given = []
+
+    def steer(*predicted):
+        given.append(predicted)
+        return own.law(*predicted)
+
+    own, plain = SteppedBoard(loop, least, steer=steer), SteppedBoard(loop, least)
+    held = SteppedBoard(loop, least, steer=lambda *_: np.full(4, 2.0))
+    for k in range(40):
+        t, measured = k / loop.plant.rate, state.packed()
+        np.testing.assert_array_equal(own.command(t, measured), plain.command(t, measured))
+        np.testing.assert_array_equal(held.command(t, measured), np.full(4, 2.0))
+        np.testing.assert_array_equal(given[k][1], plain.predicted[0])
+    # When the last command acts, the rotors of the model have followed the first for 39 periods.
+    followed = 2 - (2 - least) * np.exp(-39 / loop.plant.rate / VEHICLE.rotor_lag)
+    np.testing.assert_allclose(held.predicted[1], followed, rtol=1e-9)
+
+
 def test_it_remembers_as_many_commands_as_can_be_under_way():
     for latency, rate, commands in ((0.0, 500.0, 1), (0.024, 500.0, 12), (0.003, 100.0, 1), (0.03, 50.0, 2)):
         law = fp.laws.inverted(latency=latency).bind(VEHICLE)

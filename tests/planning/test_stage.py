@@ -79,6 +79,19 @@ def test_a_stage_in_own_units_is_a_step_of_the_plant(vehicle):
     np.testing.assert_allclose(end, np.append(engine.packed, engine.rotors), rtol=1e-12, atol=1e-13)
 
 
+def test_forces_from_outside_act_as_in_the_plant():
+    units, forces, h = Units.of(HEHN), np.array([0.4, -0.3, 0.2, 0.05, 0.1, -0.08]), 0.01
+    rng = np.random.default_rng(6)
+    begin, command = random_state(rng, HEHN), rng.uniform(*HEHN.rotor_limits, 4)
+    engine = EquationsEngine(HEHN)
+    engine.reset(begin[:SIZE], begin[SIZE:])
+    engine.step(command, h, forces)
+    numbers, timing = units.numbers(HEHN), step_timing(HEHN.rotor_lag / units.time, h / units.time)
+    numbers[-6:] = forces / HEHN.weight
+    end = numeric(Stage(4).step())(begin / units.states(4), command / units.force, timing, numbers) * units.states(4)
+    np.testing.assert_allclose(end, np.append(engine.packed, engine.rotors), rtol=1e-12, atol=1e-13)
+
+
 def test_derivatives_are_those_by_finite_differences(maps):
     forth, back = maps
     stage, units = Stage(4), Units.of(HEHN)

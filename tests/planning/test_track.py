@@ -85,7 +85,8 @@ def test_a_vehicle_that_spins_hovers_as_it_spins():
 
     def expecting(loop, rotors):
         tracker = Tracker(feedback, nayak, fp.laws.inverted(), loop, rotors)
-        tracker._hovering = tracker._deviation
+        follower = tracker._follower
+        follower._hovering = follower._deviation
         return tracker
 
     tracked = fp.track(plan)

@@ -305,7 +305,7 @@ def five(a, b, c, d, e): return a
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("invertd", "expected one of .*, detuned, got 'invertd' .did you mean 'inverted'.."),
+        ("invertd", "expected one of .*, detuned, plan, nmpc, got 'invertd' .did you mean 'inverted'.."),
         ("", "expected one of .*, got ''"),
         ("law_of_nobody:law", "can be imported.*law_of_nobody"),
         ("law_of_wrongs:nothing", "expected one of none, one, three, five, got 'nothing'"),

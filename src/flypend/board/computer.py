@@ -27,6 +27,9 @@ from flypend.plants.loop import Loop
 
 NONE = np.zeros(0)
 
+# (t (s), state (24,), rotor forces (n,), external forces (6,)) → command, all as predicted for when it acts, e₃ up.
+Steer = Callable[[float, Any, Any, Any], Any]
+
 
 class FlightComputer(Protocol):
     """A flight computer, called once per control period."""
@@ -49,10 +52,15 @@ class SteppedBoard:
     A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up. `predicted` holds the state (24,),
     rotor forces (n,) and external forces (6,) that the last command was computed for, `estimated` the state (24,) that
     the sensors told, and `filtered` the memory of the estimator with which they told it.
+
+    What commands is `law`, that of the loop, unless there is a `steer` in its place: a program of any kind around which
+    the board keeps its estimator, prediction and rotor model.
     """
 
-    def __init__(self, loop: Loop, rotors: Any, estimate: Any = None) -> None:
+    def __init__(self, loop: Loop, rotors: Any, estimate: Any = None, steer: Steer | None = None) -> None:
         self._stages = _stages(replace(loop, plant=known(loop.sampled)))
+        self.law: Steer = self._stages.steer
+        self._steer = steer or self.law
         memory = initial_memory(loop, np.asarray(rotors, dtype=float), estimate)
         self._memory, self._expecting = np.split(memory, [memory_size(loop)])
         self.predicted: tuple[Any, Any, Any] | None = None
@@ -69,7 +77,7 @@ class SteppedBoard:
         measurement = np.append(t, measured)
         kept, forces, state, rotors = stages.predict(self._memory, measurement, NONE, *told)
         self.predicted = (state, rotors, forces)
-        command = stages.steer(t, state, rotors, forces)
+        command = self._steer(t, state, rotors, forces)
         if stages.estimating is not None:
             self._expecting = stages.estimating.carried(self.filtered, outside, command, self._memory)
         self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
@@ -97,7 +105,7 @@ class _Estimating(NamedTuple):
 
 class _Stages(NamedTuple):
     predict: Callable[..., Any]
-    steer: Callable[..., Any]
+    steer: Steer
     remember: Callable[..., Any]
     estimating: _Estimating | None
 

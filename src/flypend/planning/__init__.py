@@ -3,7 +3,8 @@
 from flypend.planning.autopilot import plan_and_track
 from flypend.planning.ensemble import PlanEnsemble, plan_ensemble
 from flypend.planning.planner import plan
+from flypend.planning.receding import nmpc
 from flypend.planning.result import Plan
 from flypend.planning.tracking import track
 
-__all__ = ["Plan", "PlanEnsemble", "plan", "plan_and_track", "plan_ensemble", "track"]
+__all__ = ["Plan", "PlanEnsemble", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"]

@@ -22,7 +22,7 @@ from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, 
 from flypend.planning.kernels import kernels
 from flypend.planning.result import Plan
 from flypend.planning.riccati import packed_cost
-from flypend.planning.scaled import Units
+from flypend.planning.scaled import Units, size
 from flypend.planning.wishes import Wishes
 from flypend.plants.lag import step_timing
 
@@ -89,7 +89,7 @@ def _gains(vehicle: Any, units: Units, states: Array, commands: Array, h: float)
     n, count = commands.shape[1], len(commands)
     compiled = kernels(n, Wishes())
     shape = compiled.shape
-    own, forces, timing, numbers = lanes(count + 1, SIZE + n), lanes(count, n), lanes(4), lanes(13 + 3 * n)
+    own, forces, timing, numbers = lanes(count + 1, SIZE + n), lanes(count, n), lanes(4), lanes(size(n))
     own[:] = (states / units.states(n))[..., None]
     forces[:] = (commands / units.force)[..., None]
     timing[:] = step_timing(vehicle.rotor_lag / units.time, h)[:, None]

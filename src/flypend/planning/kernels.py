@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
-from flypend.compile.llvm.stagewise import Stagewise, stagewise
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.planning.barrier import Barrier
 from flypend.planning.riccati import Shape, backward, forward
 from flypend.planning.stage import Stage
@@ -46,8 +46,12 @@ class Kernels:
 
 
 @lru_cache(maxsize=32)
-def kernels(rotors: int, wishes: Wishes) -> Kernels:
-    """Return the compiled programs for machines with this many `rotors`, and `wishes`; from the cache if possible."""
+def kernels(rotors: int, wishes: Wishes, width: int = WIDTH) -> Kernels:
+    """Return the compiled programs for machines with this many `rotors`, and `wishes`, on `width` lanes.
+
+    They come from the cache if possible.
+    """
+    compiled = partial(stagewise, width=width)
     stage = Stage(rotors)
     barrier = Barrier(stage, wishes)
     linearised, A, B = stage.linearised()
@@ -57,13 +61,13 @@ def kernels(rotors: int, wishes: Wishes) -> Kernels:
         inequalities=barrier.inequalities,
         exact=wishes.exact(rotors),
         end_size=barrier.end_size,
-        linearised=stagewise(linearised, shared=(3, 4)),
-        rollout=stagewise(stage.rollout(), shared=(5, 6, 7, 8, 9)),
-        step=stagewise(stage.step(), shared=(2, 3)),
-        backward=stagewise(backward(shape), shared=(5,), backward=True),
-        forward=stagewise(forward(shape), shared=(1,)),
-        values=stagewise(barrier.values(), shared=(2, 3, 4, 6)),
-        terms=stagewise(barrier.terms(), shared=(2, 3, 4, 7)),
-        steps=stagewise(barrier.steps(), shared=(2, 3, 4, 7, 10)),
-        end=stagewise(barrier.end(), shared=(1, 2)),
+        linearised=compiled(linearised, shared=(3, 4)),
+        rollout=compiled(stage.rollout(), shared=(5, 6, 7, 8, 9)),
+        step=compiled(stage.step(), shared=(2, 3)),
+        backward=compiled(backward(shape), shared=(5,), backward=True),
+        forward=compiled(forward(shape), shared=(1,)),
+        values=compiled(barrier.values(), shared=(2, 3, 4, 6)),
+        terms=compiled(barrier.terms(), shared=(2, 3, 4, 7)),
+        steps=compiled(barrier.steps(), shared=(2, 3, 4, 7, 10)),
+        end=compiled(barrier.end(), shared=(1, 2)),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -113,6 +114,11 @@ def _shortened(asked: Request, best: Plan, deadline: float) -> Plan:
         else:
             low = middle
     return best
+
+
+def plan_within(asked: Request, horizon: float, iterations: int) -> Plan:
+    """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock."""
+    return told([asked], [together(asked, horizon, math.inf, iterations)], horizon)[0]
 
 
 def _solved(asked: Request, horizon: float, deadline: float) -> Plan:

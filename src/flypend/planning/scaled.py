@@ -24,7 +24,8 @@ class Scaled:
     Parameters
     ----------
     numbers : SX (k, 1)
-        Bob mass, inverse inertia and inertia (upper triangles), and the rows of the mixing matrix for the moment.
+        Bob mass, inverse inertia and inertia (upper triangles), the rows of the mixing matrix for the moment, and
+        constant forces from outside on vehicle and bob, in weights.
     rotors : int
         Number of rotors n.
     """
@@ -45,6 +46,11 @@ class Scaled:
     I = property(lambda self: _symmetric(self.numbers[7:13]), doc="Inertia matrix, body frame.")
 
     @property
+    def outside(self) -> Any:
+        """Forces from outside on vehicle and bob (6, 1)."""
+        return self.numbers[-6:]
+
+    @property
     def vehicle(self) -> Any:
         """The machine itself, as what equations take for a `Vehicle`."""
         return self
@@ -52,12 +58,12 @@ class Scaled:
     def mixing(self) -> Any:
         """Return the matrix (4, n) from rotor forces to thrust and moment in the body frame."""
         n = self.rotors
-        return ca.vertcat(ca.DM.ones(1, n) / n, ca.reshape(self.numbers[13:], n, 3).T)
+        return ca.vertcat(ca.DM.ones(1, n) / n, ca.reshape(self.numbers[13 : 13 + 3 * n], n, 3).T)
 
 
 def size(rotors: int) -> int:
     """Return the number of numbers of a vehicle with this many rotors."""
-    return 13 + 3 * rotors
+    return 13 + 3 * rotors + 6
 
 
 def _symmetric(upper: Any) -> Any:
@@ -81,11 +87,13 @@ class Units:
         return cls(vehicle.l, float(np.sqrt(vehicle.l / vehicle.g)), vehicle.weight / len(vehicle.rotor_spins))
 
     def numbers(self, vehicle: Vehicle) -> NDArray[np.float64]:
-        """Return the numbers of `vehicle` in its own units, for the symbols of `Scaled`."""
+        """Return the numbers of `vehicle` in its own units, without forces from outside, for symbols of `Scaled`."""
         mass, upper = vehicle.M + vehicle.m, np.triu_indices(3)
         inertia = vehicle.I / (mass * self.length**2)
         moments = vehicle.mixing()[1:] * self.force / (mass * vehicle.g * self.length)
-        return np.concatenate([[vehicle.m / mass], np.linalg.inv(inertia)[upper], inertia[upper], moments.ravel()])
+        return np.concatenate(
+            [[vehicle.m / mass], np.linalg.inv(inertia)[upper], inertia[upper], moments.ravel(), np.zeros(6)]
+        )
 
     @property
     def of_state(self) -> NDArray[np.float64]:

@@ -93,10 +93,13 @@ class Verdict:
 
 
 class Watch:
-    """Watches some `lanes` of a solver with `jobs`, of which the best counts, until that is steady."""
+    """Watches some `lanes` of a solver with `jobs`, of which the best counts, until that is steady.
 
-    def __init__(self, jobs: Sequence[Job], on: Sequence[int]) -> None:
-        self._jobs, self._on = jobs, np.array(on)
+    There are at `most` so many iterations.
+    """
+
+    def __init__(self, jobs: Sequence[Job], on: Sequence[int], most: int = MOST_ITERATIONS) -> None:
+        self._jobs, self._on, self._most = jobs, np.array(on), most
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
         self._mounted = jobs[0].asked.wishes.mounted is not None
         self._kept: tuple[Array, Array, str, int] | None = None
@@ -105,7 +108,7 @@ class Watch:
     @property
     def done(self) -> bool:
         """Whether more iterations are not worth their time."""
-        return self._steady >= STEADY_FOR or self._iterations >= MOST_ITERATIONS or self._stuck
+        return self._steady >= STEADY_FOR or self._iterations >= self._most or self._stuck
 
     def before(self, solver: Solver) -> None:
         """Prepare an iteration: rods that must not touch the vehicle cost more and more to be near it."""
@@ -149,10 +152,13 @@ def prepared(asked: Request) -> None:
     kernels(asked.rotors, asked.wishes), pumping(asked.rotors)
 
 
-def together(asked: Request, horizon: float, deadline: float) -> Found:
-    """Solve from all styles of guesses at once, until the best is steady or the `deadline` (monotonic) is over."""
+def together(asked: Request, horizon: float, deadline: float, most: int = MOST_ITERATIONS) -> Found:
+    """Solve from all styles of guesses at once, until the best is steady or the `deadline` (monotonic) is over.
+
+    There are at `most` so many iterations.
+    """
     jobs, mounted = [Job(asked, style) for style in range(WIDTH)], asked.wishes.mounted is not None
-    solver, watch = _solver(jobs, horizon), Watch(jobs, range(WIDTH))
+    solver, watch = _solver(jobs, horizon), Watch(jobs, range(WIDTH), most)
     while not watch.done and time.monotonic() < deadline:
         begin = time.thread_time()
         watch.before(solver)

@@ -19,7 +19,7 @@ LEAST_ROOM = 1e-9  # own units: less would be lost in the rounding of a command
 def stepped(state: Any, command: Any, timing: Any, machine: Scaled) -> Any:
     """Return the state (24 + n, 1) after a step of `timing` (see `plants.lag.step_timing`) under `command` (n, 1)."""
     forces, rotors = held(state[SIZE:], command, timing)
-    moved = cascade_step(state[:SIZE], forces.mixed(machine.mixing()), None, timing[0], machine.vehicle)
+    moved = cascade_step(state[:SIZE], forces.mixed(machine.mixing()), machine.outside, timing[0], machine.vehicle)
     return ca.vertcat(moved, rotors)
 
 

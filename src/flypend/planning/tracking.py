@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,18 +14,15 @@ from flypend.errors import InputError
 from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import hover
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import SIZE
-from flypend.planning.feedback import Feedback, deviation, hovering, regulator
+from flypend.planning.feedback import Feedback, regulator
+from flypend.planning.nominal import Follower
 from flypend.planning.result import Plan
 from flypend.planning.scaled import Units
-from flypend.plants.equations import rotor_step
-from flypend.plants.lag import step_timing
 from flypend.plants.loop import Loop
 
 # The plan is left when the rod is this far from where it should be, rad, or the pivot, rod lengths.
 FAR_ROD, FAR_PIVOT = 0.8, 1.5
 NONE = np.zeros(0)
-STILL = np.zeros(6)
 
 
 def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> Controller:
@@ -87,11 +83,9 @@ class Tracker:
         if loop.sampled.interface != "wrench":
             raise InputError("plant.interface", "wrench: a plan commands rotor forces", loop.sampled.interface)
         believed = Believed.numbers(loop.vehicle)
-        self._feedback, self._loop, self._law = feedback, loop, law
+        self._follower, self._loop, self._law = Follower(feedback, vehicle), loop, law
         self._predict, self._remember = as_numpy(predicting(loop, believed)), as_numpy(remembering(loop, believed))
         self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
-        self._step, self._deviation, self._hovering = _compiled(vehicle)
-        self._lag, self._limits = vehicle.rotor_lag, vehicle.rotor_limits
         self._far = FAR_PIVOT * Units.of(vehicle).length
         self._other: FlightComputer | None = None
 
@@ -106,32 +100,10 @@ class Tracker:
             return self._other.command(t, measured)
         measurement = np.append(t, measured)
         kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
-        wanted, nominal, k = self._nominal(t + self._loop.law.computer.latency)
-        deviation = self._hovering if k == len(self._feedback.commands) - 1 else self._deviation
-        off = deviation(nominal, np.append(state, rotors))
+        command, off = self._follower.command(t + self._loop.law.computer.latency, state, rotors)
         if not (np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[0:3]) < self._far):
             loop = Loop(self._loop.vehicle, self._law.bind(self._loop.vehicle), self._loop.plant)
             self._other = SteppedBoard(loop, self._memory[: len(rotors)])
             return self._other.command(t, measured)
-        command = np.clip(wanted - self._feedback.gains[k] @ off, *self._limits)
         self._memory = self._remember(self._memory, kept, measurement, forces, command, NONE)
         return command
-
-    def _nominal(self, t: float) -> tuple[Any, Any, int]:
-        """Return the nominal command and state at `t`, and the number of the stage."""
-        f = self._feedback
-        k = min(int(t / f.stage + 1e-9), len(f.commands) - 1)
-        into = t - k * f.stage
-        if k == len(f.commands) - 1 or into < 1e-9:
-            return f.commands[k], f.states[k], k
-        state, rotors = self._step(
-            f.states[k, :SIZE], f.states[k, SIZE:], f.commands[k], STILL, step_timing(self._lag, round(into, 9))
-        )
-        return f.commands[k], np.append(state, rotors), k
-
-
-@lru_cache(maxsize=16)
-def _compiled(vehicle: Vehicle) -> tuple[Any, Any, Any]:
-    """Return the step of the plant, and the deviations from a nominal state and from hover, for numbers."""
-    n = len(vehicle.rotor_spins)
-    return as_numpy(rotor_step(vehicle, windy=False)), as_numpy(deviation(n)), as_numpy(hovering(n))

@@ -13,11 +13,11 @@ from types import ModuleType
 from typing import Any
 
 from flypend.errors import InputError, one_of, only_known
-from flypend.laws import AnyLaw, BoundLaw, Controller, Law, inverted, law_from_dict, law_names
+from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_names
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import LawError, Located, from_function, is_factory, shown
 from flypend.model import Vehicle
-from flypend.planning import plan_and_track
+from flypend.planning import nmpc, plan_and_track
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -31,7 +31,9 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     Parameters
     ----------
     value : str, dict or a law
-        A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}.
+        A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}. Gains and
+        reference of "nmpc" are those of the inverted law that it falls back on; it has latency, computing and clearance
+        of its own.
     folder : Path, optional
         Folder to which file paths are relative; default the current one.
     key : str
@@ -51,6 +53,8 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     if value.get("name") == "plan":
         only_known(key, value, ("name",))
         return plan_and_track()
+    if value.get("name") == "nmpc":
+        return _nmpc(value, key)
     if value.get("name") == "detuned":
         named = law_from_dict({**value, "name": "inverted", "gains": {**DETUNED, **value.get("gains", {})}}, key)
         return replace(named, name="detuned")
@@ -67,7 +71,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
 
 
 def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law | Controller:
-    """Return the law called `name`: one of the package, "detuned" (a negative control), "plan", or a custom law.
+    """Return the law called `name`: of the package, "detuned" (a negative control), "plan", "nmpc", or a custom law.
 
     "plan" is `planning.plan_and_track`.
 
@@ -80,11 +84,13 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     """
     if ":" in name:
         return _own(name, folder, key, None)
-    if one_of(key, name, (*law_names(), "detuned", "plan")) == "plan":
-        return plan_and_track()
-    if name == "detuned":
-        return replace(inverted().with_gains(DETUNED), name="detuned")
-    return law_from_dict({"name": name})
+    return law_from({"name": one_of(key, name, (*law_names(), "detuned", "plan", "nmpc"))}, folder, key)
+
+
+def _nmpc(value: Mapping[str, Any], key: str) -> Controller:
+    own = {name: value[name] for name in ("latency", "computing", "clearance") if name in value}
+    rest = {name: entry for name, entry in value.items() if name not in own}
+    return nmpc(otherwise=law_from_dict({**rest, "name": "inverted"}, key), **own)
 
 
 def absolute(value: Any, folder: Path) -> Any:

@@ -27,12 +27,12 @@ WIDTH = 8
 ALIGNMENT = 64  # bytes
 
 
-def lanes(*shape: int) -> NDArray[np.float64]:
-    """Return zeros of this `shape` with a last axis of lanes, for a `Stagewise`."""
-    length = math.prod(shape) * WIDTH
+def lanes(*shape: int, width: int = WIDTH) -> NDArray[np.float64]:
+    """Return zeros of this `shape` with a last axis of `width` lanes, for a `Stagewise` of that width."""
+    length = math.prod(shape) * width
     raw = np.zeros(length + ALIGNMENT // 8)
     first = -raw.ctypes.data % ALIGNMENT // 8
-    return raw[first : first + length].reshape((*shape, WIDTH))
+    return raw[first : first + length].reshape((*shape, width))
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Stagewise:
     """A compiled loop over stages.
 
     Called with the number of stages and one address per input and output, at the first stage. Arrays are of doubles,
-    (stages, length, WIDTH), from `lanes`.
+    (stages, length, width), from `lanes`.
     """
 
     native: jit.Native
@@ -50,7 +50,9 @@ class Stagewise:
         self.native(count, *(array.ctypes.data for array in arrays))
 
 
-def stagewise(function: ca.Function, shared: Sequence[int] = (), *, backward: bool = False) -> Stagewise:
+def stagewise(
+    function: ca.Function, shared: Sequence[int] = (), *, backward: bool = False, width: int = WIDTH
+) -> Stagewise:
     """Compile a loop over stages that calls `function` with entry k of every array at stage k.
 
     Parameters
@@ -61,18 +63,20 @@ def stagewise(function: ca.Function, shared: Sequence[int] = (), *, backward: bo
         Inputs and outputs, by place (outputs after inputs), that are one vector for all stages.
     backward : bool
         Whether the last stage comes first.
+    width : int
+        Number of lanes.
     """
     routine = lower_calls(_of_calls(function))
     lengths = [*routine.inputs, *(len(cells) for cells in routine.outputs)]
     strides = [0 if i in shared else length for i, length in enumerate(lengths)]
 
     def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), WIDTH)
+        lanes = Lanes(ir.Module("flypend"), width)
         _write(lanes, routine, strides, backward)
         return lanes.module
 
     kinds = [ctypes.c_int64, *[ctypes.c_void_p] * len(lengths)]
-    return Stagewise(jit.build(f"stagewise {strides} {backward} {routine!r}", module, "kernel", kinds))
+    return Stagewise(jit.build(f"stagewise {width} {strides} {backward} {routine!r}", module, "kernel", kinds))
 
 
 def alone(function: ca.Function) -> Callable[..., Any]:

@@ -1,0 +1,268 @@
+"""The flight computer of `nmpc`: who flies, and when a plan begins and ends.
+
+    waiting   the law flies; a plan may be under way
+    planned   a plan is flown, and improved in every stage
+    hovering  the law flies; the rod is about to stand
+
+Times are those at which commands act, `latency` after their measurement. Plans are relative to the reference.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from flypend.board.computer import SteppedBoard
+from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
+from flypend.geometry import norm
+from flypend.laws import BoundLaw, Law
+from flypend.laws.references import Reference
+from flypend.model import State
+from flypend.model.state import SIZE
+from flypend.planning.equilibrium import falls, hovers, upright, weighed
+from flypend.planning.flown import OF_STAGES, Flown
+from flypend.planning.nominal import stepping
+from flypend.planning.planner import plan_within
+from flypend.planning.request import STAGES_PER_UNIT, Request, request
+from flypend.planning.result import Plan
+from flypend.planning.scaled import Units
+from flypend.planning.search import MOUNT_LAST
+from flypend.plants.loop import Loop
+
+# An iteration of a plan, with eight guesses, takes so many times as long as a real-time iteration.
+OF_PLAN = 1.5
+# Horizon, √(l/g), and iterations of the first attempt, and of those after failures. After 18 iterations all of 24
+# random starts have a plan, and half of them one within half a per cent of the best.
+ATTEMPTS = ((12.5, 18), (12.5, 40), (20.0, 60), (32.0, 60), (12.5, 40))
+LATE = 2.0  # after a plan that was late, the next is given so many times as long
+MEASURED_AT_FIRST = 2e-3  # s, expected of an iteration that is measured
+# In hover an estimator learns slowly of forces that last; until then the law is shown a position that is off by the
+# integral of the distance, of this rate, √(g/l), and at most so long, rod lengths.
+INTEGRAL, MOST_OFF = 0.06, 1.0
+PAUSE = 1.0  # √(l/g), after the second failure in a row, and ever longer; after the last attempt only the law flies
+
+
+@dataclass(frozen=True, eq=False)
+class Receding:
+    """What the pilots of a controller have in common; called, it makes one. See `receding.nmpc` for the fields.
+
+    `law` is what flies otherwise, `latency` what the board predicts over for plans, and `computing` None if measured.
+    """
+
+    reference: Reference
+    law: Law
+    latency: float
+    computing: float | None
+    clearance: float
+
+    def __call__(self, loop: Loop, rotors: Any) -> Pilot:
+        """Return the flight computer for a `loop` and initial `rotors` (n,), N."""
+        return Pilot(self, loop, rotors)
+
+
+class Coming(NamedTuple):
+    """A plan under way: it is there at `due` (s) and begins at `begin` (s); without one, `why`."""
+
+    plan: Plan | None
+    asked: Request | None
+    why: str
+    due: float
+    begin: float
+
+
+class Pilot:
+    """The flight computer of `nmpc`, for one flight.
+
+    Parameters
+    ----------
+    receding : Receding
+        What it has in common with others.
+    loop : Loop
+        The closed loop that is flown.
+    rotors : (n,)
+        Initial rotor forces, N.
+
+    Attributes
+    ----------
+    changes : list of (float, str, str)
+        When it changed hands, s, to which mode, and why.
+    plans : list of Plan
+        The plans that were flown.
+    spent : list of float
+        Processor time of each real-time iteration, s.
+    """
+
+    def __init__(self, receding: Receding, loop: Loop, rotors: Any) -> None:
+        if loop.sampled.interface != "wrench":
+            raise InputError("plant.interface", "wrench: nmpc commands rotor forces", loop.sampled.interface)
+        self._common, self._vehicle = receding, loop.vehicle
+        self._by_law = replace(loop, law=receding.law.bind(loop.vehicle))
+        self._by_plan = replace(loop, law=_predicting(self._by_law.law, receding.latency))
+        self._rotors = np.asarray(rotors, dtype=float)
+        self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
+        self._where, self._step = _moving(receding.reference), stepping(loop.vehicle)
+        self._mode = "waiting"
+        self._coming: Coming | None = None
+        self._flown: Flown | None = None
+        self._failures, self._not_before, self._patience = 0, -np.inf, 1.0
+        self._planned_command: Any = None
+        self._off = np.zeros(3)
+        self.changes: list[tuple[float, str, str]] = []
+        self.plans: list[Plan] = []
+        self.spent: list[float] = []
+        if loop.sampled.sensors is None:
+            self.estimate_from(None)
+
+    def estimate_from(self, estimate: Any) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up."""
+        self._board = SteppedBoard(self._by_plan, self._rotors, estimate, self._steer)
+        self._law = SteppedBoard(self._by_law, self._rotors, estimate, self._or_law)
+
+    def command(self, t: float, measured: Any) -> Any:
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
+        self._measured = measured
+        return self._board.command(t, measured)
+
+    def _or_law(self, *predicted: Any) -> Any:
+        """Return the command of the plan, if one is flown, else that of the law, for what its board has predicted."""
+        if self._planned_command is not None:
+            return self._planned_command
+        t, state, rotors, forces = predicted
+        shown = state.copy()
+        shown[:3] += self._off
+        return self._law.law(t, shown, rotors, forces)
+
+    def _steer(self, t: float, state: Any, rotors: Any, forces: Any) -> Any:
+        """Return the command for what is predicted for t + latency; both boards remember it."""
+        now = t + self._common.latency
+        here, outside = self._relative(now, state), weighed(forces, self._where(now)[6:], self._vehicle)
+        level = upright(outside, self._m)[:2]
+        if self._coming is not None and now + 1e-9 >= self._coming.due:
+            self._arrive(now, self._coming)
+        if self._flown is not None:
+            self._planned_command = self._followed(self._flown, now, here, rotors, outside, level)
+        elif self._mode == "hovering":
+            if falls(here, level, self._units):
+                self._change(now, "waiting", "the rod falls")
+            elif self._by_law.sampled.sensors is not None:
+                self._integrate(here[:3])
+        if self._mode == "waiting":
+            if hovers(here, level, self._units):
+                self._hover(now)
+            elif self._coming is None and now >= self._not_before and self._due(here, level):
+                self._begin(now, state, rotors)
+        return self._law.command(t, self._measured)
+
+    def _integrate(self, x: Any) -> None:
+        """Add a distance `x` (3,), m, of one period to the integral."""
+        off = self._off + INTEGRAL / self._units.time / self._by_law.sampled.rate * x
+        self._off = off / max(1.0, float(norm(off)) / (MOST_OFF * self._units.length))
+
+    def _followed(self, flown: Flown, t: float, here: Any, rotors: Any, outside: Any, level: Any) -> Any:
+        """Return the command of a plan that is flown; None if it ends now."""
+        command, lost = flown.command(t, here, rotors, outside)
+        if lost:
+            self._fail(t, lost)
+        elif hovers(here, level, self._units) or (flown.over(t) and not falls(here, level, self._units)):
+            self._hover(t)
+        return None if self._flown is None else command
+
+    def _due(self, here: Any, level: Any) -> bool:
+        """Whether a plan is due: at the beginning wherever the vehicle is, later if the law would drop the rod."""
+        return not self.changes or falls(here, level, self._units)
+
+    def _change(self, t: float, mode: str, why: str) -> None:
+        if self._flown is not None:
+            self.spent += self._flown.spent
+        self._mode, self._coming, self._flown, self._planned_command = mode, None, None, None
+        self._off = np.zeros(3)
+        self.changes.append((t, mode, why))
+
+    def _hover(self, t: float) -> None:
+        self._change(t, "hovering", "the rod stands")
+        self._failures, self._patience = 0, 1.0
+
+    def _fail(self, t: float, why: str) -> None:
+        """Let the law fly, for good after too many failures."""
+        self._change(t, "waiting", why)
+        self._failures += 1
+        pause = (2.0 ** (self._failures - 1) - 1) * PAUSE * self._units.time
+        self._not_before = t + pause if self._failures < len(ATTEMPTS) else np.inf
+
+    def _arrive(self, t: float, coming: Coming) -> None:
+        if coming.plan is None or coming.asked is None:
+            self._fail(t, coming.why)
+            return
+        self._change(t, "planned", coming.plan.told)
+        self.plans.append(coming.plan)
+        self._flown = Flown(coming.plan, coming.asked, coming.begin, self._common.computing)
+
+    def _relative(self, t: float, state: Any) -> Any:
+        """Return the `state` (24,) at time `t` relative to the reference."""
+        here = state.copy()
+        here[:6] -= self._where(t)[:6]
+        return here
+
+    def _begin(self, t: float, state: Any, rotors: Any) -> None:
+        """Plan from where the law will have brought the vehicle by the time the plan is there."""
+        horizon, iterations = ATTEMPTS[self._failures]
+        each = MEASURED_AT_FIRST if self._common.computing is None else self._common.computing
+        given = OF_PLAN * each * iterations * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
+        begun = time.process_time()
+        there = self._under_law(t, state, rotors, given)
+        found, asked, why = self._planned(self._relative(t + given, there[:SIZE]), there[SIZE:], horizon, iterations)
+        took = time.process_time() - begun if self._common.computing is None else given
+        if took > given:
+            found, why, self._patience = None, "the plan is late", LATE * self._patience
+        self._coming = Coming(found, asked, why, t + max(took, given), t + given)
+
+    def _planned(
+        self, here: Any, rotors: Any, horizon: float, iterations: int
+    ) -> tuple[Plan | None, Request | None, str]:
+        """Return a plan from a relative state `here` (24,), what it answers, and why there is none."""
+        forces = np.clip(rotors, *self._vehicle.rotor_limits)
+        try:
+            asked = request(
+                self._vehicle, State.from_packed(here), "excursion", np.zeros(3), forces, None, None, None,
+                self._common.clearance,
+            )  # fmt: skip
+        except InputError as error:
+            return None, None, str(error)
+        found = plan_within(asked, horizon, iterations)
+        if asked.wishes.mounted is not None:
+            asked.numbers[-2] = MOUNT_LAST
+        return (found if found else None), asked, found.reason
+
+    def _under_law(self, t: float, state: Any, rotors: Any, duration: float) -> Any:
+        """Return state and rotor forces (24 + n,) after `duration` (s) from `t` on under the law."""
+        there, passed, period = np.append(state, rotors), 0.0, 1 / self._by_law.sampled.rate
+        plant = self._by_law.sampled.replace(sensors=None)
+        board = SteppedBoard(replace(self._by_law, plant=plant), rotors)
+        while passed < duration - 1e-9:
+            h = min(period, duration - passed)
+            command = board.command(t + passed, there[:SIZE])
+            there = self._step(there[:SIZE], there[SIZE:], command, h)
+            passed += h
+        return there
+
+
+@lru_cache(maxsize=16)
+def _predicting(law: BoundLaw, latency: float) -> BoundLaw:
+    """Return `law` on a board that predicts over a `latency` (s), and adds no lead: plans know of the rotors' lag."""
+    return replace(law, computer=replace(law.computer, latency=latency, lead=1.0))
+
+
+@lru_cache(maxsize=16)
+def _moving(reference: Reference) -> Any:
+    """Return the function from time (s) to position, velocity and acceleration (9,) of `reference`."""
+    t = ca.SX.sym("t")
+    position = ca.densify(reference(t))
+    velocity = ca.jacobian(position, t)
+    moved = ca.vertcat(position, velocity, ca.jacobian(velocity, t))
+    return as_numpy(ca.Function("where", [t], [ca.densify(moved)]))

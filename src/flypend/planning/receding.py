@@ -1,0 +1,78 @@
+"""`nmpc`: a controller that plans, flies, and plans again in flight, with the inverted law to fall back on."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.geometry import E3
+from flypend.laws import Computer, Controller, Law, inverted
+from flypend.laws.references import Reference, hover
+from flypend.model import State, Vehicle, Wrench
+from flypend.planning.pilot import Receding
+from flypend.planning.request import request
+
+COMPUTING = 0.002  # s
+
+
+def nmpc(
+    vehicle: Vehicle | None = None,
+    *,
+    reference: Reference | None = None,
+    latency: float = 0.0,
+    computing: float | Literal["measured"] = COMPUTING,
+    clearance: float = 0.01,
+    otherwise: Law | None = None,
+) -> Controller:
+    """Return a controller that plans the way to inverted hover in flight, and again whenever it is thrown off.
+
+    It is a flight computer: at once, and whenever the rod is not about to stand, it plans from where it will be when
+    the plan is ready, and until then the inverted law flies. A plan is flown with feedback, and what is left of it is
+    solved again in every stage, by one real-time iteration. In hover the inverted law takes over. docs/planning/nmpc.md
+    says when it changes hands.
+
+    Parameters
+    ----------
+    vehicle : Vehicle, optional
+        If given, it is checked at once whether plans for it can be made. The controller serves any vehicle.
+    reference : callable, optional
+        Pivot position to hold or follow; see `laws.references`. Default that of `otherwise`, or the origin.
+    latency : float
+        Delay to compensate while a plan is flown, s, as in `laws.Computer`. That of `otherwise` is its own.
+    computing : float or "measured"
+        Time that a real-time iteration of 150 stages takes on the flight computer, s; its result, and that of the first
+        plan in proportion, is there that much later. "measured" takes the processor time that it took here, and flights
+        do not repeat.
+    clearance : float
+        As in `plan`.
+    otherwise : Law, optional
+        What flies until there is a plan, in hover, and when there is none; default the inverted law about `reference`.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range; and from a flight, if the plant takes no rotor forces.
+    """
+    delay = Computer(latency=latency).latency
+    if computing != "measured":
+        errors.number("computing", computing, above=0, unit="s")
+    errors.number("clearance", clearance, at_least=0, unit="m")
+    if otherwise is not None and not isinstance(otherwise, Law):
+        raise InputError("otherwise", "a Law", repr(otherwise)[:80])
+    if vehicle is not None:
+        request(vehicle, State(y=E3), "excursion", (0.0, 0.0, 0.0), None, None, None, None, clearance)
+    followed = reference or (otherwise.reference if otherwise else None) or hover()
+    law = otherwise or inverted(followed)
+    return Controller(
+        name="nmpc",
+        function=_no_wrench,
+        reference=followed,
+        flight_computer=Receding(followed, law, delay, None if computing == "measured" else computing, clearance),
+        because="it solves a problem in every stage",
+    )
+
+
+def _no_wrench(t: float, state: State) -> Wrench:
+    """Refuse to give a wrench: the flight computer of the controller commands the rotors one by one."""
+    raise InputError("law", "one that gives a wrench", "nmpc, which commands rotor forces")

@@ -1,0 +1,310 @@
+"""Plans in flight: real-time iterations solve what they should, and nmpc flies no worse than what it falls back on."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.flight.tasks import task_starts
+from flypend.geometry import norm
+from flypend.planning import pilot
+from flypend.planning.equilibrium import hover_under, weighed
+from flypend.planning.flown import Flown
+from flypend.planning.realtime import RealTime
+from flypend.planning.request import request
+from flypend.planning.scaled import Units
+from flypend.plants.equations import EquationsEngine
+from flypend.settings.laws import law_from, law_named
+
+HEHN = fp.vehicle("hehn2011")
+STARTS = fp.random_starts(3, seed=2026)
+HANGING = fp.State(y=(0, 0, -1))
+NONE = np.zeros(6)
+
+
+def flown_by(law, start, duration=6.0, plant="rotors", vehicle=HEHN):
+    """Return the run, and the pilot that flew it."""
+    pilots = []
+
+    def make(loop, rotors):
+        pilots.append(law.flight_computer(loop, rotors))
+        return pilots[-1]
+
+    run = fp.simulate(vehicle, replace(law, flight_computer=make), start, duration, plant=plant)
+    return run, pilots[0]
+
+
+def modes(some):
+    return [mode for _, mode, _ in some.changes]
+
+
+@pytest.fixture(scope="module")
+def planned():
+    return fp.plan(HEHN, STARTS[1], time_limit=120.0)
+
+
+def real_time(plan):
+    """Return real-time iterations on `plan`, and its states in own units."""
+    asked = request(plan.vehicle, plan.states[0], "excursion", np.zeros(3), None, None, None, None, 0.01)
+    units, n = Units.of(plan.vehicle), len(plan.vehicle.rotor_spins)
+    per_stage = (len(plan.t) - 1) // len(plan.commands)
+    states = (np.column_stack([plan.packed, plan.rotor_forces]) / units.states(n))[::per_stage]
+    made = RealTime(asked, states, plan.commands / units.force, plan.stage / units.time, len(plan.commands), 50)
+    return made, states
+
+
+# Real-time iterations ------------------------------------------------------------------------------------------------
+
+
+def test_an_iteration_on_an_undisturbed_plan_hardly_changes_it(planned):
+    made, states = real_time(planned)
+    assert made.improve(5, states[5], 0.0, NONE)
+    # A larger barrier moves commands away from their limits; the pivot moves by a hundredth of the rod's length.
+    np.testing.assert_allclose(made.states[:, :3, 0], states[:, :3], atol=0.01)
+
+
+def test_an_iteration_joins_where_the_flight_is_and_obeys_the_plant(planned):
+    made, states = real_time(planned)
+    there = states[10].copy()
+    there[:3] += 0.05
+    there[3:6] -= 0.1
+    for _ in range(4):
+        assert made.improve(10, there, 0.0, NONE)
+    np.testing.assert_array_equal(made.states[10, :, 0], there)
+    units = Units.of(HEHN)
+    own, engine = units.states(4), EquationsEngine(HEHN)
+    for k in range(10, len(planned.commands)):
+        engine.reset(made.states[k, :24, 0] * own[:24], made.states[k, 24:, 0] * own[24:])
+        engine.step(made.commands[k, :, 0] * units.force, planned.stage, NONE)
+        found = np.append(engine.packed, engine.rotors) / own
+        np.testing.assert_allclose(found, made.states[k + 1, :, 0], atol=1e-9)  # rounding, amplified by a stage
+    # It still ends in hover: twice its tolerances.
+    end = made.states[-1, :, 0]
+    assert norm(end[:3]) < 0.02
+    assert norm([*end[18:20].tolist(), 0.0]) < 0.03
+
+
+def test_commands_keep_the_limits_with_room_for_feedback(planned):
+    made, states = real_time(planned)
+    for k in range(20):
+        made.improve(k, states[k], 0.0, NONE)
+    low, high = HEHN.rotor_limits / Units.of(HEHN).force
+    assert low < np.min(made.commands) < np.max(made.commands) < high
+
+
+def test_forces_from_outside_move_the_end_to_the_hover_that_they_leave(planned):
+    made, states = real_time(planned)
+    outside = np.array([0.05, 0.0, 0.0, 0.0, 0.01, 0.0])
+    for _ in range(8):
+        made.improve(0, states[0], 0.0, outside)
+    wanted, end = hover_under(outside, HEHN.m / (HEHN.M + HEHN.m), 4), made.states[-1, :, 0]
+    np.testing.assert_allclose(end[18:21], wanted[18:21], atol=0.02)
+    np.testing.assert_allclose(end[[8, 11, 14]], wanted[[8, 11, 14]], atol=0.04)
+    assert norm(wanted[18:21] - states[-1, 18:21]) > 0.05  # without them it would end there
+
+
+def test_hover_under_forces_is_an_equilibrium_of_the_plant():
+    forces = np.array([0.3, -0.2, 0.1, 0.02, 0.05, -0.03])
+    outside, units = weighed(forces, np.zeros(3), HEHN), Units.of(HEHN)
+    hover = hover_under(outside, HEHN.m / (HEHN.M + HEHN.m), 4) * units.states(4)
+    engine = EquationsEngine(HEHN)
+    engine.reset(hover[:24], hover[24:])
+    engine.step(hover[24:], 0.01, forces)
+    np.testing.assert_allclose(engine.packed, hover[:24], atol=1e-12)
+
+
+def test_acceleration_of_the_reference_weighs_like_a_force():
+    """Free fall of the frame leaves no weight: the force that it takes is one weight down, shared as the masses are."""
+    falling = weighed(np.zeros(6), np.array([0, 0, -HEHN.g]), HEHN)
+    np.testing.assert_allclose(falling[:3] + falling[3:], [0, 0, 1], atol=1e-12)
+    assert falling[5] / falling[2] == pytest.approx(HEHN.m / HEHN.M)
+
+
+# Flights -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def nominal():
+    return flown_by(fp.nmpc(HEHN), STARTS[1])
+
+
+def test_it_plans_flies_and_hands_over(nominal):
+    run, flown = nominal
+    result = fp.metrics(run)
+    assert result.success
+    assert modes(flown) == ["planned", "hovering"]
+    assert flown.changes[0][0] == pytest.approx(0.054)  # what computing is charged
+    assert result.excursion < 1.05 * flown.plans[0].excursion
+    assert result.excursion < 0.5 * fp.metrics(fp.simulate(HEHN, fp.laws.inverted(), STARTS[1], 6)).excursion
+
+
+def test_flights_repeat_bit_for_bit(nominal):
+    again, _ = flown_by(fp.nmpc(HEHN), STARTS[1], 1.0)
+    np.testing.assert_array_equal(again.packed, nominal[0].packed[: len(again.t)])
+
+
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_masses_off_by_a_tenth_and_late_commands(factor):
+    plant = fp.Plant(mismatch={"mass": factor, "bob_mass": factor}, delay=0.01)
+    run, flown = flown_by(fp.nmpc(latency=0.01), STARTS[2], 6, plant)
+    result = fp.metrics(run)
+    assert result.success
+    assert modes(flown) == ["planned", "hovering"]
+    assert result.excursion < 1.5 * flown.plans[0].excursion
+
+
+def test_it_flies_on_sensors_with_their_estimator():
+    run, flown = flown_by(fp.nmpc(), STARTS[0], 6, fp.Plant(sensors="mocap"))
+    assert fp.metrics(run).success
+    assert modes(flown) == ["planned", "hovering"]
+
+
+def test_a_poke_that_the_law_answers_by_dropping_the_rod_is_caught():
+    plant = fp.Plant(wind=fp.Wind(knock_on_vehicle=0.5, knock_on_bob=0.15, knock_period=3.0), seed=0)
+    upright = fp.State(y=(0, 0, 1))
+    run, flown = flown_by(fp.nmpc(), upright, 3.0, plant)
+    law = fp.simulate(HEHN, fp.laws.inverted(), upright, 3.0, plant=plant)
+    assert modes(flown)[:3] == ["hovering", "waiting", "planned"]
+    assert np.min(law.y[:, 2]) < 0
+    assert np.max(norm(run.x)) < 0.5 * np.max(norm(law.x))
+
+
+def test_a_reference_is_followed():
+    circle = fp.laws.references.circle(radius=0.5, rate=1.5)
+    run, flown = flown_by(fp.nmpc(reference=circle), HANGING, 7.0)
+    assert fp.metrics(run).success
+    assert modes(flown) == ["planned", "hovering"]
+    assert np.max(norm(run.x - run.x_ref)[run.t > 5]) < 0.1
+
+
+def test_wind_is_observed():
+    plant = fp.Plant(wind=fp.Wind(on_vehicle=(0.4, 0.0, 0.0), on_bob=(0.05, 0.0, 0.0)))
+    run, flown = flown_by(fp.nmpc(), STARTS[1], 6.0, plant)
+    assert modes(flown) == ["planned", "hovering"]
+    assert np.max(norm(run.x[run.t > 5])) < 0.05
+
+
+def test_on_a_hub_nothing_is_touched():
+    hub = HEHN.replace(mount="hub")
+    start = task_starts(hub, 3, 501)["random"][2]
+    run, flown = flown_by(fp.nmpc(hub), start, 5.0, vehicle=hub)
+    result = fp.metrics(run)
+    assert result.success
+    assert modes(flown) == ["planned", "hovering"]
+    assert result.clearance > 0
+
+
+def test_other_vehicles_need_no_tuning():
+    small = fp.vehicle("crazyflie").replace(rotor_lag=0.072, rod_length=0.5)
+    run, flown = flown_by(fp.nmpc(small), HANGING, 6.0, vehicle=small)
+    assert fp.metrics(run).success
+    assert modes(flown) == ["planned", "hovering"]
+
+
+# What goes wrong: the law flies --------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def by_law():
+    return fp.simulate(HEHN, fp.laws.inverted(), STARTS[1], 8.0, engine="scipy")
+
+
+def same_flight(run, by_law):
+    np.testing.assert_array_equal(run.packed, by_law.packed[: len(run.t)])
+
+
+def test_without_a_plan_the_law_flies_as_if_alone(by_law, monkeypatch):
+    def no_plan(*_):
+        raise fp.InputError("start", "another", "this")
+
+    monkeypatch.setattr(pilot, "request", no_plan)
+    run, flown = flown_by(fp.nmpc(), STARTS[1], 8.0)
+    same_flight(run, by_law)
+    assert modes(flown)[:2] == ["waiting", "waiting"]
+    assert flown.changes[0][2] == "start: expected another, got this"
+    assert 1 < modes(flown).count("waiting") <= len(pilot.ATTEMPTS)
+
+
+def test_a_late_plan_is_not_flown(by_law, monkeypatch):
+    monkeypatch.setattr(pilot, "MEASURED_AT_FIRST", 1e-5)
+    monkeypatch.setattr(pilot, "LATE", 1.0)
+    run, flown = flown_by(fp.nmpc(computing="measured"), STARTS[1], 1.0)
+    same_flight(run, by_law)
+    assert {why for _, _, why in flown.changes} == {"the plan is late"}
+
+
+def test_iterations_that_fail_end_a_plan(monkeypatch):
+    monkeypatch.setattr(RealTime, "improve", lambda *_: False)
+    _, flown = flown_by(fp.nmpc(), STARTS[1], 0.5)
+    assert [why for _, mode, why in flown.changes if mode == "waiting"] == ["10 iterations failed"]
+
+
+def test_feedback_alone_flies_when_no_iteration_is_in_time(monkeypatch):
+    """The nominal then is the plan; without disturbances that is enough."""
+    monkeypatch.setattr(Flown, "_improve", lambda *_: None)
+    run, flown = flown_by(fp.nmpc(), STARTS[1])
+    assert fp.metrics(run).success
+    assert flown.spent == []
+
+
+@pytest.mark.parametrize("number", range(2))
+def test_switches_at_any_time_lose_no_flight(number, monkeypatch):
+    """Plans are lost at random moments, up to as often as nmpc tries; the law alone would stand, and so it stands."""
+    rng, command = np.random.default_rng(number), Flown.command
+
+    def unreliable(self, *given):
+        found, lost = command(self, *given)
+        return found, lost or ("lost" if rng.random() < 0.01 else "")
+
+    monkeypatch.setattr(Flown, "command", unreliable)
+    monkeypatch.setattr(pilot, "PAUSE", 0.1)
+    run, flown = flown_by(fp.nmpc(), STARTS[number], 9.0)
+    assert modes(flown).count("waiting") >= 2
+    assert fp.metrics(run).success
+
+
+def test_a_slow_computer_plans_less_and_stands():
+    run, flown = flown_by(fp.nmpc(computing=0.02), STARTS[1], 8.0)
+    assert fp.metrics(run).success
+    assert flown.changes[0][0] == pytest.approx(0.54)
+
+
+def test_time_that_is_measured_is_charged():
+    run, flown = flown_by(fp.nmpc(computing="measured"), STARTS[1], 8.0)
+    assert fp.metrics(run).success
+    assert flown.changes
+
+
+# Wherever a law is named ---------------------------------------------------------------------------------------------
+
+
+def test_it_is_a_row_beside_laws():
+    rows = fp.compare(HEHN, [law_named("nmpc"), fp.laws.inverted()], STARTS[:2], 2.0, workers=1).rows()
+    assert [row["law"] for row in rows] == ["nmpc", "inverted"]
+    assert rows[0]["excursion_p50"] < rows[1]["excursion_p50"]
+
+
+def test_a_table_gives_gains_and_reference_of_the_law_it_falls_back_on():
+    circle = {"shape": "circle", "radius": 0.3}
+    law = law_from({"name": "nmpc", "latency": 0.01, "gains": {"observer": 2.0}, "reference": circle})
+    assert law.flight_computer.law.given["observer"] == 2.0
+    assert law.flight_computer.latency == 0.01
+    assert float(law.reference(0.0)[0]) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(
+    ("call", "line"),
+    [
+        (lambda: fp.nmpc(computing=0), "computing: expected a finite number > 0 s"),
+        (lambda: fp.nmpc(clearance=-1), "clearance: expected a finite number >= 0 m"),
+        (lambda: fp.nmpc(otherwise=3), "otherwise: expected a Law"),
+        (lambda: fp.nmpc(HEHN.replace(rotor_limits=[0.0, 1.3])), "rotors that lift"),
+        (lambda: fp.simulate(HEHN, fp.nmpc(), HANGING, 1, plant="hehn2011"), "wrench: nmpc commands rotor forces"),
+        (lambda: fp.export_c(fp.nmpc(), HEHN, "c-out"), "law: expected a Law"),
+        (lambda: law_from({"name": "nmpc", "gains": {"latenc": 0.0}}), "did you mean 'latency'"),
+    ],
+)
+def test_what_cannot_be_is_told(call, line):
+    with pytest.raises(fp.InputError, match=line):
+        call()

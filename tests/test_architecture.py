@@ -205,7 +205,9 @@ def test_a_ninth_single_module_is_found():
     assert _crowd(eight | {"ninth": ""}) == ["__init__, __main__, a, b, c, d, e, f, ninth: more than 8, make a room"]
 
 
-@pytest.mark.parametrize(("place", "more"), [("tests", set()), ("docs", {"img", "_build", "how-to", "reference"})])
+@pytest.mark.parametrize(
+    ("place", "more"), [("tests", set()), ("docs", {"img", "_build", "how-to", "reference", "tutorials"})]
+)
 def test_the_folders_are_called_as_the_rooms(place, more):
     rooms = _folders(SOURCE) - DATA
     assert not _strangers(_folders(ROOT / place), rooms | more)

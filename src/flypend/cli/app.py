@@ -16,7 +16,7 @@ import click
 
 from flypend import __version__
 from flypend.cli import check, examples, listing, planning, studies, theorem, viewing
-from flypend.cli.ahead import import_ahead
+from flypend.cli.ahead import ahead, pictures_of_studies
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
@@ -234,7 +234,7 @@ def compare(
     settings = {**settings, "plant": asked}
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
-    import_ahead("flypend.pictures.studies")
+    ahead(pictures_of_studies)
     with counter() as tell:
         result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
     failed = failed_runs(result, names, asked, duration)
@@ -276,7 +276,7 @@ def ladder(
     rungs = rungs_for(machine)
     chosen = {name: rung_named(name, rungs) for name in rung or rungs}
     check_writable(out)
-    import_ahead("flypend.pictures.studies")
+    ahead(pictures_of_studies)
     with counter() as tell:
         result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
     write_ladder(result, settings, out)

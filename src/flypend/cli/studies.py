@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from flypend.cli.ahead import import_ahead
+from flypend.cli.ahead import ahead, maps
 from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, sensors_option
 from flypend.cli.terminal import bold, complaints, console, lines, resumable, stepped, tell_how
 
@@ -101,7 +101,7 @@ def draw_map(
     store = what
     if content is not None:
         store = out.with_suffix(".zarr")
-        import_ahead("flypend.pictures.maps")
+        ahead(maps)
         sweep_into(store, content, workers, force)
     assert store is not None
     from flypend.pictures.maps import map_figure

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -16,7 +16,7 @@ from flypend.geometry import E3, norm
 from flypend.model import State, Vehicle
 from flypend.planning.check import Limits
 from flypend.planning.scaled import Units
-from flypend.planning.wishes import END, Wishes
+from flypend.planning.wishes import BASE, END, Wishes
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
@@ -62,6 +62,17 @@ class Request:
     def rotors(self) -> int:
         """Number of rotors."""
         return len(self.vehicle.rotor_spins)
+
+    @property
+    def wishing(self) -> bool:
+        """Whether there are inequalities beyond those of the machine."""
+        return self.wishes.box or self.wishes.speed or self.wishes.lean
+
+    def unwished(self) -> Request:
+        """The same within the limits of the machine alone; what comes of it is still held against `limits`."""
+        mounted = self.wishes.mounted
+        kept = self.numbers[:BASE] if mounted is None else np.append(self.numbers[:BASE], self.numbers[-2:])
+        return replace(self, wishes=Wishes(box=False, speed=False, lean=False, mounted=mounted), numbers=kept)
 
 
 def request(

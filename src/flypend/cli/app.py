@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 from flypend import __version__
-from flypend.cli import check, examples, listing, planning, studies, theorem, viewing
+from flypend.cli import check, examples, learning, listing, planning, studies, theorem, viewing
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
@@ -331,6 +331,7 @@ def export_c(
 for _command in (
     theorem.theorem,
     planning.plan,
+    *learning.COMMANDS,
     *studies.COMMANDS,
     *check.COMMANDS,
     *viewing.COMMANDS,

@@ -10,7 +10,8 @@ import click
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 LAW_HELP = (
-    "a name (inverted, almost_global, repaired, lqr, corrected, printed, detuned), file.py:function or module:function"
+    "a name (inverted, almost_global, repaired, lqr, learned, corrected, printed, detuned), file.py:function or "
+    "module:function"
 )
 
 path: Any = click.Path(path_type=Path)

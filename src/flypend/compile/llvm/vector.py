@@ -73,7 +73,7 @@ class Code:
     def __init__(self, lanes: Lanes, builder: ir.IRBuilder) -> None:
         self.lanes = lanes
         self.builder = builder
-        self.flags = FLAGS
+        self.flags: tuple[str, ...] = FLAGS
 
     # Memory -------------------------------------------------------------------------------------------------------
 

@@ -53,7 +53,7 @@ def plan_and_track(
     InputError
         If a wish is unknown; other errors of `plan` come when a flight begins.
     """
-    errors.only_known("wish", wishes, ("box", "floor", "ceiling", "speed", "lean", "duration", "clearance", "window"))
+    errors.only_known("wish", wishes, ("box", "floor", "ceiling", "speed", "lean", "duration", "clearance"))
     goal = errors.array("target", target, (3,))
     asked = partial(plan, objective=objective, target=goal, time_limit=PATIENT, **wishes)
     law = otherwise or inverted(hover(goal))

@@ -38,6 +38,7 @@ ORDER = [
     "flight",
     "envs",
     "planning",
+    "learning",
     "export",
     "paper",
     "settings",
@@ -51,7 +52,7 @@ ORDER = [
 MOST_SINGLE = 8  # modules directly under src/flypend; the next one belongs in a room
 
 # Folders of data, which nothing imports.
-DATA = {"examples", "vehicles"}
+DATA = {"examples", "policies", "vehicles"}
 
 # Who imports modules by names that no reader of the source can know, and which.
 COMPUTED = {
@@ -284,6 +285,7 @@ PUBLIC = (
     "flight.ensemble",
     "flight.sensitivity",
     "planning",
+    "learning",
     "export",
     "paper",
     "studies",

@@ -389,3 +389,45 @@ def test_what_is_not_possible_is_refused(arguments, field):
 def test_ranges_are_intervals():
     assert Randomisation(mass=(0.8, 1.2)).varies
     assert not Randomisation(delay=(0.0, 0.01)).varies
+
+
+# Memory ------------------------------------------------------------------------------------------------------
+
+
+def flown_between_guards(steps, count, task):
+    """Step worlds whose arrays all lie between guards, with random actions, some of them absurd; check the guards."""
+    worlds, rng, mark, width = Worlds(environment(task), count), np.random.default_rng(1), 0xA5, 4096
+    guards = []
+
+    def guarded(array):
+        raw = np.full(array.nbytes + 2 * width + 64, mark, dtype=np.uint8)
+        first = width + -(raw.ctypes.data + width) % 64
+        inside = raw[first : first + array.nbytes].view(array.dtype).reshape(array.shape)
+        inside[:] = array
+        guards.append((raw, first, first + array.nbytes))
+        return inside
+
+    worlds._memories, worlds._seeds, worlds._actions = map(guarded, (worlds._memories, worlds._seeds, worlds._actions))
+    worlds._arrays = {name: guarded(array) for name, array in worlds._arrays.items()}
+    worlds.begin(np.arange(count))
+    actions = rng.uniform(-1.5, 1.5, (50, count, 4)).astype(np.float32)
+    actions[7, ::11], actions[13, ::13], actions[29, ::17] = np.nan, np.inf, 1e30
+    for k in range(steps):
+        worlds.step(actions[rng.integers(50)] if k % 3 else np.roll(actions[k % 50], k, axis=0))
+    for raw, first, end in guards:
+        assert np.all(raw[:first] == mark)
+        assert np.all(raw[end:] == mark)
+    assert all(np.isfinite(worlds._arrays[name]).all() for name in ("observations", "rewards"))
+    return worlds
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_no_step_writes_beside_its_arrays(task):
+    """A count that fills no whole group: 13 worlds in two of eight."""
+    flown_between_guards(300, 13, task)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("task", TASKS)
+def test_ten_million_steps_write_nowhere_else(task):
+    flown_between_guards(10**7 // 4100, 4100, task)

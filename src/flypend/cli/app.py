@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from flypend import __version__
-from flypend.cli import check, examples, listing, planning, studies, theorem, viewing
+from flypend.cli import check, examples, learning, listing, planning, studies, theorem, viewing
 from flypend.cli.ahead import import_ahead
 from flypend.cli.options import (
     LAW_HELP,
@@ -353,6 +353,7 @@ def export_c(
 for _command in (
     theorem.theorem,
     planning.plan,
+    *learning.COMMANDS,
     *studies.COMMANDS,
     *check.COMMANDS,
     *viewing.COMMANDS,

@@ -10,7 +10,7 @@ import click
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 LAW_HELP = (
-    "a name (inverted, almost_global, repaired, lqr, corrected, printed, detuned, plan, nmpc), "
+    "a name (inverted, almost_global, repaired, lqr, learned, corrected, printed, detuned, plan, nmpc), "
     "file.py:function or module:function"
 )
 

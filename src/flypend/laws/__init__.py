@@ -11,6 +11,7 @@ from flypend.laws.corrected import corrected
 from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
+from flypend.laws.learned import learned
 from flypend.laws.lqr import lqr
 from flypend.laws.named import law_from_dict, law_names
 from flypend.laws.own import LawError, from_function
@@ -37,6 +38,7 @@ __all__ = [
     "inverted",
     "law_from_dict",
     "law_names",
+    "learned",
     "lqr",
     "printed",
     "repaired",

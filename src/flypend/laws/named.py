@@ -12,6 +12,7 @@ from flypend.laws.almost_global import almost_global
 from flypend.laws.corrected import corrected
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
+from flypend.laws.learned import learned
 from flypend.laws.lqr import lqr
 from flypend.laws.printed import printed
 from flypend.laws.references import Reference
@@ -24,6 +25,7 @@ FACTORIES: Mapping[str, Callable[..., Law]] = {
     "almost_global": almost_global,
     "inverted": inverted,
     "lqr": lqr,
+    "learned": learned,
 }
 # The laws of the paper's theorem: they accept its gains, bring the rod to their e₃ and control no position.
 THEOREM_1 = ("printed", "corrected", "repaired")

@@ -1,0 +1,58 @@
+"""The command that learns a law."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from flypend.cli.options import out_option, vehicle_option
+from flypend.cli.terminal import bold, console, counter, resumable
+
+CHECKPOINT = "checkpoint.npz"
+OFTEN = 100  # updates between checkpoints
+HELD_OUT = 10**6  # added to the seed: the starts of the judgement are none of the training
+
+
+@click.command()
+@vehicle_option
+@out_option("learn-out")
+@click.option("--seed", type=click.IntRange(min=0), default=0, help="Seed of first weights and starts.")
+@click.option("--updates", type=click.IntRange(min=1), default=1500, help="Updates by descent of the gradient.")
+@click.option("--runs", type=click.IntRange(min=1), default=500, help="Flights that judge the result.")
+def learn(vehicle: str, out: Path, seed: int, updates: int, runs: int) -> None:
+    """Learn a law for VEHICLE: a small network that first imitates the tuned law and then flies better.
+
+    Writes the policy, for --law learned and its gain policy, and the curve of the training. After an interruption, the
+    same command goes on; the result is the same as without.
+    """
+    from flypend import model
+    from flypend.files.staging import check_writable
+    from flypend.laws import inverted, learned, lqr
+    from flypend.learning.flights import Course
+    from flypend.learning.training import Learner, Training
+    from flypend.report.learning import write_learned
+    from flypend.report.studies import comparison_table
+    from flypend.studies import compare, random_starts
+
+    machine = model.vehicle(vehicle)
+    learner = Learner(Training(Course(machine), seed=seed, updates=updates))
+    check_writable(out)
+    out.mkdir(parents=True, exist_ok=True)
+    checkpoint = out / CHECKPOINT
+    with resumable(), counter() as tell:
+        if not learner.resume(checkpoint):
+            learner.imitate(lambda entry: tell("imitation", int(entry.update), learner.training.rounds))
+            learner.save(checkpoint)
+        while learner.done < updates:
+            learner.descend()
+            tell("descent", learner.done, updates)
+            if learner.done % OFTEN == 0 or learner.done == updates:
+                learner.save(checkpoint)
+    policy = write_learned(learner, out)
+    console.print(f"The policy is {bold(policy)}, its training {bold(out / 'curve.png')}.")
+    laws = [learned(policy=str(policy)), inverted(), lqr()]
+    console.print(comparison_table(compare(machine, laws, random_starts(runs, HELD_OUT + seed))))
+
+
+COMMANDS = (learn,)

@@ -1,0 +1,116 @@
+"""A learned law: a small network from the state, seen in the body frame, to rotor forces. See `laws.policy`.
+
+Its wrench is one that the rotors can give, so that allocation changes nothing. Policies come from `flypend learn`.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.geometry import norm
+from flypend.laws.bound import Computer, Control
+from flypend.laws.gain import NOT_NEGATIVE, Bounds, Gain, documented, table
+from flypend.laws.law import Law
+from flypend.laws.policy import Policy, features, load, shares
+from flypend.laws.references import Reference, hover
+from flypend.laws.throw import derivatives
+from flypend.model import State, Vehicle, Wrench
+
+FOLDER = resources.files("flypend") / "policies"
+SHIPPED = "hehn2011"
+LEAST_SHARE = 0.02  # of its range: what a rotor keeps to both limits in hover, whatever the estimated forces
+
+GAINS = table(
+    (
+        Gain("policy", SHIPPED, doc="Name of a shipped policy, or a file of `flypend learn` (.npz)"),
+        Gain(
+            "lead", lambda v: 2.1 if v.rotor_lag > 0 else 1.0, "",
+            "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0), label="lead",
+        ),
+        Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
+        Gain("latency", 0.0, "s", "Delay that the flight computer compensates by prediction", NOT_NEGATIVE),
+    )
+)  # fmt: skip
+
+
+@documented(GAINS)
+def learned(reference: Reference | None = None, **gains: Any) -> Law:
+    """Build the learned law.
+
+    Parameters
+    ----------
+    reference : callable, optional
+        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
+    **gains : float or str
+        Any of the gains below, in the stated unit.
+
+    {gains}
+
+    Raises
+    ------
+    InputError
+        If a gain is unknown or out of range, there is no such policy, or it is for another number of rotors.
+    """
+    followed = reference or hover()
+
+    def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
+        return learned_control(t, state, vehicle, k.network, forces, followed)
+
+    return Law(
+        name="learned", e3="up", gains=GAINS, given=gains, control=control, prepare=_prepared, reference=followed,
+        computer=lambda values: Computer(**{name: values[name] for name in ("lead", "latency", "observer")}),
+        uses_forces=True,
+    )  # fmt: skip
+
+
+def _prepared(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
+    if vehicle.gravity == 0:
+        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+    network = policy(gains["policy"])
+    if len(network.D) != len(vehicle.rotor_spins):
+        raise InputError("vehicle", f"one with {len(network.D)} rotors, like the policy", f"{len(vehicle.rotor_spins)}")
+    return {"network": network}
+
+
+def policy_names() -> list[str]:
+    """Return the names of the policies shipped with the package."""
+    return sorted(entry.name.removesuffix(".npz") for entry in FOLDER.iterdir() if entry.name.endswith(".npz"))
+
+
+def policy(name: str) -> Policy:
+    """Return the policy `name` shipped with the package, or that of the file `name` (.npz). Raises InputError."""
+    if name.endswith(".npz"):
+        return load(Path(name))
+    return _shipped(errors.one_of("policy", name, policy_names()))
+
+
+@lru_cache(maxsize=8)
+def _shipped(name: str) -> Policy:
+    with resources.as_file(FOLDER / f"{name}.npz") as path:
+        return load(path)
+
+
+def learned_control(
+    t: Any, state: State, vehicle: Any, network: Policy, forces: tuple[Any, Any], reference: Reference
+) -> Control:
+    """Evaluate the `network` for symbols `t` (s) and `state` of `vehicle` about its `reference`.
+
+    Of the external `forces` on vehicle and bob, each (3, 1), N, the vertical part is carried: hover then takes less or
+    more than the weight.
+    """
+    x_ref = reference(t)
+    x, x_dot = state.x - x_ref, state.x_dot - ca.densify(derivatives(x_ref, t, 1)[0])
+    phi = features(state, x, x_dot, vehicle.l, ca.sqrt(vehicle.l / vehicle.g))
+    low, high = vehicle.rotor_limits
+    level = (vehicle.weight - forces[0][2] - forces[1][2]) / len(vehicle.rotor_spins)
+    hover_share = ca.fmin(ca.fmax((level - low) / (high - low), LEAST_SHARE), 1 - LEAST_SHARE)
+    rotors = low + (high - low) * shares(network.asked(phi), hover_share)
+    wrench = ca.mtimes(vehicle.mixing(), rotors)
+    return Control(wrench=Wrench(wrench[0], wrench[1:]), signals={"position_error": norm(x)})

@@ -1,0 +1,133 @@
+"""A policy: a small network from what the body frame shows of a state to rotor forces.
+
+It sees Rᵀ(x − x_ref), Rᵀ(ẋ − ẋ_ref), Rᵀe₃, ω, Rᵀy and Rᵀẏ, which a turn about the vertical leaves alone. Lengths are in
+rod lengths, times in √(l/g). With a(v) = v/√(1 + v²) applied to each entry, the network is
+
+    N(φ) = D φ + W₃ a(W₂ a(W₁ φ + b₁) + b₂),
+
+and rotor i is asked for the share ½ + ½ a(v_i) of its range, v = N(φ) − N(φ₀) + v₀, where φ₀ is what hover shows and v₀
+asks for the hover forces: hover is an equilibrium whatever the weights.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.errors import InputError
+from flypend.files.whole import whole_file
+from flypend.geometry import E3
+from flypend.model import State
+
+FEATURES = 18
+# What is seen in hover.
+HOVER = np.concatenate([np.zeros(6), E3, np.zeros(3), E3, np.zeros(3)])
+MOST_WEIGHTS = 30_000
+
+Matrix = NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class Policy:
+    """Weights of the network, for n rotors and hidden layers of k and m.
+
+    Parameters
+    ----------
+    D : (n, 18)
+        Direct, linear part.
+    W_1, b_1 : (k, 18), (k,)
+        First layer.
+    W_2, b_2 : (m, k), (m,)
+        Second layer.
+    W_3 : (n, m)
+        Last layer.
+    """
+
+    D: Matrix
+    W_1: Matrix
+    b_1: Matrix
+    W_2: Matrix
+    b_2: Matrix
+    W_3: Matrix
+
+    def __post_init__(self) -> None:
+        n, k, m = len(self.D), len(self.b_1), len(self.b_2)
+        shapes = {"D": (n, FEATURES), "W_1": (k, FEATURES), "b_1": (k,), "W_2": (m, k), "b_2": (m,), "W_3": (n, m)}
+        for name, shape in shapes.items():
+            given = np.asarray(getattr(self, name), dtype=np.float32)
+            if given.shape != shape or not np.isfinite(given).all():
+                raise InputError(f"policy.{name}", f"finite weights of shape {shape}", f"shape {given.shape}")
+            object.__setattr__(self, name, given)
+        if self.size > MOST_WEIGHTS:
+            raise InputError("policy", f"at most {MOST_WEIGHTS} weights", f"{self.size}")
+
+    @property
+    def arrays(self) -> dict[str, Matrix]:
+        """The weights by name."""
+        return {entry.name: getattr(self, entry.name) for entry in fields(self)}
+
+    @property
+    def size(self) -> int:
+        """Number of weights."""
+        return sum(array.size for array in self.arrays.values())
+
+    def network(self, phi: Any) -> Any:
+        """Return N(φ) (n, 1) for `phi` (18, 1), in CasADi."""
+        hidden = activation(_layer(self.W_1, self.b_1, phi))
+        hidden = activation(_layer(self.W_2, self.b_2, hidden))
+        return ca.mtimes(_constant(self.D), phi) + ca.mtimes(_constant(self.W_3), hidden)
+
+    def asked(self, phi: Any) -> Any:
+        """Return N(φ) − N(φ₀) (n, 1) for `phi` (18, 1), in CasADi."""
+        at_hover = ca.DM(ca.evalf(ca.densify(self.network(ca.SX(ca.DM(HOVER))))))
+        return self.network(phi) - at_hover
+
+
+def _constant(values: Any) -> Any:
+    return ca.DM(np.asarray(values, dtype=float))
+
+
+def _layer(W: Matrix, b: Matrix, v: Any) -> Any:
+    return ca.mtimes(_constant(W), v) + _constant(b)
+
+
+def activation(v: Any) -> Any:
+    """Return a(v) = v/√(1 + v²), entry by entry: no library function, and smooth."""
+    return v / ca.sqrt(1 + v**2)
+
+
+def features(state: State, x: Any, x_dot: Any, length: Any, time: Any) -> Any:
+    """Return φ (18, 1) of a `state` with e₃ up, in CasADi.
+
+    `x`, `x_dot` are relative to the reference; `length` is that of the rod, m, and `time` √(l/g), s.
+    """
+    down = state.R.T
+    columns = ca.horzcat(x / length, x_dot * (time / length), E3, state.y, state.y_dot * time)
+    seen = ca.mtimes(down, columns)
+    return ca.densify(ca.vertcat(seen[:, 0], seen[:, 1], seen[:, 2], state.omega * time, seen[:, 3], seen[:, 4]))
+
+
+def shares(v: Any, hover: Any) -> Any:
+    """Return the shares (n, 1) of their range, 0 to 1, that the rotors are asked for: `hover` where `v` is 0."""
+    level = 2 * hover - 1
+    return (1 + activation(v + level / ca.sqrt(1 - level**2))) / 2
+
+
+def save(policy: Policy, path: Path) -> None:
+    """Write `policy` to the file `path`, .npz; the same weights give the same bytes. Raises InputError if it cannot."""
+    with whole_file(path, (".npz",)) as partial, partial.open("wb") as stream:
+        np.savez(stream, **policy.arrays)  # type: ignore[arg-type]
+
+
+def load(path: Path) -> Policy:
+    """Read a policy from the file `path`. Raises InputError if it holds none."""
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            return Policy(**{entry.name: stored[entry.name] for entry in fields(Policy)})
+    except (OSError, KeyError, ValueError) as error:
+        raise InputError("policy", "a file written by `flypend learn`", f"{path}: {error}") from None

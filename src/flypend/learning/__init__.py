@@ -1,0 +1,1 @@
+"""Learning a law: flights through differentiable equations, and the gradient of what they cost."""

@@ -1,0 +1,204 @@
+"""A training: imitation of the tuned law, then descent of the gradient of what flights cost; from a seed, resumable."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.files.whole import whole_file
+from flypend.laws.policy import MOST_WEIGHTS, Policy
+from flypend.learning.flights import Costs, Course, Flights
+from flypend.learning.network import Adam, Weights, first_weights
+from flypend.learning.teacher import RATE, Imitation, direct
+from flypend.model import State, Vehicle
+from flypend.model.mount import clearances
+from flypend.planning.scaled import Units
+
+PARTS = 2  # of a batch, each flown by a thread; fixed, so that results do not depend on the machine's cores
+PHASES = ("imitation", "descent")
+
+
+@dataclass(frozen=True)
+class Training:
+    """What is to be learned, and for how long.
+
+    Parameters
+    ----------
+    course : Course
+        The flights, and what they cost.
+    seed : int
+        Seed of first weights and starts.
+    hidden : (2,)
+        Sizes of the hidden layers.
+    batch : int
+        Flights per update, a multiple of 16.
+    rounds, steps : int
+        Rounds of imitation, and steps of each.
+    updates : int
+        Updates by descent.
+    rate : float
+        Largest step of a weight per update; it falls to a fiftieth.
+    """
+
+    course: Course
+    seed: int = 0
+    hidden: tuple[int, int] = (64, 64)
+    batch: int = 512
+    rounds: int = 60
+    steps: int = 100
+    updates: int = 1500
+    rate: float = 4e-3
+
+    def __post_init__(self) -> None:
+        vehicle = self.course.vehicle
+        if vehicle.gravity == 0 or vehicle.weight >= len(vehicle.rotor_spins) * vehicle.rotor_limits[1]:
+            raise InputError("vehicle", "one that can hover", vehicle.name)
+        for name in ("rounds", "updates", "steps"):
+            errors.number(name, getattr(self, name), at_least=0)
+        if self.batch < 16 or self.batch % 16:
+            raise InputError("batch", "a multiple of 16", repr(self.batch))
+        k, m = self.hidden
+        size = 18 * (k + len(vehicle.rotor_spins)) + k + m * k + m + len(vehicle.rotor_spins) * m
+        if min(k, m) < 1 or size > MOST_WEIGHTS:
+            raise InputError("hidden", f"two layers with at most {MOST_WEIGHTS} weights", repr(self.hidden))
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """All of it, for files."""
+        course = {name: value for name, value in vars(self.course).items() if name != "vehicle"}
+        return {**vars(self), "course": course, "vehicle": self.course.vehicle.to_dict()}
+
+
+class Entry(NamedTuple):
+    """A point of the curve: the `phase` (0 or 1), its updates so far, and what the flights since the last one did.
+
+    `cost`, the share of flights that `stands` near hover at the end, and median and 95th percentile of the largest
+    distance, m.
+    """
+
+    phase: float
+    update: float
+    cost: float
+    stands: float
+    median: float
+    high: float
+
+
+EVERY = 25  # updates between two points of the curve
+
+
+class Learner:
+    """A training under way. Equal `training` yields equal weights, however often it was interrupted."""
+
+    def __init__(self, training: Training) -> None:
+        self.training, vehicle = training, training.course.vehicle
+        self.weights = first_weights(direct(vehicle), training.hidden, np.random.default_rng([training.seed, 0]))
+        self.adam, self.done = Adam(self.weights), 0
+        self.curve: list[Entry] = []
+        self._parts = [Flights(training.course, training.batch // PARTS) for _ in range(PARTS)]
+        self._since: list[Costs] = []
+
+    @property
+    def policy(self) -> Policy:
+        """The present policy."""
+        return Policy(**self.weights)
+
+    def imitate(self, told: Callable[[Entry], Any] = lambda _: None) -> None:
+        """Imitate the tuned law; `told` is called after every round."""
+        flights, training = self._parts[0], self.training
+        imitation = Imitation(flights, self.weights, training.steps)
+        for i in range(training.rounds):
+            rng = np.random.default_rng([training.seed, 1, i])
+            with threadpool_limits(1, "blas"):
+                imitation.round(self.weights, self._starts(rng, flights.count), rng, RATE * falling(i, training.rounds))
+            self._add(flights.judged()[0], 0, i + 1, told)
+
+    def descend(self, told: Callable[[Entry], Any] = lambda _: None) -> None:
+        """Make the next update by descent; `told` is called with every new point of the curve."""
+        training, i = self.training, self.done
+        rng = np.random.default_rng([training.seed, 2, i])
+        starts = self._starts(rng, training.batch).reshape(PARTS, -1, 24 + self._parts[0].rotors)
+        with threadpool_limits(1, "blas"), ThreadPoolExecutor(PARTS) as pool:
+            flown = list(pool.map(self._flown, self._parts, starts))
+        gradient = {name: np.sum([part[1][name] for part in flown], axis=0) / training.batch for name in self.weights}
+        warm = min(1.0, (i + 1) / 20)
+        self.adam.move(self.weights, gradient, training.rate * warm * falling(i, training.updates))
+        self.done = i + 1
+        self._since += [part[0] for part in flown]
+        if self.done % EVERY == 0 or self.done == training.updates:
+            together = Costs(*(np.concatenate(values) for values in zip(*self._since, strict=True)))
+            self._add(together, 1, self.done, told)
+            self._since = []
+
+    def _flown(self, flights: Flights, starts: Any) -> tuple[Costs, Weights]:
+        flights.fly(self.weights, starts)
+        costs, to_costs = flights.judged()
+        return costs, flights.gradient(self.weights, to_costs)
+
+    def _starts(self, rng: np.random.Generator, count: int) -> Any:
+        """Return random starts (count, 24 + n), own units, with rotors at their least."""
+        return starts(self.training.course.vehicle, rng, count)
+
+    def _add(self, costs: Costs, phase: int, update: int, told: Callable[[Entry], Any]) -> None:
+        median, high = np.quantile(costs.distance, (0.5, 0.95))
+        self.curve.append(Entry(phase, update, np.mean(costs.cost), np.mean(costs.stands), median, high))
+        told(self.curve[-1])
+
+    # Interruptions ----------------------------------------------------------------------------------------------------
+
+    def save(self, path: Path) -> None:
+        """Write the state of the training to `path`, .npz."""
+        with whole_file(path, (".npz",)) as partial, partial.open("wb") as stream:
+            np.savez(
+                stream, told=_told(self.training), done=self.done, count=self.adam.count, curve=np.array(self.curve),
+                **self.weights, **self.adam.moments,  # type: ignore[arg-type]
+            )  # fmt: skip
+
+    def resume(self, path: Path) -> bool:
+        """Take up the training saved in `path`; return whether there is one. Raises InputError if it is another."""
+        if not path.exists():
+            return False
+        with np.load(path, allow_pickle=False) as stored:
+            if str(stored["told"]) != _told(self.training):
+                raise InputError("checkpoint", "one of the same training (or another folder)", str(path))
+            for known in (self.weights, self.adam.moments):
+                for name, array in known.items():
+                    array[...] = stored[name]
+            self.done, self.adam.count = int(stored["done"]), int(stored["count"])
+            self.curve = [Entry(*row) for row in stored["curve"].tolist()]
+        return True
+
+
+def _told(training: Training) -> str:
+    return json.dumps(training.told, default=list, sort_keys=True)
+
+
+def falling(i: int, count: int) -> float:
+    """Return the share of the rate at step `i` of `count`: from 1 to a fiftieth, faster at first."""
+    return 0.02 + 0.98 * (1 - i / max(count, 1)) ** 2
+
+
+def starts(vehicle: Vehicle, rng: np.random.Generator, count: int) -> Any:
+    """Return random starts (count, 24 + n) in own units, with free rods and rotors at their least."""
+    n, found = len(vehicle.rotor_spins), State.random(rng, count)
+    while not np.all(free := _free(found, vehicle)):
+        found = State.trusted(np.concatenate([found.packed()[free], State.random(rng, count).packed()])[:count])
+    forces = np.full((count, n), vehicle.rotor_limits[0])
+    return np.concatenate([found.packed(), forces], axis=1) / Units.of(vehicle).states(n)
+
+
+def _free(states: State, vehicle: Vehicle) -> Any:
+    """Whether the rods of `states` touch nothing."""
+    if vehicle.mount != "hub":
+        return np.ones(states.batch_shape, dtype=bool)
+    rods = np.einsum("nji,nj->ni", states.R, states.y)
+    return clearances(rods, vehicle.rotor_positions, vehicle.reach, vehicle.body).min(axis=-1) > 0

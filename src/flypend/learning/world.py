@@ -1,0 +1,96 @@
+"""Steps of many flights under a policy, and their derivatives, compiled for eight flights at a time.
+
+All is in the vehicle's own units (see `planning.scaled`). What the policy asks of the rotors is held for a period; what
+they are commanded has the flight computer's lead, f̂ + lead (f − f̂), within their limits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.compile.llvm.stagewise import Stagewise, stagewise
+from flypend.laws.policy import features, shares
+from flypend.model import State
+from flypend.model.state import SIZE
+from flypend.planning.scaled import Scaled
+from flypend.planning.stage import stepped
+from flypend.plants.lag import TIMING_SIZE
+
+COSTS = 3
+# The rod of a hub should keep this far from every arm, rad; on hehn2011 it touches a disc at 24°.
+APART = 0.58
+# Largest gradient with respect to a state that is carried back through a step: a flight that falls has no larger say.
+STEEPEST = 10.0
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """Compiled programs; arrays have one entry per group of flights, and a last axis of lanes.
+
+    Parameters
+    ----------
+    forward : Stagewise
+        (state (24 + n), v (n), numbers, shared (7)) → (state, features (18), costs (3)) a period later.
+    backward : Stagewise
+        (state, v, numbers, shared, gradients of the three outputs) → gradients of state and v.
+    see : Stagewise
+        (state) → features.
+    """
+
+    forward: Stagewise
+    backward: Stagewise
+    see: Stagewise
+
+
+@lru_cache(maxsize=4)
+def kernels(rotors: int) -> Kernels:
+    """Return the compiled steps of vehicles with so many `rotors`."""
+    forward, backward, see = programs(rotors)
+    return Kernels(stagewise(forward, shared=(2, 3)), stagewise(backward, shared=(2, 3)), stagewise(see))
+
+
+def programs(rotors: int) -> tuple[ca.Function, ca.Function, ca.Function]:
+    """Return the functions of `Kernels`, which describes them."""
+    machine = Scaled.symbols(rotors)
+    state, v = ca.SX.sym("state", SIZE + rotors), ca.SX.sym("v", rotors)
+    shared = ca.SX.sym("shared", TIMING_SIZE + 3)  # timing, lead, least and largest force of a rotor
+    timing, (lead, low, high) = shared[:TIMING_SIZE], ca.vertsplit(shared[TIMING_SIZE:])
+    asked = low + (high - low) * shares(v, (1 - low) / (high - low))
+    command = ca.fmin(ca.fmax(state[SIZE:] + lead * (asked - state[SIZE:]), low), high)
+    after = stepped(state, command, timing, machine)
+    outputs, inputs = [after, seen(after), costs(after, machine)], [state, v, machine.numbers, shared]
+    gradients = [ca.SX.sym(f"g{i}", output.numel()) for i, output in enumerate(outputs)]
+    total = sum(ca.dot(g, output) for g, output in zip(gradients, outputs, strict=True))
+    to_state, to_v = ca.gradient(total, state), ca.gradient(total, v)
+    to_state *= ca.fmin(1, STEEPEST / ca.sqrt(ca.sumsqr(to_state) + 1e-30))
+    forward = ca.Function("forward", inputs, ca.cse([ca.densify(output) for output in outputs]))
+    backward = ca.Function("backward", [*inputs, *gradients], ca.cse([ca.densify(to_state), ca.densify(to_v)]))
+    return forward, backward, ca.Function("see", [state], [seen(state)])
+
+
+def seen(state: Any) -> Any:
+    """Return what the policy sees of `state` (24 + n, 1), own units, about hover at the origin."""
+    s = State.symbolic(state[:SIZE])
+    return features(s, s.x, s.x_dot, 1.0, 1.0)
+
+
+def costs(state: Any, machine: Scaled) -> Any:
+    """Return squared distance of the pivot, how far the whole `state` is from hover, and nearness to arms (3, 1).
+
+    Own units. The second is √(1 + 8 (1 − y₃) + (1 − z₃) + 0.3 |ẏ|² + 0.1 |ω|² + 0.3 |ẋ|² + 0.3 |x|²) − 1. The third is
+    0 while the rod keeps `APART` of all arms of the `machine`, and 1 along one.
+    """
+    s = State.symbolic(state[:SIZE])
+    far = 8 * (1 - s.y[2]) + 1 - s.R[2, 2]
+    moving = 0.3 * ca.sumsqr(s.y_dot) + 0.1 * ca.sumsqr(s.omega) + 0.3 * ca.sumsqr(s.x_dot) + 0.3 * ca.sumsqr(s.x)
+    rod, moments = ca.mtimes(s.R.T, s.y), machine.mixing()[1:3, :]
+    near = ca.SX(0)
+    for i in range(machine.rotors):
+        arm = ca.vertcat(-moments[1, i], moments[0, i]) / ca.norm_2(moments[:, i])
+        near += ca.fmax(0, (ca.dot(rod[:2], arm) - np.cos(APART)) / (1 - np.cos(APART))) ** 2
+    return ca.vertcat(ca.sumsqr(s.x), ca.sqrt(1 + far + moving) - 1, near)

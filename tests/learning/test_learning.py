@@ -1,0 +1,198 @@
+"""Learning: the gradient is one, imitation and descent do what they say, and a training is repeatable."""
+
+import numpy as np
+import pytest
+from threadpoolctl import threadpool_limits
+
+import flypend as fp
+from flypend.laws.linearise import linearise
+from flypend.laws.policy import FEATURES, Policy, load, save
+from flypend.learning import flights as flying
+from flypend.learning import world
+from flypend.learning.flights import Course, Flights
+from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
+from flypend.learning.teacher import Imitation, Teacher, direct
+from flypend.learning.training import Learner, Training, starts
+
+VEHICLE = fp.vehicle("hehn2011")
+
+
+def weights_of(seed=0, hidden=(12, 9), size=1.0):
+    found = first_weights(direct(VEHICLE), hidden, np.random.default_rng(seed))
+    return found | {"W_3": (size * found["W_3"]).astype(np.float32)}
+
+
+def double(weights):
+    return {name: array.astype(float) for name, array in weights.items()}
+
+
+# The gradient ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mount", ["gimbal", "hub"])
+def test_the_gradient_is_that_of_the_cost(mount, monkeypatch):
+    """Against central differences, in double precision: all but the kernels' own is of the same programs."""
+    monkeypatch.setattr(world, "STEEPEST", 1e9)  # beyond, a gradient is shortened
+    monkeypatch.setattr(flying, "kernels", world.kernels.__wrapped__)
+    course = Course(VEHICLE.replace(mount=mount), duration=0.3)
+    flights, w = Flights(course, 16), double(weights_of(size=5.0))
+    flights.phi = flights.phi.astype(float)
+    begin = starts(VEHICLE, np.random.default_rng(1), 16)
+
+    def cost(weights):
+        flights.fly(weights, begin)
+        return flights.judged()[0].cost.sum()
+
+    cost(w)
+    gradient = flights.gradient(w, flights.judged()[1])
+    rng, h = np.random.default_rng(2), 1e-6
+    for name, array in w.items():
+        way = rng.standard_normal(array.shape)
+        difference = (cost(w | {name: array + h * way}) - cost(w | {name: array - h * way})) / (2 * h)
+        # Differences err by rounding / h, 1e-9 of the cost, and by h² of the third derivative.
+        assert np.sum(gradient[name] * way) == pytest.approx(difference, rel=2e-5, abs=1e-6)
+
+
+def test_the_network_is_the_one_of_the_law():
+    """Two implementations: NumPy on batches, and CasADi in the law."""
+    import casadi as ca
+
+    w, phi = weights_of(3), np.random.default_rng(0).standard_normal((FEATURES, 7)).astype(np.float32)
+    symbol = ca.SX.sym("phi", FEATURES)
+    asked = ca.Function("asked", [symbol], [Policy(**w).asked(symbol)])
+    found = forward(double(w), with_hover(phi.astype(float)))[0]
+    assert np.allclose(found, np.array(asked(phi.astype(float))), rtol=0, atol=1e-12)
+
+
+def test_hover_adds_to_the_gradient():
+    """N(φ₀) is subtracted: its weights' gradient is part of the whole."""
+    w, phi = double(weights_of(4)), with_hover(np.random.default_rng(1).standard_normal((FEATURES, 5)))
+    v, kept = forward(w, phi)
+    total = {name: np.zeros_like(array) for name, array in w.items()}
+    backward(w, phi, kept, np.ones_like(v), total)
+    h = 1e-6
+    for name, array in w.items():
+        way = np.random.default_rng(2).standard_normal(array.shape)
+        high, low = (forward(w | {name: array + s * h * way}, phi)[0].sum() for s in (1, -1))
+        assert np.sum(total[name] * way) == pytest.approx((high - low) / (2 * h), rel=1e-7, abs=1e-8)
+
+
+def test_adam_finds_a_minimum_and_refuses_what_is_not_finite():
+    rng = np.random.default_rng(0)
+    w = {"a": rng.standard_normal(5).astype(np.float32)}
+    adam = Adam(w)
+    for i in range(400):
+        adam.move(w, {"a": w["a"] - 3}, 0.1 * (1 - i / 400))
+    assert np.allclose(w["a"], 3, atol=1e-2)
+    kept = w["a"].copy()
+    assert np.isnan(adam.move(w, {"a": np.full(5, np.nan)}, 0.1))
+    assert np.array_equal(w["a"], kept)
+
+
+# The teacher -------------------------------------------------------------------------------------------------------
+
+
+def test_the_direct_part_is_the_regulator_about_hover(tmp_path):
+    """Its linearisation has the poles of LQR: the features are its errors to first order."""
+    w = weights_of(size=0.0)
+    save(Policy(**w), tmp_path / "lqr.npz")
+    own = linearise(fp.laws.learned(policy=str(tmp_path / "lqr.npz")), VEHICLE).without("theta_3").eigenvalues
+    regulator = linearise(fp.laws.lqr(), VEHICLE).without("theta_3").eigenvalues
+    assert np.allclose(own, regulator, rtol=1e-5, atol=1e-6)  # weights are of single precision
+
+
+def test_the_teacher_stands_in_the_flights_of_a_training():
+    flights = Flights(Course(VEHICLE, duration=5.0), 64)
+    Teacher(flights).fly(starts(VEHICLE, np.random.default_rng(3), 64))
+    judged = flights.judged()[0]
+    assert judged.stands.mean() >= 0.95
+    assert np.median(judged.distance) < 1.5
+
+
+def test_imitation_comes_closer_to_the_teacher():
+    flights, w, rng = Flights(Course(VEHICLE, duration=1.0), 128), weights_of(hidden=(32, 32)), np.random.default_rng(5)
+    imitation = Imitation(flights, w, 40)
+    with threadpool_limits(1, "blas"):
+        errors = [imitation.round(w, starts(VEHICLE, rng, 128), rng, 5e-3) for _ in range(12)]
+    assert errors[-1] < 0.75 * errors[0]
+
+
+# A training --------------------------------------------------------------------------------------------------------
+
+
+def small(**changes):
+    given = {"rounds": 3, "steps": 5, "updates": 6, "batch": 32, "hidden": (16, 16)} | changes
+    return Training(Course(VEHICLE, duration=1.0), **given)
+
+
+def whole(training):
+    learner = Learner(training)
+    learner.imitate()
+    while learner.done < training.updates:
+        learner.descend()
+    return learner
+
+
+def test_a_training_is_repeatable_and_goes_on_after_an_interruption(tmp_path):
+    at_once = whole(small())
+    first = Learner(small())
+    first.imitate()
+    for _ in range(2):
+        first.descend()
+    first.save(tmp_path / "half.npz")
+    again = Learner(small())
+    assert again.resume(tmp_path / "half.npz")
+    while again.done < 6:
+        again.descend()
+    for name, array in at_once.weights.items():
+        assert np.array_equal(array, again.weights[name])
+    assert not np.array_equal(at_once.weights["W_2"], whole(small(seed=1)).weights["W_2"])
+
+
+def test_another_training_is_not_taken_up(tmp_path):
+    Learner(small()).save(tmp_path / "a.npz")
+    with pytest.raises(fp.InputError, match="the same training"):
+        Learner(small(seed=1)).resume(tmp_path / "a.npz")
+    assert not Learner(small()).resume(tmp_path / "none.npz")
+
+
+def test_descent_swings_the_rod_up():
+    """A small training, fifteen seconds on an idle core: most flights end near hover, few did before."""
+    learner = Learner(
+        Training(Course(VEHICLE, duration=2.6), rounds=30, steps=100, updates=30, batch=256, hidden=(32, 32), rate=4e-3)
+    )
+    learner.imitate()
+    imitated = learner.curve[-1]
+    while learner.done < 30:
+        learner.descend()
+    learned = learner.curve[-1]
+    assert learner.curve[1].stands < 0.2  # the first round is the teacher's
+    assert learned.cost < 0.9 * imitated.cost
+    assert learned.stands > 0.7
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [({"batch": 40}, "batch"), ({"hidden": (200, 200)}, "hidden"), ({"hidden": (0, 4)}, "hidden"),
+     ({"rounds": -1}, "rounds")],
+)  # fmt: skip
+def test_what_is_not_possible_is_refused(changes, field):
+    with pytest.raises(fp.InputError, match=field):
+        small(**changes)
+
+
+def test_a_policy_is_a_file(tmp_path):
+    policy = Policy(**weights_of(7))
+    for name in ("a.npz", "b.npz"):
+        save(policy, tmp_path / name)
+    assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
+    assert all(
+        np.array_equal(a, b)
+        for a, b in zip(policy.arrays.values(), load(tmp_path / "a.npz").arrays.values(), strict=True)
+    )
+    (tmp_path / "c.npz").write_bytes(b"nothing")
+    for wrong in ("c.npz", "none.npz"):
+        with pytest.raises(fp.InputError, match="policy"):
+            load(tmp_path / wrong)
+    with pytest.raises(fp.InputError, match="weights of shape"):
+        Policy(**(weights_of(7) | {"b_1": np.zeros(3)}))

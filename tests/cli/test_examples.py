@@ -175,7 +175,7 @@ def commands():
 
 def parsed(line):
     """Name and parameters of a command line, as the command itself would get them; raises what it would."""
-    _, *arguments = shlex.split(line, comments=True)
+    _, *arguments = shlex.split(line.split(" > ")[0], comments=True)  # a shell redirects
     group = cli.app
     with group.make_context("flypend", list(arguments)) as context:
         name, command, rest = group.resolve_command(context, arguments)

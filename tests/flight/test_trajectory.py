@@ -1,6 +1,7 @@
 """A run after it was flown: any time inside it, the other frame, xarray, and a file that gives back every bit."""
 
 import dataclasses
+import pickle
 import re
 import stat
 
@@ -418,3 +419,12 @@ def test_a_changed_number_is_noticed_and_can_be_meant(run, tmp_path):
     del data.attrs["digest"]
     data.to_netcdf(path, engine="scipy")
     assert fp.load(path).x[3, 1] == run.x[3, 1] + 1e-9
+
+
+def test_a_copy_for_another_process_keeps_all_but_the_flight(run):
+    """Reports draw in processes of their own; a flight holds programs, which no copy takes along."""
+    again = pickle.loads(pickle.dumps(run))
+    assert run.flight is not None
+    assert again.flight is None
+    for name in arrays(run):
+        np.testing.assert_array_equal(getattr(again, name), getattr(run, name))

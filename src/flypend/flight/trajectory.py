@@ -92,6 +92,10 @@ class Trajectory:
         if self.x_ref is None:
             object.__setattr__(self, "x_ref", np.zeros((len(self.t), 3)))
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave the flight behind in copies for other processes: it holds programs, which stay in this one."""
+        return {**self.__dict__, "flight": None}
+
     def __repr__(self) -> str:
         """Return law, vehicle and how the run ended, in one line."""
         return f"<Trajectory of {self.law} on {self.vehicle.name}: {len(self.t)} samples, {self.outcome}>"

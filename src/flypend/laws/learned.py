@@ -32,7 +32,7 @@ GAINS = table(
         Gain("policy", SHIPPED, doc="Name of a shipped policy, or a file of `flypend learn` (.npz)"),
         Gain(
             "lead", lambda v: 2.1 if v.rotor_lag > 0 else 1.0, "",
-            "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0), label="lead",
+            "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0),
         ),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain("latency", 0.0, "s", "Delay that the flight computer compensates by prediction", NOT_NEGATIVE),

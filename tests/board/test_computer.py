@@ -326,7 +326,7 @@ def test_noise_is_not_taken_for_a_force(log):
 
 # At 50 Hz a lead of 2.1 overshoots between two commands (lag 20 ms), and the thrust axis swings by 0.06 for ever.
 def test_the_lead_does_not_overshoot_within_a_period():
-    # With its own 28 ms of latency the law trembles by 0.012 at 50 Hz, whatever the lead: docs/laws/inverted.md.
+    # With 28 ms of latency the law trembles by 0.012 at 50 Hz, whatever the lead: docs/laws/inverted.md.
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted(latency=0.024)
     slow, fast = Plant(rate=50.0), Plant(rate=500.0)
     bound = law.bind(vehicle)

@@ -161,7 +161,7 @@ def inverted_control(
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
         e, v = errors_at(*ahead)
-        wish = demand(e, v, a_ref, jerk_ref, *ahead, low, vehicle.g * E3 - forces[1] / vehicle.m, k)
+        wish = demand(e, v, a_ref, jerk_ref, *ahead, low, forces[1], vehicle, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
         wanted = axis(steering_force(held, low, v[2], *ahead, pose, forces, vehicle, k))
         turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))

@@ -13,6 +13,14 @@ from flypend.model import Vehicle
 
 # Rate at which the pump stops the rod's circling, in units of the rate of its energy. More than a half costs height.
 CIRCLING = 0.4
+# Rate at which the pump drives the rod's energy to its upright value, in units of √(g/l).
+PUMP_RATE = 2.0
+# Acceleration, in units of g, at which the pull of the position loop on a distant bob levels off.
+FAR_PULL = 1.8
+# Soft limit on the bob's horizontal acceleration, in units of g tan(tilt limit).
+LEVEL_SHARE = 0.5
+# Speed band, in units of √(g l), over which a flip becomes permitted.
+FLIP_WIDTH = 0.2
 # Of the largest thrust; below 1, so that the rotors keep some authority for moments.
 THRUST_SHARE = 0.993
 
@@ -54,27 +62,31 @@ def derivatives(value: Any, t: Any, count: int) -> list[Any]:
     return out
 
 
-def bob_acceleration(e: Any, v: Any, low: Any, k: Any) -> Any:
+def bob_acceleration(e: Any, v: Any, low: Any, g: Any, k: Any) -> Any:
     """Return the bob's desired acceleration at position error `e` (m) and velocity error `v` (m/s), `low` as below.
 
     A position loop with a soft limit on the error, plus a throw: an upward speed demand while the rod is low. Gravity
-    is not included.
+    `g` is not included. The horizontal part is limited as the tilt of the thrust axis is: not at all where the axis may
+    lean below the horizon.
     """
-    limited = soft(e, k.position_reach)
+    limited = soft(e, FAR_PULL * g / k.position_bandwidth**2)
     throw = k.throw_speed * low
     up = -(k.height_bandwidth**2) * limited[2] - 2 * k.position_damping * k.height_bandwidth * (v[2] - throw)
     rising = positive(up)
     vertical = rising + soft(up - rising, k.descent_limit)
     horizontal = -(k.position_bandwidth**2) * limited[:2] - 2 * k.position_damping * k.position_bandwidth * v[:2]
-    return ca.vertcat(soft(horizontal, k.level_limit), vertical)
+    excess = ca.fmax(ca.cos(k.tilt_limit), 0) / ca.sin(k.tilt_limit) / (LEVEL_SHARE * g)
+    level = horizontal / ca.sqrt(1 + excess**2 * ca.dot(horizontal, horizontal))
+    return ca.vertcat(level, vertical)
 
 
-def flip_permission(y: Any, height: Any, climb: Any, k: Any) -> Any:
+def flip_permission(y: Any, height: Any, climb: Any, vehicle: Vehicle, k: Any) -> Any:
     """Return 1 where the bob's `climb` (m/s) and the pivot's `height` (m) suffice for a flip, else 0.
 
     A flip takes thrust away from the bob for a while; permission is granted once that is affordable.
     """
-    return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / k.flip_width)
+    width = FLIP_WIDTH * ca.sqrt(vehicle.g * vehicle.l)
+    return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / width)
 
 
 def low_rod(y: Any, y_dot: Any, z: Any, k: Any) -> Any:
@@ -121,7 +133,7 @@ def rod_force(
     vehicle, k
         Vehicle and gains.
     """  # fmt: skip
-    wish = demand(e, v, a_ref, jerk_ref, y, y_dot, low, vehicle.g * E3 - on[1] / vehicle.m, k)
+    wish = demand(e, v, a_ref, jerk_ref, y, y_dot, low, on[1], vehicle, k)
     return steering_force(wish, low, v[2], y, y_dot, pose, on, vehicle, k)
 
 
@@ -145,14 +157,17 @@ class Demand(NamedTuple):
     omega_d: Any
 
 
-def demand(e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, low: Any, weight: Any, k: Any) -> Demand:
-    """Return A, d = A/|A|, Ȧ, the Lie derivative along the ideal bob, p̈ = (A·y) y − `weight`, and ω_d = d × Ȧ/|A|.
+def demand(
+    e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, low: Any, on_bob: Any, vehicle: Vehicle, k: Any
+) -> Demand:
+    """Return A, d = A/|A|, Ȧ, the Lie derivative along the ideal bob, p̈ = (A·y) y − g e₃ + F_b/m, and ω_d = d × Ȧ/|A|.
 
     The errors are expressions themselves, so the derivative is taken with respect to fresh symbols. Other arguments
-    as in `rod_force`; `weight` is g e₃ − F_b/m, m/s².
+    as in `rod_force`; `on_bob` is F_b, N.
     """
+    weight = vehicle.g * E3 - on_bob / vehicle.m
     at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
-    asked = weight + at[2] + bob_acceleration(at[0], at[1], low, k)
+    asked = weight + at[2] + bob_acceleration(at[0], at[1], low, vehicle.g, k)
     rates = ca.vertcat(at[1], scale(dot(asked, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
     rate = ca.jtimes(asked, ca.vertcat(*at), rates)
     A, A_dot = ca.substitute([asked, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
@@ -183,7 +198,7 @@ def steering_force(
     # Rod on S²: Lemma 2 towards d without the acceleration of d; the stiffness has the opposite sign until a flip is
     # permitted.
     v_e = y_dot - cross(omega_d, y)  # τ(y, d) ḋ = ω_d × y
-    share = 1 - low * (1 - pose.clear * flip_permission(y, pose.height, climb, k)) * (1 + k.hanging_share)
+    share = 1 - low * (1 - pose.clear * flip_permission(y, pose.height, climb, vehicle, k)) * (1 + k.hanging_share)
     pull = tangent_part(y, d + k.shift * low * pose.aside)
     u = share * k.rod_bandwidth**2 * pull - 2 * k.rod_damping * k.rod_bandwidth * v_e
     u = u + scale(dot(y, omega_d), cross(y, y_dot))
@@ -217,7 +232,8 @@ def pumping_force(A: Any, y: Any, y_dot: Any, aside: Any, vehicle: Vehicle, k: A
     missing = 1 - (dot(y_dot, y_dot) / 2 / w_squared + y[2])
     push = y_dot + k.shift * ca.sqrt(w_squared) * aside  # moves it off the hanging rest, a common start
     circling = scale(dot(E3, cross(y, y_dot)), cross(E3, y))
-    return (M + m) * A - M * l * k.pump_rate * (scale(missing, push) - CIRCLING * circling)
+    rate = PUMP_RATE * ca.sqrt(vehicle.g / l)
+    return (M + m) * A - M * l * rate * (scale(missing, push) - CIRCLING * circling)
 
 
 def largest_thrust(vehicle: Vehicle) -> Any:

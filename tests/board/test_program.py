@@ -66,7 +66,7 @@ def test_it_remembers_as_many_commands_as_can_be_under_way():
 def test_nothing_but_its_memory_decides_what_it_answers():
     loop = Loop(VEHICLE, LAW, Plant())
     step, least = as_numpy(board(loop).step), np.full(4, VEHICLE.rotor_limits[0])
-    measured = np.append(0.1, fp.State(y=(0.0, 0.6, 0.8)).packed())
+    measured = np.append(0.1, fp.State(y=(0.0, 0.0998, 0.995)).packed())
     memory = initial_memory(loop, least)
     first = step(memory, measured, NONE, NONE, NONE)
     np.testing.assert_array_equal(first[1], step(memory, measured, NONE, NONE, NONE)[1])

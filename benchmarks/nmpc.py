@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 import flypend as fp
+from benchmarks.plans import quantiles
 from flypend.flight.metrics import wilson
 from flypend.flight.tasks import task_starts
 from flypend.planning.pilot import Pilot
@@ -100,11 +101,6 @@ def flown(row: Row, starts: fp.State, runs: int) -> Flown:
             changes = "; ".join(f"{t:.2f} s {mode}, {why}" for t, mode, why in pilot.changes)
             print(f"  run {i}: {result.cause or 'stands'}, {changes}", flush=True)
     return found
-
-
-def quantiles(values: Any, *shares: float) -> str:
-    """Format quantiles of `values`."""
-    return ", ".join(f"{value:.3g}" for value in np.quantile(values, shares))
 
 
 def main() -> None:

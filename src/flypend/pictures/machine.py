@@ -53,8 +53,8 @@ def gaps(vehicle: Vehicle) -> list[tuple[float, float]]:
 def _from_above(axes: Any, vehicle: Vehicle) -> None:
     """The plan view: the body's front is up and its left is left, so (x, y) is drawn at (−y, x)."""
     body, centres = vehicle.body, vehicle.rotors_from_pivot
-    span = 1.15 * float(np.max(np.hypot(centres[:, 0], centres[:, 1])) + body.disc_radius)
-    for low, high in gaps(vehicle):
+    span, free = 1.15 * _spread(vehicle), gaps(vehicle)
+    for low, high in free:
         axes.add_patch(Wedge((0, 0), span, np.degrees(low) + 90, np.degrees(high) + 90, color=GREEN, alpha=0.18, lw=0))
     for i, (x, y, _) in enumerate(centres):
         front = ORANGE if x > 1e-9 else REAR
@@ -67,22 +67,30 @@ def _from_above(axes: Any, vehicle: Vehicle) -> None:
                   arrowprops={"arrowstyle": "->", "lw": 0.8})  # fmt: skip
     axes.set_title(f"{vehicle.name}, from above", fontsize=LABEL)
     axes.set(xlim=(-span, span), ylim=(-span, span), aspect="equal")
-    axes.set_xlabel(_sizes(vehicle), fontsize=SMALL)
+    axes.set_xlabel(_sizes(vehicle, free), fontsize=SMALL)
     axes.set(xticks=[], yticks=[])
 
 
-def _sizes(vehicle: Vehicle) -> str:
+def _spread(vehicle: Vehicle) -> float:
+    """How far the discs reach from the pivot, m."""
+    assert vehicle.body is not None
+    return float(np.max(np.linalg.norm(vehicle.rotors_from_pivot[:, :2], axis=1)) + vehicle.body.disc_radius)
+
+
+def _sizes(vehicle: Vehicle, free: list[tuple[float, float]]) -> str:
+    assert vehicle.body is not None
     arm = float(np.linalg.norm(vehicle.rotors_from_pivot[0]))
-    found = gaps(vehicle)
-    widths = ", ".join(sorted({f"{np.degrees(high - low):.0f}°" for low, high in found})) or "none"
     told = f"arm {100 * arm:.1f} cm, disc ⌀ {200 * vehicle.body.disc_radius:.1f} cm, rod {100 * vehicle.reach:.0f} cm"
-    return f"{told}\ngaps for a level rod: {len(found)} of {widths}" if found else f"{told}\nno gap for a level rod"
+    if not free:
+        return f"{told}\nno gap for a level rod"
+    widths = ", ".join(sorted({f"{np.degrees(high - low):.0f}°" for low, high in free}))
+    return f"{told}\ngaps for a level rod: {len(free)} of {widths}"
 
 
 def _from_the_side(axes: Any, vehicle: Vehicle, mount: str) -> None:
     """The elevation from the left: front to the left, so (x, z) is drawn at (−x, z); the rod leans backwards."""
     body, centres, reach = vehicle.body, vehicle.rotors_from_pivot, vehicle.reach
-    machine = float(np.max(np.hypot(centres[:, 0], centres[:, 1])) + body.disc_radius)
+    machine = _spread(vehicle)
     rod = np.array([np.sin(LEAN), np.cos(LEAN)])
     for x, _, z in centres:
         axes.plot([0, -x], [0, z], color=INK, lw=1.6)

@@ -80,10 +80,11 @@ def plan(
     asked = request(vehicle, start, objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance)
     limit = errors.number("time_limit", time_limit, above=0, unit="s")
     horizons = horizons_of(asked, duration)
-    for each in {asked.wishes: asked, asked.unwished().wishes: asked.unwished()}.values():
-        prepared(each)  # compiling takes seconds, once
+    attempts = [asked.unwished(), asked] if asked.wishing else [asked]
+    for attempt in attempts:
+        prepared(attempt)  # compiling takes seconds, once
     deadline = time.monotonic() + limit
-    first = _first(asked, horizons, deadline)
+    first = _first(attempts, horizons, deadline)
     return _shortened(asked, first, deadline) if objective == "time" and first else first
 
 
@@ -95,15 +96,14 @@ def horizons_of(asked: Request, duration: float | None) -> Sequence[float]:
     return (errors.number("duration", duration, above=0, at_most=LONGEST * unit, unit="s") / unit,)
 
 
-def _first(asked: Request, horizons: Sequence[float], deadline: float) -> Plan:
-    """Return the first plan that can be flown with the `horizons` in turn, else the last.
+def _first(attempts: Sequence[Request], horizons: Sequence[float], deadline: float) -> Plan:
+    """Return the first plan that can be flown, of the `attempts` with the `horizons` in turn, else the last.
 
     Without wishes first: many keep the best plan anyway, and walls that it does not touch would lead past it.
     """
-    attempts = [asked.unwished(), asked] if asked.wishing else [asked]
     for horizon in horizons:
-        for each in attempts:
-            found = _solved(each, horizon, deadline)
+        for attempt in attempts:
+            found = _solved(attempt, horizon, deadline)
             if found or time.monotonic() > deadline:
                 return found
     return found

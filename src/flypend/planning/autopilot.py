@@ -11,13 +11,12 @@ from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.board.computer import FlightComputer, SteppedBoard
-from flypend.errors import InputError
 from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import hover
-from flypend.model import State, Wrench
+from flypend.model import State
 from flypend.planning.feedback import regulator
 from flypend.planning.planner import plan
-from flypend.planning.tracking import Tracker
+from flypend.planning.tracking import Tracker, rotors_only
 from flypend.plants.loop import Loop
 
 PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
@@ -59,17 +58,12 @@ def plan_and_track(
     law = otherwise or inverted(hover(goal))
     return Controller(
         name="plan",
-        function=_no_wrench,
+        function=rotors_only("plan"),
         reference=hover(goal),
         computer=Computer(latency=latency),
         flight_computer=lambda loop, rotors: Autopilot(asked, law, loop, rotors),
         because="it plans each flight and follows a table",
     )
-
-
-def _no_wrench(t: float, state: State) -> Wrench:
-    """Refuse to give a wrench: the flight computer of a plan commands the rotors one by one."""
-    raise InputError("law", "one that gives a wrench", "plan, which commands rotor forces")
 
 
 class Autopilot:

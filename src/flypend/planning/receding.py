@@ -12,6 +12,7 @@ from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
 from flypend.planning.pilot import Receding
 from flypend.planning.request import request
+from flypend.planning.tracking import rotors_only
 
 COMPUTING = 0.002  # s
 
@@ -66,7 +67,7 @@ def nmpc(
     law = otherwise or inverted(followed)
     return Controller(
         name="nmpc",
-        function=_no_wrench,
+        function=rotors_only("nmpc"),
         reference=followed,
         flight_computer=Receding(followed, law, delay, None if computing == "measured" else computing, clearance),
         because="it solves a problem in every stage",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -49,7 +50,7 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     feedback = regulator(plan)
     return Controller(
         name="track",
-        function=_no_wrench,
+        function=rotors_only("track"),
         reference=hover(plan.target),
         computer=Computer(latency=latency),
         flight_computer=lambda loop, rotors: Tracker(feedback, plan.vehicle, law, loop, rotors),
@@ -57,9 +58,13 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     )
 
 
-def _no_wrench(t: float, state: State) -> Wrench:
-    """Refuse to give a wrench: the flight computer of a tracked plan commands the rotors one by one."""
-    raise InputError("law", "one that gives a wrench", "track, which commands rotor forces")
+def rotors_only(name: str) -> Callable[[float, State], Wrench]:
+    """Return the wrench of the controller `name` that has none: its flight computer commands the rotors one by one."""
+
+    def refuse(t: float, state: State) -> Wrench:
+        raise InputError("law", "one that gives a wrench", f"{name}, which commands rotor forces")
+
+    return refuse
 
 
 class Tracker:

@@ -180,3 +180,10 @@ def test_what_is_no_reference_is_refused_in_one_line(make, message):
     with pytest.raises(fp.InputError, match="^" + re.escape(message)) as caught:
         make()
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("wrong", [3, (0, 0, 1), lambda t: (0, 0), lambda: 1, lambda t: "north"])
+@pytest.mark.parametrize("law", [fp.laws.inverted, fp.laws.learned, fp.laws.almost_global, fp.laws.lqr])
+def test_a_reference_is_a_function_of_time_that_gives_a_position(law, wrong):
+    with pytest.raises(fp.InputError, match="reference"):
+        law(reference=wrong)

@@ -103,6 +103,11 @@ def test_thrown_off_the_plan_the_other_law_takes_over(planned):
     assert fp.metrics(run).success
 
 
+def test_a_plan_is_not_flown_by_another_vehicle(planned):
+    with pytest.raises(fp.InputError, match="vehicle"):
+        fp.simulate(HEHN.replace(bob_mass=1.2 * HEHN.bob_mass), fp.track(planned), START, 1)
+
+
 def test_latency_is_predicted(planned):
     plant = fp.Plant(delay=0.01)
     told, untold = (fp.simulate(HEHN, fp.track(planned, latency=late), START, 5, plant=plant) for late in (0.01, 0.0))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.laws.bound import Computer
 from flypend.laws.gain import Gain, check_gain, checked, is_number, table
-from flypend.laws.references import Reference
+from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction, seen_packed
 
@@ -69,6 +69,7 @@ class Controller:
         errors.one_of("controller.e3", self.e3, ("up", "down"))
         errors.check_arguments("controller.function", self.function, "(t, state)")
         errors.number("controller.rate", self.rate, above=0, unit="Hz")
+        check_reference(self.reference)
         object.__setattr__(self, "table", table(self.table or self.gains))
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
 

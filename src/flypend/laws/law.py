@@ -13,7 +13,7 @@ from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.gain import Gain, check_gain, checked, table
 from flypend.laws.guarantee import Guarantee
-from flypend.laws.references import Path, Reference
+from flypend.laws.references import Path, Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
 
@@ -78,6 +78,7 @@ class Law:
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))
         errors.check_arguments("law.control", self.control, "(t, state, vehicle, gains[, forces])")
+        check_reference(self.reference)
         gains = table(self.gains)
         errors.only_known("law.fixed", self.fixed, [gain.name for gain in gains.values() if gain.numeric])
         fixed = tuple(name for name, gain in gains.items() if gain.fixed or name in self.fixed)

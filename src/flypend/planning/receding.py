@@ -9,7 +9,7 @@ from flypend.errors import InputError
 from flypend.geometry import E3
 from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import Reference, hover
-from flypend.model import State, Vehicle, Wrench
+from flypend.model import State, Vehicle
 from flypend.planning.pilot import Receding
 from flypend.planning.request import request
 from flypend.planning.tracking import rotors_only
@@ -56,7 +56,9 @@ def nmpc(
         If an argument is out of range; and from a flight, if the plant takes no rotor forces.
     """
     delay = Computer(latency=latency).latency
-    if computing != "measured":
+    if isinstance(computing, str):
+        errors.one_of("computing", computing, ("measured", "a number of seconds"))
+    else:
         errors.number("computing", computing, above=0, unit="s")
     errors.number("clearance", clearance, at_least=0, unit="m")
     if otherwise is not None and not isinstance(otherwise, Law):
@@ -72,8 +74,3 @@ def nmpc(
         flight_computer=Receding(followed, law, delay, None if computing == "measured" else computing, clearance),
         because="it solves a problem in every stage",
     )
-
-
-def _no_wrench(t: float, state: State) -> Wrench:
-    """Refuse to give a wrench: the flight computer of the controller commands the rotors one by one."""
-    raise InputError("law", "one that gives a wrench", "nmpc, which commands rotor forces")

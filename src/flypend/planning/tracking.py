@@ -87,6 +87,10 @@ class Tracker:
     def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: Any) -> None:
         if loop.sampled.interface != "wrench":
             raise InputError("plant.interface", "wrench: a plan commands rotor forces", loop.sampled.interface)
+        if loop.vehicle != vehicle:
+            raise InputError(
+                "vehicle", f"that of the plan, {vehicle.name}; Plant(mismatch=…) changes it", loop.vehicle.name
+            )
         believed = Believed.numbers(loop.vehicle)
         self._follower, self._loop, self._law = Follower(feedback, vehicle), loop, law
         self._predict, self._remember = as_numpy(predicting(loop, believed)), as_numpy(remembering(loop, believed))

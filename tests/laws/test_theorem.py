@@ -12,6 +12,7 @@ from flypend.geometry import E3, norm, rotation_from_vector
 from flypend.laws import references
 from flypend.laws.guarantee import least_distance, rate_bound
 from flypend.laws.repaired import repaired_control, stiffness
+from flypend.laws.repaired_bounds import withstood
 from flypend.laws.step import Step
 
 PAPERS, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
@@ -189,6 +190,21 @@ def test_what_is_guaranteed_of_a_start_holds_along_its_flight(name):
         if name == "repaired":
             step = Step(*(bound.gains[key] for key in ("k_1", "k_e", "k_2", "axis_weight", "axis_barrier")))
             assert np.min(1 + run.signals["axis_cosine"]) >= least_distance(told.V, step) * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_least_thrust_guaranteed_is_not_lost_to_cancellation(seed):
+    # ς > 0 for c > −1, so f ≥ ς ς_y (M+m) a_min > 0 however close to its antipodes a start with this V may come.
+    bound = fp.laws.almost_global().bind(HEHN)
+    assert bound.guarantee(fp.random_starts(8, 2024)[seed]).thrust[0] > 0
+
+
+def test_a_barrier_thinner_than_doubles_can_hold_bounds_nothing():
+    told = fp.laws.almost_global().bind(HEHN).guarantee(fp.State(x_dot=(600, 0, 0), y=E3))
+    assert (told.covered, told.thrust) == (True, (0.0, np.inf))
+    for weight in (1e-2, 1e-4):
+        with pytest.raises(fp.InputError, match=r"^level"):
+            withstood(fp.laws.repaired(axis_weight=weight).bind(PAPERS), 10.0)
 
 
 def test_theorem_a_names_its_exceptions_only_where_there_are_some():

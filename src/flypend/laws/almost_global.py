@@ -44,7 +44,7 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     Parameters
     ----------
     reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time, with six bounded derivatives; default hover at the origin.
+        Pivot position (3,), m, as a CasADi function of time, with ten bounded derivatives; default hover at the origin.
         See `laws.references`.
     **gains : float
         Any of the gains below, in the stated unit; the others get their defaults for the vehicle.

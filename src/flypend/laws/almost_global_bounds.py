@@ -19,7 +19,7 @@ from flypend.laws.guarantee import IDEAL, Guarantee, least_distance, least_share
 from flypend.laws.step import Step
 from flypend.model import State
 
-MOVING = "the reference has six bounded derivatives, and p_ref'' stays above the demand's margin to free fall"
+MOVING = "the reference has ten bounded derivatives, and the bob's path p_ref obeys condition (C) of the theorem"
 
 
 class Bob(NamedTuple):
@@ -87,6 +87,8 @@ def thrust_bounds(V: float, k: Any, vehicle: Any, bob: Bob, rod_rate: float) -> 
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     rod, axis = rod_step(k), axis_step(k)
     near, near_axis = least_distance(V, rod), least_distance(V, axis)
+    if near == 0.0:  # no double is that small
+        return 0.0, math.inf
     carried = (M + m) * bob.least * least_share(near, rod)
     g = (1 - rod.barrier) + 2 * rod.barrier / near
     push = rod.stiffness * g + rod.damping * math.sqrt(2 * V / rod.weight)  # |e| ≤ 1

@@ -78,7 +78,7 @@ GAINS = table(
         Gain("rod_barrier", 1.0, "", "Share of the potential that bars y = -d", POSITIVE_SHARE),
         Gain("rod_fade", 0.5, "", "1: the rod carries its full demand always; 0.5: none near y = -d", FADE),
         Gain(
-            "axis_stiffness", _scaled(3.4, 0, -2), "1/s²", "k_1/ρ: spring of the thrust axis", POSITIVE, label="axis",
+            "axis_stiffness", _scaled(3.4, 0, -2), "1/s²", "k/ρ: spring of the thrust axis", POSITIVE, label="axis",
         ),
         Gain("axis_alignment", _scaled(3.1, 0, -1), "1/s", "Damping of the thrust axis's direction", POSITIVE),
         Gain(

@@ -50,7 +50,10 @@ IDEAL = ("the wrench acts as commanded, without limits, lag or delay", "mass, in
 
 
 def least_distance(V: float, step: Step) -> float:
-    """Return 1 + c at which k Ψ(c) = `V`, by bisection in its logarithm: 1 + c is never less while V falls."""
+    """Return 1 + c at which k Ψ(c) = `V`, by bisection in its logarithm: 1 + c is never less while V falls.
+
+    0 where it is smaller than every double.
+    """
     k, spread = step.weight * step.stiffness, 1 - step.barrier
     low, high = -V / (2 * k * step.barrier) - 1.0, math.log(2.0)
     for _ in range(200):
@@ -62,7 +65,7 @@ def least_distance(V: float, step: Step) -> float:
 
 def least_share(distance: float, step: Step) -> float:
     """Return ς at 1 + c = `distance`, without cancellation near the antipode."""
-    return float((1 - step.fade) * distance + 2 * step.fade - 1)
+    return float((1 - step.fade) * distance + (2 * step.fade - 1))
 
 
 def rate_bound(V: float, turn: float, force: float, gradient: float, step: Step) -> float:

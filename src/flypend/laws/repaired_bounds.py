@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
@@ -25,7 +26,7 @@ class Withstood:
 
         √V(t) ≤ overshoot e^(−rate t) √V(0) + gain sup |w|
 
-    because W = V − cross ẏ·e₃ obeys Ẇ ≤ −fall V + push √V |w|.
+    because V_μ = V − cross ẏ·e₃ falls at least at the rate fall V − push √V |w|.
 
     Parameters
     ----------
@@ -40,7 +41,7 @@ class Withstood:
     gain : float
         √V per acceleration, s.
     cross, fall, push : float
-        Constants of W, all 1/s but `push`, which has no unit.
+        Constants of V_μ, all 1/s but `push`, which has no unit.
     """
 
     level: float
@@ -58,21 +59,25 @@ def withstood(law: BoundLaw, level: float) -> Withstood:
     """Return what the bound repaired `law` withstands while V ≤ `level`, 1/s².
 
     Forces F_b on the bob and F_v on the vehicle accelerate the rod by w = P_y(F_b/m − F_v/M)/l. Raises InputError
-    unless 0 < `level` < 2 k_p, the value of V at the saddle.
+    unless 0 < `level` < 2 k_p, the value of V at the saddle, or if the barrier is too thin there for double precision.
     """
     k_p = float(stiffness(law.vehicle))
     if not 0 < level < 2 * k_p:
         raise InputError("level", f"0 < V < 2 k_p = {2 * k_p:.4g} 1/s²", f"{level:g}")
-    found = (_with_share(law, level, k_p, float(share)) for share in SHARES)
-    return min((one for one in found if one is not None), key=lambda one: one.gain)
+    found = [one for share in SHARES if (one := _with_share(law, level, k_p, float(share))) is not None]
+    if not found:
+        raise InputError("level", "one that doubles can resolve: smaller, or with a larger axis_weight", f"{level:g}")
+    return min(found, key=lambda one: one.gain)
 
 
 def _with_share(law: BoundLaw, level: float, k_p: float, theta: float) -> Withstood | None:
-    """Bounds from W = V − μ ẏ·e₃ with μ = θ√k_p; None where W does not fall."""
+    """Bounds from V_μ = V − μ ẏ·e₃ with μ = θ√k_p; None where V_μ does not fall."""
     k, mu = SimpleNamespace(**law.gains), theta * math.sqrt(k_p)
     step = axis_step(k)
     weight, eps = step.weight * step.stiffness, step.barrier
     r, delta = math.sqrt(2 * level), least_distance(level, step)
+    if delta == 0.0:
+        return None
     sigma = saturated(k.k_d, k.damping_share * k_p / k.k_d, r)
     spread, barrier = (1 - eps) * delta + 2 * eps, (1 - eps) + 2 * eps / delta  # g|e|² ≥ ½·spread·h²; g ≤ barrier
     form = np.array(
@@ -83,12 +88,14 @@ def _with_share(law: BoundLaw, level: float, k_p: float, theta: float) -> Withst
         ]
     )  # of −Ẇ in (|P_y e₃|, |ẏ|, |z − z_d|)
     of_V = np.array([k_p / (2 - level / k_p), 0.5, weight * barrier / 2])  # V is at most this form, and ½ρ|ζ|²
-    scaled = form / np.sqrt(np.outer(of_V, of_V))
+    scaled = form / np.outer(np.sqrt(of_V), np.sqrt(of_V))
     fall = min(float(np.linalg.eigvalsh(scaled)[0]), 2 * k.k_2)
     if fall <= 0:
         return None
     push = _gradient(k, step, k_p, r, sigma, spread, barrier) + mu * math.sqrt(2 / k_p)
     ratio = (1 + theta) / (1 - theta)
+    if push > fall * sys.float_info.max / ratio:
+        return None
     return Withstood(
         level=level,
         start=level / ratio,

@@ -1,8 +1,8 @@
 """The numbers of docs/laws/theorem.md: `python -m benchmarks.theorem WHAT`.
 
 `starts` flies the random starts of seed 2024, a minute. `forces` prints what Theorem A withstands, `bounds` the thrust
-that Theorem B guarantees. `LAW [runs] [seed]` is a row of `flypend theorem`: repaired, almost_global, or one of the laws
-that lack a part of the proof; it is flown from 100,000 wide starts, some ten minutes.
+that Theorem B guarantees. `LAW [runs] [seed]` is a row of `flypend theorem`: repaired, almost_global, or one of the
+laws that lack a part of the proof; it is flown from 100,000 wide starts, some ten minutes.
 """
 
 import sys

@@ -116,11 +116,12 @@ def corrected(s: State, b: Any, error: Any, vehicle: Any) -> tuple[State, Any, A
 class Densities(NamedTuple):
     """Spectral densities of what drives the errors.
 
-    Specific forces on vehicle and bob beyond the model, (m/s²)²/Hz each, and the error of the angular velocity,
+    Specific forces on the vehicle and on the bob beyond the model, (m/s²)²/Hz, and the error of the angular velocity,
     (rad/s)²/Hz.
     """
 
-    force: Any
+    on_vehicle: Any
+    on_bob: Any
     turning: float
 
 
@@ -135,11 +136,11 @@ def spread(P: Any, s: State, b: Any, force: Any, vehicle: Any, h: float, densiti
     F[SWING, ROD] += h * ((dot(s.y, u) - dot_2(w, w)) * ca.SX.eye(2) + w @ w.T)
     F[SWING, TURN] = h * B.T @ hat(u)
     Q = ca.SX(ERRORS, ERRORS)
-    for share, pull in ((M / (M + m), -1), (m / (M + m), 1)):
+    for share, pull, density in ((M / (M + m), -1, densities.on_vehicle), (m / (M + m), 1, densities.on_bob)):
         G = ca.SX(ERRORS, 3)
         G[VELOCITY, :] = share * ca.SX.eye(3)
         G[SWING, :] = pull / vehicle.l * B.T
-        Q += h * densities.force * G @ G.T
+        Q += h * density * G @ G.T
     Q[TURN, TURN] += h * densities.turning * ca.SX.eye(3)
     return F @ P @ F.T + Q
 

@@ -183,16 +183,16 @@ class Filter:
         return steady_gain(self.sensors.moment_error**2 / min(gyro.rate, 1 / self.period), gyro.variance)
 
     def _densities(self, force: Any) -> Densities:
-        """Return the densities at a `force` (3,) of the vehicle on its rotors' axes, world frame, N."""
-        gyro = self.sensors.gyro
-        assert gyro is not None
-        turning = gyro.variance / (min(gyro.rate, 1 / self.period) * (1 - gyro.dropouts))
-        return Densities(self._density(force), turning)
+        """Return the densities at a `force` (3,) of the vehicle on its rotors' axes, world frame, N.
 
-    def _density(self, force: Any) -> Any:
-        """Return the density of the specific forces that the model lacks at a `force` as in `_densities`."""
-        sensors, vehicle = self.sensors, self._believed.vehicle
-        return sensors.force_error**2 + sensors.manoeuvre_error**2 * _departure(force, vehicle)
+        The noise of the accelerometer is part of the force that it adds. It is slower than white noise; to count it in
+        full claims too little of the height, not too much of anything.
+        """
+        sensors = self.sensors
+        assert sensors.gyro is not None
+        lacking = sensors.force_error**2 + sensors.manoeuvre_error**2 * _departure(force, self._believed.vehicle)
+        felt = 0.0 if sensors.accelerometer is None else sensors.accelerometer.density(self.period)
+        return Densities(lacking + felt, lacking, sensors.gyro.density(self.period))
 
 
 def _departure(force: Any, vehicle: Any) -> Any:

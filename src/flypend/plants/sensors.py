@@ -50,6 +50,10 @@ class Sensor:
         """Variance of a reading per axis; quantisation counts as uniform noise."""
         return float(self.noise**2 + self.quantisation**2 / 12)
 
+    def density(self, period: float) -> float:
+        """Return the spectral density of the noise, unit²/Hz, if one reading counts per control `period` (s) at most."""
+        return self.variance / (min(self.rate, 1 / period) * (1 - self.dropouts))
+
     def check(self, name: str) -> None:
         """Raise InputError if a field is out of range; messages begin with `name`."""
         errors.number(f"{name}.rate", self.rate, above=0, at_most=1e5, unit="Hz")

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from flypend.model.shipped import vehicle
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle
-    from flypend.planning import Plan, PlanEnsemble, nmpc, plan, plan_and_track, plan_ensemble, track
+    from flypend.planning import Plan, PlanEnsemble, Window, nmpc, plan, plan_and_track, plan_ensemble, track
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -59,7 +59,7 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
-    "planning": ("Plan", "PlanEnsemble", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"),
+    "planning": ("Plan", "PlanEnsemble", "Window", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"),
     "plants": ("Ideal", "Noise", "Plant", "Sensor", "Sensors", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
@@ -102,6 +102,7 @@ __all__ = [
     "Tuned",
     "Vehicle",
     "Wind",
+    "Window",
     "Wrench",
     "check",
     "compare",

@@ -1,5 +1,6 @@
 """The command plan: what it prints and writes, from a run file and without one."""
 
+import numpy as np
 import pytest
 
 import flypend as fp
@@ -26,6 +27,23 @@ def test_a_run_file_gives_vehicle_and_start(tmp_path, capsys):
         cli.app(["plan", "4", "--duration", "0.2", "-o", str(out)], standalone_mode=False)
     assert ended.value.code == 1
     assert "nayak2018: failed (inverted hover is not reached)" in capsys.readouterr().out
+
+
+def test_a_window_and_a_waypoint_are_flown_through(tmp_path, capsys):
+    start = tmp_path / "start.toml"
+    start.write_text(
+        'vehicle = "hehn2011"\nduration = 5.0\nlaw.name = "inverted"\n[start]\nx = [-1.5, 0, 0]\ny = [0, 0, 1]\n'
+    )
+    out = tmp_path / "plan.nc"
+    through = ["--window", "-0.5", "0.25", "0.3", "0.5", "1.0", "--waypoint", "0.5", "0", "0.2", "--lean", "90"]
+    asked = ["plan", str(start), "--target", "1.5", "0", "0", "--objective", "effort", "-o", str(out)]
+    cli.app([*asked, *through], standalone_mode=False)
+    assert "optimal" in capsys.readouterr().out
+    run, window = fp.load(out), fp.Window((-0.5, 0.25, 0.3), 0.5, 1.0)
+    assert window.room(run.states, fp.vehicle("hehn2011")).min() > 0
+    assert np.linalg.norm(run.x - (0.5, 0, 0.2), axis=1).min() < 0.03
+    assert run.y[:, 2].min() > 0
+    np.testing.assert_allclose(run.x[-1], (1.5, 0, 0), atol=0.01)
 
 
 def test_a_bad_ending_is_refused_before_any_work(tmp_path):

@@ -25,6 +25,21 @@ if TYPE_CHECKING:
 @click.option("--ceiling", type=float, metavar="M", help="Largest height of pivot and rod.")
 @click.option("--cube", type=float, metavar="M", help="Side of a cube about the target that pivot and rod stay in.")
 @click.option("--speed", type=float, metavar="M/S", help="Largest speed of the pivot.")
+@click.option(
+    "--lean", type=float, metavar="DEG", help="Largest angle between rod and vertical; 90: above the horizon."
+)
+@click.option("--target", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar="X Y Z", help="Where the pivot hovers.")
+@click.option(
+    "--window",
+    type=float,
+    nargs=5,
+    multiple=True,
+    metavar="X Y Z WIDTH HEIGHT",
+    help="Opening to fly through, in a wall normal to the x axis. Several are possible.",
+)
+@click.option(
+    "--waypoint", type=float, nargs=3, multiple=True, metavar="X Y Z", help="Point that the pivot passes; in order."
+)
 @click.option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
 @click.option("--c", "in_c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C.")
 @click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
@@ -38,6 +53,10 @@ def plan(
     ceiling: float | None,
     cube: float | None,
     speed: float | None,
+    lean: float | None,
+    target: tuple[float, float, float],
+    window: tuple[tuple[float, ...], ...],
+    waypoint: tuple[tuple[float, ...], ...],
     fly: str | None,
     in_c: Path | None,
     html: Path | None,
@@ -46,18 +65,24 @@ def plan(
 
     A run file also names the vehicle; its law and duration do not matter.
     """
+    import numpy as np
+
     from flypend.files.whole import check_file
     from flypend.flight.metrics import metrics
     from flypend.flight.simulate import simulate
+    from flypend.planning import Window, track
     from flypend.planning import plan as planned
-    from flypend.planning import track
 
     for file, ending in ((out, ".nc"), (html, ".html")):
         if file is not None:
             check_file(file, (ending,))
     machine, start = _from(what, vehicle)
     box = None if cube is None else ((-cube / 2,) * 3, (cube / 2,) * 3)
-    found = planned(machine, start, objective, duration=duration, box=box, floor=floor, ceiling=ceiling, speed=speed)
+    found = planned(
+        machine, start, objective, duration=duration, target=target, floor=floor, ceiling=ceiling, speed=speed,
+        box=None if box is None else np.add(box, target), lean=None if lean is None else np.radians(lean),
+        window=[Window(place[:3], *place[3:]) for place in window], waypoints=waypoint or None,
+    )  # fmt: skip
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.trajectory.save(out)
     console.print(f"The plan is {bold(out)}.")

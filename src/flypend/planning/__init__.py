@@ -6,5 +6,6 @@ from flypend.planning.planner import plan
 from flypend.planning.receding import nmpc
 from flypend.planning.result import Plan
 from flypend.planning.tracking import track
+from flypend.planning.window import Window
 
-__all__ = ["Plan", "PlanEnsemble", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"]
+__all__ = ["Plan", "PlanEnsemble", "Window", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"]

@@ -19,6 +19,7 @@ from flypend.planning.planner import plan
 from flypend.planning.tracking import Tracker, rotors_only
 from flypend.plants.loop import Loop
 
+WISHES = ("box", "floor", "ceiling", "speed", "lean", "window", "waypoints", "duration", "clearance")
 PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
 
 
@@ -45,14 +46,14 @@ def plan_and_track(
         The law that flies where there is no plan, or takes over once a flight is too far from it; default the inverted
         law about the target.
     **wishes
-        Further arguments of `plan`: box, floor, ceiling, speed, lean, duration, clearance.
+        Further arguments of `plan`: box, floor, ceiling, speed, lean, window, waypoints, duration, clearance.
 
     Raises
     ------
     InputError
         If a wish is unknown; other errors of `plan` come when a flight begins.
     """
-    errors.only_known("wish", wishes, ("box", "floor", "ceiling", "speed", "lean", "duration", "clearance"))
+    errors.only_known("wish", wishes, WISHES)
     goal = errors.array("target", target, (3,))
     asked = partial(plan, objective=objective, target=goal, time_limit=PATIENT, **wishes)
     law = otherwise or inverted(hover(goal))

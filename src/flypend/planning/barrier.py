@@ -34,7 +34,7 @@ class Barrier:
         self.inequalities, self.end_size = int(self._g.numel()), int(self._end.numel())
         self._slack, self._dual = ca.SX.sym("s", self.inequalities), ca.SX.sym("z", self.inequalities)
         self._mu, self._numbers = ca.SX.sym("mu"), numbers
-        self._weight = numbers[-2] if wishes.mounted is not None else 0
+        self._weight = numbers[-2] if wishes.soft else 0
         self._point = [stage.before, stage.command, shared, numbers, stage.machine.numbers]
 
     def _function(self, name: str, inputs: list[Any], *outputs: Any) -> ca.Function:

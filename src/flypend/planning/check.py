@@ -11,6 +11,7 @@ from flypend.flight.touch import touched
 from flypend.geometry import norm
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
+from flypend.planning.window import Window
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,21 @@ class Limits:
         Largest angle between the rod and the vertical, rad.
     tolerance : float
         By how much a length or, in m/s, a speed or, in rad, an angle may be exceeded.
+    windows : tuple of Window
+        Walls that the machine does not touch, with their openings.
+    points : (k, 3)
+        Points that the pivot passes within a distance `near`, m.
+    near : float
+        See `points`.
     """
 
     walls: Any
     speed: float | None
     lean: float | None
     tolerance: float
+    windows: tuple[Window, ...] = ()
+    points: Any = ()
+    near: float = 0.0
 
 
 def broken(packed: Any, rotor_forces: Any, vehicle: Vehicle, limits: Limits) -> str:
@@ -50,10 +60,23 @@ def broken(packed: Any, rotor_forces: Any, vehicle: Vehicle, limits: Limits) -> 
         return f"the speed is exceeded by {over:.3g} m/s"
     if limits.lean is not None and (over := float(np.max(np.arccos(state.y[:, 2]))) - limits.lean) > limits.tolerance:
         return f"the rod leans {over:.3g} rad too far"
+    if missed := _missed(state, vehicle, limits):
+        return missed
     if vehicle.mount != "gimbal":
         wrench = rotor_forces @ vehicle.mixing().T
         found = margins(state, Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
         least = np.min(found, axis=0)
         if np.min(least) < 0:
             return touched(vehicle, int(np.argmin(least)))
+    return ""
+
+
+def _missed(state: State, vehicle: Vehicle, limits: Limits) -> str:
+    """Return which window or waypoint of `limits` the states miss; or ""."""
+    for window in limits.windows:
+        if (room := float(np.min(window.room(state, vehicle)))) < 0:
+            return f"the frame of a window is {-room:.3g} m too near"
+    for point in limits.points:
+        if (off := float(np.min(norm(state.x - point)))) > limits.near:
+            return f"a waypoint is missed by {off:.3g} m"
     return ""

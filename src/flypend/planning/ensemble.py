@@ -21,6 +21,7 @@ from flypend.planning.request import Request, request, walls_of
 from flypend.planning.result import Plan
 from flypend.planning.search import Job, one_by_one, prepared
 from flypend.planning.telling import told
+from flypend.planning.window import Window
 
 # Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
 # not.
@@ -109,6 +110,8 @@ def plan_ensemble(
     ceiling: float | None = None,
     speed: float | None = None,
     lean: float | None = None,
+    window: Window | Sequence[Window] | None = None,
+    waypoints: ArrayLike | None = None,
     clearance: float = 0.01,
     guesses: int = 2,
     workers: int | None = None,
@@ -120,7 +123,7 @@ def plan_ensemble(
 
     Parameters
     ----------
-    vehicle, duration, target, rotors, box, floor, ceiling, speed, lean, clearance
+    vehicle, duration, target, rotors, box, floor, ceiling, speed, lean, window, waypoints, clearance
         As in `plan`.
     starts : State
         A batch of states with one leading axis, e₃ up.
@@ -144,7 +147,7 @@ def plan_ensemble(
     if objective == "time":
         raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
     first = errors.number("guesses", guesses, at_least=1, at_most=WIDTH)
-    wishes = (objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance)
+    wishes = (objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance, window, waypoints)
     asked = [request(vehicle, starts[i], *wishes) for i in range(len(starts))]
     horizons = horizons_of(asked[0], duration)
     prepared(asked[0])  # compiling takes seconds, once

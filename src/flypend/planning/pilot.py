@@ -32,7 +32,7 @@ from flypend.planning.planner import plan_within
 from flypend.planning.request import STAGES_PER_UNIT, Request, request
 from flypend.planning.result import Plan
 from flypend.planning.scaled import Units
-from flypend.planning.search import MOUNT_LAST
+from flypend.planning.search import SOFT_LAST
 from flypend.plants.loop import Loop
 
 # An iteration of a plan, with eight guesses, takes so many times as long as a real-time iteration.
@@ -236,7 +236,7 @@ class Pilot:
             return None, None, str(error)
         found = plan_within(asked, horizon, iterations)
         if asked.wishes.mounted is not None:
-            asked.numbers[-2] = MOUNT_LAST
+            asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason
 
     def _under_law(self, t: float, state: Any, rotors: Any, duration: float) -> Any:

@@ -15,6 +15,7 @@ from flypend.planning.request import STAGES_PER_UNIT, Request, request, walls_of
 from flypend.planning.result import Plan
 from flypend.planning.search import prepared, together
 from flypend.planning.telling import told
+from flypend.planning.window import Window
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
 LONGEST = 60.0  # √(l/g)
@@ -33,6 +34,8 @@ def plan(
     ceiling: float | None = None,
     speed: float | None = None,
     lean: float | None = None,
+    window: Window | Sequence[Window] | None = None,
+    waypoints: ArrayLike | None = None,
     clearance: float = 0.01,
     time_limit: float = 5.0,
 ) -> Plan:
@@ -62,8 +65,13 @@ def plan(
         Largest speed of the pivot, m/s.
     lean : float, optional
         Largest angle between the rod and the vertical, rad: π/2 keeps it above the horizon.
+    window : Window or several, optional
+        Openings in walls between start and target, to fly through: rod and machine keep clear of the frame.
+    waypoints : (k, 3), optional
+        Points that the pivot passes, one after the other on the way from start to target, within a twentieth of the
+        rod's length, m.
     clearance : float
-        Distance that the rod of a hub or cup keeps from what it can touch, m.
+        Distance that the rod of a hub or cup keeps from what it can touch, and the machine from a window's frame, m.
     time_limit : float
         Time after which the best so far is returned, s. Compiling, once per kind of wishes, does not count.
 
@@ -77,10 +85,11 @@ def plan(
     InputError
         If an argument is out of range, or the start breaks a wish.
     """
-    asked = request(vehicle, start, objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance)
+    walls = walls_of(box, floor, ceiling)
+    asked = request(vehicle, start, objective, target, rotors, walls, speed, lean, clearance, window, waypoints)
     limit = errors.number("time_limit", time_limit, above=0, unit="s")
     horizons = horizons_of(asked, duration)
-    attempts = [asked.unwished(), asked] if asked.wishing else [asked]
+    attempts = [asked.unwished(), asked] if asked.wishing and not asked.wishes.gates else [asked]
     for attempt in attempts:
         prepared(attempt)  # compiling takes seconds, once
     deadline = time.monotonic() + limit

@@ -15,7 +15,9 @@ from flypend.errors import InputError
 from flypend.geometry import E3, norm
 from flypend.model import State, Vehicle
 from flypend.planning.check import Limits
+from flypend.planning.passage import NEAR, along, through
 from flypend.planning.scaled import Units
+from flypend.planning.window import Window
 from flypend.planning.wishes import BASE, END, Wishes
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
@@ -66,13 +68,13 @@ class Request:
     @property
     def wishing(self) -> bool:
         """Whether there are inequalities beyond those of the machine."""
-        return self.wishes.box or self.wishes.speed or self.wishes.lean
+        return self.wishes.box or self.wishes.speed or self.wishes.lean or self.wishes.gates > 0
 
     def unwished(self) -> Request:
         """The same within the limits of the machine alone; what comes of it is still held against `limits`."""
         mounted = self.wishes.mounted
         kept = self.numbers[:BASE] if mounted is None else np.append(self.numbers[:BASE], self.numbers[-2:])
-        return replace(self, wishes=Wishes(box=False, speed=False, lean=False, mounted=mounted), numbers=kept)
+        return replace(self, wishes=Wishes(mounted=mounted), numbers=kept)
 
 
 def request(
@@ -85,6 +87,8 @@ def request(
     speed: Any,
     lean: Any,
     clearance: Any,
+    window: Any = None,
+    waypoints: Any = None,
 ) -> Request:
     """Check the arguments of `planning.plan`; `walls` (2, 3) are from `walls_of`. Raises InputError."""
     if not isinstance(vehicle, Vehicle):
@@ -107,14 +111,23 @@ def request(
     if lean is not None:
         lowest = np.cos(_lean(lean, start))
         numbers.append(lowest + min(TIGHTER, (float(start.y[2]) - lowest) / 2))
+    apart, windows = errors.number("clearance", clearance, at_least=0, unit="m"), windows_of(window)
+    points = np.zeros((0, 3)) if waypoints is None else errors.array("waypoints", waypoints, (None, 3))
+    ends = (start, State(x=goal, y=E3))
+    route = (start, *(State(x=point, y=E3) for point in points), ends[1])
+    gates = [through(each, vehicle, route, goal, apart) for each in windows]
+    numbers += [number for gate in (*gates, *along(points, vehicle, ends, goal)) for number in gate]
     mounted = None if vehicle.mount == "gimbal" else vehicle
-    if mounted is not None:
-        numbers += [0.0, errors.number("clearance", clearance, at_least=0, unit="m") / units.length]
+    if mounted is not None or windows or len(points):
+        numbers += [0.0, apart / units.length]
     packed = start.packed()
     packed[:3] -= goal
     begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
-    limits = Limits(walls, speed, lean, TOLERANCE * units.length)
-    wishes = Wishes(box=walls is not None, speed=speed is not None, lean=lean is not None, mounted=mounted)
+    limits = Limits(walls, speed, lean, TOLERANCE * units.length, windows, points, NEAR * units.length)
+    wishes = Wishes(
+        box=walls is not None, speed=speed is not None, lean=lean is not None, gates=len(windows) + len(points),
+        mounted=mounted,
+    )  # fmt: skip
     return Request(vehicle, units, weights, goal, begin, limits, wishes, np.array(numbers))
 
 
@@ -138,6 +151,14 @@ def walls_of(box: Any, floor: Any, ceiling: Any) -> Any:
     if np.any(walls[0] >= walls[1]):
         raise InputError("box", "a lowest corner below the highest", walls.tolist())
     return None if np.all(np.isinf(walls)) else walls
+
+
+def windows_of(window: Any) -> tuple[Window, ...]:
+    """Return the windows in `window`: None, one, or several. Raises InputError."""
+    several = () if window is None else (window,) if isinstance(window, Window) else window
+    if not isinstance(several, (list, tuple)) or not all(isinstance(each, Window) for each in several):
+        raise InputError("window", "a Window, or several", repr(window)[:80])
+    return tuple(several)
 
 
 def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> None:

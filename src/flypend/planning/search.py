@@ -21,7 +21,7 @@ from flypend.plants.lag import step_timing
 MOST_ITERATIONS = 80
 # Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
-MOUNT_FIRST, MOUNT_GROWTH, MOUNT_LAST = 1e-4, 2.0, 10.0
+SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
 NOT_REACHED, NOT_KEPT = "inverted hover is not reached", "a wish is not kept"
 UNFINISHED = "the solver had not converged"
@@ -66,7 +66,7 @@ class Found:
 
 
 class Verdict:
-    """What the lanes of a `solver` are worth after an iteration; `mounted` rods cost what it costs to be near a part.
+    """What the lanes of a `solver` are worth after an iteration; with `soft` wishes, what is too near counts.
 
     Attributes
     ----------
@@ -76,8 +76,8 @@ class Verdict:
         Whether it reaches hover, whatever it breaks on the way; and whether it cannot be improved.
     """
 
-    def __init__(self, solver: Solver, mounted: bool) -> None:
-        cost, violation = (solver.cost if mounted else solver.value), solver.violation
+    def __init__(self, solver: Solver, soft: bool) -> None:
+        cost, violation = (solver.cost if soft else solver.value), solver.violation
         self.arrives, self.stuck = (solver.end <= 1) & (solver.gap <= CLOSED), solver.stuck
         self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
         lacks = np.maximum(solver.end, 1) + violation / TOLERANCE + solver.gap / CLOSED
@@ -101,7 +101,7 @@ class Watch:
     def __init__(self, jobs: Sequence[Job], on: Sequence[int], most: int = MOST_ITERATIONS) -> None:
         self._jobs, self._on, self._most = jobs, np.array(on), most
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
-        self._mounted = jobs[0].asked.wishes.mounted is not None
+        self._soft = jobs[0].asked.wishes.soft
         self._kept: tuple[Array, Array, str, int] | None = None
         self._stuck = False
 
@@ -111,11 +111,11 @@ class Watch:
         return self._steady >= STEADY_FOR or self._iterations >= self._most or self._stuck
 
     def before(self, solver: Solver) -> None:
-        """Prepare an iteration: rods that must not touch the vehicle cost more and more to be near it."""
-        if self._mounted:
-            weight = MOUNT_FIRST * MOUNT_GROWTH**self._iterations
-            solver.insist(-2, min(MOUNT_LAST, weight), self._on)
-            self._best = self._best if weight > MOUNT_LAST else np.inf  # costs under other weights do not compare
+        """Prepare an iteration: what must not be touched costs more and more to be near."""
+        if self._soft:
+            weight = SOFT_FIRST * SOFT_GROWTH**self._iterations
+            solver.insist(-2, min(SOFT_LAST, weight), self._on)
+            self._best = self._best if weight > SOFT_LAST else np.inf  # costs under other weights do not compare
 
     def after(self, solver: Solver, verdict: Verdict, spent: float) -> None:
         """Look at the lanes after an iteration, of which `spent` (s) belongs to these lanes."""
@@ -157,13 +157,13 @@ def together(asked: Request, horizon: float, deadline: float, most: int = MOST_I
 
     There are at `most` so many iterations.
     """
-    jobs, mounted = [Job(asked, style) for style in range(WIDTH)], asked.wishes.mounted is not None
+    jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.wishes.soft
     solver, watch = _solver(jobs, horizon), Watch(jobs, range(WIDTH), most)
     while not watch.done and time.monotonic() < deadline:
         begin = time.thread_time()
         watch.before(solver)
         solver.improve()
-        watch.after(solver, Verdict(solver, mounted), time.thread_time() - begin)
+        watch.after(solver, Verdict(solver, soft), time.thread_time() - begin)
     return watch.found(solver)
 
 
@@ -174,7 +174,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
     does not depend on the others.
     """
     found: list[Found | None] = [None] * len(jobs)
-    mounted = jobs[0].asked.wishes.mounted is not None
+    soft = jobs[0].asked.wishes.soft
     first = [*jobs[:WIDTH], *[jobs[0]] * (WIDTH - len(jobs))]
     solver = _solver(first, horizon)
     watches = {lane: (lane, Watch([job], [lane])) for lane, job in enumerate(jobs[:WIDTH])}
@@ -185,7 +185,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
         for _, watch in watches.values():
             watch.before(solver)
         solver.improve()
-        verdict, spent = Verdict(solver, mounted), (time.thread_time() - begin) / len(watches)
+        verdict, spent = Verdict(solver, soft), (time.thread_time() - begin) / len(watches)
         for lane, (place, watch) in list(watches.items()):
             watch.after(solver, verdict, spent)
             if not watch.done:

@@ -11,6 +11,7 @@ from flypend.geometry import E3, cross, dot
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE
+from flypend.planning.passage import NUMBERS, passing
 from flypend.planning.scaled import Scaled
 
 # Tolerances at the end, in own units.
@@ -20,7 +21,7 @@ END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot
 # tolerance of the spin about the thrust axis at the end.
 SHARED, EFFORT, LOW, HIGH, YAW, BASE = 0, 1, 2, 3, 4, 5
 DIFFERENCE = 1e-4
-SOFT = 0.03  # rod lengths, or weights: by so much too near, the rod costs its full weight
+SOFT = 0.03  # rod lengths, or weights: what is by so much too near costs its full weight
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,8 @@ class Wishes:
         Whether the speed of the pivot is limited.
     lean : bool
         Whether the lean of the rod is limited.
+    gates : int
+        Number of windows to fly through and waypoints to pass.
     mounted : Vehicle, optional
         A vehicle whose mount limits the rod; None for a gimbal.
     """
@@ -42,12 +45,22 @@ class Wishes:
     box: bool = False
     speed: bool = False
     lean: bool = False
+    gates: int = 0
     mounted: Vehicle | None = None
 
     @property
     def numbers(self) -> int:
-        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, lowest y₃, mount."""
-        return BASE + 7 * self.box + self.speed + self.lean + 2 * (self.mounted is not None)
+        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, lowest y₃, then `soft` ones.
+
+        These are the gates, the weight of being too near, and the margin of the mount.
+        """
+        hard = BASE + 7 * self.box + self.speed + self.lean
+        return hard + NUMBERS * self.gates + 2 * self.soft
+
+    @property
+    def soft(self) -> bool:
+        """Whether some wishes are kept by a cost that grows: those about what the machine is not to touch."""
+        return self.mounted is not None or self.gates > 0
 
     def exact(self, rotors: int) -> int:
         """Return how many inequalities, the first ones, can always be kept: limits of `rotors` rotors and the ball."""
@@ -84,15 +97,24 @@ def inequalities(state: Any, command: Any, shared: Any, numbers: Any, wishes: Wi
 
 
 def nearness(state: Any, about: Any, numbers: Any, wishes: Wishes, machine: Scaled) -> Any:
-    """Return by how much the rod is nearer to leaving its mount than it should be, (1,) or (0,), in units of `SOFT`.
+    """Return by how much rod and machine are nearer than they should be to mount and frames, (k, 1), units of `SOFT`.
 
-    Its square costs the last but one of `numbers`; the last is the margin to keep, the least of `model.mount.margins`,
-    in rod lengths or weights. The margin is linear in `state` about the state `about`: its own derivatives do not exist
-    everywhere, differences do.
+    Their squares cost the last but one of `numbers`; the last is the margin that the mount is to keep, in rod lengths
+    or weights.
     """
-    mounted = wishes.mounted
-    if mounted is None:
-        return ca.SX(0, 1)
+    first = wishes.numbers - 2 - NUMBERS * wishes.gates
+    gates = [numbers[first + NUMBERS * i : first + NUMBERS * (i + 1)] for i in range(wishes.gates)]
+    near = [-passing(state, about, gate) for gate in gates]
+    if wishes.mounted is not None:
+        near.append(numbers[-1] - _kept(state, about, wishes.mounted, machine))
+    return ca.fmax(0, ca.vertcat(ca.SX(0, 1), *near) / SOFT)
+
+
+def _kept(state: Any, about: Any, mounted: Vehicle, machine: Scaled) -> Any:
+    """Return the least of `model.mount.margins`, in rod lengths or weights, linear in `state` about `about`.
+
+    Its own derivatives do not exist everywhere, differences do.
+    """
     here, there = (_held_by(place, machine) for place in (state, about))
 
     def margin(held: Any) -> Any:
@@ -102,8 +124,7 @@ def nearness(state: Any, about: Any, numbers: Any, wishes: Wishes, machine: Scal
     for i in range(4):
         step = DIFFERENCE * ca.SX(ca.DM.eye(4)[:, i])
         slopes.append((margin(there + step) - margin(there - step)) / (2 * DIFFERENCE))
-    kept = margin(there) + ca.dot(ca.vertcat(*slopes), here - there)
-    return ca.fmax(0, (numbers[-1] - kept) / SOFT)
+    return margin(there) + ca.dot(ca.vertcat(*slopes), here - there)
 
 
 def _held_by(state: Any, machine: Scaled) -> Any:

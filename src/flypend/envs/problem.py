@@ -13,7 +13,7 @@ from flypend.compile.program import lower
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.envs.draws import Draws
 from flypend.envs.randomise import Randomisation, Varied
-from flypend.envs.task import Task
+from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
 from flypend.flight.kernels.touching import touch_of
 from flypend.model import State, Vehicle
@@ -128,7 +128,7 @@ class _Parts:
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        state, goal = env.task.begin(draws)
+        state, goal = env.task.begin(draws, env.vehicle)
         hover = self._hover(n)
         numbers = Varied.drawn(env.vehicle, env.randomise, draws)
         wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
@@ -191,31 +191,40 @@ class _Parts:
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], stepped(s, r, commanded, wind, h, vehicle, moving(env.plant)))
 
-    def _seen(self) -> tuple[Any, Any, State, list[Any]]:
-        """Symbols of time and memory, the state relative to the goal, and the parts of the memory."""
-        t, memory = ca.SX.sym("t"), ca.SX.sym("memory", sum(self.lengths) + self.goals)
+    def _moment(self, change: Any) -> tuple[Any, Any, Moment, list[Any]]:
+        """Symbols of time and memory, what they say, and the parts of the memory, with the `change` of the action."""
+        env, t = self.env, ca.SX.sym("t")
+        memory = ca.SX.sym("memory", sum(self.lengths) + self.goals)
         parts = ca.vertsplit(memory, [0, *np.cumsum([*self.lengths, self.goals]).tolist()])
-        state = State.symbolic(parts[0])
-        x, x_dot = self.env.task.goal(t, parts[-1])
-        return t, memory, State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot})), parts
+        state, numbers = State.symbolic(parts[0]), parts[-1]
+        x, x_dot = env.task.goal(t, numbers)
+        error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
+        reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
+        now = Moment(
+            time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change(parts[2]),
+            end=state.x + reach * state.y, end_dot=state.x_dot + reach * state.y_dot, goal=numbers,
+            vehicle=env.vehicle,
+        )  # fmt: skip
+        return t, memory, now, parts
 
     def observe(self) -> ca.Function:
         """(time, memory) → observation; see `flypend.envs`."""
         env = self.env
-        t, memory, state, parts = self._seen()
+        t, memory, now, parts = self._moment(lambda before: ca.SX.zeros(env.actions))
         low, high = env.vehicle.rotor_limits
         columns = 3 if env.attitude == "matrix" else 2
-        now = env.task.goal(t, parts[-1])[0]
-        coming = [env.task.goal(t + ahead, parts[-1])[0] - now for ahead in env.task.ahead]
+        here = env.task.goal(t, parts[-1])[0]
+        coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
+        state = now.error
         seen = ca.vertcat(
             state.x, state.x_dot, ca.vec(state.R[:, :columns]), state.omega, state.y, state.y_dot,
-            2 * (parts[1] - low) / (high - low) - 1, parts[2], *coming,
+            2 * (parts[1] - low) / (high - low) - 1, parts[2], *coming, env.task.shown(now),
         )  # fmt: skip
         return ca.Function("observe", [t, memory], [ca.densify(seen)])
 
     def judge(self) -> ca.Function:
         """(time, memory, action) → (reward, ended)."""
-        t, memory, state, parts = self._seen()
         action = ca.SX.sym("a", self.env.actions)
-        reward, ended = self.env.task.reward(state, action - parts[2]), self.env.task.ended(state)
+        t, memory, now, _ = self._moment(lambda before: action - before)
+        reward, ended = self.env.task.reward(now), self.env.task.ended(now)
         return ca.Function("judge", [t, memory, action], [ca.densify(reward), ca.densify(ended)])

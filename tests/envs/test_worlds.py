@@ -406,9 +406,9 @@ def test_ranges_are_intervals():
 # Memory ------------------------------------------------------------------------------------------------------
 
 
-def flown_between_guards(steps, count, task):
+def flown_between_guards(steps, count, task, **arguments):
     """Step worlds whose arrays all lie between guards, with random actions, some of them absurd; check the guards."""
-    worlds, rng, mark, width = Worlds(environment(task), count), np.random.default_rng(1), 0xA5, 4096
+    worlds, rng, mark, width = Worlds(environment(task, **arguments), count), np.random.default_rng(1), 0xA5, 4096
     guards = []
 
     def guarded(array):
@@ -437,6 +437,10 @@ def flown_between_guards(steps, count, task):
 def test_no_step_writes_beside_its_arrays(task):
     """A count that fills no whole group: 13 worlds in two of eight."""
     flown_between_guards(300, 13, task)
+
+
+def test_no_step_of_an_estimator_does():
+    flown_between_guards(200, 13, "balance", sensors="onboard")
 
 
 @pytest.mark.slow

@@ -9,6 +9,8 @@ in 0.1, 0.2 and 0.4 s, relative to where it is (9). The tasks of `flypend.envs.o
 the payload's target will be after 5, 10 … 25 actions (15, to track), the bars of the gate relative to the vehicle, by
 first axis and height (4, to fly through), and the share of their time that has passed (1).
 
+With `sensors` they are what the flight computer's estimator says; see `Environment`.
+
 **Actions** are m numbers in [−1, 1]: see `Environment`.
 
 **Ends.** A world terminates when its task says so, when the rod touches the vehicle or leaves its cup, and when its

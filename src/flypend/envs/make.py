@@ -41,6 +41,7 @@ def environment(
     action: Action = "rotors",
     attitude: Attitude = "matrix",
     randomise: Randomisation | Mapping[str, Any] | None = None,
+    sensors: Any = None,
     duration: float | None = None,
     **about: Any,
 ) -> Environment:
@@ -55,7 +56,7 @@ def environment(
         Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional
         Replaces the vehicle's mount; the task "catch_in_cup" needs a cup.
-    plant, action, attitude
+    plant, action, attitude, sensors
         See `flypend.envs.Environment`.
     rate : float, optional
         Actions per second; default that of the task, or 100 Hz.
@@ -84,7 +85,9 @@ def environment(
         made = replace(made, duration=errors.number("duration", duration, above=0, unit="s"))
     drawn = chosen["randomise"]
     ranges = drawn if isinstance(drawn, Randomisation) else Randomisation(**drawn)
-    return Environment(made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, randomise=ranges)
+    return Environment(
+        made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, randomise=ranges, sensors=sensors
+    )
 
 
 def spaces(env: Environment, seen: int) -> tuple[Box, Box]:

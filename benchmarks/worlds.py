@@ -11,6 +11,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from typing import Any
 
 import numpy as np
 
@@ -24,8 +25,10 @@ def flypend() -> Iterator[Peer]:
     """Our worlds, with observations, rewards and beginnings."""
     from flypend.envs import VectorWorlds
 
-    for action in ("rotors", "wrench", "rates"):
-        worlds = VectorWorlds("swing_up", COUNT, action=action, copy=False)
+    kinds: dict[str, dict[str, Any]] = {name: {"action": name} for name in ("rotors", "wrench", "rates")}
+    kinds |= {f"rotors, {name}": {"sensors": name} for name in ("mocap", "onboard")}
+    for name, arguments in kinds.items():
+        worlds = VectorWorlds("swing_up", COUNT, copy=False, **arguments)
         worlds.reset(seed=0)
         given = np.random.default_rng(0).uniform(-1, 1, (ACTIONS, COUNT, 4)).astype(np.float32)
 
@@ -33,7 +36,7 @@ def flypend() -> Iterator[Peer]:
             for row in given:
                 worlds.step(row)
 
-        yield f"flypend, {action}", COUNT, step
+        yield f"flypend, {name}", COUNT, step
 
 
 def crazyflow() -> Iterator[Peer]:

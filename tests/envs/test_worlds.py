@@ -12,8 +12,9 @@ from flypend.envs.make import PHYSICS
 from flypend.laws import Controller
 
 VEHICLE = fp.vehicle("hehn2011")
-NAMES = ("Balance", "SwingUp", "Track", "CatchInCup")
-TASKS = ("balance", "swing_up", "track", "catch_in_cup")
+OMNIDRONES = ("inv_pendulum_hover", "inv_pendulum_track", "inv_pendulum_fly_through")
+TASKS = ("balance", "swing_up", "track", "catch_in_cup", *OMNIDRONES)
+NAMES = [task.title().replace("_", "") for task in TASKS]
 
 
 def replayed(start, commands, plant, vehicle=VEHICLE, hold=1):
@@ -64,8 +65,19 @@ def test_a_world_flies_as_simulate_does_bit_for_bit(changes):
     assert np.array_equal(states, flown)
 
 
-def from_hover(begin, commands, plant, vehicle=VEHICLE):
-    """The same flight by the steps of `simulate`, from rotors that already turn."""
+@pytest.mark.parametrize("task", OMNIDRONES)
+def test_so_does_a_world_of_omnidrones_every_16_ms(task):
+    world = World(task, randomise={})
+    world.reset(seed=5)
+    vehicle, states = world.worlds.env.vehicle, [world.worlds.states[0]]
+    hover = vehicle.weight / vehicle.rotor_limits[1] / 2 - 1
+    actions = (hover + np.random.default_rng(0).uniform(-0.1, 0.1, (25, 4))).astype(np.float32)
+    assert not any(world.step(action)[2] or states.append(world.worlds.states[0]) for action in actions)
+    assert np.array_equal(states, from_hover(states[0], forces_of(actions, vehicle), PHYSICS, vehicle, hold=16))
+
+
+def from_hover(begin, commands, plant, vehicle=VEHICLE, hold=10):
+    """The same flight by the steps of `simulate`, from rotors that already turn; each command is held for ticks."""
     from flypend.plants.actuation import Actuation, make_engine
 
     true = plant.true_vehicle(vehicle)
@@ -73,7 +85,7 @@ def from_hover(begin, commands, plant, vehicle=VEHICLE):
     engine.reset(begin[:24], begin[24:])
     acting, states = Actuation(engine, vehicle, plant), [begin]
     for command in commands:
-        for _ in range(10):
+        for _ in range(hold):
             acting.advance(command, 1 / plant.rate, np.zeros(6))
         states.append(np.append(engine.packed, engine.rotors))
     return np.array(states)
@@ -394,9 +406,9 @@ def test_ranges_are_intervals():
 # Memory ------------------------------------------------------------------------------------------------------
 
 
-def flown_between_guards(steps, count, task):
+def flown_between_guards(steps, count, task, **arguments):
     """Step worlds whose arrays all lie between guards, with random actions, some of them absurd; check the guards."""
-    worlds, rng, mark, width = Worlds(environment(task), count), np.random.default_rng(1), 0xA5, 4096
+    worlds, rng, mark, width = Worlds(environment(task, **arguments), count), np.random.default_rng(1), 0xA5, 4096
     guards = []
 
     def guarded(array):
@@ -425,6 +437,10 @@ def flown_between_guards(steps, count, task):
 def test_no_step_writes_beside_its_arrays(task):
     """A count that fills no whole group: 13 worlds in two of eight."""
     flown_between_guards(300, 13, task)
+
+
+def test_no_step_of_an_estimator_does():
+    flown_between_guards(200, 13, "balance", sensors="onboard")
 
 
 @pytest.mark.slow

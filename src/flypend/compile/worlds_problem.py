@@ -9,11 +9,41 @@ from flypend.compile.touch import Touch
 
 
 @dataclass(frozen=True)
+class Estimating:
+    """An estimator that observes a world through sensors, once an action.
+
+    Its memory begins with the estimate of the state and of the rotor forces.
+
+    Parameters
+    ----------
+    first : Program
+        (state with rotor forces, draws of the tick `tick`) → memory before the first readings.
+    carry : Program
+        (memory, action) → memory at the end of the action.
+    sense : Program
+        (memory, time, state, draws) → memory with the readings of that time.
+    tick : int
+        The tick that stands for the start among those of random numbers.
+    """
+
+    first: Program
+    carry: Program
+    sense: Program
+    tick: int
+
+    @property
+    def size(self) -> int:
+        """Length of the memory."""
+        return len(self.first.outputs[0])
+
+
+@dataclass(frozen=True)
 class WorldsProblem:
     """Worlds that are advanced by actions, and begin again when they end.
 
     The memory of a world is what `begin` returns: state (24), rotor forces (n), last action (m), earlier commands
-    (`queued` times n), wind (6), timing of the rotors, numbers of the vehicle, the commands' delay in steps, goal.
+    (`queued` times n), wind (6), timing of the rotors, numbers of the vehicle, the commands' delay in steps, goal; and
+    then that of `estimating`, if any.
 
     Parameters
     ----------
@@ -38,6 +68,8 @@ class WorldsProblem:
         Length of a step, s.
     touch : Touch, optional
         What the rod can touch.
+    estimating : Estimating, optional
+        Sensors and estimator.
     """
 
     begin: Program
@@ -50,6 +82,7 @@ class WorldsProblem:
     steps: int
     length: float
     touch: Touch | None = None
+    estimating: Estimating | None = None
 
     @property
     def places(self) -> dict[str, int]:
@@ -63,4 +96,6 @@ class WorldsProblem:
         for name, length in lengths.items():
             found[name] = place
             place += length
-        return found | {"goal": place, "end": len(self.begin.outputs[0])}
+        estimate = len(self.begin.outputs[0])
+        own = 0 if self.estimating is None else self.estimating.size
+        return found | {"goal": place, "estimate": estimate, "end": estimate + own}

@@ -12,6 +12,7 @@ from gymnasium.spaces import Box
 
 from flypend import errors
 from flypend.compile.llvm.stepped_worlds import BOUND
+from flypend.envs import omnidrones
 from flypend.envs import task as tasks
 from flypend.envs.problem import Action, Attitude, Environment
 from flypend.envs.randomise import Randomisation
@@ -22,21 +23,25 @@ from flypend.model.shipped import vehicle as vehicle_named
 from flypend.plants.plant import ROTORS, Sampled
 
 TASKS: Mapping[str, Callable[..., Task]] = {
-    "balance": tasks.balance, "swing_up": tasks.swing_up, "track": tasks.track, "catch_in_cup": tasks.catch_in_cup
+    "balance": tasks.balance, "swing_up": tasks.swing_up, "track": tasks.track, "catch_in_cup": tasks.catch_in_cup,
+    "inv_pendulum_hover": omnidrones.inv_pendulum_hover, "inv_pendulum_track": omnidrones.inv_pendulum_track,
+    "inv_pendulum_fly_through": omnidrones.inv_pendulum_fly_through,
 }  # fmt: skip
+DEFAULTS: Mapping[str, Any] = {"vehicle": "hehn2011", "rate": 100.0, "randomise": Randomisation()}
 PHYSICS = ROTORS.replace(rate=1000.0)
 
 
 def environment(
     task: str | Task,
     *,
-    vehicle: str | Path | Vehicle = "hehn2011",
+    vehicle: str | Path | Vehicle | None = None,
     mount: str | None = None,
     plant: Sampled = PHYSICS,
-    rate: float = 100.0,
+    rate: float | None = None,
     action: Action = "rotors",
     attitude: Attitude = "matrix",
     randomise: Randomisation | Mapping[str, Any] | None = None,
+    sensors: Any = None,
     duration: float | None = None,
     **about: Any,
 ) -> Environment:
@@ -45,27 +50,32 @@ def environment(
     Parameters
     ----------
     task : str or Task
-        "balance", "swing_up", "track", "catch_in_cup", or a task of one's own.
-    vehicle : str, Path or Vehicle
-        Name, TOML file or vehicle.
+        "balance", "swing_up", "track", "catch_in_cup", "inv_pendulum_hover", "inv_pendulum_track",
+        "inv_pendulum_fly_through", or a task of one's own.
+    vehicle : str, Path or Vehicle, optional
+        Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional
         Replaces the vehicle's mount; the task "catch_in_cup" needs a cup.
-    plant, rate, action, attitude
+    plant, action, attitude, sensors
         See `flypend.envs.Environment`.
+    rate : float, optional
+        Actions per second; default that of the task, or 100 Hz.
     randomise : Randomisation or dict, optional
-        What differs from world to world.
+        What differs from world to world; default what the task says, or nothing.
     duration : float, optional
         Seconds after which a world is cut off; default that of the task.
     about
-        Arguments of the task: those of `flypend.envs.track`.
+        Arguments of the task: those of `flypend.envs.track` and `inv_pendulum_fly_through`.
 
     Raises
     ------
     InputError
         If an argument is unknown or out of range.
     """
-    machine = vehicle if isinstance(vehicle, Vehicle) else vehicle_named(vehicle)
     made = task if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)](**about)
+    given = {"vehicle": vehicle, "rate": rate, "randomise": randomise}
+    chosen = {**DEFAULTS, **made.defaults, **{name: value for name, value in given.items() if value is not None}}
+    machine = chosen["vehicle"] if isinstance(chosen["vehicle"], Vehicle) else vehicle_named(chosen["vehicle"])
     wanted = "cup" if made.name == "CatchInCup" and mount is None else mount
     if wanted is not None:
         machine = machine.replace(mount=wanted)
@@ -73,8 +83,11 @@ def environment(
         raise InputError("mount", "'cup', for the task catch_in_cup", repr(machine.mount))
     if duration is not None:
         made = replace(made, duration=errors.number("duration", duration, above=0, unit="s"))
-    ranges = randomise if isinstance(randomise, Randomisation) else Randomisation(**(randomise or {}))
-    return Environment(made, machine, plant, rate=rate, action=action, attitude=attitude, randomise=ranges)
+    drawn = chosen["randomise"]
+    ranges = drawn if isinstance(drawn, Randomisation) else Randomisation(**drawn)
+    return Environment(
+        made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, randomise=ranges, sensors=sensors
+    )
 
 
 def spaces(env: Environment, seen: int) -> tuple[Box, Box]:

@@ -13,7 +13,8 @@ from flypend.compile.program import lower
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.envs.draws import Draws
 from flypend.envs.randomise import Randomisation, Varied
-from flypend.envs.task import Task
+from flypend.envs.sensing import Estimates
+from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
 from flypend.flight.kernels.touching import touch_of
 from flypend.model import State, Vehicle
@@ -23,6 +24,7 @@ from flypend.plants.equations import stepped
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.motors import motor_timing, moving, timing_size
 from flypend.plants.plant import Sampled
+from flypend.plants.sensors import sensors_called
 
 Action = Literal["rotors", "wrench", "rates"]
 Attitude = Literal["matrix", "6d"]
@@ -51,11 +53,15 @@ class Environment:
         How the attitude is observed: all columns of R, or the first two.
     randomise : Randomisation
         What differs from world to world.
+    sensors : Sensors, str or dict, optional
+        What measures the state: a suite ("mocap", "onboard"), `fp.Sensors` or a table. The filter of the flight
+        computer is then part of the world, once an action, and observations are its estimate; rewards and ends are
+        those of the true state. Default "perfect": the state itself.
 
     Raises
     ------
     InputError
-        If the rates do not fit, or the plant has what worlds do not: noise, sensors, gusts, MuJoCo.
+        If the rates do not fit, or the plant has what worlds do not: noise, sensors of its own, gusts, MuJoCo.
     """
 
     task: Task
@@ -65,6 +71,7 @@ class Environment:
     action: Action = "rotors"
     attitude: Attitude = "matrix"
     randomise: Randomisation = field(default_factory=Randomisation)
+    sensors: Any = None
 
     def __post_init__(self) -> None:
         errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
@@ -74,7 +81,9 @@ class Environment:
             raise InputError("rate", f"a divisor of the plant's {self.plant.rate:g} Hz", f"{self.rate:g}")
         plant = self.plant
         if plant.engine != "equations" or any(part is not None for part in (plant.noise, plant.sensors, plant.wind)):
-            raise InputError("plant", "one by our equations, without noise, sensors and wind", repr(plant))
+            wanted = "one by our equations, without noise and wind; sensors are an argument of their own"
+            raise InputError("plant", wanted, repr(plant))
+        object.__setattr__(self, "sensors", sensors_called(self.sensors, "sensors"))
 
     @property
     def steps(self) -> int:
@@ -111,6 +120,7 @@ def problem(env: Environment) -> WorldsProblem:
         steps=env.steps,
         length=1 / env.plant.rate,
         touch=touch_of(env.vehicle, "up", by_rotors=True),
+        estimating=None if parts.estimates is None else parts.estimates.programs(parts.asked()),
     )
 
 
@@ -124,11 +134,21 @@ class _Parts:
         self.queued = int(np.ceil(latest * env.rate - 1e-9))
         self.timing, self.numbers = timing_size(env.plant), 3 + n if env.randomise.varies else 0
         self.lengths = [SIZE, n, env.actions, self.queued * n, 6, self.timing, self.numbers, 1]
+        self.estimates = None if env.sensors is None else Estimates(env.vehicle, self._computer())
+
+    def _computer(self) -> Sampled:
+        """The plant as the flight computer knows it whose commands the actions are."""
+        env, plant = self.env, self.env.plant
+        return Sampled(
+            rate=env.rate, limits=plant.limits, delay=plant.delay, sensors=env.sensors,
+            interface="rates" if env.action == "rates" else "wrench", rate_loop_rate=plant.rate,
+            rate_loop_gain=plant.rate_loop_gain,
+        )  # fmt: skip
 
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        state, goal = env.task.begin(draws)
+        state, goal = env.task.begin(draws, env.vehicle)
         hover = self._hover(n)
         numbers = Varied.drawn(env.vehicle, env.randomise, draws)
         wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
@@ -167,17 +187,25 @@ class _Parts:
         s, a, p = (
             ca.SX.sym(name, size) for name, size in (("s", SIZE + env.rotors), ("a", env.actions), ("p", self.numbers))
         )
-        low, high = vehicle.rotor_limits
-        if env.action == "rotors":
-            return ca.Function("command", [s, a, p], [ca.densify(low + (high - low) * (a + 1) / 2)])
-        thrust = env.rotors * high * (a[0] + 1) / 2
+        forces = self.asked()(a)
         if env.action == "rates":
             loop = rate_loop(vehicle, env.plant.limits, env.plant.rate_loop_gain, name="loop")
-            forces = loop(ca.vertcat(thrust, MOST_RATE * a[1:]), s[15:18], ca.SX(0, 1))
+            forces = loop(forces, s[15:18], ca.SX(0, 1))
+        return ca.Function("command", [s, a, p], [ca.densify(forces)])
+
+    def asked(self) -> ca.Function:
+        """(action) → rotor forces (n,), or thrust and body rates (4,) for the inner loop."""
+        env, vehicle, a = self.env, self.env.vehicle, ca.SX.sym("a", self.env.actions)
+        low, high = vehicle.rotor_limits
+        thrust = env.rotors * high * (a[0] + 1) / 2
+        if env.action == "rotors":
+            command = low + (high - low) * (a + 1) / 2
+        elif env.action == "rates":
+            command = ca.vertcat(thrust, MOST_RATE * a[1:])
         else:
             moments = np.abs(vehicle.mixing()[1:]).sum(axis=1) * high / 2
-            forces = rotor_forces(thrust, moments * a[1:], vehicle, env.plant.limits)
-        return ca.Function("command", [s, a, p], [ca.densify(forces)])
+            command = rotor_forces(thrust, moments * a[1:], vehicle, env.plant.limits)
+        return ca.Function("asked", [a], [ca.densify(command)])
 
     def step(self) -> ca.Function:
         """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""
@@ -191,31 +219,48 @@ class _Parts:
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], stepped(s, r, commanded, wind, h, vehicle, moving(env.plant)))
 
-    def _seen(self) -> tuple[Any, Any, State, list[Any]]:
-        """Symbols of time and memory, the state relative to the goal, and the parts of the memory."""
-        t, memory = ca.SX.sym("t"), ca.SX.sym("memory", sum(self.lengths) + self.goals)
-        parts = ca.vertsplit(memory, [0, *np.cumsum([*self.lengths, self.goals]).tolist()])
-        state = State.symbolic(parts[0])
-        x, x_dot = self.env.task.goal(t, parts[-1])
-        return t, memory, State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot})), parts
+    def _moment(self, change: Any, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
+        """Symbols of time and memory, what they say, and the parts of the memory, with the `change` of the action.
+
+        What is `known` of state and rotors is their estimate, if there is one.
+        """
+        env, t = self.env, ca.SX.sym("t")
+        lengths = [*self.lengths, self.goals]
+        estimate = self.estimates.size if self.estimates is not None and known else 0
+        memory = ca.SX.sym("memory", sum(lengths) + estimate)
+        parts = ca.vertsplit(memory, [0, *np.cumsum([*lengths, estimate]).tolist()])
+        estimated = parts.pop()
+        if estimate:
+            parts[0], parts[1] = estimated[:SIZE], estimated[SIZE : SIZE + env.rotors]
+        state, numbers = State.symbolic(parts[0]), parts[-1]
+        x, x_dot = env.task.goal(t, numbers)
+        error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
+        reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
+        now = Moment(
+            time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change(parts[2]),
+            end=state.x + reach * state.y, end_dot=state.x_dot + reach * state.y_dot, goal=numbers,
+            vehicle=env.vehicle,
+        )  # fmt: skip
+        return t, memory, now, parts
 
     def observe(self) -> ca.Function:
         """(time, memory) → observation; see `flypend.envs`."""
         env = self.env
-        t, memory, state, parts = self._seen()
+        t, memory, now, parts = self._moment(lambda before: ca.SX.zeros(env.actions), known=True)
         low, high = env.vehicle.rotor_limits
         columns = 3 if env.attitude == "matrix" else 2
-        now = env.task.goal(t, parts[-1])[0]
-        coming = [env.task.goal(t + ahead, parts[-1])[0] - now for ahead in env.task.ahead]
+        here = env.task.goal(t, parts[-1])[0]
+        coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
+        state = now.error
         seen = ca.vertcat(
             state.x, state.x_dot, ca.vec(state.R[:, :columns]), state.omega, state.y, state.y_dot,
-            2 * (parts[1] - low) / (high - low) - 1, parts[2], *coming,
+            2 * (parts[1] - low) / (high - low) - 1, parts[2], *coming, env.task.shown(now),
         )  # fmt: skip
         return ca.Function("observe", [t, memory], [ca.densify(seen)])
 
     def judge(self) -> ca.Function:
         """(time, memory, action) → (reward, ended)."""
-        t, memory, state, parts = self._seen()
         action = ca.SX.sym("a", self.env.actions)
-        reward, ended = self.env.task.reward(state, action - parts[2]), self.env.task.ended(state)
+        t, memory, now, _ = self._moment(lambda before: action - before)
+        reward, ended = self.env.task.reward(now), self.env.task.ended(now)
         return ca.Function("judge", [t, memory, action], [ca.densify(reward), ca.densify(ended)])

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 
 from flypend.envs.draws import Draws
-from flypend.model import State
+from flypend.model import State, Vehicle
 
 Goal = Callable[[Any, Any], tuple[Any, Any]]
 
@@ -22,6 +22,38 @@ class Begin(NamedTuple):
     goal: Any
 
 
+class Moment(NamedTuple):
+    """What a world is like after an action: expressions, e₃ up.
+
+    Parameters
+    ----------
+    time : SX
+        Time since the beginning, s.
+    state, error : State
+        The state, and the same with position and velocity relative to the goal.
+    shares : (n, 1)
+        Forces of the rotors as shares of the largest.
+    change : (m, 1)
+        Change of the action; zero in observations.
+    end, end_dot : (3, 1)
+        Position and velocity of the rod's far end, m and m/s.
+    goal : (k, 1)
+        The numbers that describe the goal.
+    vehicle : Vehicle
+        The nominal vehicle.
+    """
+
+    time: Any
+    state: State
+    error: State
+    shares: Any
+    change: Any
+    end: Any
+    end_dot: Any
+    goal: Any
+    vehicle: Vehicle
+
+
 @dataclass(frozen=True)
 class Task:
     """What an environment asks for.
@@ -31,26 +63,32 @@ class Task:
     name : str
         Its name in the id of the environment.
     begin : callable
-        (draws) → `Begin`.
+        (draws, vehicle) → `Begin`.
     goal : callable
         (t, numbers of the goal) → position and velocity of the pivot that are wanted, (3, 1) each, m and m/s.
     reward : callable
-        (state relative to the goal, change of the action (m, 1)) → the reward of a step.
+        (`Moment`) → the reward of a step.
     ended : callable
-        The same state → an expression above 0 when the world ends.
+        (`Moment`) → an expression above 0 when the world ends.
     duration : float
         Seconds after which a world is cut off.
     ahead : tuple of float
         How long ahead, s, the goal is also observed.
+    shown : callable
+        (`Moment`) → what else is observed (j, 1).
+    defaults : dict
+        Arguments of `flypend.envs.environment` that hold for this task unless others are given.
     """
 
     name: str
-    begin: Callable[[Draws], Begin]
+    begin: Callable[[Draws, Vehicle], Begin]
     goal: Goal
-    reward: Callable[[State, Any], Any]
-    ended: Callable[[State], Any]
+    reward: Callable[[Moment], Any]
+    ended: Callable[[Moment], Any]
     duration: float
     ahead: tuple[float, ...] = ()
+    shown: Callable[[Moment], Any] = lambda now: ca.SX(0, 1)
+    defaults: Mapping[str, Any] = field(default_factory=dict)
 
 
 def near(value: Any, scale: float) -> Any:
@@ -58,15 +96,16 @@ def near(value: Any, scale: float) -> Any:
     return 1 / (1 + ca.sumsqr(value) / scale**2)
 
 
-def upright(state: State, change: Any) -> Any:
+def upright(now: Moment) -> Any:
     """Worth of a step with the rod up at the goal, at most 1.
 
     ½(1 + y₃) (0.4 + 0.3 near(x, 0.5 m) + 0.1 near(ẋ, 1 m/s) + 0.1 near(ẏ, 3 rad/s) + 0.1 near(ω, 5 rad/s))
     − 0.02 |change of the action|², with near(v, s) = 1/(1 + |v|²/s²) and x, ẋ relative to the goal.
     """
+    state = now.error
     kept = 0.4 + 0.3 * near(state.x, 0.5) + 0.1 * near(state.x_dot, 1.0)
     kept += 0.1 * near(state.y_dot, 3.0) + 0.1 * near(state.omega, 5.0)
-    return (1 + state.y[2]) / 2 * kept - 0.02 * ca.sumsqr(change)
+    return (1 + state.y[2]) / 2 * kept - 0.02 * ca.sumsqr(now.change)
 
 
 def hovered(t: Any, numbers: Any) -> tuple[Any, Any]:
@@ -74,9 +113,9 @@ def hovered(t: Any, numbers: Any) -> tuple[Any, Any]:
     return ca.SX(3, 1), ca.SX(3, 1)
 
 
-def _beyond(state: State, radius: float) -> Any:
+def beyond(now: Moment, radius: float) -> Any:
     """Whether the pivot is farther than `radius` (m) from the goal."""
-    return ca.sumsqr(state.x) > radius**2
+    return ca.sumsqr(now.error.x) > radius**2
 
 
 def _almost_upright(draws: Draws, lean: float) -> State:
@@ -90,15 +129,15 @@ def _almost_upright(draws: Draws, lean: float) -> State:
 def balance() -> Task:
     """Balance the rod, which leans by at most 0.2 rad at first; lost once it leans by 60° or the vehicle is 3 m off."""
     return Task(
-        "Balance", lambda draws: Begin(_almost_upright(draws, 0.2), ca.SX(0, 1)), hovered, upright,
-        lambda s: ca.logic_or(s.y[2] < 0.5, _beyond(s, 3.0)), 5.0,
+        "Balance", lambda draws, _: Begin(_almost_upright(draws, 0.2), ca.SX(0, 1)), hovered, upright,
+        lambda now: ca.logic_or(now.state.y[2] < 0.5, beyond(now, 3.0)), 5.0,
     )  # fmt: skip
 
 
 def swing_up() -> Task:
     """Bring the rod up from hanging almost at rest, and balance it; lost once the vehicle is 5 m off."""
 
-    def begin(draws: Draws) -> Begin:
+    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
         hanging = -draws.cap(0.2)
         state = State(
             x=draws.ball(0.2), x_dot=draws.ball(0.2), R=draws.level(0.2), omega=draws.ball(0.5), y=hanging,
@@ -106,7 +145,7 @@ def swing_up() -> Task:
         )  # fmt: skip
         return Begin(state, ca.SX(0, 1))
 
-    return Task("SwingUp", begin, hovered, upright, lambda s: _beyond(s, 5.0), 10.0)
+    return Task("SwingUp", begin, hovered, upright, lambda now: beyond(now, 5.0), 10.0)
 
 
 def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> Task:
@@ -129,13 +168,19 @@ def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> T
     def goal(t: Any, numbers: Any) -> tuple[Any, Any]:
         return ways[shape](turn_rate * t + numbers[0], size, turn_rate)
 
-    def begin(draws: Draws) -> Begin:
+    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
         phase = draws.between(0.0, 2 * np.pi)
         state, (x, x_dot) = _almost_upright(draws, 0.1), goal(0.0, phase)
         return Begin(State(**(vars(state) | {"x": x + 0.2 * state.x, "x_dot": x_dot})), phase)
 
     return Task(
-        "Track", begin, goal, upright, lambda s: ca.logic_or(s.y[2] < 0.5, _beyond(s, 3.0)), 10.0, (0.1, 0.2, 0.4)
+        "Track",
+        begin,
+        goal,
+        upright,
+        lambda now: ca.logic_or(now.state.y[2] < 0.5, beyond(now, 3.0)),
+        10.0,
+        (0.1, 0.2, 0.4),
     )
 
 
@@ -158,7 +203,7 @@ def _square(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
 def catch_in_cup() -> Task:
     """Catch a rod that stands leaning in a cup and topples, without losing it; for a vehicle with a cup."""
 
-    def begin(draws: Draws) -> Begin:
+    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
         y = draws.cap(0.5)
         state = State(
             x=ca.SX(3, 1), x_dot=draws.ball(0.5), R=draws.level(0.1), omega=draws.ball(0.2), y=y,
@@ -166,4 +211,4 @@ def catch_in_cup() -> Task:
         )  # fmt: skip
         return Begin(state, ca.SX(0, 1))
 
-    return Task("CatchInCup", begin, hovered, upright, lambda s: _beyond(s, 5.0), 6.0)
+    return Task("CatchInCup", begin, hovered, upright, lambda now: beyond(now, 5.0), 6.0)

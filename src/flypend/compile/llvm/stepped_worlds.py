@@ -11,6 +11,7 @@ from flypend.compile.llvm.emit import define
 from flypend.compile.llvm.random import define_uniforms
 from flypend.compile.llvm.touching import Touching
 from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
+from flypend.compile.llvm.world_sensors import WorldSensors
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.model.state import SIZE
 
@@ -65,6 +66,7 @@ class _Worlds:
         self.episodes = code.reserve(lanes.width, I64)
         self.before = code.reserve(SIZE + self.rotors)
         self.touching = Touching(code, problem.touch, self.at) if problem.touch is not None else None
+        self.sensors = WorldSensors(code, problem.estimating) if problem.estimating is not None else None
 
     def write(self) -> None:
         """Emit the kernel."""
@@ -113,6 +115,8 @@ class _Worlds:
         reward = code.select(lost & ~(code.fabs(code.load(self.reward)) < float("inf")), 0.0, code.load(self.reward))
         code.store(reward, self.reward)
         self._copied(self.action, self._part("action"), self.actions)
+        if self.sensors is not None:
+            self._sense(self.sensors, steps)
         limit = code.value(code.builder.sitofp(self.at["limit"], self.lanes.scalar))
         late = (steps >= limit) & ~ended
         self._rows("rewards", self.reward, 1)
@@ -125,6 +129,14 @@ class _Worlds:
             self._begin(over)
             self._observe()
         self._rows("observations", self.observed, self.seen)
+
+    def _sense(self, sensors: WorldSensors, steps: Value) -> None:
+        """Move the estimate on by the action, and take the readings after so many `steps`."""
+        code, seeds = self.code, self.code.vector_at(self.at["seeds"], self.group)
+        self._integers(code.load(self.episode) - 1.0, self.episodes)
+        sensors.carry(self._part("estimate"), self.action)
+        ticks = code.builder.fptosi(steps.raw, ir.VectorType(I64, self.lanes.width))
+        sensors.read(seeds, self.episodes, ticks, self.time, self._part("state"), self._part("estimate"))
 
     # Motion -----------------------------------------------------------------------------------------------------------
 
@@ -190,17 +202,24 @@ class _Worlds:
 
     def _begin(self, over: Value) -> None:
         """Begin anew in the lanes `over`."""
-        code, builder = self.code, self.code.builder
-        with code.count(self.lanes.width) as lane:
-            number = builder.fptosi(code.scalar(self.episode, lane), I64)
-            code.put(number, self.episodes, lane)
+        code = self.code
+        self._integers(code.load(self.episode), self.episodes)
         seeds = code.vector_at(self.at["seeds"], self.group)
         code.call(self.uniforms, seeds, self.episodes, self.draws)
         code.call(self.call["begin"], self.draws, self.begun)
+        if self.sensors is not None:
+            code.store(code.value(0.0), self.time)
+            estimate = code.vector_at(self.begun, self.places["estimate"])
+            self.sensors.begin(seeds, self.episodes, self.time, self.begun, estimate)
         with code.count(self.places["end"]) as i:
             code.store(code.select(over, code.load(self.begun, i), code.load(self.memory, i)), self.memory, i)
         code.store(code.select(over, 0.0, code.load(self.clock)), self.clock)
         code.store(code.select(over, code.load(self.episode) + 1.0, code.load(self.episode)), self.episode)
+
+    def _integers(self, values: Value, target: ir.Value) -> None:
+        """Store whole numbers as int64."""
+        kind = ir.VectorType(I64, self.lanes.width)
+        self.code.builder.store(self.code.builder.fptosi(values.raw, kind), target).align = 8
 
     # Arrays of the caller ---------------------------------------------------------------------------------------------
 

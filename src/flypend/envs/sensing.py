@@ -1,0 +1,96 @@
+"""What worlds with sensors observe: the estimate of the flight computer's filter, once an action.
+
+The filter is that of flights whose control rate is that of the actions, and whose commands the actions are. The random
+numbers of a world's sensors are those of the flight with its seed plus 2⁶²; its episodes are 2⁴¹ ticks apart.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.board.believed import Believed
+from flypend.board.command import command_width, idle_command
+from flypend.board.estimator import Filter
+from flypend.compile.program import lower
+from flypend.compile.worlds_problem import Estimating
+from flypend.errors import InputError
+from flypend.laws import Controller
+from flypend.model import Vehicle, Wrench
+from flypend.model.state import SIZE
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Plant
+from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, memory_size, sensing
+
+FORCES = 6
+# The actions are the law: the filter only asks for the limit of external forces that comes with one.
+ACTIONS = Controller(name="actions", function=lambda t, state: Wrench(0.0, np.zeros(3)))
+
+
+class Estimates:
+    """The programs of a filter in worlds of `vehicle`, which fly as `plant` does, its rate that of the actions.
+
+    Their memory is that of the filter, which begins with the estimated state (24,) and rotor forces (n,), external
+    forces (6,), commands in transit, and what the sensors remember.
+
+    Raises
+    ------
+    InputError
+        If the plant's sensors difference poses instead of estimating.
+    """
+
+    def __init__(self, vehicle: Vehicle, plant: Plant) -> None:
+        if plant.sensors.rates != "estimated":
+            raise InputError("sensors.rates", "'estimated'", repr(plant.sensors.rates))
+        self._loop, self._vehicle, self._plant = Loop(vehicle, ACTIONS, plant), vehicle, plant
+        self._filter = Filter(self._loop, Believed.numbers(vehicle))
+        self._correct, self._carry = self._filter.correct(), self._filter.carry()
+        self._width = command_width(self._loop)
+        waiting = self._carry.numel_in(2) - self._width
+        self._lengths = [self._filter.size, FORCES, waiting, memory_size(plant.sensors, 1 / plant.rate)]
+
+    @property
+    def size(self) -> int:
+        """Length of the memory."""
+        return sum(self._lengths)
+
+    def programs(self, asked: ca.Function) -> Estimating:
+        """Return the programs; `asked` is the command (w,) of an action (m,)."""
+        return Estimating(
+            first=lower(self.first()), carry=lower(self.carry(asked)), sense=lower(self.sense()), tick=START_TICK
+        )
+
+    def first(self) -> ca.Function:
+        """(state and rotor forces (24 + n,), draws of the start) → memory before the first readings."""
+        begin, draws = ca.SX.sym("s", SIZE + len(self._vehicle.rotor_spins)), ca.SX.sym("d", 18)
+        state, rotors = begin[:SIZE], begin[SIZE:]
+        estimate = first_estimate(self._plant.sensors)(state, draws)
+        filtered = self._filter.begun()(rotors, estimate, [])
+        waiting = [idle_command(self._loop, rotors)] * (self._lengths[2] // self._width)
+        kept = first_memory(self._plant.sensors, 1 / self._plant.rate, state)
+        memory = ca.vertcat(filtered, ca.SX.zeros(FORCES), *waiting, kept)
+        return ca.Function("first_estimate", [begin, draws], [ca.densify(memory)])
+
+    def carry(self, asked: ca.Function) -> ca.Function:
+        """(memory, action) → memory a period later, before the readings of its end."""
+        memory, action = ca.MX.sym("memory", self.size), ca.MX.sym("a", asked.numel_in(0))
+        filtered, outside, waiting, kept = self._parts(memory)
+        commands = ca.vertcat(asked(action), waiting)
+        filtered = self._carry(filtered, outside, commands, [])
+        after = ca.vertcat(filtered, outside, commands[: waiting.numel()], kept)
+        return ca.Function("carry_estimate", [memory, action], [after])
+
+    def sense(self) -> ca.Function:
+        """(memory, time, state (24,), draws) → memory with the readings of that time."""
+        sensors, period = self._plant.sensors, 1 / self._plant.rate
+        memory, t = ca.MX.sym("memory", self.size), ca.MX.sym("t")
+        state, draws = ca.MX.sym("s", SIZE), ca.MX.sym("d", draws_size(sensors))
+        filtered, _, waiting, kept = self._parts(memory)
+        kept, readings = sensing(sensors, self._vehicle, period)(kept, t, state, draws)
+        filtered, _, outside = self._correct(filtered, readings, [])
+        return ca.Function("sense", [memory, t, state, draws], [ca.vertcat(filtered, outside, waiting, kept)])
+
+    def _parts(self, memory: Any) -> list[Any]:
+        return ca.vertsplit(memory, np.cumsum([0, *self._lengths]).tolist())  # type: ignore[no-any-return]

@@ -148,7 +148,9 @@ export class Plot {
       context.fillText(last ? `${tick(value)} s` : tick(value), last ? width - 2 : place.x(value), height - 5);
     }
     for (const [value] of this.levels) line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.muted, [2, 3]);
-    for (const { from } of this.phases.slice(1)) line(place.x(from), TOP, place.x(from), height - BOTTOM, colours.muted, [1, 3]);
+    for (const { left, right } of this.#captions(context, place)) {
+      for (const x of [left, right]) if (x > LEFT + 1 && x < width - RIGHT - 1) line(x, TOP, x, height - BOTTOM, colours.muted, [1, 3]);
+    }
     for (const t of this.touches) line(place.x(t), TOP, place.x(t), height - BOTTOM, colours.alarm, [4, 2]);
   }
 
@@ -160,8 +162,10 @@ export class Plot {
       context.strokeText(word, right, y);
       context.fillText(word, right, y);
     };
-    this.#captions(context, place, write);
-    const taken = [];
+    const middle = (TOP + height - BOTTOM) / 2 + 4;
+    for (const { name, left, right, size } of this.#captions(context, place)) write(name, middle, (left + right + size) / 2);
+    const cut = this.peak && `cut off, peak ${large(this.peak)}${this.unit}`;
+    const taken = cut ? [TOP + 10] : [];
     const free = (y) => y > TOP + 8 && y < height - BOTTOM - 2 && taken.every((other) => Math.abs(other - y) > 13);
     const label = (word, places, behind = colours.paper) => {
       const y = places.find(free);
@@ -175,22 +179,15 @@ export class Plot {
     if (most !== null && most < high) label(`no rotor gives more than ${tick(most)} ${this.unit}`, [place.y(most) - 5, place.y(most) + 14], colours.barred);
     else if (least !== null && least > low) label(`no rotor gives less than ${tick(least)} ${this.unit}`, [place.y(least) + 14], colours.barred);
     for (const [value, word] of this.levels) label(word, [place.y(value) - 6, place.y(value) + 14]);
-    if (this.peak) {
-      context.textAlign = "left";
-      context.strokeText(`cut off, peak ${large(this.peak)}${this.unit}`, LEFT + 6, TOP + 10);
-      context.fillText(`cut off, peak ${large(this.peak)}${this.unit}`, LEFT + 6, TOP + 10);
-      context.textAlign = "right";
-    }
+    if (cut) write(cut, TOP + 10, LEFT + 6 + context.measureText(cut).width);
     for (const [value, word] of this.names) write(word, place.y(value) + (value > (low + high) / 2 ? 15 : -7));
   }
 
-  /** The names of phases in the middle of the plot, where they are wide enough. */
-  #captions(context, place, write) {
-    const middle = (TOP + this.height - BOTTOM) / 2 + 4;
-    for (const { from, to, name } of this.phases) {
-      const left = place.x(Math.max(from, this.start)), right = place.x(to), { width } = context.measureText(name);
-      if (right - left > width + 6) write(name, middle, (left + right + width) / 2);
-    }
+  /** The phases that are wide enough for their names, from `left` to `right`; a name is `size` wide. Pixels. */
+  #captions(context, place) {
+    return this.phases.map(({ from, to, name }) =>
+      ({ name, left: place.x(Math.max(from, this.start)), right: place.x(to), size: context.measureText(name).width }))
+      .filter(({ left, right, size }) => right - left > size + 6);
   }
 
   /** Put the cursor to the time `t` and write the values there. */

@@ -126,6 +126,29 @@ def test_presets_are_the_experiments_of_the_paper():
         assert flight.plant == fp.Ideal()
 
 
+def test_the_story_is_what_the_flights_do():
+    settings = [setting_of(step["setting"]) for step in OFFER["story"]]
+    runs = [fly(setting) for setting in settings]
+    printed, corrected, repaired, lqr, inverted = [
+        verdict(run, tuned(setting).criterion) for run, setting in zip(runs, settings, strict=True)
+    ]
+    assert [run.law for run in runs] == ["printed", "corrected", "repaired", "lqr", "inverted"]
+    assert runs[0].outcome.status == "singular"
+    assert printed["words"].startswith("singular after")
+    for run, told in zip(runs[1:3], (corrected, repaired), strict=True):
+        assert run.e3 == "down"
+        assert run.y[-1][2] > 0.99  # along gravity
+        assert "hangs" in told["words"]
+        assert run.x[-1][2] - run.x[0][2] > 10  # m fallen
+        np.testing.assert_array_equal(run.y[0], runs[0].y[0])
+    assert not lqr["good"]
+    assert inverted["good"]
+    assert "upright" in inverted["words"]
+    np.testing.assert_array_equal(runs[3].states[0].packed(), runs[4].states[0].packed())
+    turned = np.abs(np.diff(np.unwrap(np.arctan2(runs[3].y[:, 0], runs[3].y[:, 2])))).sum()
+    assert turned > 4 * np.pi  # it tumbles
+
+
 def test_a_random_start_is_its_seed():
     starts = [setting_of(asked(start={"random": seed})).start.packed() for seed in (3, 3, 4)]
     np.testing.assert_array_equal(starts[0], starts[1])

@@ -5,6 +5,7 @@ import time
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 from test_lab import Lab
 
 from flypend.flight.simulate import fly as fly_request
@@ -206,6 +207,34 @@ def test_a_poke_in_flight_keeps_the_past(visit):
     page.locator(".unpoke").click()
     shown(page)
     assert page.evaluate("flypend.duration()") == 6
+
+
+def test_the_story_is_told_step_by_step(visit):
+    page = visit(reduced_motion="reduce")
+    expect(page.locator(".step")).to_be_hidden()
+    for i, step in enumerate(OFFER["story"]):
+        page.locator(".story .chips button" if i == 0 else ".step .next").first.click()
+        shown(page)
+        assert page.locator(".step h3").inner_text() == step["title"]
+        assert page.locator(".story [aria-pressed=true]").inner_text() == str(i + 1)
+        assert setting(page) == step["setting"]
+        assert expect_flight(page).law == step["setting"]["law"]["name"]
+        assert page.evaluate("flypend.playing()") is False  # whoever wants little motion plays it himself
+    expect(page.locator(".step .next")).to_be_hidden()
+    slider(page, "plant.lag").fill("150")
+    shown(page)
+    expect(page.locator(".step")).to_be_visible()
+    page.locator("select[data-path='law.name']").select_option("lqr")
+    shown(page)
+    expect(page.locator(".step")).to_be_hidden()
+
+
+def test_a_step_of_the_story_plays(visit):
+    page = visit()
+    page.get_by_role("button", name="Step 4").click()
+    shown(page)
+    until(page, "() => flypend.time() > 0.2")
+    assert setting(page)["law"]["name"] == "lqr"
 
 
 def test_presets_random_laws_and_plants(visit):

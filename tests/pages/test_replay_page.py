@@ -163,6 +163,45 @@ def test_the_readings_beside_the_plots_are_the_values_of_the_run(visit, up):
     np.testing.assert_allclose(told, wanted, atol=0.00501)
 
 
+@pytest.fixture(scope="module")
+def thrown():
+    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.0)
+
+
+def phases(page, i=0):
+    return page.evaluate("i => flypend.phases(i)", i)
+
+
+def test_a_swing_up_climbs_flips_catches_and_stands(visit, thrown):
+    page = visit(thrown)
+    told = phases(page)
+    assert [phase["name"] for phase in told] == ["climbs", "flips", "catches", "stands"]
+    assert told[0]["from"] == 0
+    assert told[-1]["to"] == pytest.approx(3)
+    assert all(before["to"] == after["from"] for before, after in itertools.pairwise(told))
+    climbs, flips, catches, stands = (
+        (thrown.t > p["from"] + 0.02) & (thrown.t < p["to"] - 0.02) for p in told  # samples are 0.01 s apart
+    )  # fmt: skip
+    bob = thrown.x_dot + thrown.vehicle.rod_length * thrown.y_dot
+    height, rate = thrown.y[:, 2], np.sqrt(thrown.vehicle.gravity / thrown.vehicle.rod_length)
+    assert (bob[climbs & (thrown.t > 0.1), 2] > 0).all()
+    assert (height[climbs | flips] < 0).all()
+    assert (thrown.y_dot[flips, 2] > 0.5 * rate).all()
+    assert (height[catches | stands] > 0).all()
+    assert (height[stands] > np.cos(np.radians(15))).all()
+    for phase in told:
+        page.evaluate("t => flypend.seek(t)", (phase["from"] + phase["to"]) / 2)
+        until(page, f"() => document.querySelector('.motion b').textContent === '{phase['name']}'")
+
+
+def test_phases_do_not_depend_on_the_frame_and_name_what_fails(visit, down, thrown):
+    page = visit(down, ghost=down.flipped())
+    assert phases(page, 0) == phases(page, 1)
+    assert {phase["name"] for phase in phases(page)} >= {"drops"}
+    hanging = fp.simulate(thrown.vehicle, fp.laws.lqr(), thrown.states[0], 3.0)
+    assert [phase["name"] for phase in phases(visit(hanging))] == ["hangs"]
+
+
 def test_rotors_turn_by_their_force(visit, up):
     page = visit(up)
     force = np.maximum(up.rotor_forces, 0) * 4 / up.vehicle.weight

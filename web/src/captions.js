@@ -24,9 +24,9 @@ export class Captions {
     this.views = flights.map((flight) => {
       const root = document.createElement("div");
       root.className = "view";
-      root.innerHTML = `<p class="motion"></p><p class="ended"></p>`;
+      root.innerHTML = `<p class="motion"><b></b> <span></span></p><p class="ended"></p>`;
       this.parent.append(root);
-      return { flight, root, motion: root.querySelector(".motion"), ended: root.querySelector(".ended"), compass: new Compass(root) };
+      return { flight, root, phase: root.querySelector(".motion b"), motion: root.querySelector(".motion span"), ended: root.querySelector(".ended"), compass: new Compass(root) };
     });
   }
 
@@ -42,6 +42,7 @@ export class Captions {
       const { x, x_dot } = stage.flyers[i].pose;
       const rise = (x[2] - stage.flyers[i].pivots[0][2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
       const name = this.several ? `${flight.title}: ` : "";
+      put(view.phase, flight.phase(t));
       put(view.motion, `${name}height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
       put(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });

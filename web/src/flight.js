@@ -4,6 +4,7 @@
 // the body's e3), rotor_forces, x_ref, and `turned`, the angle of each drawn rotor in radians.
 
 import { clamp, dot, hermite, indexBefore, matrix, mix, slerp, unit } from "./numbers.js";
+import { phases } from "./phases.js";
 
 const TURNS_IN_HOVER = 2.5; // drawn turns of a rotor per second of flight that carries its share of the weight
 const QUARTER_TURN = Math.cos(Math.PI / 4); // |<q, q'>| of a quarter turn: beyond it nothing can be interpolated
@@ -64,6 +65,16 @@ export class Flight {
       x_ref: between("x_ref", 3),
       turned: this.turned[i].map((value, k) => mix(value, this.turned[j][k], share)),
     };
+  }
+
+  /** What the rod does from when to when, see phases.js. */
+  get phases() {
+    return (this.found ??= phases(this));
+  }
+
+  /** What the rod does at the time `t`, in one word. */
+  phase(t) {
+    return (this.phases.find(({ to }) => t < to) ?? this.phases[this.phases.length - 1]).name;
   }
 
   /** Values to plot over `t` from sample `from` on: "y3", "z3", "thrust", "distance" from the reference, "clearance", or "rotor k". */

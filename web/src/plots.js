@@ -12,8 +12,8 @@ const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut of
  * One plot. `options`: title (of this program, may hold tags; `plain` without), unit, `lines` ([{label, role, mark, dash,
  * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]
  * at the right edge), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
- * `scale` (the usual size of a value), `least` (the shortest axis), `touches` (times of collisions), `end` (time that all
- * share). `seek` is called with a time when the plot is touched.
+ * `scale` (the usual size of a value), `least` (the shortest axis), `touches` (times of collisions), `phases` ([{ from, to, name }]:
+ * words along the time), `end` (time that all share). `seek` is called with a time when the plot is touched.
  */
 export class Plot {
   constructor(parent, options, seek) {
@@ -33,7 +33,7 @@ export class Plot {
 
   /** Show something else, with options as for a new plot; `draw` puts it on the canvas. */
   load(options) {
-    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], ...options });
+    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], phases: [], ...options });
     this.root.querySelector(".what").innerHTML = options.unit ? `${options.title} (${options.unit})` : options.title;
     const values = this.root.querySelector(".values");
     values.replaceChildren();
@@ -47,7 +47,8 @@ export class Plot {
     const { plain, unit, span: [low, high], limits: [least, most], peak } = this;
     const of = (value) => `${tick(value)}${unit && ` ${unit}`}`;
     const beyond = most !== null && most < high ? `; no rotor gives more than ${of(most)}` : least !== null && least > low ? `; no rotor gives less than ${of(least)}` : "";
-    return `${plain} over time, ${tick(low)} to ${of(high)}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
+    const told = this.phases.map(({ from, name }) => `${name} from ${from.toFixed(1)} s`).join(", ");
+    return `${plain} over time, ${tick(low)} to ${of(high)}${told && `; the rod ${told}`}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
   }
 
   #reading(parent, line) {
@@ -147,6 +148,9 @@ export class Plot {
       context.fillText(last ? `${tick(value)} s` : tick(value), last ? width - 2 : place.x(value), height - 5);
     }
     for (const [value] of this.levels) line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.muted, [2, 3]);
+    for (const { left, right } of this.#captions(context, place)) {
+      for (const x of [left, right]) if (x > LEFT + 1 && x < width - RIGHT - 1) line(x, TOP, x, height - BOTTOM, colours.muted, [1, 3]);
+    }
     for (const t of this.touches) line(place.x(t), TOP, place.x(t), height - BOTTOM, colours.alarm, [4, 2]);
   }
 
@@ -154,11 +158,14 @@ export class Plot {
   #words(context, place, colours) {
     const { width, height, span: [low, high] } = this;
     Object.assign(context, { textAlign: "right", textBaseline: "alphabetic", lineWidth: 4, strokeStyle: colours.paper, fillStyle: colours.muted });
-    const write = (word, y) => {
-      context.strokeText(word, width - RIGHT - 4, y);
-      context.fillText(word, width - RIGHT - 4, y);
+    const write = (word, y, right = width - RIGHT - 4) => {
+      context.strokeText(word, right, y);
+      context.fillText(word, right, y);
     };
-    const taken = [];
+    const middle = (TOP + height - BOTTOM) / 2 + 4;
+    for (const { name, left, right, size } of this.#captions(context, place)) write(name, middle, (left + right + size) / 2);
+    const cut = this.peak && `cut off, peak ${large(this.peak)}${this.unit}`;
+    const taken = cut ? [TOP + 10] : [];
     const free = (y) => y > TOP + 8 && y < height - BOTTOM - 2 && taken.every((other) => Math.abs(other - y) > 13);
     const label = (word, places, behind = colours.paper) => {
       const y = places.find(free);
@@ -172,13 +179,15 @@ export class Plot {
     if (most !== null && most < high) label(`no rotor gives more than ${tick(most)} ${this.unit}`, [place.y(most) - 5, place.y(most) + 14], colours.barred);
     else if (least !== null && least > low) label(`no rotor gives less than ${tick(least)} ${this.unit}`, [place.y(least) + 14], colours.barred);
     for (const [value, word] of this.levels) label(word, [place.y(value) - 6, place.y(value) + 14]);
-    if (this.peak) {
-      context.textAlign = "left";
-      context.strokeText(`cut off, peak ${large(this.peak)}${this.unit}`, LEFT + 6, TOP + 10);
-      context.fillText(`cut off, peak ${large(this.peak)}${this.unit}`, LEFT + 6, TOP + 10);
-      context.textAlign = "right";
-    }
+    if (cut) write(cut, TOP + 10, LEFT + 6 + context.measureText(cut).width);
     for (const [value, word] of this.names) write(word, place.y(value) + (value > (low + high) / 2 ? 15 : -7));
+  }
+
+  /** The phases that are wide enough for their names, from `left` to `right`; a name is `size` wide. Pixels. */
+  #captions(context, place) {
+    return this.phases.map(({ from, to, name }) =>
+      ({ name, left: place.x(Math.max(from, this.start)), right: place.x(to), size: context.measureText(name).width }))
+      .filter(({ left, right, size }) => right - left > size + 6);
   }
 
   /** Put the cursor to the time `t` and write the values there. */

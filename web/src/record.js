@@ -59,7 +59,8 @@ function paint(viewer, film) {
   Object.assign(context, { fillStyle: colours.ink, textBaseline: "top", font: `600 ${size}px system-ui, sans-serif` });
   context.fillText(viewer.title, size, size);
   context.font = `${size}px system-ui, sans-serif`;
-  context.fillText(`${clock.time.toFixed(2)} s, ${clock.speed}× real time`, size, 2.4 * size);
+  const [flight] = viewer.flights;
+  context.fillText(`${clock.time.toFixed(2)} s, ${clock.speed}× real time, ${flight.phase(clock.time)}`, size, 2.4 * size);
   return { context, size };
 }
 

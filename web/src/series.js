@@ -23,9 +23,10 @@ export function plots(flights, since = -Infinity) {
   const weight = (first.e3 === "up" ? 1 : -1) * first.vehicle.weight, share = first.vehicle.weight / first.rotors;
   const free = flights.filter((flight) => flight.columns.clearance); // of a rod on a gimbal nothing is in the way
   const kinds = Array.from({ length: first.rotors }, (_, k) => k);
+  const phases = first.phases.filter(({ to }) => to > start);
   return [
     {
-      ...axis, title: "Rod <i>y</i>₃ and thrust axis <i>z</i>₃", plain: "Rod y₃ and thrust axis z₃", unit: "", range: [-1.12, 1.12],
+      ...axis, phases, title: "Rod <i>y</i>₃ and thrust axis <i>z</i>₃", plain: "Rod y₃ and thrust axis z₃", unit: "", range: [-1.12, 1.12],
       names: [[1, `y₃ = 1: ${poles[0]}`], [-1, `y₃ = −1: ${poles[1]}`]],
       lines: [...line("y3", "<i>y</i>₃", "rod", "disc"), ...line("z3", "<i>z</i>₃", "trail", "square")],
     },

@@ -1,7 +1,7 @@
 // The viewer: puts scene, plots and player together for runs, and offers what becomes `window.flypend`.
 //
 // window.flypend: play(), pause(), seek(t), time(), duration(), playing(), speed(s), load(runs), camera(name),
-// layout(name), theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, screen(i) with the pixels of pivot and bob,
+// layout(name), theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, phases(i), screen(i) with the pixels of pivot and bob,
 // frames() with the number of frames drawn and the milliseconds that the last sixty took to draw.
 
 import css from "./replay.css";
@@ -233,6 +233,7 @@ export class Viewer {
         const pose = this.flights[i].at(clock.time);
         return { ...pose, R: matrix(pose.quat_xyzw) };
       },
+      phases: (i = 0) => structuredClone(this.flights[i].phases),
       screen: (i = 0) => {
         if (!this.stage) return null;
         this.#frame(0);

@@ -6,6 +6,7 @@ from typing import Any
 
 from flypend.lab.own import OwnLaws
 from flypend.lab.setting import LONGEST, Setting
+from flypend.lab.story import story
 from flypend.laws import law_names
 from flypend.model import State
 from flypend.model.shipped import vehicle_names
@@ -36,6 +37,7 @@ def offer(own: OwnLaws | None = None) -> dict[str, Any]:
         "plants": PLANTS,
         "first": first,
         "starts": starts(),
+        "story": story(),
         "experiments": {name: _preset(name) for name in experiment_names() if "-" not in name},
     }
 

@@ -141,6 +141,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
             "rod_length": vehicle.rod_length,
             "rod_end": vehicle.reach,
             "weight": vehicle.weight,
+            "gravity": vehicle.gravity,
             "rotor_limits": _finite(vehicle.rotor_limits),
             "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),
             "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),

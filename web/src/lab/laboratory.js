@@ -17,6 +17,7 @@ import { Handle } from "./handle.js";
 import { Map as Disc } from "./map.js";
 import { Panel } from "./panel.js";
 import { Setting } from "./setting.js";
+import { Story } from "./story.js";
 
 const MAP_DELAY = 250; // ms without a change before a map is asked for
 const HOLD = 400; // ms without a slider's move before the camera goes where the new flight needs it
@@ -35,6 +36,7 @@ export class Laboratory {
     this.link = connect((reply) => this.#told(reply), (words) => this.#say(words));
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
+    if (this.offer.story) this.story = new Story(this.panel.root, this.offer.story, (setting) => this.tell(setting));
     this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => this.running.pull(place));
     this.disc = new Disc(this.main, (y) => {
       this.rod(y);
@@ -163,6 +165,13 @@ export class Laboratory {
     this.setting.replace(setting);
   }
 
+  /** Show the flight of `setting` from its beginning, and play it. */
+  tell(setting) {
+    this.show("flight");
+    this.follow = true;
+    this.preset(setting);
+  }
+
   /** Hit a body at the time shown; what was before stays, what came after is flown anew. */
   poke(on, way, speed) {
     const { clock, stage } = this.viewer;
@@ -202,6 +211,7 @@ export class Laboratory {
   /** The setting has changed: ask for its flight, or tell the one that goes on. */
   changed() {
     this.panel.setting(this.setting.value);
+    this.story?.changed(this.setting.value);
     if (this.running.on) {
       this.running.change();
       return;

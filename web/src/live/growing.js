@@ -1,6 +1,7 @@
 // A flight that goes on: it has the last seconds of what has been flown, and takes more.
 
 import { angles, Flight } from "../flight.js";
+import { phase } from "../phases.js";
 
 const KEPT = 20; // s that stay
 
@@ -29,7 +30,12 @@ export class Growing extends Flight {
     this.count += added - drop;
     this.t = this.columns.t;
     this.turned = angles(this, this.turned.slice(drop, drop + this.count - added));
-    Object.assign(this, { verdict, completed });
+    Object.assign(this, { verdict, completed, found: null });
+  }
+
+  /** As it looks at that moment: what comes next is not known yet. */
+  phase(t) {
+    return phase(this, this.at(t));
   }
 
   /** How many samples are to go: half of all that may stay, whenever there are too many. */

@@ -89,8 +89,10 @@ class Interface:
 
     @property
     def law(self) -> BoundLaw:
-        """The bound law."""
-        return self.loop.symbolic
+        """The bound law, with the gains that its sensors ask for."""
+        if self.sensing is None:
+            return self.loop.symbolic
+        return replace(self.loop, plant=self.loop.sampled.replace(sensors=self.sensing.sensors)).symbolic
 
     @property
     def vehicle(self) -> Vehicle:

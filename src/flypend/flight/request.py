@@ -154,6 +154,7 @@ class Flight:
         if self.seed is not None:
             check_seed("seed", self.seed)
         put("plant", _plant_for(self.law, plants.plant(self.plant)))
+        put("law", Loop(self.vehicle, self.law, self.plant).law)
         if self.seed is None:
             put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)
         put("times", _increasing(self.times, self.duration))

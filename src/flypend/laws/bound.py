@@ -105,6 +105,11 @@ class BoundLaw:
         Gains that exported code holds as constants.
     theorem : callable, optional
         As in `Law`.
+    calmer : callable, optional
+        `calmer(share)` returns the law with gains this far from its defaults towards those that tremble least under
+        noise (see `calmed`); None for a law that has no such gains.
+    calm : float
+        That share, of this law.
     """
 
     name: str
@@ -122,6 +127,8 @@ class BoundLaw:
     fixed: tuple[str, ...] = ()
     theorem: Callable[[BoundLaw, State], Guarantee] | None = None
     check: Callable[[Mapping[str, Any]], None] | None = None
+    calmer: Callable[[float], BoundLaw] | None = None
+    calm: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
@@ -144,6 +151,13 @@ class BoundLaw:
         if self.theorem is None:
             raise errors.InputError("law", "one with a theorem: repaired or almost_global", self.name)
         return self.theorem(self, start)
+
+    def calmed(self, share: float) -> BoundLaw:
+        """Return the law with default gains moved by `share`, 0 to 1, to those that tremble least; given ones stay."""
+        if self.calmer is None or share == self.calm:
+            return self
+        found = self.calmer(share)
+        return found if found.path is self.path else replace(found, path=self.path, reference=self.reference)
 
     @property
     def numbers(self) -> dict[str, float]:

@@ -22,7 +22,7 @@ from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
 from flypend.laws.gain import documented
-from flypend.laws.inverted_gains import GAINS, angular_authority, computer_of, go_together, scales
+from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer_of, go_together, scales
 from flypend.laws.law import Law
 from flypend.laws.passage import FREE, heading, passage_of, steered
 from flypend.laws.references import Path, Reference, hover
@@ -93,6 +93,7 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
         path=carrying(followed),
         check=go_together,
         prepare=mounted,
+        calm=calm,
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -57,6 +58,9 @@ class Law:
         Gains that determine the amount of computation; exported code holds them as constants.
     theorem : callable, optional
         `theorem(bound, start)` returns what is proved of a start: see `BoundLaw.guarantee`. None for a law without one.
+    calm : callable, optional
+        `calm(vehicle, share)` returns the gains, by name, that tremble less where the state is estimated from noisy
+        readings; `share` 0 means the defaults, 1 the calmest. None for a law without such gains.
     """
 
     name: str
@@ -73,6 +77,7 @@ class Law:
     check: Callable[[Values], None] | None = None
     fixed: tuple[str, ...] = ()
     theorem: Callable[[BoundLaw, State], Guarantee] | None = None
+    calm: Callable[[Vehicle, float], Values] | None = None
     _bound: dict[Vehicle, BoundLaw] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -163,4 +168,18 @@ class Law:
             fixed=self.fixed,
             theorem=self.theorem,
             check=self.check,
+            calmer=self._calmer(vehicle),
         )
+
+    def _calmer(self, vehicle: Vehicle) -> Callable[[float], BoundLaw] | None:
+        """Return share → the law bound to `vehicle` with gains as calm; None if there are none, or all are given."""
+        if self.calm is None or not set(self.calm(vehicle, 1.0)) - set(self.given):
+            return None
+        return partial(self._calmed, self.calm, vehicle)
+
+    def _calmed(self, calm: Callable[[Vehicle, float], Values], vehicle: Vehicle, share: float) -> BoundLaw:
+        """Return the law bound to `vehicle` with the gains of `calm` by `share` that were not given."""
+        if share == 0:
+            return self.bind(vehicle)
+        free = {name: value for name, value in calm(vehicle, share).items() if name not in self.given}
+        return replace(self.with_gains(free)._bind(vehicle), calmer=partial(self._calmed, calm, vehicle), calm=share)

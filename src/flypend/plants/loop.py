@@ -8,11 +8,14 @@ from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
 from flypend.model import Vehicle
 from flypend.plants.plant import AnyPlant, Sampled, sampled_plant
+from flypend.plants.tremor import calmed
 
 
 @dataclass(frozen=True)
 class Loop:
     """Vehicle, bound law and plant: everything that compiled code depends on.
+
+    A law that has calmer gains takes them as far as the sensors of the plant need (see `plants.tremor`).
 
     Parameters
     ----------
@@ -30,6 +33,10 @@ class Loop:
     law: BoundLaw | Controller
     plant: AnyPlant
     parameters: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if isinstance(self.law, BoundLaw):
+            object.__setattr__(self, "law", calmed(self.law, self.plant))
 
     @property
     def symbolic(self) -> BoundLaw:

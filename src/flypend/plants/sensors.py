@@ -51,7 +51,7 @@ class Sensor:
         return float(self.noise**2 + self.quantisation**2 / 12)
 
     def density(self, period: float) -> float:
-        """Return the spectral density of the noise, unit²/Hz, if at most one reading counts per `period` (s)."""
+        """Return the spectral density of the noise, unit²/Hz, if at most one reading counts per control `period`, s."""
         return self.variance / (min(self.rate, 1 / period) * (1 - self.dropouts))
 
     def check(self, name: str) -> None:

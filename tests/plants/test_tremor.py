@@ -1,0 +1,92 @@
+"""Tremor in hover: linear theory against flights, and the gains that follow from it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.flight.request import Flight
+from flypend.laws import inverted
+from flypend.plants import SUITES, Plant
+from flypend.plants.loop import Loop
+from flypend.plants.tremor import MOST_TREMOR, calmed, tremor
+
+VEHICLE = fp.vehicle("hehn2011")
+UPRIGHT = fp.State(y=(0.0, 0.0, 1.0))
+POSES = ("position", "attitude", "rod")
+MOCAP, ONBOARD = SUITES["mocap"], SUITES["onboard"]
+SLOWER = MOCAP.replace(**{name: replace(getattr(MOCAP, name), rate=100.0) for name in POSES})
+PLAIN = inverted().with_gains(inverted().gains_for(VEHICLE)).bind(VEHICLE)
+
+
+@pytest.mark.parametrize("sensors", [SLOWER, ONBOARD], ids=["mocap", "onboard"])
+def test_vehicles_tremble_as_theory_says(sensors):
+    runs, duration = 60, 8.0
+    hover = fp.State(x=np.zeros((runs, 3)), y=np.tile([0.0, 0.0, 1.0], (runs, 1)))
+    plant = Plant(sensors=sensors.replace(start=fp.Noise(x=1e-3, x_dot=1e-3, attitude=1e-3, y=1e-3, y_dot=1e-3)))
+    late = np.arange(4.0, duration, 0.02)
+    flown = fp.simulate_ensemble(VEHICLE, PLAIN, hover, duration, plant=plant, times=late).samples
+    place = np.sqrt(np.mean(np.sum(flown.x**2, axis=-1)))
+    axis = np.sqrt(np.mean(np.sum(flown.R[..., :2, 2] ** 2, axis=-1)))
+    expected = tremor(PLAIN, sensors, 1 / 500.0)
+    # A seventh for what the theory leaves out, and as much for some two hundred independent seconds of wandering.
+    assert place == pytest.approx(expected.place, rel=0.25)
+    assert axis == pytest.approx(expected.axis, rel=0.2)
+
+
+def test_noise_of_the_readings_passes_through_in_proportion():
+    """The estimator's gain depends on the ratio of what it believes: all noise times 3 makes all tremor times 3."""
+    named = {name: getattr(SLOWER, name) for name in ("force_error", "moment_error")}
+    louder = SLOWER.noisier(3.0).replace(**{name: 3 * value for name, value in named.items()})
+    once, thrice = tremor(PLAIN, SLOWER, 0.002), tremor(PLAIN, louder, 0.002)
+    np.testing.assert_allclose(thrice, 3 * np.array(once), rtol=1e-6)
+
+
+def test_gains_are_as_calm_as_the_sensors_need():
+    law = inverted().bind(VEHICLE)
+    assert calmed(law, Plant(sensors=MOCAP)) is law
+    slower = calmed(law, Plant(sensors=SLOWER))
+    assert slower.calm > 0
+    assert tremor(slower, SLOWER, 0.002).axis < MOST_TREMOR < tremor(law, SLOWER, 0.002).axis
+    assert slower.gains["rod_damping"] > law.gains["rod_damping"]
+    same = {name for name in law.gains if slower.gains[name] == law.gains[name]}
+    assert set(law.gains) - same == {"rod_damping", "rate_feedforward", "coast_time"}
+
+
+def test_a_flight_takes_the_gains_of_its_sensors_and_back():
+    def flight(law, plant):
+        return Flight(vehicle=VEHICLE, law=law, starts=UPRIGHT, duration=1.0, plant=plant)
+
+    law = inverted().bind(VEHICLE)
+    flown = flight(law, Plant(sensors=SLOWER))
+    assert flown.loop.law is flown.law
+    assert flown.law.calm > 0
+    assert flight(flown.law, Plant(sensors=SLOWER)).law is flown.law
+    assert flown.through(Plant()).law is law
+    assert Loop(VEHICLE, flown.law, Plant(sensors=SLOWER.replace(rates="differenced"))).law is law
+
+
+def test_given_gains_stay():
+    damped = inverted(rod_damping=0.5).bind(VEHICLE)
+    found = calmed(damped, Plant(sensors=SLOWER))
+    assert found.gains["rod_damping"] == 0.5
+    assert found.gains["rate_feedforward"] > damped.gains["rate_feedforward"]
+    assert calmed(PLAIN, Plant(sensors=SLOWER)) is PLAIN
+    paper = fp.vehicle("nayak2018")  # too slow to have calmer gains
+    slow = inverted().bind(paper)
+    assert calmed(slow, Plant(sensors=SLOWER)) is slow
+
+
+def test_a_law_on_a_path_is_calmed_for_hover_and_stays_on_its_path():
+    law = inverted(reference=fp.laws.references.circle(0.5, 4.0)).bind(VEHICLE)
+    found = calmed(law, Plant(sensors=SLOWER))
+    assert found.calm == calmed(inverted().bind(VEHICLE), Plant(sensors=SLOWER)).calm
+    assert found.path is law.path
+    assert found.reference is law.reference
+
+
+def test_a_loop_that_does_not_stand_trembles_without_bound():
+    restless = inverted(rod_damping=0.01).bind(VEHICLE)
+    assert fp.linearise(restless, VEHICLE).spectral_abscissa > 0
+    assert tremor(restless, MOCAP, 0.002) == (np.inf, np.inf)

@@ -55,14 +55,14 @@ def front(
     """
     errors.number("count", count, at_least=2)
     shortest = plan(vehicle, start, "time", time_limit=time_limit, **wishes)
-    progress(1, count)
+    progress(1, count + 1)
     if not shortest:
         return Front(np.array([shortest.duration]), (shortest,))
     longest = max(HORIZONS[0] * Units.of(vehicle).time, 2 * shortest.duration)
     durations, plans = np.geomspace(shortest.duration, longest, count), []
     for duration in durations:
         plans.append(plan(vehicle, start, duration=duration, time_limit=time_limit, **wishes))
-        progress(len(plans), count)
+        progress(1 + len(plans), count + 1)
     return Front(durations, tuple(plans))
 
 

@@ -4,6 +4,7 @@ python -m benchmarks.planned vehicles --runs 50 --seed 7702 --fly 30
 python -m benchmarks.planned random --vehicles 200 --runs 4 --fly 1 --seed 2025 --mount hub
 python -m benchmarks.planned leans
 python -m benchmarks.planned pareto
+python -m benchmarks.planned windows
 python -m benchmarks.planned ensemble --runs 500 --seed 4711 --guesses 2
 """
 
@@ -20,7 +21,7 @@ from flypend.flight.metrics import wilson
 from flypend.flight.tasks import touching
 
 HEHN = fp.vehicle("hehn2011")
-LONG = 12.0  # √(l/g) of hover that must be held after a plan
+LONG, LEAST = 12.0, 3.0  # √(l/g), and s at least, of hover after a plan, which must stand in the last second
 LEANS = {20: 0.46, 30: 0.78, 40: 1.15, 60: 2.1}  # degrees, and m that optimal control with free rotors takes
 
 
@@ -90,7 +91,7 @@ def random(asked: argparse.Namespace) -> None:
         starts = apart(vehicle, asked.runs, asked.seed + 1)
         power, agility, lag = numbers(vehicle)
         plans = fp.plan_ensemble(vehicle, starts, guesses=asked.guesses)
-        flown, longest = [], LONG * np.sqrt(vehicle.l / vehicle.g)
+        flown, longest = [], max(LONG * np.sqrt(vehicle.l / vehicle.g), LEAST)
         for plan, start in list(zip(plans, (starts[k] for k in range(asked.runs)), strict=True))[: asked.fly]:
             run = fp.simulate(vehicle, fp.track(plan), start, plan.duration + longest) if plan else None
             flown.append(run is not None and fp.metrics(run).success)
@@ -121,6 +122,22 @@ def leans(_: argparse.Namespace) -> None:
         print(f"{degrees}°: {', '.join(told)}")
 
 
+def windows(_: argparse.Namespace) -> None:
+    """Plan flights through windows, and tell how much room they leave."""
+    up, hangs = fp.State(x=(-1.5, 0, 0), y=(0, 0, 1)), fp.State(x=(-1.5, 0, 0), y=(0, 0, -1))
+    door, middle = fp.Window((0, 0, 0.2), 0.5, 1.0), (0, 0, 0.2)
+    cases = [(HEHN, up, [door])]
+    cases += [(HEHN, up, [fp.Window(middle, *size)]) for size in ((0.3, 0.8), (0.2, 0.9), (0.7, 0.4), (0.7, 0.3))]
+    cases += [(HEHN, hangs, [door]), (HEHN.replace(mount="hub"), up, [door]), (HEHN.replace(mount="cup"), up, [door])]
+    cases += [(HEHN, up, [fp.Window((-0.5, 0.2, 0.2), 0.5, 1.0), fp.Window((0.5, -0.2, 0.3), 0.5, 1.0)])]
+    for vehicle, start, openings in cases:
+        plan = fp.plan(vehicle, start, "effort", target=(1.5, 0, 0), window=openings, time_limit=600)
+        sizes = ", ".join(f"{each.width:g} m by {each.height:g} m" for each in openings)
+        room = min(float(np.min(each.room(plan.states, vehicle))) for each in openings)
+        lean = np.degrees(np.arccos(np.min(plan.y[:, 2])))
+        print(f"{vehicle.mount}, {sizes}: {plan.told}; room {1e3 * room:.0f} mm, lean to {lean:.0f}°", flush=True)
+
+
 def pareto(_: argparse.Namespace) -> None:
     """Plan the swing-up from hanging at rest within less and less time."""
     hanging = fp.State(y=(0, 0, -1))
@@ -146,7 +163,7 @@ def ensemble(asked: argparse.Namespace) -> None:
 def main() -> None:
     """Run one of the benchmarks."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=("vehicles", "random", "leans", "pareto", "ensemble"))
+    parser.add_argument("what", choices=("vehicles", "random", "leans", "pareto", "windows", "ensemble"))
     parser.add_argument("--runs", type=int, default=24)
     parser.add_argument("--seed", type=int, default=7702)
     parser.add_argument("--vehicles", type=int, default=20)
@@ -155,7 +172,8 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="the first of the random vehicles")
     parser.add_argument("--mount", choices=("gimbal", "hub"), default="gimbal")
     asked = parser.parse_args()
-    {"vehicles": vehicles, "random": random, "leans": leans, "pareto": pareto, "ensemble": ensemble}[asked.what](asked)
+    jobs = (vehicles, random, leans, pareto, windows, ensemble)
+    {job.__name__: job for job in jobs}[asked.what](asked)
 
 
 if __name__ == "__main__":

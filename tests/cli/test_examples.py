@@ -3,6 +3,7 @@
 import ast
 import inspect
 import re
+import runpy
 import shlex
 import sys
 from pathlib import Path
@@ -131,6 +132,31 @@ def test_the_law_of_ones_own_is_as_short_as_it_is_said_to_be():
     function = ast.parse((EXAMPLES / "my_law.py").read_text(encoding="utf-8")).body[-1]
     assert isinstance(function, ast.FunctionDef)
     assert function.end_lineno - function.lineno < 10  # the README says ten lines
+
+
+# Manoeuvres -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["cube", "door", "low", "slalom", "poke"])
+def test_a_manoeuvre_is_flown_as_it_is_described(at_home, name):
+    own = runpy.run_path("examples/manoeuvres.py")
+    start, wishes = own["MANOEUVRES"][name]
+    plan, run = own["fly"](name)
+    assert metrics(run).success
+    assert plan.status == "optimal"
+    upright = run.y[:, 2].min() > 0
+    assert upright == (name in ("door", "slalom", "poke"))
+    tips = np.abs([run.x, run.x + VEHICLE.reach * run.y])
+    if name == "cube":
+        assert tips.max() < 0.5 + 0.005  # feedback leaves the plan by millimetres
+    elif name in ("door", "low"):
+        assert own[name.upper()].room(run.states, VEHICLE).min() > 0
+    elif name == "slalom":
+        for point in wishes["waypoints"]:
+            assert np.linalg.norm(run.x - point, axis=1).min() < 0.03
+    else:
+        law = fp.simulate(VEHICLE, fp.laws.inverted(), start, 6.0)
+        assert law.y[:, 2].min() < -0.9  # which lets the rod fall
 
 
 # The README -----------------------------------------------------------------------------------------------------------

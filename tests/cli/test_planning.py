@@ -9,7 +9,8 @@ from flypend.cli import app as cli
 
 def test_a_swing_up_is_planned_and_flown(tmp_path, capsys):
     out, page = tmp_path / "plan.nc", tmp_path / "plan.html"
-    files = ["-o", str(out), "--html", str(page), "--c", str(tmp_path / "table")]
+    picture = tmp_path / "plan.svg"
+    files = ["-o", str(out), "--html", str(page), "--c", str(tmp_path / "table"), "--figure", str(picture)]
     cli.app(["plan", *files, "--ceiling", "0.7", "--fly", "rotors"], standalone_mode=False)
     told = capsys.readouterr().out
     assert "hehn2011: optimal: 3.00 s" in told
@@ -18,6 +19,7 @@ def test_a_swing_up_is_planned_and_flown(tmp_path, capsys):
     run = fp.load(out)
     assert run.law == "plan"
     assert run.x[:, 2].max() < 0.7
+    assert picture.read_text().startswith("<?xml")
     assert page.read_text().startswith("<!doctype html")
 
 

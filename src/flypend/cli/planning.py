@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from flypend.cli.options import out_option, path, vehicle_option
-from flypend.cli.terminal import bold, console
+from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
     from flypend.model import State, Vehicle
@@ -42,6 +42,15 @@ if TYPE_CHECKING:
 )
 @click.option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
 @click.option("--c", "in_c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C.")
+@click.option("--figure", type=path, metavar="FILE", help="Also draw the plan; with --fly, beside its flight.")
+@click.option("--front", type=path, metavar="FILE", help="Also draw excursion against allowed time.")
+@click.option(
+    "--map",
+    "sphere",
+    type=path,
+    metavar="FILE",
+    help="Also draw how far plans and the inverted law stray from rest, over all directions of the rod.",
+)
 @click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
 def plan(
     what: str | None,
@@ -59,30 +68,36 @@ def plan(
     waypoint: tuple[tuple[float, ...], ...],
     fly: str | None,
     in_c: Path | None,
+    figure: Path | None,
+    front: Path | None,
+    sphere: Path | None,
     html: Path | None,
 ) -> None:
     """Plan an optimal flight to inverted hover: from the start in WHAT, a run file, or else from hanging at rest.
 
-    A run file also names the vehicle; its law and duration do not matter.
+    A run file also names the vehicle; its law and duration do not matter. Figures are .png, .pdf or .svg.
     """
     import numpy as np
 
-    from flypend.files.whole import check_file
+    from flypend.files.whole import FIGURES, check_file
     from flypend.flight.metrics import metrics
     from flypend.flight.simulate import simulate
     from flypend.planning import Window, track
     from flypend.planning import plan as planned
 
-    for file, ending in ((out, ".nc"), (html, ".html")):
+    files = ((out, (".nc",)), (html, (".html",)), *((file, FIGURES) for file in (figure, front, sphere)))
+    for file, endings in files:
         if file is not None:
-            check_file(file, (ending,))
+            check_file(file, endings)
     machine, start = _from(what, vehicle)
     box = None if cube is None else ((-cube / 2,) * 3, (cube / 2,) * 3)
-    found = planned(
-        machine, start, objective, duration=duration, target=target, floor=floor, ceiling=ceiling, speed=speed,
-        box=None if box is None else np.add(box, target), lean=None if lean is None else np.radians(lean),
-        window=[Window(place[:3], *place[3:]) for place in window], waypoints=waypoint or None,
-    )  # fmt: skip
+    windows = [Window(place[:3], *place[3:]) for place in window]
+    wishes: dict[str, Any] = {
+        "target": target, "floor": floor, "ceiling": ceiling, "speed": speed, "window": windows,
+        "box": None if box is None else np.add(box, target), "lean": None if lean is None else np.radians(lean),
+        "waypoints": waypoint or None,
+    }  # fmt: skip
+    found = planned(machine, start, objective, duration=duration, **wishes)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.trajectory.save(out)
     console.print(f"The plan is {bold(out)}.")
@@ -102,6 +117,21 @@ def plan(
     if html is not None:
         shown.to_html(html, ghost=ghosts)
         console.print(f"The replay is {bold(html)}.")
+    with counter() as tell:
+        if figure is not None:
+            _drawn("draw_plan", figure, found, shown if ghosts else None, wishes)
+        if front is not None:
+            _drawn("draw_front", front, found, start, wishes, tell)
+        if sphere is not None:
+            _drawn("draw_strays", sphere, found, tell)
+
+
+def _drawn(what: str, path: Path, *drawn: Any) -> None:
+    """Draw `what`, a function of `report.plans`, to `path`, and say so."""
+    from flypend.report import plans
+
+    getattr(plans, what)(path, *drawn)
+    console.print(f"The figure is {bold(path)}.")
 
 
 def _from(what: str | None, name: str) -> tuple[Vehicle, State]:

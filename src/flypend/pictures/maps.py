@@ -216,6 +216,11 @@ def _frame(axis: Any, panel: _Panel, names: tuple[str, str] | None, *, last: boo
             if "°" in label(name):
                 line.set_major_locator(MultipleLocator(DEGREES))
         return
+    hemisphere(axis, panel.part)
+
+
+def hemisphere(axis: Any, part: int) -> None:
+    """Draw the edge, the rings of equal tilt and the pole of a hemisphere on `axis`: `part` 0, the upper, or 1."""
     axis.set(xlim=(-1.03 * EDGE, 1.03 * EDGE), ylim=(-1.03 * EDGE, 1.03 * EDGE), aspect="equal")
     axis.axis("off")
     axis.add_patch(Circle((0, 0), EDGE, facecolor=EMPTY, edgecolor="none", zorder=0))
@@ -224,11 +229,11 @@ def _frame(axis: Any, panel: _Panel, names: tuple[str, str] | None, *, last: boo
         radius = 2 * np.sin(np.radians(angle) / 2)
         axis.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor="white", linewidth=0.9))
         axis.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor=INK, linewidth=0.5, linestyle=(0, (2, 2))))
-        _note(axis, 0.0, -radius, f"{angle if panel.part == 0 else 180 - angle}°")
+        _note(axis, 0.0, -radius, f"{angle if part == 0 else 180 - angle}°")
     _note(axis, 0.0, -EDGE, "90°")
     axis.plot(0, 0, "+", color="white", markersize=6, markeredgewidth=2.2)
     axis.plot(0, 0, "+", color=INK, markersize=5, markeredgewidth=0.9)
-    _note(axis, 0.0, 0.17, "inverted" if panel.part == 0 else "hanging")
+    _note(axis, 0.0, 0.17, "inverted" if part == 0 else "hanging")
 
 
 def _label(name: str) -> str:

@@ -1,0 +1,41 @@
+"""The pictures of `flypend plan`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from flypend.files.whole import save_figure
+from flypend.flight.simulate import simulate
+from flypend.flight.trajectory import Trajectory
+from flypend.laws import inverted
+from flypend.laws.references import hover
+from flypend.model import State
+from flypend.pictures.plans import front_figure, plan_figure, strays_figure
+from flypend.planning import Plan
+from flypend.studies.limit import DURATION, front, strays
+
+CELLS = 10
+Tell = Callable[[str, int, int], Any]
+
+
+def draw_plan(path: Path, plan: Plan, flown: Trajectory | None, wishes: Mapping[str, Any]) -> None:
+    """Draw to `path` a `plan` that obeys `wishes`, beside the run `flown`."""
+    save_figure(plan_figure(plan, flown, wishes["window"]), path)
+
+
+def draw_front(path: Path, plan: Plan, start: State, wishes: Mapping[str, Any], tell: Tell) -> None:
+    """Draw to `path` excursion against allowed time of plans like `plan` from `start`, beside the inverted law.
+
+    The plans obey `wishes`, of which the law knows nothing but the target.
+    """
+    found = front(plan.vehicle, start, progress=lambda done, total: tell("plans", done, total), **wishes)
+    law = simulate(plan.vehicle, inverted(hover(plan.target)), start, DURATION)
+    save_figure(front_figure(found, law), path)
+
+
+def draw_strays(path: Path, plan: Plan, tell: Tell) -> None:
+    """Draw to `path` how far plans of the vehicle of `plan`, and the inverted law, stray from rest."""
+    found = strays(plan.vehicle, inverted(), CELLS, progress=lambda done, total: tell("plans", done, total))
+    save_figure(strays_figure(found), path)

@@ -25,6 +25,7 @@ from pathlib import Path
 import numpy as np
 
 import flypend as fp
+from flypend.compile.matrices import matrices
 from flypend.export import records, vectors
 from flypend.export.interface import interface
 from flypend.export.library import CompiledBoard, Library
@@ -35,6 +36,7 @@ LAWS = {
     "lqr": fp.laws.lqr,
     "inverted": fp.laws.inverted,
     "light": lambda: fp.laws.inverted(form="light"),
+    "learned": fp.laws.learned,
 }
 ARM = ("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", "-std=c99", "-O2")
 CLOCK, RATE = 168e6, 500.0
@@ -95,10 +97,13 @@ def rows(name, law, vehicle, precision):
     with tempfile.TemporaryDirectory() as text:
         folder = fp.export_c(law, vehicle, Path(text) / "c", precision=precision)
         for part, (functions, caller) in PARTS.items():
-            instructions, (size, stack, cycles) = callgrind(folder, caller), cortex_m4(folder, functions, made)
+            instructions, (size, stack, cycles) = (
+                callgrind(folder, caller),
+                cortex_m4(folder, functions, made, 8 if precision == "double" else 4),
+            )
             cells = [ops[part], instructions, f"{microseconds(law, vehicle, precision, part):.2f}", size, stack]
-            if precision == "double":
-                cells += ["soft", "-", "-"]
+            if precision == "double" or cycles == "-":
+                cells += ["soft" if precision == "double" else "-", "-", "-"]
             else:
                 cells += [cycles, f"{CLOCK / cycles / 1e3:.1f}", f"{100 * RATE * cycles / CLOCK:.2f}"]
             yield " ".join([f"{name:10} {part:6} {precision:7}", *(f"{cell:>7}" for cell in cells)])
@@ -148,8 +153,11 @@ def _boards(code, precision):
     return fly
 
 
-def cortex_m4(folder, ends, made):
-    """Bytes of .text of what calls of `ends` need, bytes of stack, and cycles."""
+def cortex_m4(folder, ends, made, bytes_):
+    """Bytes of code and tables that calls of `ends` need, with numbers of `bytes_`; bytes of stack, and cycles.
+
+    Loops within loops are not counted: a law with layers has no cycles here.
+    """
     fast, plain = compiled_for_m4(folder, "fast"), compiled_for_m4(folder, "plain", "-fno-inline")
     stack = {}
     for line in (folder / "fast.su").read_text().splitlines():
@@ -162,7 +170,20 @@ def cortex_m4(folder, ends, made):
     needed = set().union(*(reached(fast, name) for name in ends))
     deepest = max(depth(fast, stack, name) for name in ends)
     loops = {"numbers": checked(made, ends), "remember": made.memory, "spins_as_written": made.rotors.length}
-    return sum(sizes[name] for name in needed), deepest, sum(spent(plain, name, loops) for name in ends)
+    tables = weights(made)
+    held = needed & tables.keys()
+    size = sum(sizes[name] for name in needed) + sum(bytes_ * tables[name] for name in held)
+    return size, deepest, "-" if held else sum(spent(plain, name, loops) for name in ends)
+
+
+def weights(made):
+    """Number of weights in the table of every function that is the layer of a network."""
+    programs = [*made.all_programs().values(), *made.board.programs]
+    return {
+        f"{program.name}_{i}": len(layer.rows) * len(layer.columns)
+        for program in programs
+        for i, layer in enumerate(matrices(program))
+    }
 
 
 def checked(made, ends):

@@ -9,7 +9,8 @@ from cbuild import build
 
 import flypend as fp
 from flypend.compile.c99 import function, literal, routine_function, statements, used_inputs
-from flypend.compile.program import Operation, Program, lower
+from flypend.compile.matrices import matrices
+from flypend.compile.program import Operation, Program, interpret, lower
 from flypend.compile.routine import lower_calls
 
 
@@ -115,6 +116,51 @@ def test_a_routine_calls_its_programs_on_stretches_of_memory(tmp_path):
     given, found = np.array([0.3, -1.2, 2.5]), np.empty(5)
     library.f(given.ctypes.data_as(ctypes.c_void_p), found.ctypes.data_as(ctypes.c_void_p))
     assert np.allclose(found, np.array(whole([0, 0], given)).ravel(), rtol=1e-15)
+
+
+def _network(rows, columns, seed=0):
+    """W₂ a(W₁ x + b) + D x, and its layers: W₁ and D act on the same vector, so they are one."""
+    rng = np.random.default_rng(seed)
+    W_1, b, W_2, D = (rng.standard_normal(shape) for shape in ((rows, columns), rows, (8, rows), (8, columns)))
+    x = ca.SX.sym("x", columns)
+    hidden = ca.mtimes(ca.DM(W_1), x) + b
+    out = ca.mtimes(ca.DM(W_2), hidden / ca.sqrt(1 + hidden**2)) + ca.mtimes(ca.DM(D), x)
+    return ca.Function("net", [x], [ca.densify(out)]), (np.vstack([W_1, D]), W_2)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_layers_are_tables_and_change_no_bit(tmp_path, precision):
+    """Against the same program, statement by statement."""
+    net, weights = _network(20, 12)
+    program = lower(net)
+    found = {tuple(map(len, (m.rows, m.columns))): m.weights for m in matrices(program)}
+    assert set(found) == {W.shape for W in weights}
+    for W in weights:
+        assert np.array_equal(found[W.shape], W)
+    text = function(program, precision)
+    assert text.count("* ") < 60  # of 500 products
+    head = f"#include <math.h>\ntypedef {precision} flypend_real;\n"
+    end = "void f(const flypend_real *in, flypend_real *out);\nvoid f(const flypend_real *in, flypend_real *out)"
+    (tmp_path / "f.c").write_text(f"{head}{text}\n{end}\n{{\n    net(in, out);\n}}\n")
+    library = ctypes.CDLL(str(build(tmp_path, ("f.c",), "f.so", flags=("-shared", "-fPIC"))))
+    real = np.float64 if precision == "double" else np.float32
+    operations = {"add": lambda a, b: a + b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b, "sqrt": np.sqrt}
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        given, out = rng.standard_normal(12).astype(real), np.empty(8, dtype=real)
+        library.f(given.ctypes.data_as(ctypes.c_void_p), out.ctypes.data_as(ctypes.c_void_p))
+        (wanted,) = interpret(program, [lambda i, given=given: given[i]], operations, real)
+        assert np.array_equal(out, np.array(wanted))
+
+
+def test_what_is_no_layer_is_no_table():
+    """Products of variables, a single sum, sums over different variables, and one whose parts are needed elsewhere."""
+    x = ca.SX.sym("x", 80)
+    W = np.random.default_rng(0).standard_normal((2, 80))
+    first = ca.mtimes(ca.DM(W[:1]), x)
+    apart = ca.vertcat(ca.mtimes(ca.DM(W[:1, :40]), x[:40]), ca.mtimes(ca.DM(W[1:, 40:]), x[40:]))
+    for values in (ca.sumsqr(x), first, apart, ca.vertcat(first, W[0, 7] * x[7], first + 1)):
+        assert not matrices(lower(ca.Function("f", [x], [ca.densify(values)])))
 
 
 def test_what_is_no_number_is_written_as_such():

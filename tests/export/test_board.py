@@ -37,7 +37,7 @@ def board(precision="double", rate=500.0, law=INVERTED, vehicle=VEHICLE):
     ("machine", "name", "rate"),
     [
         ("hehn2011", "inverted", 500.0), ("crazyflie", "inverted", 300.0), ("hehn2011", "light", 100.0),
-        ("crazyflie", "corrected", 500.0), ("hehn2011", "lqr", 100.0),
+        ("crazyflie", "corrected", 500.0), ("hehn2011", "lqr", 100.0), ("hehn2011", "learned", 500.0),
     ],
 )  # fmt: skip
 def test_it_commands_what_the_board_of_python_commands(machine, name, rate):

@@ -386,3 +386,18 @@ def test_random_numbers_of_the_page_are_those_of_the_plant():
     noisy = plant("rotors").replace(noise=MOTION_CAPTURE, seed=5)
     flight = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0.1, 0, 0.99**0.5)), 0.1, plant=noisy)
     assert live_data(flight.flight)["offer"]["seed"] == 5
+
+
+def test_a_learned_law_flies_with_its_network_inside(visit, tmp_path):
+    """A policy from a file: the page still knows its weights once the file is gone."""
+    from flypend.laws.learned import policy
+    from flypend.laws.policy import save
+
+    path = tmp_path / "mine.npz"
+    save(policy("hehn2011"), path)
+    vehicle = fp.vehicle("hehn2011")
+    run = fp.simulate(vehicle, fp.laws.learned(policy=str(path)), fp.State(y=(0, 0, -1)), 3.0)
+    page = visit(run)
+    path.unlink()
+    assert_flies(page, run)
+    assert run.y[-1, 2] > 0.95  # it has swung up

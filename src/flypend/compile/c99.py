@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from flypend.compile.matrices import Matrix, matrices
 from flypend.compile.program import Operation, Program
 from flypend.compile.routine import Call, Cell, Routine, stretches
 from flypend.errors import InputError, one_of
@@ -44,7 +45,8 @@ def statements(
     """C statements that compute `program`: `inputs[i][j]` is the C expression of entry j of input vector i.
 
     `outputs[i][j]` receives entry j of output i, after everything has been computed: it may be an input as well.
-    What is selected is computed in any case: no branch decides how long a call takes.
+    Products with constant matrices are calls of the functions of `layers`. What is selected is computed in any case: no
+    branch decides how long a call takes.
 
     Raises InputError for an operation that needs more of the C library than the square root.
     """
@@ -52,8 +54,20 @@ def statements(
     root = "sqrt" if precision == "double" else "sqrtf"
     names: dict[int, str] = {}
     lines: list[str] = []
+    tables = matrices(program)
+    first = {matrix.rows[0]: place for place, matrix in enumerate(tables)}
+    looped = {number for matrix in tables for number in (*matrix.rows, *matrix.inner)}
     for number, operation in enumerate(program.operations):
-        if operation.name == "input":
+        if number in first:
+            place = first[number]
+            matrix, own = tables[place], f"{program.name}_{place}"
+            given = ", ".join(names[column] for column in matrix.columns)
+            lines += [f"const {REAL} x{place}[{len(matrix.columns)}] = {{{given}}};"]
+            lines += [f"{REAL} y{place}[{len(matrix.rows)}];", f"{own}(x{place}, y{place});"]
+            names |= {row: f"y{place}[{i}]" for i, row in enumerate(matrix.rows)}
+        elif number in looped:
+            continue
+        elif operation.name == "input":
             names[number] = inputs[operation.arguments[0]][operation.arguments[1]]
         elif operation.name == "constant":
             text = _constant(operation.value, precision)
@@ -66,6 +80,28 @@ def statements(
     for wanted, numbers in zip(outputs, program.outputs, strict=True):
         lines += [f"{place} = {names[number]};" for place, number in zip(wanted, numbers, strict=True)]
     return lines
+
+
+def layers(program: Program, precision: Precision) -> list[str]:
+    """C functions of the products with constant matrices in `program`, each with its table, in order."""
+    return [_layer(matrix, f"{program.name}_{place}", precision) for place, matrix in enumerate(matrices(program))]
+
+
+def _layer(matrix: Matrix, name: str, precision: Precision) -> str:
+    """The C function (in, out) of a `matrix`, which sums in the order of its columns."""
+    rows, columns = len(matrix.rows), len(matrix.columns)
+    weights = [f"    {{{', '.join(literal(w, precision) for w in row)}}}," for row in matrix.weights]
+    body = [
+        f"static const {REAL} table[{rows}][{columns}] = {{", *weights, "};",
+        f"for (int i = 0; i < {rows}; i++) {{",
+        f"    {REAL} sum = table[i][0] * in[0];",
+        f"    for (int j = 1; j < {columns}; j++) {{",
+        "        sum += table[i][j] * in[j];",
+        "    }",
+        "    out[i] = sum;",
+        "}",
+    ]  # fmt: skip
+    return _defined(name, [f"const {REAL} *in", f"{REAL} *out"], body)
 
 
 def _form(operation: Operation) -> str:
@@ -89,7 +125,7 @@ def reads(program: Program, vector: int) -> set[int]:
 
 
 def function(program: Program, precision: Precision) -> str:
-    """`program` as a static C function of pointers: first the input vectors that it reads, then its outputs.
+    """`program` as a static C function, after its `layers`, of pointers: the inputs that it reads, then its outputs.
 
     All inputs are read before any output is written, so that an output may take the place of an input.
     """
@@ -98,7 +134,8 @@ def function(program: Program, precision: Precision) -> str:
     outputs = [[f"out{i}[{k}]" for k in range(len(numbers))] for i, numbers in enumerate(program.outputs)]
     given = [f"const {REAL} *in{i}" for i in taken]
     wanted = [f"{REAL} *out{i}" for i, numbers in enumerate(program.outputs) if numbers]
-    return _defined(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
+    whole = _defined(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
+    return "\n\n".join([*layers(program, precision), whole])
 
 
 def call(program: Program, inputs: Sequence[str], outputs: Sequence[str]) -> str:

@@ -73,9 +73,9 @@ SHOWN = "() => window.flypend?.number() > 0 && flypend.shown() === flypend.numbe
 
 
 def in_browser(pause):
-    """Milliseconds of a flight in the page, and from the slider to the frame that shows it, in a page of 1280 by 800.
+    """Milliseconds of a flight in the page, from the slider until all but the picture is done, and until it is shown.
 
-    The slider rests for `pause` ms after each flight that the server has confirmed.
+    The page is 1280 by 800 pixels. The slider rests for `pause` ms after each flight that the server has confirmed.
     """
     lab = [sys.executable, "-m", "flypend", "lab", "--no-browser"]
     server = subprocess.Popen(lab, stdout=subprocess.PIPE, text=True)
@@ -94,7 +94,7 @@ def in_browser(pause):
             times = [entry for entry in page.evaluate("flypend.timings()") if entry["here"]][-MOVES:]
     finally:
         server.kill()
-    return np.array([[entry["flown"], entry["picture"]] for entry in times]).T
+    return np.array([[entry["flown"], entry["ready"], entry["picture"]] for entry in times]).T
 
 
 def main():
@@ -105,8 +105,9 @@ def main():
         for name, values in (("processor", processor), ("server", clock), ("round trip", trip)):
             told(f"{plant:7s} {name}", values)
     for words, pause in (("one move", 200), ("moving on", 20)):
-        flown, picture = in_browser(pause)
+        flown, ready, picture = in_browser(pause)
         told(f"rotors  flown in the page, {words}", flown)
+        told(f"rotors  beyond drawing, {words}", ready)
         told(f"rotors  picture, {words}", picture)
 
 

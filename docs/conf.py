@@ -53,7 +53,13 @@ def _escaped(lines: list[str]) -> None:
     lines[:] = [line.replace("|", r"\|").replace("*", r"\*") for line in lines]
 
 
+def _site(app: Any) -> None:
+    """Tell the gallery where to leave the pages that it links to."""
+    os.environ["FLYPEND_SITE"] = str(app.outdir)
+
+
 def setup(app: Any) -> None:
-    """Escape docstrings before their sections are read."""
+    """Escape docstrings before their sections are read, and say where the site is."""
+    app.connect("builder-inited", _site)
     app.connect("autodoc-process-docstring", lambda *given: _escaped(given[-1]), priority=400)
     app.connect("sphinx-click-process-description", lambda *given: _escaped(given[-1]))

@@ -4,7 +4,7 @@ import { Simulation } from "../../web/src/live/simulation.js";
 
 const [, , code, from, to] = process.argv;
 const { facts, start, seed, pieces } = JSON.parse(readFileSync(from));
-const simulation = await Simulation.from(readFileSync(code), facts);
+const simulation = await Simulation.from(new WebAssembly.Module(readFileSync(code)), facts);
 simulation.begin(start, seed);
 const rows = pieces.map(({ ticks, gains, knobs, impulses }) => {
   simulation.tune(gains ?? {});

@@ -321,6 +321,18 @@ def test_the_map_fills_and_a_point_of_it_flies(visit):
     assert page.evaluate("flypend.verdict().good")
 
 
+@pytest.mark.parametrize("step", [1, 5])
+def test_the_map_shows_the_way_of_the_rod_against_gravity(visit, step):
+    page = visit(reduced_motion="reduce")
+    page.get_by_role("button", name=f"Step {step}").click()
+    shown(page)
+    run = fly(setting_of(setting(page)))
+    way = np.array(page.evaluate("flypend.map().path"))
+    for mine, end in zip((way[0], way[-1]), (run.y[0], run.y[-1]), strict=True):
+        upright = end if run.e3 == "up" else end * [1, -1, -1]
+        np.testing.assert_allclose(mine, upright, atol=2e-5)
+
+
 def setting_for_map():
     return {
         "vehicle": {"base": "hehn2011"}, "law": {"name": "lqr", "gains": {}}, "plant": {"base": "ideal"},

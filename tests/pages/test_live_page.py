@@ -162,7 +162,7 @@ def random_settings(first, run, count, seed=4):
                 "noise": {name: rng.uniform(0, 0.3) * getattr(MOTION_CAPTURE, name) for name in vars(MOTION_CAPTURE)},
             },
             "start": {name: np.asarray(getattr(start, name)).tolist() for name in first["start"]},
-            "pokes": [{"time": round(rng.uniform(1, 4), 3), "on": "bob", "velocity": rng.normal(0, 0.3, 3).tolist()}],
+            "pokes": [{"time": round(rng.uniform(1, 4), 2), "on": "bob", "velocity": rng.normal(0, 0.3, 3).tolist()}],
         }  # fmt: skip
 
 

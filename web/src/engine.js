@@ -9,13 +9,13 @@ const LIBRARY = Object.fromEntries(
 );
 
 export class Engine {
-  /** Of `code`, the bytes of a module. */
-  static async from(code) {
+  /** Of `module`, a WebAssembly.Module. */
+  static async from(module) {
     const memory = new WebAssembly.Memory({ initial: (2 * STACK) / PAGE });
     const top = new WebAssembly.Global({ value: "i32", mutable: true }, STACK);
     const env = { __linear_memory: memory, __stack_pointer: top, ...LIBRARY };
-    const { instance } = await WebAssembly.instantiate(code, { env });
-    return new Engine(memory, instance.exports);
+    const { exports } = await WebAssembly.instantiate(module, { env });
+    return new Engine(memory, exports);
   }
 
   constructor(memory, functions) {

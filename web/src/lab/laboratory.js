@@ -1,8 +1,8 @@
 // The laboratory: a viewer beside controls; what they say goes to an engine, what comes back is shown at once.
 //
 // window.flypend is that of the viewer (docs/pages/replay.md) and: setting(), verdict(), number() of the last question, shown() of
-// the last flight that is shown, timings() in ms of the last ones, map() with the points so far; and live(), poke(), pull(), see
-// docs/pages/live.md.
+// the last flight that is shown, timings() in ms of the last ones, map() with the points so far and the way of the rod; and
+// live(), poke(), pull(), see docs/pages/live.md.
 
 import css from "../replay.css";
 import own from "../lab.css";
@@ -270,11 +270,13 @@ export class Laboratory {
     this.steady ??= reply.run.direction;
     this.record = { ...reply.run, direction: this.steady };
     if (!this.running.on) this.#load();
+    this.disc.follow(this.viewer.flights[0]);
     const begun = this.clock.get(reply.number);
     for (const number of this.clock.keys()) if (number <= reply.number) this.clock.delete(number);
     if (begun === undefined) return;
+    const ready = performance.now() - begun; // all but the picture, for which the browser may let one wait
     requestAnimationFrame(() => {
-      this.times = [...this.times.slice(-199), { here: reply.kind === "preview", flown: reply.milliseconds, picture: performance.now() - begun }];
+      this.times = [...this.times.slice(-199), { here: reply.kind === "preview", flown: reply.milliseconds, ready, picture: performance.now() - begun }];
     });
   }
 
@@ -321,7 +323,7 @@ export class Laboratory {
       shown: () => this.shown, timings: () => structuredClone(this.times), tab: (name) => this.show(name),
       live: () => this.running.told(), go: (on) => this.running.go(on), poke: (on, velocity) => this.running.poke(on, velocity),
       pull: (place) => this.running.pull(place), pin: () => this.pin(),
-      map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good }),
+      map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good, path: this.disc.path }),
     });
   }
 }

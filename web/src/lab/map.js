@@ -15,7 +15,7 @@ export class Map {
     Object.assign(this.root, { className: "map", innerHTML: HTML, hidden: true, ariaLabel: "Region of attraction" });
     parent.append(this.root);
     const find = (selector) => this.root.querySelector(selector);
-    Object.assign(this, { canvas: find("canvas"), disc: find(".disc"), share: find(".share"), longest: find(".longest"), here: find(".here"), points: [], total: 0 });
+    Object.assign(this, { canvas: find("canvas"), disc: find(".disc"), share: find(".share"), longest: find(".longest"), here: find(".here"), points: [], total: 0, path: [] });
     this.canvas.addEventListener("click", (event) => {
       const y = this.#direction(event);
       if (y) chosen(y);
@@ -35,6 +35,13 @@ export class Map {
     this.total = total;
     y.forEach((direction, i) => this.points.push({ y: direction, settling: settling[i], cause: cause[i] }));
     this.draw();
+  }
+
+  /** Draw over the map the way of the rod in `flight` (flight.js). */
+  follow(flight) {
+    const sign = flight.e3 === "up" ? 1 : -1;
+    this.path = Array.from(flight.t, (_, i) => flight.sample("y", i)).map(([a, b, c]) => [a, sign * b, sign * c]);
+    if (!this.root.hidden) this.draw();
   }
 
   /** Say why there is no map. */
@@ -76,10 +83,26 @@ export class Map {
         context.fill();
       }
     }
+    this.#way(context, role);
     context.restore();
     this.#frame(context, role);
     const share = +(100 * this.good / count).toFixed(count < 500 ? 0 : 1);
     this.share.textContent = count ? `Settles from ${share} % of ${count} directions${count < this.total ? "…" : ""}` : "computing…";
+  }
+
+  /** The way of the rod, from the ring; through the rim it comes in again on the other side. */
+  #way(context, role) {
+    const places = this.path.map((y) => this.#place(y));
+    for (const [width, tone] of [[4, role("paper")], [1.8, role("ink")]]) {
+      Object.assign(context, { lineWidth: width, strokeStyle: tone, lineJoin: "round" });
+      context.beginPath();
+      places.forEach(([x, y], i) => {
+        const [a, b] = places[i - 1] ?? [x, y], apart = Math.hypot(x - a, y - b) > this.radius / 2;
+        if (i === 0 || apart) context.moveTo(x, y);
+        else context.lineTo(x, y);
+      });
+      context.stroke();
+    }
   }
 
   #frame(context, role) {

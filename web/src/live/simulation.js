@@ -5,9 +5,9 @@ import { Engine } from "../engine.js";
 const MOST = 512; // ticks of one call; longer pieces are several
 
 export class Simulation {
-  /** Of `code`, the bytes of a module, and `facts` about it, both as flypend.flight.live writes them. */
-  static async from(code, facts) {
-    return new Simulation(await Engine.from(code), facts);
+  /** Of a `module` of WebAssembly, and `facts` about it, both as flypend.flight.live writes them. */
+  static async from(module, facts) {
+    return new Simulation(await Engine.from(module), facts);
   }
 
   constructor(engine, facts) {

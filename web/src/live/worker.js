@@ -7,7 +7,9 @@ let still, running, ready;
 
 const actions = {
   load({ code, facts }) {
-    ready = Promise.all([Simulation.from(code, facts), Simulation.from(code, facts)]).then((made) => ([still, running] = made));
+    ready = WebAssembly.compile(code)
+      .then((module) => Promise.all([Simulation.from(module, facts), Simulation.from(module, facts)]))
+      .then((made) => ([still, running] = made));
   },
 
   /** A whole flight. */

@@ -1,0 +1,96 @@
+"""Draw the animation of the README: `python -m benchmarks.hero` writes docs/img/hero.webp.
+
+A live page flies it: thrown from hanging, caught, poked twice. Its pictures are taken one by one in the chromium of the
+tests, the flip in slow motion.
+"""
+
+import io
+import json
+import shutil
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from urllib.parse import quote
+
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+import flypend as fp
+from benchmarks.lab import OPTIONS, SHOWN
+
+TARGET = Path(__file__).parents[1] / "docs" / "img" / "hero.webp"
+SIZE = {"width": 720, "height": 405}
+RATE = 20  # pictures a second
+QUALITY = 70  # of WebP, up to 100
+NEARER = -360  # by the wheel, from the overview: pictures from a camera that follows take three times the bytes
+SPEEDS = ((0.85, 1.0), (1.65, 0.35), (7.6, 1.0))  # until this time of flight, s, it plays at this speed
+POKES = (
+    {"time": 3.0, "on": "bob", "velocity": [1.1, 0.4, 0.0]},
+    {"time": 5.2, "on": "vehicle", "velocity": [-1.2, 0.0, 0.3]},
+)
+SAID = 0.7  # s for which a poke is named
+# The scene alone, as large as the window.
+STYLE = """.scene { position: fixed !important; inset: 0; margin: 0 !important; border-radius: 0 !important; }
+.handle, .key, .compass, .busy { display: none !important; }
+.motion span { display: none; } .motion b { font-size: 26px !important; }
+.poke-word { position: fixed; z-index: 10; font: 600 22px system-ui, sans-serif; color: var(--alarm); }"""
+SAY = """([word, on]) => {
+  const said = document.querySelector(".poke-word") ?? document.querySelector(".scene").appendChild(
+    Object.assign(document.createElement("p"), { className: "poke-word" }));
+  const [left, top] = flypend.screen(0)[on === "bob" ? "bob" : "pivot"];
+  said.textContent = word;
+  Object.assign(said.style, { left: `${left + 26}px`, top: `${top - 44}px` });
+}"""
+
+
+def times():
+    """Times of flight of the pictures, s."""
+    out, t = [], 0.0
+    for end, speed in SPEEDS:
+        while t < end:
+            out.append(t)
+            t += speed / RATE
+    return out
+
+
+def pictures(page):
+    """Take a picture of the scene of `page` at each of `times`."""
+    for t in times():
+        page.evaluate("t => flypend.seek(t)", t)
+        poke = next((poke for poke in POKES if poke["time"] <= t < poke["time"] + SAID), None)
+        page.evaluate(SAY, ["poked" if poke else "", poke["on"] if poke else "bob"])
+        yield Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+
+
+def flown(browser, folder):
+    """A page of `browser` with the flight."""
+    file = Path(folder) / "hero.html"
+    run = fp.simulate(fp.vehicle("hehn2011").replace(mount="hub"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 2.4)
+    run.to_html(file, live=True)
+    page = browser.new_page(viewport=SIZE, color_scheme="light", reduced_motion="reduce", device_scale_factor=1)
+    page.goto(file.as_uri())
+    page.wait_for_function(SHOWN)
+    setting = page.evaluate("flypend.setting()") | {"pokes": POKES, "duration": 2.4}
+    page.evaluate("hash => { location.hash = hash; }", quote(json.dumps(setting)))
+    page.wait_for_function("() => flypend.setting().pokes.length === 2")
+    page.wait_for_function(SHOWN)
+    page.add_style_tag(content=STYLE)
+    page.evaluate("flypend.pin(), flypend.camera('overview')")
+    page.mouse.move(SIZE["width"] / 2, SIZE["height"] / 2)
+    page.mouse.wheel(0, NEARER)
+    return page
+
+
+def main():
+    """Draw it, and tell how large it is."""
+    with sync_playwright() as playwright, TemporaryDirectory() as folder:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=OPTIONS)
+        page = flown(browser, folder)
+        page.wait_for_timeout(500)
+        frames = list(pictures(page))
+    settings = {"duration": 1000 // RATE, "loop": 0, "quality": QUALITY, "method": 4}
+    frames[0].save(TARGET, save_all=True, append_images=frames[1:], **settings)
+    print(f"{TARGET.name}: {len(frames)} pictures in {len(frames) / RATE:.1f} s, {TARGET.stat().st_size / 1e6:.2f} MB")
+
+
+if __name__ == "__main__":
+    main()

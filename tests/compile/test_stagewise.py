@@ -4,6 +4,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from flypend.compile.llvm.abreast import abreast
 from flypend.compile.llvm.stagewise import WIDTH, lanes, stagewise
 
 STAGES = 7
@@ -50,3 +51,26 @@ def test_no_lane_depends_on_another():
     other[..., 3] = xs[..., 3]
     run(STAGES, other, alone)
     np.testing.assert_array_equal(alone[..., 3], out[..., 3])
+
+
+def test_a_call_on_arrays_begins_at_any_stage():
+    x, p = ca.SX.sym("x", 3), ca.SX.sym("p", 1)
+    run = stagewise(ca.Function("product", [x, p], [x * p]), shared=(1,))
+    xs, factor, products = filled(STAGES, 3), filled(1), lanes(STAGES, 3)
+    run.on(xs, factor, products)(2, 3)
+    np.testing.assert_array_equal(products[2:5], (xs * factor)[2:5])
+    assert not np.any(products[:2])
+    assert not np.any(products[5:])
+
+
+@pytest.mark.parametrize("count", [WIDTH, WIDTH + 1, 3 * WIDTH - 1])
+def test_stages_abreast_are_those_one_by_one(count):
+    """Eleven inputs and nine outputs: whole blocks of eight and what is left of them are turned into lanes and back."""
+    rng = np.random.default_rng(count)
+    x, p = ca.SX.sym("x", 11), ca.SX.sym("p", 2)
+    function = ca.Function("some", [x, p], [ca.vertcat(x[:8] * p[0], x[10] / p[1]), x[2] + x[9]])
+    xs, ps = rng.normal(size=(count, 11)), rng.normal(size=2)
+    nine, one = np.zeros((count, 9)), np.zeros((count, 1))
+    abreast(function, shared=(1,))(count, xs, ps, nine, one)
+    np.testing.assert_allclose(nine, np.column_stack([xs[:, :8] * ps[0], xs[:, 10] / ps[1]]), rtol=4e-16, atol=0)
+    np.testing.assert_array_equal(one[:, 0], xs[:, 2] + xs[:, 9])

@@ -40,8 +40,7 @@ def by_recursion(shape, stages, end):
     V = column(packed_to_go(ca.DM(end["P"]), *(ca.DM(end[name]) for name in ("p", "p_e", "c", "g", "v"))))
     to_go, gains = [V], []
     for s in reversed(stages):
-        upper = [s["Q"][i, j] for j in range(N) for i in range(j + 1)]
-        cost = column(packed_cost(ca.DM(upper), *(ca.DM(s[name]) for name in ("R", "q", "q_e", "r", "c", "g"))))
+        cost = column(packed_cost(*(ca.DM(s[name]) for name in ("Q", "R", "q", "q_e", "r", "c", "g"))))
         V, gain = back(V, s["A"].ravel("F"), s["B"].ravel("F"), s["d"], cost, np.zeros(2))
         to_go.insert(0, V)
         gains.insert(0, gain)

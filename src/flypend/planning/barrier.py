@@ -7,6 +7,7 @@ curvature of g itself the part is kept that is convex whatever the state: that o
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import casadi as ca
@@ -54,18 +55,17 @@ class Barrier:
         summary = ca.vertcat(merit, ca.sum1(slack[k:] - g[k:]) if k < g.numel() else 0)
         return self._function("values", [*self._point, self._slack, self._mu], summary, slack)
 
-    def terms(self) -> ca.Function:
-        """Return (*point, slack, dual, μ) → packed cost of the linear-quadratic problem."""
-        s, z, delta, upsilon, _ = self._slack, self._dual, *self._moves
+    def terms(self, packed: Callable[..., Any] = packed_cost) -> ca.Function:
+        """Return (*point, slack, dual, μ) → cost of the linear-quadratic problem, `packed`."""
+        s, z, (delta, upsilon, _) = self._slack, self._dual, self._moves
         push = self._mu / s - z / s * (self._g - s)
         J_x, J_u, J_e = self._J
         weight = ca.diag(z / s)
         N_x = ca.jacobian(self._near, delta)
         r = ca.gradient(self._cost, upsilon)
-        Q = ca.densify(self._weight * ca.mtimes(N_x.T, N_x) + ca.mtimes([J_x.T, weight, J_x]) + self._bent())
         R = ca.diag(ca.jacobian(r, upsilon) + ca.mtimes([J_u.T, weight, J_u]))
-        cost = packed_cost(
-            ca.vertcat(*(Q[i, j] for j in range(Q.size1()) for i in range(j + 1))),
+        cost = packed(
+            self._curvature(),
             R,
             self._weight * ca.mtimes(N_x.T, self._near) - ca.mtimes(J_x.T, push),
             ca.mtimes([J_x.T, weight, J_e]),
@@ -74,6 +74,17 @@ class Barrier:
             -ca.mtimes(J_e.T, push),
         )
         return self._function("terms", [*self._point, s, z, self._mu], cost)
+
+    @property
+    def pattern(self) -> ca.Sparsity:
+        """Pattern of Q."""
+        return self._curvature().sparsity()
+
+    def _curvature(self) -> Any:
+        """Return Q (16 + n, 16 + n), sparse."""
+        J_x, N_x = self._J[0], ca.jacobian(self._near, self._moves[0])
+        kept = ca.mtimes([J_x.T, ca.diag(self._dual / self._slack), J_x]) + self._bent()
+        return self._weight * ca.mtimes(N_x.T, N_x) + kept
 
     def _bent(self) -> Any:
         """Return the curvature of −zᵀg in position and velocity."""
@@ -97,13 +108,13 @@ class Barrier:
         shares = ca.vertcat(_largest(-ds[k:] / s[k:]), _largest(-dz / z))
         return self._function("steps", [*self._point, s, z, self._mu, *given], ds, dz, shares)
 
-    def end(self) -> ca.Function:
-        """Return (state, numbers, weight, offset) → end errors h, and the packed cost to go ½ weight |h + offset|²."""
+    def end(self, packed: Callable[..., Any] = packed_to_go) -> ca.Function:
+        """Return (state, numbers, weight, offset) → end errors h, and ½ weight |h + offset|² to go, `packed`."""
         h, weight, offset = self._end, ca.SX.sym("weight"), ca.SX.sym("offset", self.end_size)
         J = ca.jacobian(h, self._moves[0])
         P, p = weight * ca.mtimes(J.T, J), weight * ca.mtimes(J.T, h + offset)
-        packed = packed_to_go(P, p, ca.SX.zeros(p.numel()), 0, self._numbers[SHARED], 0)
-        return self._function("end", [self._state, self._numbers, weight, offset], h, packed)
+        cost = packed(P, p, ca.SX.zeros(p.numel()), 0, self._numbers[SHARED], 0)
+        return self._function("end", [self._state, self._numbers, weight, offset], h, cost)
 
 
 def _largest(values: Any) -> Any:

@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend.model import State, Vehicle
+from flypend.geometry import cross
+from flypend.model import Vehicle
+from flypend.model.state import SIZE
 from flypend.planning.scaled import Units
 
 Array = NDArray[np.float64]
@@ -16,7 +18,7 @@ LEAST = 1e-3  # weights: shorter forces have no direction
 SETTLED = (0.15, 0.15, 0.2, 0.5, 0.1, 0.2)
 # It is over when y + ẏ, which grows if nothing is done, is so far from upright, or the pivot so far away.
 FALLING, AWAY = 0.35, 2.0
-ROD, AXIS = slice(18, 21), [8, 11, 14]  # of a packed state
+ATTITUDE, ROD, AXIS = slice(6, 15), slice(18, 21), [8, 11, 14]  # of a packed state
 
 
 def weighed(forces: Any, acceleration: Any, vehicle: Vehicle) -> Array:
@@ -41,9 +43,11 @@ def hover_under(outside: Any, m: float, rotors: int) -> Array:
     """Return state and `rotors` (24 + n,), own units, of hover under forces `outside` (6,); see `upright`."""
     y, z, thrust = upright(outside, m)
     first = np.array([1 - z[0] * z[0], -z[0] * z[1], -z[0] * z[2]])
-    first /= np.linalg.norm(first)
-    R = np.column_stack([first, np.cross(z, first), z])
-    return np.append(State(y=y, R=R).packed(), np.full(rotors, thrust))
+    first /= np.sqrt(first @ first)
+    found = np.zeros(SIZE + rotors)
+    found[ATTITUDE] = np.array([first, cross(z, first), z]).T.ravel()
+    found[ROD], found[SIZE:] = y, thrust
+    return found
 
 
 def hovers(here: Any, level: Any, units: Units) -> bool:

@@ -8,6 +8,7 @@ rotor at its limit, feedback acts one way only.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from typing import Any
 
 import casadi as ca
@@ -19,10 +20,9 @@ from flypend.geometry import E3, cross, unit
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turned
-from flypend.planning.kernels import kernels
 from flypend.planning.result import Plan
-from flypend.planning.riccati import packed_cost
 from flypend.planning.scaled import Units, size
+from flypend.planning.single import laid, single
 from flypend.planning.wishes import Wishes
 from flypend.plants.lag import step_timing
 
@@ -87,20 +87,20 @@ def _hover(plan: Plan) -> Array:
 def _gains(vehicle: Any, units: Units, states: Array, commands: Array, h: float) -> Array:
     """Return the gains (stages, n, 18 + n) of the regulator in SI units, by one recursion from zero cost to go."""
     n, count = commands.shape[1], len(commands)
-    compiled = kernels(n, Wishes())
+    compiled, one = single(n, Wishes()), partial(lanes, width=1)
     shape = compiled.shape
-    own, forces, timing, numbers = lanes(count + 1, SIZE + n), lanes(count, n), lanes(4), lanes(size(n))
+    own, forces, timing, numbers = one(count + 1, SIZE + n), one(count, n), one(4), one(size(n))
     own[:] = (states / units.states(n))[..., None]
     forces[:] = (commands / units.force)[..., None]
     timing[:] = step_timing(vehicle.rotor_lag / units.time, h)[:, None]
     numbers[:] = units.numbers(vehicle)[:, None]
-    A, B, d = lanes(count, shape.A.nnz()), lanes(count, shape.B.nnz()), lanes(count, shape.n)
-    compiled.linearised(count, own, own[1:], forces, timing, numbers, d, A, B)
-    cost, to_go, found = lanes(count, shape.of_stage), lanes(count + 1, shape.to_go), lanes(count, shape.gains)
+    F, d = one(count, *compiled.slopes), one(count, shape.n)
+    compiled.linearised(count, own, own[1:], forces, timing, numbers, d, F)
+    cost, to_go, found = one(count, compiled.of_stage), one(count + 1, compiled.to_go), one(count, shape.gains)
     cost[:] = _cost(n)[:, None]
-    compiled.backward(count, to_go[1:], A, B, d, cost, lanes(2), to_go, found)
-    K = -found[:, : n * shape.n, 0].reshape(count, shape.n, n).transpose(0, 2, 1)
-    b = np.array([np.array(ca.DM(ca.evalf(plane(ca.SX(ca.DM(y)))))) for y in states[:-1, 18:21]])
+    compiled.backward(count, to_go[1:], F, d, cost, one(2), to_go, found)
+    K = -found[:, : n * shape.n, 0].reshape(count, n, shape.n)
+    b = np.array(_planes().map(count)(states[:-1, 18:21].T)).reshape(3, count, 2).transpose(1, 0, 2)
     whole = np.concatenate(
         [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
         axis=2,
@@ -108,16 +108,23 @@ def _gains(vehicle: Any, units: Units, states: Array, commands: Array, h: float)
     return whole * units.force / _units_of_deviation(units, n)
 
 
+@lru_cache(maxsize=1)
+def _planes() -> ca.Function:
+    y = ca.SX.sym("y", 3)
+    return ca.Function("plane", [y], [plane(y)])
+
+
+@lru_cache(maxsize=4)
 def _cost(n: int) -> Array:
+    """Return the cost of a stage as it lies in memory."""
     weights = np.concatenate([np.repeat(1 / np.square(ACCEPTABLE), (3, 3, 3, 3, 2, 2)), np.zeros(n)])
     weights[ATTITUDE.stop - 1] = 1 / HEADING**2
     Q = np.diag(weights)
-    upper = [Q[i, j] for j in range(MOTION + n) for i in range(j + 1)]
     none = np.zeros(MOTION + n)
     R = np.full(n, 1 / COMMAND**2)
     # Nothing depends on the shared parameter; its curvature only must not vanish.
-    cost = packed_cost(*(ca.DM(part) for part in (upper, R, none, none, np.zeros(n), 1.0, 0.0)))
-    return np.array(cost).ravel()
+    cost = laid(n, Wishes()).cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
+    return np.array(ca.DM(ca.evalf(cost))).ravel()
 
 
 def _units_of_deviation(units: Units, n: int) -> Array:

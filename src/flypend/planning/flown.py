@@ -95,8 +95,8 @@ class Flown:
         _, first, last = self._due
         self._due = None
         own, f = self._realtime, self._feedback
-        f.states[first : last + 1] = own.states[first : last + 1, :, 0] * self._own
-        f.commands[first:last] = own.commands[first:last, :, 0] * self._force
+        f.states[first : last + 1] = own.states[first : last + 1] * self._own
+        f.commands[first:last] = own.commands[first:last] * self._force
 
     def _improve(self, t: float, here: Any, rotors: Any, outside: Any) -> None:
         """Begin an iteration for the next stage that its result can reach, if it is time."""

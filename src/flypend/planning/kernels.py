@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
-from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
+from flypend.compile.llvm.stagewise import Stagewise, stagewise
 from flypend.planning.barrier import Barrier
 from flypend.planning.riccati import Shape, backward, forward
 from flypend.planning.stage import Stage
@@ -22,18 +22,26 @@ class Kernels:
         Patterns of the derivatives.
     inequalities, exact, end_size : int
         Number of inequalities, of the exact ones among them, and of errors at the end.
+    slopes : tuple of int
+        Lengths of what `linearised` writes after the gap.
+    of_stage, to_go, of_shared : int
+        Lengths of the cost of a stage and of a cost to go, and the place of c, g and v in it.
     linearised, rollout, step : Stagewise
-        See `plan.stage.Stage`.
+        See `stage.Stage`.
     backward, forward : Stagewise
-        See `plan.riccati`.
+        See `riccati`.
     values, terms, steps, end : Stagewise
-        See `plan.barrier.Barrier`.
+        See `barrier.Barrier`.
     """
 
     shape: Shape
     inequalities: int
     exact: int
     end_size: int
+    slopes: tuple[int, ...]
+    of_stage: int
+    to_go: int
+    of_shared: int
     linearised: Stagewise
     rollout: Stagewise
     step: Stagewise
@@ -46,12 +54,11 @@ class Kernels:
 
 
 @lru_cache(maxsize=32)
-def kernels(rotors: int, wishes: Wishes, width: int = WIDTH) -> Kernels:
-    """Return the compiled programs for machines with this many `rotors`, and `wishes`, on `width` lanes.
+def kernels(rotors: int, wishes: Wishes) -> Kernels:
+    """Return the compiled programs of as many problems as lanes, for machines with so many `rotors`, and `wishes`.
 
     They come from the cache if possible.
     """
-    compiled = partial(stagewise, width=width)
     stage = Stage(rotors)
     barrier = Barrier(stage, wishes)
     linearised, A, B = stage.linearised()
@@ -61,13 +68,17 @@ def kernels(rotors: int, wishes: Wishes, width: int = WIDTH) -> Kernels:
         inequalities=barrier.inequalities,
         exact=wishes.exact(rotors),
         end_size=barrier.end_size,
-        linearised=compiled(linearised, shared=(3, 4)),
-        rollout=compiled(stage.rollout(), shared=(5, 6, 7, 8, 9)),
-        step=compiled(stage.step(), shared=(2, 3)),
-        backward=compiled(backward(shape), shared=(5,), backward=True),
-        forward=compiled(forward(shape), shared=(1,)),
-        values=compiled(barrier.values(), shared=(2, 3, 4, 6)),
-        terms=compiled(barrier.terms(), shared=(2, 3, 4, 7)),
-        steps=compiled(barrier.steps(), shared=(2, 3, 4, 7, 10)),
-        end=compiled(barrier.end(), shared=(1, 2)),
+        slopes=(A.nnz(), B.nnz()),
+        of_stage=shape.of_stage,
+        to_go=shape.to_go,
+        of_shared=shape.to_go - 3,
+        linearised=stagewise(linearised, shared=(3, 4)),
+        rollout=stagewise(stage.rollout(), shared=(5, 6, 7, 8, 9)),
+        step=stagewise(stage.step(), shared=(2, 3)),
+        backward=stagewise(backward(shape), shared=(5,), backward=True),
+        forward=stagewise(forward(shape), shared=(1,)),
+        values=stagewise(barrier.values(), shared=(2, 3, 4, 6)),
+        terms=stagewise(barrier.terms(), shared=(2, 3, 4, 7)),
+        steps=stagewise(barrier.steps(), shared=(2, 3, 4, 7, 10)),
+        end=stagewise(barrier.end(), shared=(1, 2)),
     )

@@ -131,9 +131,12 @@ def _shortened(asked: Request, best: Plan, deadline: float) -> Plan:
     return best
 
 
-def plan_within(asked: Request, horizon: float, iterations: int) -> Plan:
-    """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock."""
-    return told([asked], [together(asked, horizon, math.inf, iterations)], horizon)[0]
+def plan_within(asked: Request, horizon: float, iterations: int, rounds: Mapping[int, int]) -> Plan:
+    """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock.
+
+    `rounds` as in `race.Race`.
+    """
+    return told([asked], [together(asked, horizon, math.inf, iterations, rounds)], horizon)[0]
 
 
 def _solved(asked: Request, horizon: float, deadline: float) -> Plan:

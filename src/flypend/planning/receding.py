@@ -14,7 +14,7 @@ from flypend.planning.pilot import Receding
 from flypend.planning.request import request
 from flypend.planning.tracking import rotors_only
 
-COMPUTING = 0.002  # s
+COMPUTING = 0.001  # s
 
 
 def nmpc(

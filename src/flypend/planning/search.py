@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +14,9 @@ from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
 from flypend.planning.guesses import pumping, styles
 from flypend.planning.kernels import kernels
+from flypend.planning.race import ROUNDS, Race
 from flypend.planning.request import STAGES_PER_UNIT, TOLERANCE, Request
+from flypend.planning.single import single
 from flypend.planning.solver import Problem, Solver
 from flypend.plants.lag import step_timing
 
@@ -76,7 +78,7 @@ class Verdict:
         Whether it reaches hover, whatever it breaks on the way; and whether it cannot be improved.
     """
 
-    def __init__(self, solver: Solver, soft: bool) -> None:
+    def __init__(self, solver: Solver | Race, soft: bool) -> None:
         cost, violation = (solver.cost if soft else solver.value), solver.violation
         self.arrives, self.stuck = (solver.end <= 1) & (solver.gap <= CLOSED), solver.stuck
         self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
@@ -110,30 +112,29 @@ class Watch:
         """Whether more iterations are not worth their time."""
         return self._steady >= STEADY_FOR or self._iterations >= self._most or self._stuck
 
-    def before(self, solver: Solver) -> None:
+    def before(self, solver: Solver | Race) -> None:
         """Prepare an iteration: what must not be touched costs more and more to be near."""
         if self._soft:
             weight = SOFT_FIRST * SOFT_GROWTH**self._iterations
             solver.insist(-2, min(SOFT_LAST, weight), self._on)
             self._best = self._best if weight > SOFT_LAST else np.inf  # costs under other weights do not compare
 
-    def after(self, solver: Solver, verdict: Verdict, spent: float) -> None:
+    def after(self, solver: Solver | Race, verdict: Verdict, spent: float) -> None:
         """Look at the lanes after an iteration, of which `spent` (s) belongs to these lanes."""
         score, place, lacks = verdict.of(self._on)
         lane = int(self._on[place])
         settled = np.isfinite(self._best) and score > (1 - STEADY) * self._best
         self._steady = self._steady + 1 if settled and solver.barrier[lane] <= STEADY_BARRIER else 0
         if self._kept is None or not score > self._best:
-            self._kept = solver.states[:, :, lane].copy(), solver.commands[:, :, lane].copy(), lacks, place
+            self._kept = *solver.iterate(lane), lacks, place
         self._best = min(self._best, score)
         self._iterations += 1
         self._spent += spent
         self._stuck = bool(np.all(verdict.stuck[self._on]))
 
-    def found(self, solver: Solver) -> Found:
+    def found(self, solver: Solver | Race) -> Found:
         """Return the best so far."""
-        first = int(self._on[0])
-        none = solver.states[:, :, first].copy(), solver.commands[:, :, first].copy(), NOT_REACHED, 0
+        none = *solver.iterate(int(self._on[0])), NOT_REACHED, 0
         states, commands, lacks, place = self._kept or none
         unfinished = "" if self._steady >= STEADY_FOR else UNFINISHED
         return Found(
@@ -143,22 +144,31 @@ class Watch:
 
 def stages_of(horizon: float) -> tuple[int, float]:
     """Return number and length of the stages of a `horizon` (√(l/g))."""
-    stages = max(2, round(horizon * STAGES_PER_UNIT))
+    stages = max(WIDTH, round(horizon * STAGES_PER_UNIT))
     return stages, horizon / stages
 
 
 def prepared(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
-    kernels(asked.rotors, asked.wishes), pumping(asked.rotors)
+    single(asked.rotors, asked.wishes), pumping(asked.rotors)
 
 
-def together(asked: Request, horizon: float, deadline: float, most: int = MOST_ITERATIONS) -> Found:
-    """Solve from all styles of guesses at once, until the best is steady or the `deadline` (monotonic) is over.
+def together(
+    asked: Request,
+    horizon: float,
+    deadline: float,
+    most: int = MOST_ITERATIONS,
+    rounds: Mapping[int, int] | None = None,
+) -> Found:
+    """Solve from all styles of guesses, until the best is steady or the `deadline` (monotonic) is over.
 
-    There are at `most` so many iterations.
+    There are at `most` so many iterations. `rounds` are as in `race.Race`; by default no guess is given up where costs
+    are soft at first, since the dearest may be the one that keeps away.
     """
     jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.wishes.soft
-    solver, watch = _solver(jobs, horizon), Watch(jobs, range(WIDTH), most)
+    given_up = ({} if soft else ROUNDS) if rounds is None else rounds
+    solver = Race(single(asked.rotors, asked.wishes), *guessed(jobs, horizon), given_up)
+    watch = Watch(jobs, range(WIDTH), most)
     while not watch.done and time.monotonic() < deadline:
         begin = time.thread_time()
         watch.before(solver)

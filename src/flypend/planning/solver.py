@@ -8,12 +8,14 @@ length α leaves 1 − α of them. docs/planning/limit.md derives it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend.compile.llvm.stagewise import WIDTH, lanes
+from flypend.compile.llvm.stagewise import lanes as some_lanes
+from flypend.model.state import SIZE
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
 from flypend.planning.kernels import Kernels
 from flypend.planning.stage import LEAST_ROOM
@@ -98,13 +100,30 @@ class Problem:
     numbers: Lanes
 
 
+class Scratch:
+    """What an iteration of a solver writes before it reads it, for a number of `stages` on `width` lanes.
+
+    Solvers that take turns share it: then it stays in the processor's cache.
+    """
+
+    def __init__(self, kernels: Kernels, stages: int, width: int) -> None:
+        shape, k, of = kernels.shape, kernels.inequalities, partial(some_lanes, stages, width=width)
+        self.slopes, self.d = tuple(of(length) for length in kernels.slopes), of(shape.n)
+        self.cost, self.gains, self.summary = of(kernels.of_stage), of(shape.gains), of(2)
+        self.to_go, self.end = (some_lanes(many, kernels.to_go, width=width) for many in (stages + 1, 1))
+        self.delta, self.upsilon = some_lanes(stages + 1, shape.n, width=width), of(shape.k)
+        self.costate, self.s_step, self.z_step, self.shares = of(1), of(k), of(k), of(2)
+        self.new_states, self.new_commands = some_lanes(stages + 1, SIZE + shape.k, width=width), of(shape.k)
+        self.trial, self.new_slack = of(k), of(k)
+
+
 class Solver:
     """The state of the method on a `problem`, beginning with guessed states and commands.
 
     Parameters
     ----------
     kernels : Kernels
-        The compiled programs.
+        The compiled programs, for one problem or for as many as there are lanes.
     problem : Problem
         The problem.
     states : (stages + 1, 24 + n, lanes)
@@ -113,6 +132,8 @@ class Solver:
         Guessed commands.
     settings : Settings
         Numbers of the method.
+    scratch : Scratch, optional
+        Memory that is shared with other solvers.
 
     Attributes
     ----------
@@ -127,31 +148,56 @@ class Solver:
     """
 
     def __init__(
-        self, kernels: Kernels, problem: Problem, states: Lanes, commands: Lanes, settings: Settings | None = None
-    ) -> None:
+        self, kernels: Kernels, problem: Problem, states: Lanes, commands: Lanes, settings: Settings | None = None,
+        scratch: Scratch | None = None,
+    ) -> None:  # fmt: skip
         self._k, self._problem = kernels, problem
         self._set = settings = settings or Settings()
-        N, k, shape = problem.stages, kernels.inequalities, kernels.shape
+        N, k, self.width = problem.stages, kernels.inequalities, states.shape[-1]
+        lanes = partial(some_lanes, width=self.width)
         self.states, self.commands = states, commands
         self._limits, self._asked = lanes(3), lanes(1)
         self._mu, self._shared, self._length = lanes(1), lanes(1), lanes(1)
         self._damping, self._weight, self._offset = lanes(2), lanes(1), lanes(kernels.end_size)
         self._slack, self._dual = lanes(N, k), lanes(N, k)
-        self._A, self._B, self._d = lanes(N, shape.A.nnz()), lanes(N, shape.B.nnz()), lanes(N, shape.n)
-        self._cost, self._to_go, self._gains = (
-            lanes(N, shape.of_stage),
-            lanes(N + 1, shape.to_go),
-            lanes(N, shape.gains),
-        )
-        self._delta, self._upsilon, self._epsilon = lanes(N + 1, shape.n), lanes(N, shape.k), lanes(1)
-        self._costate = lanes(N, 1)
-        self._s_step, self._z_step, self._shares = lanes(N, k), lanes(N, k), lanes(N, 2)
-        self._summary, self._price = lanes(N, 2), np.ones((2, WIDTH))
-        self._new_states, self._new_commands, self._new_shared = lanes(*states.shape[:2]), lanes(N, shape.k), lanes(1)
-        self._trial, self._new_slack = lanes(N, k), lanes(N, k)
-        self._end, self._errors = lanes(1, shape.to_go), lanes(1, kernels.end_size)
-        self.merit, self.violation, self.gap, self.end, self.promise = (np.full(WIDTH, np.inf) for _ in range(5))
+        self._epsilon, self._new_shared, self._errors = lanes(1), lanes(1), lanes(1, kernels.end_size)
+        self._price, self._w = np.ones((2, self.width)), scratch or Scratch(kernels, N, self.width)
+        self.merit, self.violation, self.gap, self.end, self.promise = (np.full(self.width, np.inf) for _ in range(5))
+        self._connect()
         self._begin(slice(None))
+
+    def _connect(self) -> None:
+        """Give the programs the arrays that they work on."""
+        k, p, w, N = self._k, self._problem, self._w, self._problem.stages
+        here = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
+        there = (w.new_states, w.new_commands, self._new_shared, p.numbers, p.vehicle)
+        moves = (w.delta, w.upsilon, self._epsilon)
+        slack, dual, to_go, d, slopes = self._slack, self._dual, w.to_go, w.d, w.slopes
+        at_end = (p.numbers, self._weight, self._offset, self._errors)
+        self._linearise = k.linearised.on(
+            self.states, self.states[1:], self.commands, p.timing, p.vehicle, d, *slopes
+        )  # fmt: skip
+        self._add_terms = k.terms.on(*here, slack, dual, self._mu, w.cost)
+        self._add_end = k.end.on(self.states[N:], *at_end, to_go[N:])
+        self._back = k.backward.on(to_go[1:], *slopes, d, w.cost, self._damping, to_go, w.gains)
+        self._ahead = k.forward.on(
+            w.delta, self._epsilon, *slopes, d, w.gains, to_go[1:], w.delta[1:], w.upsilon, w.costate
+        )  # fmt: skip
+        self._along = k.steps.on(*here, slack, dual, self._mu, *moves, w.s_step, w.z_step, w.shares)
+        self._roll = k.rollout.on(
+            self.states, self.commands, d, w.gains, w.new_states, self._length, self._epsilon, self._limits,
+            p.timing, p.vehicle, w.new_states[1:], w.new_commands,
+        )  # fmt: skip
+        self._measured = (
+            (
+                k.values.on(*here, slack, self._mu, w.summary, slack),
+                k.end.on(self.states[N:], *at_end, w.end),
+            ),
+            (
+                k.values.on(*there, w.trial, self._mu, w.summary, w.new_slack),
+                k.end.on(w.new_states[N:], *at_end, w.end),
+            ),
+        )
 
     def take(self, lane: int, problem: Problem, states: Lanes, commands: Lanes, source: int) -> None:
         """Begin another problem on a `lane`: that on the lane `source` of `problem`, `states` and `commands`."""
@@ -183,8 +229,12 @@ class Solver:
         for measured in (self.merit, self.violation, self.gap, self.end):
             measured[on] = np.inf
         # In the other lanes slacks are what they were.
-        self._value(self.states, self.commands, self._shared, self._slack, self._slack, 0.0)
+        self._value(False, 0.0)
         self._dual[..., on] = self._mu[..., on] / self._slack[..., on]
+
+    def iterate(self, lane: int) -> tuple[Lanes, Lanes]:
+        """Return copies of the states (stages + 1, 24 + n) and commands (stages, n) of a `lane`."""
+        return self.states[:, :, lane].copy(), self.commands[:, :, lane].copy()
 
     @property
     def excursion(self) -> Lanes:
@@ -224,13 +274,9 @@ class Solver:
 
     def measure(self) -> None:
         """Measure violation, gap and end of the states and commands as they are."""
-        p, N = self._problem, self._problem.stages
-        self._k.linearised(
-            N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B
-        )
-        self.gap = np.sum(np.abs(self._d), axis=(0, 1))
-        here = (self.states, self.commands, self._shared, self._slack, self._slack)
-        self.merit, self.violation, self.end = self._value(*here, self.gap)
+        self._linearise(0, self._problem.stages)
+        self.gap = np.sum(np.abs(self._w.d), axis=(0, 1))
+        self.merit, self.violation, self.end = self._value(False, self.gap)
 
     def insist(self, place: int, weight: float, on: Any) -> None:
         """Set the number at `place` of the wishes, a `weight`, in the lanes `on`."""
@@ -241,79 +287,74 @@ class Solver:
         k, p, N = self._k, self._problem, self._problem.stages
         early = np.minimum(1.0, self._mu[0] / self._set.relief)
         p.numbers[SHARED] = self._asked[0] / (1 + early * self._shared[0])
-        point = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
-        k.linearised(N, self.states, self.states[1:], self.commands, p.timing, p.vehicle, self._d, self._A, self._B)
-        k.terms(N, *point, self._slack, self._dual, self._mu, self._cost)
-        k.end(1, self.states[N:], p.numbers, self._weight, self._offset, self._errors, self._to_go[N:])
-        k.backward(N, self._to_go[1:], self._A, self._B, self._d, self._cost, self._damping, self._to_go, self._gains)
-        c, g, v = self._to_go[0, -3:]
+        self._linearise(0, N)
+        self._add_terms(0, N)
+        self._add_end(0, 1)
+        self._back(0, N)
+        c, g, v = self._w.to_go[0, k.of_shared : k.of_shared + 3]
         self._epsilon[0] = -g / c
         self.promise = g * g / (2 * c) - v
-        k.forward(
-            N, self._delta, self._epsilon, self._A, self._B, self._d, self._gains, self._to_go[1:], self._delta[1:],
-            self._upsilon, self._costate,
-        )  # fmt: skip
-        moves = (self._delta, self._upsilon, self._epsilon)
-        k.steps(N, *point, self._slack, self._dual, self._mu, *moves, self._s_step, self._z_step, self._shares)
-        self.gap = np.sum(np.abs(self._d), axis=(0, 1))
+        self._ahead(0, N)
+        self._along(0, N)
+        self.gap = np.sum(np.abs(self._w.d), axis=(0, 1))
         self._price = self._prices()
-        here = (self.states, self.commands, self._shared, self._slack, self._slack)
-        self.merit, self.violation, self.end = self._value(*here, self.gap)
+        self.merit, self.violation, self.end = self._value(False, self.gap)
         self._search()
 
     def _prices(self) -> Lanes:
         """Return the prices (2, lanes) of gaps and violations: above all multipliers, so that neither is worth it."""
         dual = np.max(self._dual[:, self._k.exact :], axis=(0, 1), initial=0.0)
-        return np.maximum(1.0, 1.2 * np.array([np.max(self._costate, axis=(0, 1)), dual]))
+        return np.maximum(1.0, 1.2 * np.array([np.max(self._w.costate, axis=(0, 1)), dual]))
 
     def _search(self) -> None:
         """Shorten the step until the merit falls, lane by lane, and take it."""
         settings = self._set
-        turns = np.max(np.abs(self._delta[:, TURNS]), axis=(0, 1))
-        used = np.max(self._shares, axis=0)
+        turns = np.max(np.abs(self._w.delta[:, TURNS]), axis=(0, 1))
+        used = np.max(self._w.shares, axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
             longest, dual_length = np.fmin(1.0, settings.room / used)
             length = np.fmin(longest, settings.turn / turns)
-        found = np.zeros(WIDTH, dtype=bool)
+        found = np.zeros(self.width, dtype=bool)
         for _ in range(settings.attempts):
             self._fly(length)
-            trial = (self._new_states, self._new_commands, self._new_shared, self._trial, self._new_slack)
             gap = (1 - length) * self.gap
-            merit, violation, end = self._value(*trial, gap)
+            merit, violation, end = self._value(True, gap)
             found |= merit < self.merit
             if np.all(found):
                 break
             length = np.where(found, length, settings.shrink * length)
-        pairs = ((self.states, trial[0]), (self.commands, trial[1]), (self._shared, trial[2]), (self._slack, trial[4]))
+        pairs = (
+            (self.states, self._w.new_states), (self.commands, self._w.new_commands), (self._shared, self._new_shared),
+            (self._slack, self._w.new_slack),
+        )  # fmt: skip
         for old, new in pairs:
             np.copyto(old, new, where=found)
         self.merit, self.violation = np.where(found, merit, self.merit), np.where(found, violation, self.violation)
         self.gap, self.end = np.where(found, gap, self.gap), np.where(found, end, self.end)
-        self._dual += np.where(found, dual_length, 0.0) * self._z_step
+        self._dual += np.where(found, dual_length, 0.0) * self._w.z_step
         self._adapt(np.where(found, length, 0.0))
 
     def _fly(self, length: Lanes) -> None:
         """Fly a step of this `length` (lanes,) into the new states and commands, with trial values of the slacks."""
-        k, p, N = self._k, self._problem, self._problem.stages
-        self._new_states[0], self._length[0] = self.states[0], length
-        k.rollout(
-            N, self.states, self.commands, self._d, self._gains, self._new_states, self._length, self._epsilon,
-            self._limits, p.timing, p.vehicle, self._new_states[1:], self._new_commands,
-        )  # fmt: skip
+        k, N = self._k, self._problem.stages
+        self._w.new_states[0], self._length[0] = self.states[0], length
+        self._roll(0, N)
         # The ball grows if need be, so that its slack keeps the same share as those of the commands.
         room = np.maximum((1 - self._set.room) * self._slack[:, k.exact - 1], LEAST_ROOM)
-        kept = _squared(self._new_states[:N]) + room
+        kept = _squared(self._w.new_states[:N]) + room
         self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], np.max(kept, axis=0))
-        self._trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._s_step[:, k.exact :]
+        self._w.trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._w.s_step[:, k.exact :]
 
-    def _value(
-        self, states: Lanes, commands: Lanes, shared: Lanes, trial: Lanes, slack: Lanes, gap: Lanes | float
-    ) -> tuple[Lanes, Lanes, Lanes]:
-        """Return merit, violation and largest error at the end, each (lanes,), and write the slacks."""
-        k, p, N = self._k, self._problem, self._problem.stages
-        k.values(N, states, commands, shared, p.numbers, p.vehicle, trial, self._mu, self._summary, slack)
-        k.end(1, states[N:], p.numbers, self._weight, self._offset, self._errors, self._end)
-        own, violation = np.sum(self._summary, axis=0)
+    def _value(self, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes]:
+        """Return merit, violation and largest error at the end, each (lanes,), and write the slacks.
+
+        They are those of the `new` states and commands, or of the old ones.
+        """
+        p, shared = self._problem, self._new_shared if new else self._shared
+        values, end = self._measured[new]
+        values(0, p.stages)
+        end(0, 1)
+        own, violation = np.sum(self._w.summary, axis=0)
         with np.errstate(over="ignore", invalid="ignore"):
             missed = np.sum((self._errors[0] + self._offset) ** 2, axis=0)
             merit = p.numbers[SHARED] * shared[0] + own + self._weight[0] * missed / 2

@@ -9,6 +9,7 @@ import casadi as ca
 
 from flypend.model.state import SIZE
 from flypend.planning.coordinates import MOTION, local, retract
+from flypend.planning.riccati import unpacked_gains
 from flypend.planning.scaled import Scaled
 from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import TIMING_SIZE, held
@@ -46,18 +47,27 @@ class Stage:
         led = stepped(self.before, self.command, self.timing, self.machine)
         return ca.Function("step", [self.before, self.command, self.timing, self.machine.numbers], [ca.cse(led)])
 
-    def linearised(self) -> tuple[ca.Function, Any, Any]:
-        """Return (before, after, command, timing, vehicle) → gap, and non-zeros of A and B; and the patterns of both.
-
-        A and B are the derivatives of the gap with respect to coordinates of the state and the command.
-        """
+    def derivatives(self) -> tuple[Any, Any, Any]:
+        """Return gap, and its derivatives A and B with respect to coordinates of the state and the command, sparse."""
         delta = ca.SX.sym("delta", self.coordinates)
         gap = self.gap_at(delta)
         A, B = ca.jacobian(gap, delta), ca.jacobian(gap, self.command)
         at = ca.substitute([gap, A, B], [delta], [ca.SX.zeros(self.coordinates)])
-        gap, A, B = ca.densify(at[0]), ca.sparsify(at[1]), ca.sparsify(at[2])
-        outputs = ca.cse([gap, ca.vertcat(*A.nonzeros()), ca.vertcat(*B.nonzeros())])
-        return ca.Function("linearised", self._inputs(), outputs), A.sparsity(), B.sparsity()
+        return ca.densify(at[0]), ca.sparsify(at[1]), ca.sparsify(at[2])
+
+    def linearised(self) -> tuple[ca.Function, Any, Any]:
+        """Return (before, after, command, timing, vehicle) → gap, and non-zeros of A and B; and the patterns of both.
+
+        See `derivatives`.
+        """
+        gap, A, B = self.derivatives()
+        outputs = [gap, ca.vertcat(*A.nonzeros()), ca.vertcat(*B.nonzeros())]
+        return self.leading(*outputs), A.sparsity(), B.sparsity()
+
+    def leading(self, *outputs: Any) -> ca.Function:
+        """Return (before, after, command, timing, vehicle) → `outputs`."""
+        inputs = [self.before, self.after, self.command, self.timing, self.machine.numbers]
+        return ca.Function("linearised", inputs, ca.cse([*outputs]))
 
     def rollout(self) -> ca.Function:
         """Return (nominal, command, gap, gains, state, length, ε, limits, timing, vehicle) → state after it, command.
@@ -69,20 +79,17 @@ class Stage:
         """
         n, state, length = self.coordinates, ca.SX.sym("state", SIZE + self.rotors), ca.SX.sym("length")
         gap, epsilon, limits = ca.SX.sym("gap", n), ca.SX.sym("epsilon"), ca.SX.sym("limits", 3)
-        gains = ca.SX.sym("gains", self.rotors, n + 2)
-        feedback = ca.mtimes(gains[:, :n], local(self.before, state))
-        wanted = self.command + length * (gains[:, n] + epsilon * gains[:, n + 1]) + feedback
+        gains = ca.SX.sym("gains", self.rotors * (n + 2))
+        K, k, k_e = unpacked_gains(gains, n, self.rotors)
+        wanted = self.command + length * (k + epsilon * k_e) + ca.mtimes(K, local(self.before, state))
         low, high = limits[0] + LEAST_ROOM, limits[1] - LEAST_ROOM
         least = ca.fmin(ca.fmax(self.command + limits[2] * (limits[0] - self.command), low), self.command)
         most = ca.fmax(ca.fmin(self.command + limits[2] * (limits[1] - self.command), high), self.command)
         command = ca.fmin(ca.fmax(wanted, least), most)
         led = retract(stepped(state, command, self.timing, self.machine), (length - 1) * gap)
-        inputs = [self.before, self.command, gap, ca.vec(gains), state, length, epsilon, limits]
+        inputs = [self.before, self.command, gap, gains, state, length, epsilon, limits]
         inputs += [self.timing, self.machine.numbers]
         return ca.Function("rollout", inputs, ca.cse([ca.densify(led), ca.densify(command)]))
-
-    def _inputs(self) -> list[Any]:
-        return [self.before, self.after, self.command, self.timing, self.machine.numbers]
 
 
 @lru_cache(maxsize=4)

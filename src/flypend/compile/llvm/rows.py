@@ -34,6 +34,30 @@ def define_turn(lanes: Lanes, length: int) -> ir.Function:
     return function
 
 
+def define_spread(lanes: Lanes, length: int) -> ir.Function:
+    """Define a function (rows, vectors), the inverse of `define_turn` for doubles in `BLOCK` lanes."""
+    known = lanes.module.globals.get(f"spread_{length}")
+    if known is not None:
+        return known
+    function, code = lanes.function(f"spread_{length}", 2)
+    rows, target = function.args
+    for first in range(0, length - length % BLOCK, BLOCK):
+        block = []
+        for lane in range(BLOCK):
+            place = code.scalar_at(rows, ir.Constant(I64, lane * length + first))
+            block.append(code.builder.load(place, typ=DOUBLES))
+            block[-1].align = 8
+        for i, vector in enumerate(_transposed(code.builder, block)):
+            code.store(Value(code, vector), target, first + i)
+    for i in range(length - length % BLOCK, length):
+        with code.count(BLOCK) as lane:
+            here = code.builder.add(code.builder.mul(lane, ir.Constant(I64, length)), ir.Constant(I64, i))
+            there = code.builder.add(ir.Constant(I64, i * BLOCK), lane)
+            code.put(code.scalar(rows, here), target, there)
+    code.builder.ret_void()
+    return function
+
+
 def _eight_lanes(code: Code, memory: ir.Value, index: int, lane: int) -> ir.Value:
     """Eight lanes of vector `index`, starting at `lane`, as doubles."""
     vector = code.load(memory, index).raw

@@ -41,13 +41,34 @@ class Stagewise:
 
     Called with the number of stages and one address per input and output, at the first stage. Arrays are of doubles,
     (stages, length, width), from `lanes`.
+
+    Parameters
+    ----------
+    native : Native
+        The machine code.
+    strides : tuple of int
+        From a stage to the next, in bytes; 0 for what is shared.
     """
 
     native: jit.Native
+    strides: tuple[int, ...]
 
     def __call__(self, count: int, *arrays: Any) -> None:
         """Run all stages; `arrays` are NumPy arrays, C-contiguous from their first entry on."""
         self.native(count, *(array.ctypes.data for array in arrays))
+
+    def on(self, *arrays: Any) -> Callable[[int, int], None]:
+        """Return a function of number and count, which runs `count` stages from a `first` one of the same `arrays` on.
+
+        It saves what it takes to find the address of an array.
+        """
+        native, strides, places = self.native, self.strides, tuple(array.ctypes.data for array in arrays)
+
+        def run(first: int, count: int) -> None:
+            native(count, *(place + first * stride for place, stride in zip(places, strides, strict=True)))
+
+        run.arrays = arrays  # type: ignore[attr-defined]  # which must live as long as it does
+        return run
 
 
 def stagewise(
@@ -66,7 +87,7 @@ def stagewise(
     width : int
         Number of lanes.
     """
-    routine = lower_calls(_of_calls(function))
+    routine = one_routine(function)
     lengths = [*routine.inputs, *(len(cells) for cells in routine.outputs)]
     strides = [0 if i in shared else length for i, length in enumerate(lengths)]
 
@@ -76,7 +97,8 @@ def stagewise(
         return lanes.module
 
     kinds = [ctypes.c_int64, *[ctypes.c_void_p] * len(lengths)]
-    return Stagewise(jit.build(f"stagewise {width} {strides} {backward} {routine!r}", module, "kernel", kinds))
+    native = jit.build(f"stagewise {width} {strides} {backward} {routine!r}", module, "kernel", kinds)
+    return Stagewise(native, tuple(8 * width * stride for stride in strides))
 
 
 def alone(function: ca.Function) -> Callable[..., Any]:
@@ -101,12 +123,12 @@ def alone(function: ca.Function) -> Callable[..., Any]:
     return call
 
 
-def _of_calls(function: ca.Function) -> ca.Function:
-    """Return `function`, if it is an SX function as one that calls it."""
+def one_routine(function: ca.Function) -> Routine:
+    """Return the routine of `function`; an SX function becomes one that calls it."""
     if not function.is_a("SXFunction"):
-        return function
+        return lower_calls(function)
     inputs = [ca.MX.sym(f"i{i}", function.nnz_in(i)) for i in range(function.n_in())]
-    return ca.Function(f"{function.name()}_called", inputs, function.call(inputs))
+    return lower_calls(ca.Function(f"{function.name()}_called", inputs, function.call(inputs)))
 
 
 def _write(lanes: Lanes, routine: Routine, strides: Sequence[int], backward: bool) -> None:

@@ -171,7 +171,7 @@ def cortex_m4(folder, ends, made, bytes_):
     deepest = max(depth(fast, stack, name) for name in ends)
     loops = {"numbers": checked(made, ends), "remember": made.memory, "spins_as_written": made.rotors.length}
     tables = weights(made)
-    held = needed & tables.keys()
+    held = set().union(*(reached(plain, name) for name in ends)) & tables.keys()
     size = sum(sizes[name] for name in needed) + sum(bytes_ * tables[name] for name in held)
     return size, deepest, "-" if held else sum(spent(plain, name, loops) for name in ends)
 

@@ -24,9 +24,9 @@ export class Captions {
     this.views = flights.map((flight) => {
       const root = document.createElement("div");
       root.className = "view";
-      root.innerHTML = `<p class="motion"><b></b> <span></span></p><p class="ended"></p>`;
+      root.innerHTML = `<p class="motion"><span class="name"></span><b></b> <span class="moving"></span></p><p class="ended"></p>`;
       this.parent.append(root);
-      return { flight, root, phase: root.querySelector(".motion b"), motion: root.querySelector(".motion span"), ended: root.querySelector(".ended"), compass: new Compass(root) };
+      return { flight, root, phase: root.querySelector(".motion b"), motion: root.querySelector(".moving"), name: root.querySelector(".name"), ended: root.querySelector(".ended"), compass: new Compass(root) };
     });
   }
 
@@ -41,9 +41,9 @@ export class Captions {
       view.compass.draw(picture, flight.e3, colours);
       const { x, x_dot } = stage.flyers[i].pose;
       const rise = (x[2] - stage.flyers[i].pivots[0][2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
-      const name = this.several ? `${flight.title}: ` : "";
+      put(view.name, this.several ? `${flight.title}: ` : "");
       put(view.phase, flight.phase(t));
-      put(view.motion, `${name}height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
+      put(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
       put(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";

@@ -26,7 +26,7 @@ class Kernels:
         Lengths of what `linearised` writes after the gap.
     of_stage, to_go, of_shared : int
         Lengths of the cost of a stage and of a cost to go, and the place of c, g and v in it.
-    linearised, rollout, step : Stagewise
+    linearised, rollout : Stagewise
         See `stage.Stage`.
     backward, forward : Stagewise
         See `riccati`.
@@ -44,7 +44,6 @@ class Kernels:
     of_shared: int
     linearised: Stagewise
     rollout: Stagewise
-    step: Stagewise
     backward: Stagewise
     forward: Stagewise
     values: Stagewise
@@ -74,7 +73,6 @@ def kernels(rotors: int, wishes: Wishes) -> Kernels:
         of_shared=shape.to_go - 3,
         linearised=stagewise(linearised, shared=(3, 4)),
         rollout=stagewise(stage.rollout(), shared=(5, 6, 7, 8, 9)),
-        step=stagewise(stage.step(), shared=(2, 3)),
         backward=stagewise(backward(shape), shared=(5,), backward=True),
         forward=stagewise(forward(shape), shared=(1,)),
         values=stagewise(barrier.values(), shared=(2, 3, 4, 6)),

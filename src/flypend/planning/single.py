@@ -173,6 +173,5 @@ def single(rotors: int, wishes: Wishes) -> Kernels:
         backward=recursion("backward", rows.backward, lengths, shared=(4,), backward=True),
         forward=one_by_one(rows.forward(), shared=(1,)),
         rollout=one_by_one(stage.rollout(), shared=(5, 6, 7, 8, 9)),
-        step=abreast(stage.step(), shared=(2, 3)),
         end=one_by_one(barrier.end(rows.end), shared=(1, 2, 3, 4)),
     )

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from flypend.compile.llvm.stagewise import WIDTH, lanes
+from flypend.compile.llvm.abreast import abreast
+from flypend.compile.llvm.stagewise import Stagewise
 from flypend.model.state import SIZE
 from flypend.planning.check import broken
-from flypend.planning.kernels import kernels
 from flypend.planning.request import Request
 from flypend.planning.result import Plan, Status
 from flypend.planning.search import Found, stages_of
+from flypend.planning.stage import Stage
 from flypend.plants.lag import step_timing
 
 DENSE = 4  # samples per stage
@@ -21,32 +23,25 @@ DENSE = 4  # samples per stage
 
 def told(asked: Sequence[Request], found: Sequence[Found], horizon: float) -> list[Plan]:
     """Return a plan with its verdict for each request `asked` and what was `found` with the `horizon`."""
-    plans: list[Plan] = []
-    for first in range(0, len(asked), WIDTH):
-        some = slice(first, first + WIDTH)
-        dense = _dense(asked[some], found[some], stages_of(horizon)[1] / DENSE)
-        plans += [_plan(*each, horizon) for each in zip(asked[some], found[some], dense, strict=True)]
-    return plans
+    h = stages_of(horizon)[1] / DENSE
+    return [_plan(each, what, _dense(each, what, h), horizon) for each, what in zip(asked, found, strict=True)]
 
 
-def _dense(asked: Sequence[Request], found: Sequence[Found], h: float) -> list[Any]:
-    """Return states (DENSE stages + 1, 24 + n), SI units, at equal times, by steps of length `h` in each stage."""
-    stages, width = found[0].commands.shape[0], found[0].states.shape[1]
-    here, after, command = lanes(stages, width), lanes(stages, width), lanes(stages, asked[0].rotors)
-    timing, numbers = lanes(4), lanes(len(asked[0].units.numbers(asked[0].vehicle)))
-    for lane in range(WIDTH):
-        own, each = asked[lane % len(asked)], found[lane % len(asked)]
-        here[..., lane], command[..., lane] = each.states[:-1], each.commands
-        timing[:, lane] = step_timing(own.vehicle.rotor_lag / own.units.time, h)
-        numbers[:, lane] = own.units.numbers(own.vehicle)
-    parts = [here.copy()]
-    step = kernels(asked[0].rotors, asked[0].wishes).step
+def _dense(asked: Request, found: Found, h: float) -> Any:
+    """Return states (DENSE stages + 1, 24 + n), own units, at equal times, by steps of length `h` in each stage."""
+    stages, width = len(found.commands), found.states.shape[1]
+    after, commands = np.empty((stages, width)), np.ascontiguousarray(found.commands)
+    timing = np.array(step_timing(asked.vehicle.rotor_lag / asked.units.time, h))
+    numbers, step, parts = asked.units.numbers(asked.vehicle), _step(asked.rotors), [found.states[:-1]]
     for _ in range(DENSE - 1):
-        step(stages, here, command, timing, numbers, after)
+        step(stages, np.ascontiguousarray(parts[-1]), commands, timing, numbers, after)
         parts.append(after.copy())
-        here[:] = after
-    inside = np.stack(parts, axis=1).reshape(-1, width, WIDTH)
-    return [np.concatenate([inside[..., lane], each.states[-1:]]) for lane, each in enumerate(found)]
+    return np.concatenate([np.stack(parts, axis=1).reshape(-1, width), found.states[-1:]])
+
+
+@lru_cache(maxsize=4)
+def _step(rotors: int) -> Stagewise:
+    return abreast(Stage(rotors).step(), shared=(2, 3))
 
 
 def _plan(asked: Request, found: Found, own: Any, horizon: float) -> Plan:

@@ -397,6 +397,35 @@ def test_the_rungs_are_those_promised():
             assert len(changed) == 1, name
 
 
+def test_rungs_of_the_joint_are_sized_by_the_rod():
+    """A hanging rod swings with the damping ratio that the rung has; dry friction is a share of m g l."""
+    vehicle = fp.vehicle("hummingbird")
+    found = rungs_for(vehicle)
+    world = found["viscous friction"].true_vehicle(vehicle)
+    # m l² θ̈ + c θ̇ + m g l θ = 0 with the vehicle held: c = 2 ζ m l √(g l).
+    ratio = world.pivot_damping / (2 * vehicle.m * vehicle.l**2) / np.sqrt(vehicle.g / vehicle.l)
+    assert ratio == pytest.approx(0.02)
+    dry = found["dry friction"].true_vehicle(vehicle)
+    assert dry.pivot_friction == pytest.approx(0.002 * vehicle.m * vehicle.g * vehicle.l)
+    assert found["rod spin 10 turns/s"].true_vehicle(vehicle).rod_spin == pytest.approx(20 * np.pi)
+    both = found["viscous friction, dry friction, rod spin 10 turns/s, rod +10 %"].true_vehicle(vehicle)
+    assert (both.pivot_damping, both.pivot_friction) == (world.pivot_damping, dry.pivot_friction)
+    assert not any("spin 10" in name for name in rungs_for(fp.vehicle("hehn2011")))  # a point mass has no spin
+
+
+def test_a_joint_is_worse_by_what_the_plant_adds():
+    vehicle = fp.vehicle("hummingbird").replace(pivot_damping=1e-3, pivot_friction=2e-4, rod_spin=5.0)
+    worse = Plant(pivot_damping=2e-3, pivot_friction=1e-4, rod_spin=-3.0).true_vehicle(vehicle)
+    assert worse == vehicle.replace(pivot_damping=3e-3, pivot_friction=2e-4 + 1e-4, rod_spin=2.0)
+    assert Plant().true_vehicle(vehicle) == vehicle
+    with pytest.raises(fp.InputError, match="rod_spin_inertia"):
+        Plant(rod_spin=1.0).true_vehicle(fp.vehicle("hehn2011"))
+    with pytest.raises(fp.InputError, match="friction that takes a millisecond"):
+        Plant(pivot_friction=1.0).true_vehicle(vehicle)
+    with pytest.raises(fp.InputError, match=r"plant\.pivot_damping"):
+        Plant(pivot_damping=-1.0)
+
+
 def test_rungs_of_a_vehicle_take_its_own_numbers():
     found = rungs_for(VEHICLE)
     assert list(found)[: len(RUNGS)] == list(RUNGS)

@@ -142,6 +142,11 @@ class Sampled:
         flight computer measures the state itself, with `noise`.
     pivot_offset : (3,)
         Position of the ball joint beside that of the vehicle, body frame, m. The law does not know it.
+    pivot_damping, pivot_friction : float
+        Viscous (N m s) and dry friction (N m) of the joint on top of the vehicle's. The law does not know of them.
+    rod_spin : float
+        Angular velocity of the rod about its own axis on top of the vehicle's, rad/s. It takes a rod with a
+        `rod_spin_inertia`; the law does not know of it.
     mismatch : dict
         Ratio of true to nominal value for mass, bob_mass, rod_length (and rod_end with it), rod_inertia, inertia,
         rotor_positions, drag_ratio, rotor_lag.
@@ -174,6 +179,9 @@ class Sampled:
     ground: float | None = None
     sensors: Any = None
     pivot_offset: Any = (0.0, 0.0, 0.0)
+    pivot_damping: float = 0.0
+    pivot_friction: float = 0.0
+    rod_spin: float = 0.0
     mismatch: Mapping[str, float] = field(default_factory=dict)
     wind: Wind | None = None
     interface: Interface = "wrench"
@@ -210,6 +218,9 @@ class Sampled:
         check_seed("plant.seed", self.seed)
         offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
         object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))
+        errors.number("plant.pivot_damping", self.pivot_damping, at_least=0, unit="N m s")
+        errors.number("plant.pivot_friction", self.pivot_friction, at_least=0, unit="N m")
+        errors.number("plant.rod_spin", self.rod_spin, unit="rad/s")
         errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)
         for name, factor in self.mismatch.items():
             errors.number(f"plant.mismatch.{name}", factor, above=0)
@@ -220,10 +231,10 @@ class Sampled:
         return hash(repr(self))
 
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
-        """Return the true vehicle for the nominal `vehicle`, with `mismatch`, `lag` and `pivot_offset` applied.
+        """Return the true vehicle for the nominal `vehicle`, with `mismatch`, `lag` and what the joint adds applied.
 
         Raises InputError if `vehicle` lacks what the plant needs: as many rotors as there are strengths, coefficients
-        of the air, a radius of the rotors.
+        of the air, a radius of the rotors, a rod that can spin; and for friction that is too stiff.
         """
         self._check(vehicle)
         changes = {name: getattr(vehicle, name) * factor for name, factor in self.mismatch.items()}
@@ -233,7 +244,15 @@ class Sampled:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
         if any(self.pivot_offset):
             changes["pivot_offset"] = vehicle.pivot_offset + np.array(self.pivot_offset)
-        return vehicle.replace(**changes)
+        for name in ("pivot_damping", "pivot_friction", "rod_spin"):
+            if added := getattr(self, name):
+                changes[name] = getattr(vehicle, name) + added
+        true = vehicle.replace(**changes)
+        stiffest = stiffness(true)
+        if stiffest > MOST_STIFFNESS:
+            wanted = "friction that takes a millisecond or more to stop the vehicle"
+            raise InputError("vehicle.pivot_friction", wanted, f"{1e3 / stiffest:.2g} ms")
+        return true
 
     def effects(self, vehicle: Vehicle) -> tuple[Any, ...]:
         """Return the forces of the air that act on `vehicle`, of `flypend.model.air.AIR`."""
@@ -255,10 +274,8 @@ class Sampled:
                 raise InputError("vehicle.air", f"{wanted}, for plant.air", "none")
         if self.ground is not None and vehicle.body is None:
             raise InputError("vehicle.body", "the radius of the rotor discs, for plant.ground", "nothing")
-        stiffest = stiffness(vehicle)
-        if stiffest > MOST_STIFFNESS:
-            wanted = "friction that takes a millisecond or more to stop the vehicle"
-            raise InputError("vehicle.pivot_friction", wanted, f"{1e3 / stiffest:.2g} ms")
+        if self.rod_spin and not vehicle.rod_spin_inertia:
+            raise InputError("vehicle.rod_spin_inertia", "a number > 0, for plant.rod_spin", "0")
 
     def replace(self, **changes: Any) -> Sampled:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
+import numpy as np
+
 from flypend import errors
 from flypend.errors import InputError
 from flypend.model import Vehicle
@@ -33,12 +35,18 @@ RUNGS: Mapping[str, AnyPlant] = {
     "MuJoCo": PRESETS["mujoco"],
 }
 
+# Friction of the joint: viscous, with which the hanging rod swings at this damping ratio; dry, as a share of m g l, of
+# which a good joint has a thousandth. And the spin of a rod in its bearing, rad/s.
+SWING_DAMPING, DRY_SHARE, ROD_SPIN = 0.02, 0.002, 20 * np.pi
+
 # What comes together on a machine: a slow one, one that is not quite the one written down, one with tired motors.
 TOGETHER: tuple[tuple[str, ...], ...] = (
     ("lag 40 ms", "delay 15 ms", "100 Hz"),
     ("lag 50 ms", "delay 30 ms", "100 Hz"),
     ("noise", "mass +10 %", "rod +10 %"),
     ("spin-up x1.5", "battery sag 10 %", "delay 15 ms"),
+    ("viscous friction", "dry friction", "rod +10 %", "delay 15 ms"),
+    ("viscous friction", "dry friction", "rod spin 10 turns/s", "rod +10 %"),
 )
 
 
@@ -53,7 +61,21 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
         found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
     if known:
         found["air"] = ROTORS.replace(air="all")
-    return found | {", ".join(names): together(names, found) for names in TOGETHER}
+    found |= _joint(vehicle)
+    return found | {", ".join(names): together(names, found) for names in TOGETHER if set(names) <= found.keys()}
+
+
+def _joint(vehicle: Vehicle) -> dict[str, AnyPlant]:
+    """Return the rungs of the joint: friction, and spin of a rod that has an inertia about its own axis."""
+    moment = vehicle.m * vehicle.g * vehicle.l
+    swing = 2 * SWING_DAMPING * vehicle.m * vehicle.l * np.sqrt(vehicle.g * vehicle.l)
+    found: dict[str, AnyPlant] = {
+        "viscous friction": ROTORS.replace(pivot_damping=float(swing)),
+        "dry friction": ROTORS.replace(pivot_friction=float(DRY_SHARE * moment)),
+    }
+    if vehicle.rod_spin_inertia > 0:
+        found["rod spin 10 turns/s"] = ROTORS.replace(rod_spin=float(ROD_SPIN))
+    return found
 
 
 def together(names: Sequence[str], rungs: Mapping[str, AnyPlant]) -> Sampled:

@@ -47,6 +47,7 @@ class Believed:
 def _limited(vehicle: Vehicle, limits: Any) -> Any:
     """Return a copy of `vehicle` whose rotor limits are symbols, which its class would refuse."""
     twin = copy(vehicle)
+    twin.__dict__.pop("_content", None)  # of the vehicle with numbers
     object.__setattr__(twin, "rotor_limits", (limits[0], limits[1]))
     object.__setattr__(twin, "seen", lambda e3: _limited(vehicle.seen(e3), limits))
     return twin

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Self
 
@@ -218,15 +219,16 @@ class Vehicle:
         masses = f"mass {self.mass:g} kg, bob {self.bob_mass:g} kg, rod {self.rod_length:g} m"
         return f"<Vehicle {self.name}: {masses}, {rotors}, lag {self.rotor_lag:g} s>"
 
+    @cached_property
     def _content(self) -> str:
         return repr(self.to_dict())
 
     def __eq__(self, other: object) -> bool:
         """Whether `other` is a vehicle with the same field values."""
-        return isinstance(other, Vehicle) and self._content() == other._content()
+        return isinstance(other, Vehicle) and self._content == other._content
 
     def __hash__(self) -> int:
-        return hash(self._content())
+        return hash(self._content)
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError.

@@ -1,4 +1,4 @@
-// Flies a module through the simulation of the pages: a JSON of facts, start, seed and pieces comes in, rows go out.
+// Flies a module through the simulation of the pages: a JSON of facts, start, seed and pieces comes in; rows go out, and what is shown beside the last of each piece.
 import { readFileSync, writeFileSync } from "node:fs";
 import { Simulation } from "../../web/src/live/simulation.js";
 
@@ -6,9 +6,12 @@ const [, , code, from, to] = process.argv;
 const { facts, start, seed, pieces } = JSON.parse(readFileSync(from));
 const simulation = await Simulation.from(new WebAssembly.Module(readFileSync(code)), facts);
 simulation.begin(start, seed);
+const shown = [];
 const rows = pieces.map(({ ticks, gains, knobs, impulses }) => {
   simulation.tune(gains ?? {});
   simulation.turn(knobs ?? {});
-  return Buffer.from(simulation.advance(ticks, impulses).buffer);
+  const flown = simulation.advance(ticks, impulses);
+  shown.push(Array.from(simulation.shown(simulation.tick * facts.period, flown.subarray(flown.length - simulation.row))));
+  return Buffer.from(flown.buffer);
 });
-writeFileSync(to, JSON.stringify({ rows: Buffer.concat(rows).toString("base64"), outcome: simulation.outcome() }));
+writeFileSync(to, JSON.stringify({ rows: Buffer.concat(rows).toString("base64"), shown, outcome: simulation.outcome() }));

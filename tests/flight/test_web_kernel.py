@@ -16,7 +16,8 @@ from flypend.compile.llvm.target import wasm32
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_kernel
-from flypend.flight.live import engine_facts
+from flypend.flight.live import engine_facts, tunable
+from flypend.flight.signals import signals_along
 from flypend.laws.references import circle
 from flypend.model.state import seen_packed
 from flypend.plants import plant
@@ -29,8 +30,11 @@ SEED = 7
 CHANGE = np.random.default_rng(1).standard_normal(24)
 
 
-def flown_by_page(loop, starts, tmp_path, pieces=None):
-    """States and rotor forces at every tick of the module's flights, (runs, ticks, 24 + n), and how they ended."""
+def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None):
+    """States and rotor forces at every tick of the module's flights, (runs, ticks, 24 + n), and how they ended.
+
+    The list `shown` takes what the page shows beside the last state of each piece.
+    """
     facts = engine_facts(loop)
     code, into, out = (tmp_path / name for name in ("kernel.wasm", "in.json", "out.json"))
     code.write_bytes(base64.b64decode(facts.pop("code")))
@@ -44,6 +48,8 @@ def flown_by_page(loop, starts, tmp_path, pieces=None):
         count = 1 + sum(piece["ticks"] for piece in pieces)
         flown.append(np.pad(rows, ((0, count - len(rows)), (0, 0)), constant_values=np.nan))
         ends.append(told["outcome"])
+        if shown is not None:
+            shown += told["shown"]
     return np.array(flown), ends
 
 
@@ -133,6 +139,22 @@ def test_what_changes_on_the_way_changes_it_as_in_the_package(tmp_path):
     page, _ = flown_by_page(loop, start(), tmp_path, pieces)
     assert flight.status == "completed"
     np.testing.assert_allclose(page[0], np.concatenate(here), atol=1e-9)
+
+
+@pytest.mark.parametrize("law", ["printed", "corrected", "repaired", "almost_global"])
+def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(law, tmp_path):
+    rng, loop, shown = np.random.default_rng(4), loop_of(law), []
+    loop = Loop(loop.vehicle, loop.law, loop.plant, tunable(loop.law))
+    gains = {name: loop.law.gains[name] * rng.uniform(0.95, 1.05) for name in loop.parameters}
+    pieces = [{"ticks": 20, "gains": gains, "knobs": {"origin": rng.normal(0, 0.2, 3).tolist()}} for _ in range(4)]
+    rows = flown_by_page(loop, start(), tmp_path, pieces, shown)[0][0]
+    flown = getattr(fp.laws, law)(**gains).bind(loop.vehicle)
+    for i, (piece, numbers) in enumerate(zip(pieces, shown, strict=True), 1):
+        state = rows[20 * i, :24].copy()
+        state[:3] -= piece["knobs"]["origin"]
+        t = np.array([20 * i / loop.sampled.rate])
+        V = signals_along(loop.vehicle, flown, t, seen_packed(state, flown.e3)[None])["V"]
+        assert numbers[5] == pytest.approx(V[0], rel=1e-9)
 
 
 # The module -----------------------------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ from tornado.websocket import websocket_connect
 import flypend as fp
 from flypend.errors import InputError
 from flypend.flight.metrics import metrics
+from flypend.flight.signals import signals_along
 from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import verdict
 from flypend.geometry import cross, dot
@@ -81,6 +82,22 @@ def test_the_flight_is_the_one_that_simulate_and_both_exports_make(case, tmp_pat
             np.testing.assert_allclose(getattr(run, name), getattr(other, name), atol=1e-6, err_msg=name)
         np.testing.assert_allclose(run.rotor_forces, other.rotor_forces, atol=1e-4)
     np.testing.assert_array_equal(by_file.y, names["run"].y)
+
+
+@pytest.mark.parametrize("plant", ["ideal", "hehn2011"])
+@pytest.mark.parametrize("law", ["printed", "corrected", "repaired", "almost_global"])
+def test_the_lyapunov_function_is_that_of_the_gains_flown(law, plant):
+    name = "rod_stiffness" if law == "almost_global" else "k_1"
+    gains = {name: 1.02 * getattr(fp.laws, law)().gains_for(fp.vehicle("hehn2011"))[name]}
+    pokes = [{"time": 1.0, "on": "bob", "velocity": [0.3, 0, 0]}]
+    setting = setting_of(asked(law, plant=plant, gains=gains, pokes=pokes))
+    run = fly(setting)
+    along = signals_along(setting.flight.vehicle, setting.flight.law, run.t, run.packed)
+    np.testing.assert_allclose(run.signals["V"], along["V"], rtol=1e-9, atol=1e-9 * along["V"].max())
+
+
+def test_a_law_without_a_lyapunov_function_has_no_signals():
+    assert fly(setting_of(asked("inverted"))).signals == fly(setting_of(asked("lqr"))).signals == {}
 
 
 def test_a_gain_changes_the_flight_and_compiles_nothing():

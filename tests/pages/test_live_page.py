@@ -11,7 +11,9 @@ import pytest
 import flypend as fp
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
+from flypend.flight.signals import signals_along
 from flypend.flight.verdict import goal
+from flypend.model.state import seen_packed
 from flypend.plants import MOTION_CAPTURE, plant
 
 SMALL = {"width": 900, "height": 520}
@@ -122,6 +124,30 @@ def test_it_opens_with_the_flight_that_was_recorded(visit, run):
     assert page.evaluate("flypend.verdict().good") is True
     assert page.locator("header > .verdict").inner_text().startswith("upright after")
     assert page.locator(".plot").count() == 4
+
+
+def test_the_lyapunov_function_of_other_gains_is_plotted(visit):
+    """Its axis is logarithmic: the number beside it has two digits, of a sample that falls on a control tick."""
+    vehicle = fp.vehicle("hehn2011")
+    run = fp.simulate(vehicle, fp.laws.repaired(), fp.State(y=(0.6, 0, 0.8)), 6.0)
+    page, gains = visit(run), {"k_1": 1.3 * run.gains["k_1"]}
+    setting = page.evaluate("flypend.setting()") | {"law": {"name": "repaired", "gains": gains}}
+    page.locator("text=Pin").click()  # no ghost of the recorded flight
+    go_to(page, setting)
+    rows, rate = flown(run, setting), run.flight.plant.rate
+    law, t = fp.laws.repaired(**gains).bind(vehicle), np.array([0.0, 1.0, 3.0, 5.0])
+    V = signals_along(vehicle, law, t, seen_packed(rows[np.rint(t * rate).astype(int), :24], law.e3))["V"]
+    for time_, value in zip(t, V, strict=True):
+        page.evaluate("t => flypend.seek(t)", time_)
+        until(page, "t => flypend.time() === t", time_)
+        page.evaluate("() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
+        told = page.locator(".plot").last.locator("output").inner_text()
+        digits, exponent = told.split("·10")
+        raised = exponent.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        assert float(f"{digits}e{raised}") == pytest.approx(value, rel=0.051), told
+    assert page.locator(".plot").count() == 5
+    said = page.locator(".plot canvas").last.get_attribute("aria-label")
+    assert said.startswith("Lyapunov function V over time, 10⁻")
 
 
 def test_it_is_small_and_begins_soon(visit, run, tmp_path):

@@ -54,7 +54,7 @@ def embedded(text):
 def columns(record):
     """Columns of one run as the page decodes them."""
     raw = {name: np.frombuffer(base64.b64decode(text), "<f4") for name, text in record["columns"].items()}
-    assert raw.keys() - {"clearance"} == {"t", *WIDTHS}
+    assert raw.keys() - {"clearance", "V"} == {"t", *WIDTHS}
     return {name: values.reshape(-1, WIDTHS[name]) if name in WIDTHS else values for name, values in raw.items()}
 
 
@@ -80,6 +80,13 @@ def test_the_dense_output_is_sampled_at_the_rate_of_a_screen(dense):
     assert np.all(np.diff(t) > 0)
     assert np.diff(t).max() <= 0.01 * (1 + 1e-5)
     same(record, dense, dense.at(np.clip(t, 0, 1)), t)
+
+
+def test_of_a_law_that_has_one_the_lyapunov_function_is_kept(dense, sampled):
+    kept = columns(packed(dense))
+    V = np.interp(kept["t"], dense.t, dense.signals["V"])
+    np.testing.assert_allclose(kept["V"], V, rtol=1e-3, atol=SINGLE * V.max())  # of times kept in 32 bits
+    assert "V" not in columns(packed(sampled))
 
 
 def test_of_a_sampled_flight_samples_are_kept(sampled):
@@ -174,6 +181,7 @@ def test_numbers_that_a_float_of_a_screen_cannot_hold_are_clipped(dense):
 def test_a_run_of_one_sample_has_a_page(dense):
     names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
     first = {name: getattr(dense, name)[:1] for name in names}
+    first["signals"] = {name: values[:1] for name, values in dense.signals.items()}
     run = dataclasses.replace(dense, **first, outcome=fp.Outcome("singular", 0.0, "0/0"), interpolant=None)
     (record,) = embedded(run.to_html())["runs"]
     assert columns(record)["t"].tolist() == [0.0]

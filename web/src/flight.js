@@ -79,7 +79,7 @@ export class Flight {
     return (this.phases.find(({ to }) => t < to) ?? this.phases[this.phases.length - 1]).name;
   }
 
-  /** Values to plot over `t` from sample `from` on: "y3", "z3", "thrust", "distance" from the reference, "clearance", or "rotor k". */
+  /** Values to plot over `t` from sample `from` on: "y3", "z3", "thrust", "distance" from the reference, "clearance", "V", or "rotor k". */
   series(name, from = 0) {
     const rotor = /^rotor (\d+)$/.exec(name);
     const read = {
@@ -87,6 +87,7 @@ export class Flight {
       z3: (i) => matrix(this.sample("quat_xyzw", i, 4))[2][2],
       thrust: (i) => this.columns.thrust[i],
       clearance: (i) => this.columns.clearance[i],
+      V: (i) => this.columns.V[i],
       distance: (i) => Math.hypot(...this.sample("x", i).map((value, k) => value - this.columns.x_ref[3 * i + k])),
     }[name] ?? ((i) => this.columns.rotor_forces[this.rotors * i + Number(rotor[1]) - 1]);
     return Float32Array.from({ length: this.t.length - from }, (_, i) => read(from + i));

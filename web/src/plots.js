@@ -2,10 +2,11 @@
 
 import { drawMark, markIcon } from "./marks.js";
 import { clamp, indexBefore, mix, roundUp } from "./numbers.js";
-import { large, reading, tick } from "./words.js";
+import { large, power, reading, scientific, tick } from "./words.js";
 
 const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins, CSS pixels
 const APART = 92; // pixels between two marks of a curve
+const FAINT = 1e-8; // of the largest value: a logarithmic axis goes no further down
 const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut off at four times that
 
 /**
@@ -13,7 +14,7 @@ const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut of
  * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]
  * at the right edge), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
  * `scale` (the usual size of a value), `least` (the shortest axis), `touches` (times of collisions), `phases` ([{ from, to, name }]:
- * words along the time), `end` (time that all share). `seek` is called with a time when the plot is touched.
+ * words along the time), `end` (time that all share), `log` (a logarithmic axis). `seek` is called with a time when the plot is touched.
  */
 export class Plot {
   constructor(parent, options, seek) {
@@ -33,22 +34,23 @@ export class Plot {
 
   /** Show something else, with options as for a new plot; `draw` puts it on the canvas. */
   load(options) {
-    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], phases: [], ...options });
+    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], phases: [], log: false, ...options });
+    if (this.log) Object.assign(this, decades(this));
     this.root.querySelector(".what").innerHTML = options.unit ? `${options.title} (${options.unit})` : options.title;
     const values = this.root.querySelector(".values");
     values.replaceChildren();
-    this.readings = options.lines.filter((line) => line.label).map((line) => this.#reading(values, line));
-    [this.span, this.peak] = options.range ? [options.range, null] : range(this);
+    this.readings = this.lines.filter((line) => line.label).map((line) => this.#reading(values, line));
+    [this.span, this.peak] = this.range ? [this.range, null] : range(this);
     this.canvas.setAttribute("aria-label", this.#told());
   }
 
   /** What is drawn, for those who do not see it. */
   #told() {
     const { plain, unit, span: [low, high], limits: [least, most], peak } = this;
-    const of = (value) => `${tick(value)}${unit && ` ${unit}`}`;
+    const word = this.log ? power : tick, of = (value) => `${word(value)}${unit && ` ${unit}`}`;
     const beyond = most !== null && most < high ? `; no rotor gives more than ${of(most)}` : least !== null && least > low ? `; no rotor gives less than ${of(least)}` : "";
     const told = this.phases.map(({ from, name }) => `${name} from ${from.toFixed(1)} s`).join(", ");
-    return `${plain} over time, ${tick(low)} to ${of(high)}${told && `; the rod ${told}`}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
+    return `${plain} over time, ${word(low)} to ${of(high)}${told && `; the rod ${told}`}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
   }
 
   #reading(parent, line) {
@@ -136,9 +138,9 @@ export class Plot {
     };
     context.fillStyle = colours.muted;
     context.textAlign = "right";
-    for (const value of ticks(low, high, this.range ? 3 : Math.max(2, Math.floor(height / 34)))) {
+    for (const value of ticks(low, high, this.range && !this.log ? 3 : Math.max(2, Math.floor(height / 34)), this.log ? 1 : 0)) {
       line(LEFT, place.y(value), width - RIGHT, place.y(value), colours.line);
-      context.fillText(tick(value), LEFT - 7, place.y(value));
+      context.fillText((this.log ? power : tick)(value), LEFT - 7, place.y(value));
     }
     context.textBaseline = "alphabetic";
     for (const value of ticks(this.start, this.end, Math.max(3, Math.floor(width / 75)))) {
@@ -195,7 +197,7 @@ export class Plot {
     const share = (clamp(t, this.start, this.end) - this.start) / (this.end - this.start || 1);
     this.cursor.style.transform = `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`;
     for (const { line, output } of this.readings) {
-      output.textContent = reading(valueAt(line, t));
+      output.textContent = (this.log ? scientific : reading)(valueAt(line, t));
     }
   }
 }
@@ -242,7 +244,17 @@ function usually(lines) {
   return (sizes.find(([, span]) => (left -= span) <= 0) ?? sizes[0])[0];
 }
 
-function ticks(low, high, count) {
-  const step = roundUp((high - low) / count || 1), first = Math.ceil(low / step - 1e-9);
+/** Lines and range of a logarithmic plot, as exponents of ten: whole decades, of which the last reaches `least`. */
+function decades({ lines, least }) {
+  const largest = lines.reduce((most, { values }) => values.reduce((size, value) => (value > size ? value : size), most), least);
+  const faint = FAINT * largest, floor = (value) => Math.log10(value > faint ? value : faint);
+  const raised = lines.map((line) => ({ ...line, values: line.values.map(floor) }));
+  const lowest = raised.reduce((low, { values }) => values.reduce((size, value) => Math.min(size, value), low), Math.log10(largest));
+  const high = Math.ceil(Math.log10(largest));
+  return { lines: raised, range: [Math.min(Math.floor(lowest), high - 1), high] };
+}
+
+function ticks(low, high, count, finest = 0) {
+  const step = Math.max(roundUp((high - low) / count || 1), finest), first = Math.ceil(low / step - 1e-9);
   return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
 }

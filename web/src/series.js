@@ -6,6 +6,7 @@ import { indexBefore } from "./numbers.js";
 export const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]];
 export const ROTORS = ["rotor1", "rotor2", "rotor3", "rotor4"];
 const LEAST_DISTANCE = 0.05; // m: an axis of the position error shows at least this, not the noise of the integration
+const LEAST_V = 1e-3; // and one of V reaches at least this high
 
 /** Options of the plots of `flights`, for `Plot`: from the time `since`, up to which the first may have gone on, or all. */
 export function plots(flights, since = -Infinity) {
@@ -22,6 +23,7 @@ export function plots(flights, since = -Infinity) {
   const poles = first.e3 === "up" ? ["inverted", "hanging"] : ["hanging", "inverted"];
   const weight = (first.e3 === "up" ? 1 : -1) * first.vehicle.weight, share = first.vehicle.weight / first.rotors;
   const free = flights.filter((flight) => flight.columns.clearance); // of a rod on a gimbal nothing is in the way
+  const proved = flights.filter((flight) => flight.columns.V); // of laws that have a Lyapunov function
   const kinds = Array.from({ length: first.rotors }, (_, k) => k);
   const phases = first.phases.filter(({ to }) => to > start);
   return [
@@ -48,6 +50,10 @@ export function plots(flights, since = -Infinity) {
     ...(free.length ? [{
       ...axis, title: "Clearance of the rod", plain: "Clearance of the rod", unit: "m", levels: [[0, "touches"]],
       lines: line("clearance", "distance", "rod", "disc", free),
+    }] : []),
+    ...(proved.length ? [{
+      ...axis, title: "Lyapunov function <i>V</i>", plain: "Lyapunov function V", unit: "", log: true, least: LEAST_V,
+      lines: line("V", "<i>V</i>", "trail", "square", proved),
     }] : []),
   ];
 }

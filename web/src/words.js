@@ -13,10 +13,21 @@ export function writeSymbol(parent, name) {
   parent.append(letter, below);
 }
 
+const RAISED = Object.fromEntries([..."−0123456789"].map((sign, i) => [sign, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[i]]));
+
 const minus = (text) => text.replace("-", "−");
 
 /** A number of a tick. */
 export const tick = (value) => minus(String(+value.toPrecision(4)));
+
+/** The power of ten of a tick on a logarithmic axis. */
+export const power = (exponent) => `10${[...minus(String(exponent))].map((sign) => RAISED[sign]).join("")}`;
+
+/** The number whose decimal logarithm is `exponent`, beside a plot with such an axis. */
+export function scientific(exponent) {
+  const [digits, of] = (10 ** exponent).toExponential(1).split("e");
+  return `${digits}·${power(Number(of))}`;
+}
 
 /** A number beside a plot: two decimals, fewer where it is large. */
 export function reading(value) {

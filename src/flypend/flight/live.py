@@ -19,6 +19,7 @@ from flypend.flight.request import SAMPLE_PERIOD, Flight
 from flypend.flight.touch import touched
 from flypend.flight.verdict import MISSED, POSES, goal
 from flypend.laws import BoundLaw
+from flypend.laws.closed_loop import lyapunov_function
 from flypend.model import State
 from flypend.model.mount import part_names
 from flypend.model.state import SIZE
@@ -111,6 +112,7 @@ def engine_facts(loop: Loop) -> dict[str, Any]:
         "judge": max(1, round(SAMPLE_PERIOD * plant.rate)), "e3": law.e3, "rod": true.rod_length,
         "masses": {"bob": true.bob_mass, "vehicle": true.mass},
         "clear": true.mount != "gimbal",
+        "lyapunov": lyapunov_function(vehicle, law, loop.parameters) is not None,
         "words": {
             "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSES[law.e3],
             "status": np.asarray(STATUS).tolist(),

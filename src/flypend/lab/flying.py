@@ -59,7 +59,7 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
         end = State(**split(part.packed[-1]))
         state = poked(end, flight.vehicle, machine.law.e3, poke)
         begin, rotors, number = begin + float(part.t[-1]), part.rotors[-1], number + 1
-    return _trajectory(setting, machine, parts)
+    return _trajectory(setting, machine, gains, parts)
 
 
 def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
@@ -147,7 +147,7 @@ def _moved(part: Part, begin: float, *, last: bool) -> Part:
     return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)
 
 
-def _trajectory(setting: Setting, machine: Tuned | Stepped, parts: list[Part]) -> Trajectory:
+def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: list[Part]) -> Trajectory:
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )
@@ -158,6 +158,7 @@ def _trajectory(setting: Setting, machine: Tuned | Stepped, parts: list[Part]) -
         thrust=wrench[:, 0],
         moment=wrench[:, 1:4],
         rotor_forces=rotors,
+        signals=_signals(machine, gains, t, packed),
         drift=np.zeros((0, 3)),
         outcome=parts[-1].outcome,
         e3=law.e3,
@@ -166,3 +167,11 @@ def _trajectory(setting: Setting, machine: Tuned | Stepped, parts: list[Part]) -
         gains=law.gains_for(machine.vehicle),
         x_ref=None if law.reference is None else sampled(law.reference, t),
     )
+
+
+def _signals(machine: Tuned | Stepped, gains: Any, t: Any, packed: Any) -> dict[str, Any]:
+    """Return V along a flight if its law has one: all that the page plots, without the rates, which take as long."""
+    if isinstance(machine, Stepped) or machine.lyapunov is None:
+        return {}
+    columns = np.broadcast_to(gains[:, None], (len(gains), len(t)))
+    return {"V": np.array(machine.lyapunov(t[None], packed.T, columns))[0]}

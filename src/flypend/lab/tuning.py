@@ -17,7 +17,7 @@ from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, struc
 from flypend.flight.verdict import goal
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw, Controller, Law
-from flypend.laws.closed_loop import symbolic_loop
+from flypend.laws.closed_loop import lyapunov_function, symbolic_loop
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import Vehicle
 from flypend.pages.sliders import sliders_of
@@ -37,10 +37,13 @@ class Tuned:
         The machine code; the parameters of its loop are inputs.
     wrench : Function
         (t, state, gains) → commanded thrust and moment.
+    lyapunov : Function, optional
+        (t, state, gains) → the law's Lyapunov function V; None for a law that has none.
     """
 
     kernel: IdealKernel | SampledKernel
     wrench: ca.Function
+    lyapunov: ca.Function | None
 
     @property
     def vehicle(self) -> Vehicle:
@@ -115,7 +118,8 @@ def _make(setting: Setting, asked: Law, fixed: dict[str, Any]) -> Tuned:
     kernel = kernel_for(loop, goal(asked.e3), flight.tolerances)
     symbols = symbolic_loop(loop.vehicle, law, names)
     wrench = ca.densify(ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment))
-    return Tuned(kernel, ca.Function("wrench", [symbols.t, symbols.s, symbols.p], ca.cse([wrench])))
+    output = ca.Function("wrench", [symbols.t, symbols.s, symbols.p], ca.cse([wrench]))
+    return Tuned(kernel, output, lyapunov_function(loop.vehicle, law, names))
 
 
 def values(setting: Setting) -> NDArray[np.float64]:

@@ -85,6 +85,17 @@ def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...
     return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, parameters)
 
 
+def lyapunov_function(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> ca.Function | None:
+    """Return the CasADi function (t, state (24,), gains) → V of `law`, without rates; None for a law that has no V.
+
+    The gains are those named in `parameters`; raises InputError as `symbolic_loop`.
+    """
+    loop = symbolic_loop(vehicle, law, parameters)
+    if "V" not in loop.signals:
+        return None
+    return ca.Function("V", [loop.t, loop.s, loop.p], [ca.cse(ca.densify(loop.signals["V"]))])
+
+
 def check_parameters(law: str, wrench: Any, parameters: Sequence[str], symbols: Any) -> None:
     """Raise InputError for one of the `parameters` whose symbol the `wrench` of the `law` does not contain.
 

@@ -129,6 +129,8 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
     vehicle = run.vehicle
     if vehicle.mount != "gimbal":
         columns["clearance"] = np.interp(t, run.t, run.clearance)
+    if "V" in run.signals:
+        columns["V"] = np.interp(t, run.t, run.signals["V"])
     return {
         **names([run])[0],
         "law": run.law,

@@ -23,7 +23,7 @@ export class Simulation {
       stop: integers(1), context: doubles(Number(room.view()[0]) / 8), impulses: doubles(6),
     };
     this.knobs = doubles(Object.values(knobs).reduce((sum, value) => sum + value.length, 0));
-    this.asked = { t: doubles(1), state: doubles(row), origin: doubles(3), shown: doubles(5) };
+    this.asked = { t: doubles(1), state: doubles(row), origin: doubles(3), shown: doubles(6) };
     this.row = row;
     this.judge = judge;
     this.turn({});
@@ -123,13 +123,13 @@ export class Simulation {
     };
   }
 
-  /** Reference, thrust and clearance of a row at the time `t`: five numbers, see `shown` in flypend.flight.kernels.web. */
+  /** Reference, thrust, clearance and V of a row at the time `t`: six numbers, see `shown` in flypend.flight.kernels.web. */
   shown(t, row) {
     const { asked } = this;
     asked.t.view()[0] = t;
     asked.state.view().set(row);
     asked.origin.view().set(this.turned.origin);
-    this.engine.call("shown", asked.t, asked.state, asked.origin, asked.shown);
+    this.engine.call("shown", asked.t, asked.state, asked.origin, this.at.parameters, asked.shown);
     return asked.shown.view();
   }
 }

@@ -15,6 +15,7 @@ from flypend.compile.wasm import module
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.pieces import pieces_problem
 from flypend.flight.kernels.sampled import written
+from flypend.laws.closed_loop import lyapunov_function
 from flypend.model import State, Wrench, rod_tension
 from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE, seen_packed
@@ -48,10 +49,11 @@ def web_kernel(loop: Loop, criterion: Criterion) -> bytes:
 
 
 def shown(loop: Loop) -> ca.Function:
-    """Return the CasADi function (t, state and rotor forces, origin) → what a page shows beside them, in five numbers.
+    """Return the CasADi function (t, state and rotor forces, origin, gains) → what a page shows beside them.
 
-    They are the reference position (3,) in the law's frame, m, with the law's origin at `origin` (3,), e₃ up; the
-    thrust along z = R e₃ of that frame, N; and the clearance of the rod, m, infinite on a gimbal. The state is e₃ up.
+    It is the reference position (3,) in the law's frame, m, with the law's origin at `origin` (3,), e₃ up; the thrust
+    along z = R e₃ of that frame, N; the clearance of the rod, m, infinite on a gimbal; and V, if the law has one. The
+    state is e₃ up, the gains are the parameters of `loop`.
     """
     law, true = loop.symbolic, loop.sampled.true_vehicle(loop.vehicle)
     t, origin = ca.SX.sym("t"), ca.SX.sym("o", 3)
@@ -64,4 +66,9 @@ def shown(loop: Loop) -> ca.Function:
     if true.mount != "gimbal":
         push = -rod_tension(state, Wrench(upward, ca.SX(3, 1)), true)
         clearance = least_margin(rod_in_body(state, "up")[0], push, true)[2]
-    return ca.Function("shown", [t, packed, origin], [ca.densify(ca.vertcat(place + moved, thrust, clearance))])
+    gains, numbers = ca.SX.sym("p", len(loop.parameters)), [place + moved, thrust, clearance]
+    lyapunov = lyapunov_function(loop.vehicle, law, loop.parameters)
+    if lyapunov is not None:
+        beside = ca.vertcat(packed[:3] - origin, packed[3:SIZE])
+        numbers.append(lyapunov(t, seen_packed(beside, law.e3), gains))
+    return ca.Function("shown", [t, packed, origin, gains], [ca.densify(ca.vertcat(*numbers))])

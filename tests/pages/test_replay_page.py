@@ -652,6 +652,7 @@ def test_names_are_text(visit, up):
 def test_a_run_of_one_sample_opens(visit, down):
     names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
     first = {name: getattr(down, name)[:1] for name in names}
+    first["signals"] = {name: values[:1] for name, values in down.signals.items()}
     run = dataclasses.replace(down, **first, outcome=fp.Outcome("singular", 0.0, "0/0"), interpolant=None)
     page = visit(run)
     page.evaluate("flypend.play()")

@@ -16,8 +16,8 @@ from llvmlite import ir
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import define_routine
 from flypend.compile.llvm.rows import define_spread, define_turn
-from flypend.compile.llvm.stagewise import WIDTH, Stagewise, one_routine
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, begin_kernel, one_routine
+from flypend.compile.llvm.vector import I64, Code, Lanes
 from flypend.compile.routine import Routine
 
 
@@ -52,10 +52,7 @@ def _write(lanes: Lanes, routine: Routine, lengths: Sequence[int], strides: Sequ
     inputs, stage = len(routine.inputs), define_routine(lanes, routine)
     into = [define_spread(lanes, length) if stride else None for length, stride in zip(lengths, strides, strict=True)]
     out = [define_turn(lanes, length) for length in lengths[inputs:]]
-    kernel = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, *[POINTER] * len(lengths)]), "kernel")
-    kernel.attributes.alignstack = 64
-    code = Code(lanes, ir.IRBuilder(kernel.append_basic_block()))
-    count, *arrays = kernel.args
+    code, count, arrays = begin_kernel(lanes, len(lengths))
     memories = [code.reserve(length) for length in lengths]
     for array, memory, length, turn in zip(arrays, memories, lengths, into, strict=True):
         if turn is None:

@@ -15,8 +15,8 @@ from typing import Any
 from llvmlite import ir
 
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.stagewise import Stagewise
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
+from flypend.compile.llvm.stagewise import Stagewise, begin_kernel, each_stage
+from flypend.compile.llvm.vector import I64, Code, Lanes, Value
 
 BLOCK = 8  # numbers in a vector
 _I32 = ir.IntType(32)
@@ -180,12 +180,8 @@ def recursion(
     """
     strides = [0 if i in shared else length for i, length in enumerate(lengths)]
     lanes = Lanes(ir.Module("flypend"), BLOCK)
-    kernel = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, *[POINTER] * len(lengths)]), "kernel")
-    kernel.attributes.alignstack = 64
-    code = Code(lanes, ir.IRBuilder(kernel.append_basic_block()))
-    count, *arrays = kernel.args
-    with code.count(count) as i:
-        k = code.builder.sub(code.builder.sub(count, ir.Constant(I64, 1)), i) if backward else i
+    code, count, arrays = begin_kernel(lanes, len(lengths))
+    with each_stage(code, count, backward) as k:
         emit(
             code,
             *(

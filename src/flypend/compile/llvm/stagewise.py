@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from threading import local
 from typing import Any
@@ -133,14 +134,25 @@ def one_routine(function: ca.Function) -> Routine:
 
 def _write(lanes: Lanes, routine: Routine, strides: Sequence[int], backward: bool) -> None:
     stage = define_routine(lanes, routine)
-    kernel = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, *[POINTER] * len(strides)]), "kernel")
-    kernel.attributes.alignstack = 64
-    code = Code(lanes, ir.IRBuilder(kernel.append_basic_block()))
-    count, *arrays = kernel.args
-    with code.count(count) as i:
-        k = code.builder.sub(code.builder.sub(count, ir.Constant(I64, 1)), i) if backward else i
+    code, count, arrays = begin_kernel(lanes, len(strides))
+    with each_stage(code, count, backward) as k:
         code.call(stage, *(_at(code, array, k, stride) for array, stride in zip(arrays, strides, strict=True)))
     code.builder.ret_void()
+
+
+def begin_kernel(lanes: Lanes, arrays: int) -> tuple[Code, ir.Value, list[ir.Value]]:
+    """Begin the function "kernel" (number of stages, `arrays` addresses); return its code and its arguments."""
+    kernel = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, *[POINTER] * arrays]), "kernel")
+    kernel.attributes.alignstack = 64
+    count, *addresses = kernel.args
+    return Code(lanes, ir.IRBuilder(kernel.append_basic_block())), count, addresses
+
+
+@contextmanager
+def each_stage(code: Code, count: ir.Value, backward: bool) -> Iterator[ir.Value]:
+    """Emit a loop over `count` stages, the last one first if `backward`; yields the number of the stage."""
+    with code.count(count) as i:
+        yield code.builder.sub(code.builder.sub(count, ir.Constant(I64, 1)), i) if backward else i
 
 
 def _at(code: Code, array: ir.Value, k: ir.Value, stride: int) -> ir.Value:

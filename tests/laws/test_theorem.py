@@ -192,11 +192,11 @@ def test_what_is_guaranteed_of_a_start_holds_along_its_flight(name):
             assert np.min(1 + run.signals["axis_cosine"]) >= least_distance(told.V, step) * (1 - 1e-9)
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_the_least_thrust_guaranteed_is_not_lost_to_cancellation(seed):
+def test_the_least_thrust_guaranteed_is_not_lost_to_cancellation():
     # ς > 0 for c > −1, so f ≥ ς ς_y (M+m) a_min > 0 however close to its antipodes a start with this V may come.
     bound = fp.laws.almost_global().bind(HEHN)
-    assert bound.guarantee(fp.random_starts(8, 2024)[seed]).thrust[0] > 0
+    starts = fp.random_starts(200, 2024)
+    assert all(bound.guarantee(start).thrust[0] > 0 for start in (fp.State(y=-E3), *(starts[i] for i in range(200))))
 
 
 def test_a_barrier_thinner_than_doubles_can_hold_bounds_nothing():

@@ -21,7 +21,7 @@ from tornado.websocket import websocket_connect
 import flypend as fp
 from flypend.errors import InputError
 from flypend.flight.metrics import metrics
-from flypend.flight.signals import signals_along
+from flypend.flight.signals import Signals
 from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import verdict
 from flypend.geometry import cross, dot
@@ -92,7 +92,7 @@ def test_the_lyapunov_function_is_that_of_the_gains_flown(law, plant):
     pokes = [{"time": 1.0, "on": "bob", "velocity": [0.3, 0, 0]}]
     setting = setting_of(asked(law, plant=plant, gains=gains, pokes=pokes))
     run = fly(setting)
-    along = signals_along(setting.flight.vehicle, setting.flight.law, run.t, run.packed)
+    along = Signals(setting.flight.vehicle, setting.flight.law, run.t, run.packed)
     np.testing.assert_allclose(run.signals["V"], along["V"], rtol=1e-9, atol=1e-9 * along["V"].max())
 
 

@@ -11,7 +11,7 @@ import pytest
 import flypend as fp
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
-from flypend.flight.signals import signals_along
+from flypend.flight.signals import Signals
 from flypend.flight.verdict import goal
 from flypend.model.state import seen_packed
 from flypend.plants import MOTION_CAPTURE, plant
@@ -136,7 +136,7 @@ def test_the_lyapunov_function_of_other_gains_is_plotted(visit):
     go_to(page, setting)
     rows, rate = flown(run, setting), run.flight.plant.rate
     law, t = fp.laws.repaired(**gains).bind(vehicle), np.array([0.0, 1.0, 3.0, 5.0])
-    V = signals_along(vehicle, law, t, seen_packed(rows[np.rint(t * rate).astype(int), :24], law.e3))["V"]
+    V = Signals(vehicle, law, t, seen_packed(rows[np.rint(t * rate).astype(int), :24], law.e3))["V"]
     for time_, value in zip(t, V, strict=True):
         page.evaluate("t => flypend.seek(t)", time_)
         until(page, "t => flypend.time() === t", time_)

@@ -5,6 +5,8 @@ import pickle
 import numpy as np
 
 import flypend as fp
+from flypend.flight import signals
+from flypend.laws.closed_loop import close_loop
 from flypend.plants import Plant
 
 NAYAK, CORRECTED = fp.vehicle("nayak2018"), fp.laws.corrected()
@@ -46,3 +48,27 @@ def test_a_law_without_signals_has_none():
     )
     run = fp.simulate(NAYAK, law, fp.State(y=(0, 0, 1)), 0.1, plant="rotors")
     assert dict(run.signals) == {}
+
+
+def test_v_alone_is_the_v_of_the_whole_loop(monkeypatch):
+    """It needs no rates; a law without V tells so without the loop, and may have a signal of that name."""
+    run, states = fly("rotors"), fly("rotors").packed
+    whole = close_loop(NAYAK, run.flight.law)
+    place = 4 + whole.signal_names.index("V")
+    np.testing.assert_array_equal(run.signals["V"], np.array(whole.outputs(run.t[None], states.T))[place])
+
+    def push(t, state, vehicle, k):
+        return fp.laws.Control(wrench=fp.Wrench(vehicle.weight, -0.1 * state.omega), signals={"V": 2 * state.x[0]})
+
+    own = fp.simulate(NAYAK, fp.Law(name="push", e3="up", control=push), START, 0.1, plant="rotors")
+    np.testing.assert_allclose(own.signals["V"], 2 * own.x[:, 0], rtol=0, atol=0)
+
+    def refuse(*_):
+        raise AssertionError("the closed loop is built")
+
+    monkeypatch.setattr(signals, "close_loop", refuse)
+    run = fly("rotors")
+    assert "V" in run.signals
+    assert run.signals["V"].shape == run.t.shape
+    inverted = fp.simulate(NAYAK, fp.laws.inverted(), START, 0.1, plant="rotors")
+    assert "V" not in inverted.signals

@@ -17,7 +17,7 @@ from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_kernel
 from flypend.flight.live import engine_facts, tunable
-from flypend.flight.signals import signals_along
+from flypend.flight.signals import Signals
 from flypend.laws.references import circle
 from flypend.model.state import seen_packed
 from flypend.plants import plant
@@ -153,7 +153,7 @@ def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(
         state = rows[20 * i, :24].copy()
         state[:3] -= piece["knobs"]["origin"]
         t = np.array([20 * i / loop.sampled.rate])
-        V = signals_along(loop.vehicle, flown, t, seen_packed(state, flown.e3)[None])["V"]
+        V = Signals(loop.vehicle, flown, t, seen_packed(state, flown.e3)[None])["V"]
         assert numbers[5] == pytest.approx(V[0], rel=1e-9)
 
 

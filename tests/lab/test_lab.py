@@ -11,6 +11,7 @@ import threading
 import time
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,10 +21,11 @@ from tornado.websocket import websocket_connect
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.metrics import metrics
-from flypend.flight.signals import signals_along
+from flypend.flight.signals import Signals
 from flypend.flight.simulate import fly as fly_request
-from flypend.flight.verdict import verdict
+from flypend.flight.verdict import goal, verdict
 from flypend.geometry import cross, dot
 from flypend.lab.controls import offer, sliders
 from flypend.lab.engine import engine_of
@@ -92,7 +94,7 @@ def test_the_lyapunov_function_is_that_of_the_gains_flown(law, plant):
     pokes = [{"time": 1.0, "on": "bob", "velocity": [0.3, 0, 0]}]
     setting = setting_of(asked(law, plant=plant, gains=gains, pokes=pokes))
     run = fly(setting)
-    along = signals_along(setting.flight.vehicle, setting.flight.law, run.t, run.packed)
+    along = Signals(setting.flight.vehicle, setting.flight.law, run.t, run.packed)
     np.testing.assert_allclose(run.signals["V"], along["V"], rtol=1e-9, atol=1e-9 * along["V"].max())
 
 
@@ -228,19 +230,70 @@ def test_a_poke_keeps_what_was_before_and_changes_what_comes_after(plant):
     place = int(np.argmin(np.abs(run.t - 1.0)))
     assert run.t[place] == pytest.approx(1.0)
     np.testing.assert_allclose(run.y[place], before.y[100], atol=1e-7)  # poses do not jump, rates do
-    assert np.abs(run.y_dot[place] - before.y_dot[100]).max() > 0.5
+    struck = place + (plant == "rotors")  # a sampled flight is struck after the sample of its tick
+    assert np.abs(run.y_dot[struck] - before.y_dot[100]).max() > 0.5
     assert run.t[-1] == pytest.approx(3.0)  # it goes on for its duration
     assert np.all(np.diff(run.t) > 0)
 
 
 def test_a_poke_of_nothing_changes_nothing():
     nothing = [{"time": 1.5, "on": "vehicle", "velocity": [0, 0, 0]}]
-    for plant, least in (("ideal", 1e-6), ("rotors", 0.06)):  # m; the computer begins anew
-        alone, hit = fly(setting_of(asked(plant=plant))), fly(setting_of(asked(plant=plant, pokes=nothing)))
-        times = np.linspace(1.51, 1.99, 20)
-        for k in range(3):
-            along = np.interp(times, alone.t, alone.x[:, k]) - np.interp(times, hit.t, hit.x[:, k])
-            assert np.abs(along).max() < least + 2e-4  # linear between samples
+    alone, hit = fly(setting_of(asked(plant="ideal"))), fly(setting_of(asked(plant="ideal", pokes=nothing)))
+    times = np.linspace(1.51, 1.99, 20)
+    for k in range(3):
+        along = np.interp(times, alone.t, alone.x[:, k]) - np.interp(times, hit.t, hit.x[:, k])
+        assert np.abs(along).max() < 1e-6 + 2e-4  # linear between samples
+
+
+NOISY = {
+    "base": "rotors", "delay": 0.007, "seed": 3, "noise": {"x": 0.002, "y": 0.004, "omega": 0.02},
+    "wind": {"on_bob": [0.1, 0, 0], "gust_on_vehicle": 0.2},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("plant", ["rotors", NOISY])
+def test_the_flight_computer_goes_on_through_a_poke(plant):
+    """Observer, noise, gusts and commands in transit: pokes of nothing leave the flight as it was.
+
+    To what rounding becomes in a flight that is thrown: a computer that begins anew is centimetres away.
+    """
+    setting = asked() | {"plant": plant if isinstance(plant, dict) else {"base": plant}}
+    nothing = [{"time": time, "on": "bob", "velocity": [0, 0, 0]} for time in (0.0, 0.4, 0.4005, 1.5)]
+    alone, hit = fly(setting_of(setting)), fly(setting_of(setting | {"pokes": nothing}))
+    same = len(alone.t)
+    np.testing.assert_allclose(hit.t[:same], alone.t, atol=1e-12)
+    np.testing.assert_allclose(hit.packed[:same], alone.packed, atol=1e-8)
+    np.testing.assert_allclose(hit.rotor_forces[:same], alone.rotor_forces, atol=1e-8)
+    assert hit.outcome.time == pytest.approx(1.5 + 2)
+
+
+def test_pokes_strike_as_in_a_flight_in_pieces():
+    """Of both bodies, with gains and limits of the setting: equal to what a page flies by itself."""
+    pokes = [
+        {"time": 0.5, "on": "vehicle", "velocity": [0.2, -0.4, 0.1]},
+        {"time": 1.2, "on": "bob", "velocity": [0.5, 0.1, 0]},
+    ]
+    setting = setting_of(asked(gains={"rod_damping": 0.5}, plant=NOISY, pokes=pokes))
+    run, vehicle = fly(setting), setting.flight.vehicle
+    loop = replace(setting.flight.loop, parameters=())
+    flight = pieces_kernel(loop, goal("up")).begin(setting.flight.starts, seed=3)
+    rows = [flight.advance(250)]
+    rows.append(flight.advance(350, [*(vehicle.mass * np.array([0.2, -0.4, 0.1])), 0, 0, 0]))
+    rows.append(flight.advance(1000, [0, 0, 0, *(vehicle.bob_mass * np.array([0.5, 0.1, 0]))]))
+    every = np.concatenate(rows)
+    ticks = np.rint(run.t * 500).astype(int)
+    assert ticks[-1] == len(every) - 1
+    np.testing.assert_allclose(run.packed, every[ticks, :24], atol=1e-8)
+
+
+def test_a_flight_that_a_poke_ends_is_told_as_any_other():
+    hub = asked("lqr", plant="rotors") | {"vehicle": {"base": "hehn2011", "mount": "hub"}}
+    run = fly(setting_of(hub | {"pokes": [{"time": 0.1, "on": "bob", "velocity": [20, 20, 0]}]}))
+    assert run.outcome.status == "collided"
+    assert "touch" in run.outcome.reason
+    assert 0.1 < run.outcome.time < 0.5
+    assert run.t[-1] <= run.outcome.time + 1e-9
+    assert np.isfinite(run.packed).all()
 
 
 def test_rotors_go_on_turning_through_a_poke():

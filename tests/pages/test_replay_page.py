@@ -211,6 +211,46 @@ def test_rotors_turn_by_their_force(visit, up):
     assert turns[0] > 2 * np.pi  # more than a turn per second in hover
 
 
+def ink(page, t):
+    """How much of the front rotor, of its colour, is seen strongly, and how much faintly; pixels, from above at `t`."""
+    page.evaluate("t => { flypend.camera('axis'); flypend.seek(t); }", t)
+    scene = page.locator(".scene").bounding_box()
+    page.mouse.move(scene["x"] + scene["width"] / 2, scene["y"] + scene["height"] / 2)
+    page.mouse.wheel(0, -700)
+    screen(page)
+    seen = picture(page)
+    share = (247 - seen[..., 2]) / 247  # of #e69f00 over the sky, #f3f5f7
+    blend = np.array([243, 245, 247]) + share[..., None] * (np.array([230, 159, 0]) - np.array([243, 245, 247]))
+    orange = np.abs(seen - blend).max(axis=-1) < 8
+    return int(np.sum(orange & (share > 0.7))), int(np.sum(orange & (share > 0.3) & (share < 0.6)))
+
+
+def test_blades_blur_by_the_speed_of_their_rotor(visit):
+    """At rest two blades are seen; in hover the same ink is spread over trails, paler and wider."""
+    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 4.0, plant="rotors")
+    assert run.rotor_forces[0].max() < 0.1 * run.rotor_forces[-1].mean()
+    page = visit(run)
+    strong, faint = zip(ink(page, 0.0), ink(page, 4.0), strict=True)
+    assert strong[0] > 2 * strong[1], (strong, faint)
+    assert faint[1] > 1.5 * faint[0], (strong, faint)
+
+
+def test_whoever_wants_little_motion_sees_no_rotor_turn(visit, still):
+    """The picture of a hovering machine is then the same at any time, but for rounding; otherwise its rotors turn."""
+    changed = {}
+    for wanted in ("reduce", "no-preference"):
+        page = visit(still, setting={"reduced_motion": wanted})
+        pictures = []
+        for t in (0.5, 1.0, 1.03):  # after the first, all that belongs to the page stands where it belongs
+            page.evaluate("t => flypend.seek(t)", t)
+            screen(page)
+            page.wait_for_timeout(200)
+            pictures.append(picture(page))
+        changed[wanted] = int(np.sum(np.abs(pictures[2] - pictures[1]).max(axis=-1) > 8))
+    assert changed["reduce"] == 0, changed
+    assert changed["no-preference"] > 100, changed
+
+
 @pytest.fixture(scope="module")
 def fallen():
     """The LQR, from a level rod: it flies on and never stands."""

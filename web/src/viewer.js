@@ -56,6 +56,7 @@ export class Viewer {
     this.#plot(plots(this.flights));
     this.#stage();
     if (first) this.#begin();
+    if (first) this.stage?.compile();
     this.layouts.root.hidden = this.flights.length < 2;
     if (this.flights.length < 2) this.layout("overlay");
     this.#redraw();
@@ -101,7 +102,7 @@ export class Viewer {
   #begin() {
     this.cameras.show(this.stage?.rig.preset);
     this.stage?.colour(this.theme.colours);
-    this.#resize();
+    this.#size();
   }
 
   #choices() {
@@ -172,11 +173,16 @@ export class Viewer {
     this.wake();
   }
 
+  /** Draw in the size that the scene has now, at once: what is drawn is lost with the old size. */
   #resize() {
+    if (this.#size()) this.#frame(0);
+  }
+
+  #size() {
     const { clientWidth, clientHeight } = this.parts.scene;
-    if (!clientWidth || !clientHeight) return;
+    if (!clientWidth || !clientHeight) return false;
     this.stage?.resize(clientWidth, clientHeight, Math.min(window.devicePixelRatio || 1, 2));
-    this.#frame(0);
+    return true;
   }
 
   #redraw() {

@@ -17,7 +17,7 @@ from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kerne
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import Samples, fly_stepwise
-from flypend.flight.signals import signals_along
+from flypend.flight.signals import Signals
 from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, BoundLaw, Controller
@@ -190,7 +190,7 @@ def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
         thrust=wrench[:, 0],
         moment=wrench[:, 1:],
         rotor_forces=samples.rotors,
-        signals=signals_along(vehicle, law, samples.t, packed) if isinstance(law, BoundLaw) else {},
+        signals=Signals(vehicle, law, samples.t, packed) if isinstance(law, BoundLaw) else {},
         drift=np.zeros((0, 3)),
         outcome=samples.outcome,
         e3=law.e3,

@@ -1,4 +1,8 @@
-"""The flight of a setting, in parts: each poke ends one part, and the state it leaves starts the next."""
+"""The flight of a setting: through a sampled plant in pieces, between which pokes strike; else in parts.
+
+Each poke ends one part, and the state it leaves starts the next: all that there is to the ideal plant. A law that is a
+Python function begins its flight computer anew.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +17,14 @@ from flypend.flight.kernels import IdealKernel, SampledKernel
 from flypend.flight.kernels.single import REASONS, Solution, sampled_samples
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
-from flypend.flight.sampled import Samples, fly_stepwise
+from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.budget import SPENT, Budget
-from flypend.lab.setting import Poke, Setting, in_frame
-from flypend.lab.tuning import Stepped, Tell, Tuned, tuned, values
+from flypend.lab.setting import SYMBOLS, Poke, Setting, in_frame
+from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tuned, values
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
-from flypend.model.state import E3Direction, seen_packed, split
+from flypend.model.state import SIZE, E3Direction, seen_packed, split
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
@@ -47,6 +51,8 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
     budget = Budget(wanted)
+    if setting.pokes and isinstance(machine, Tuned) and isinstance(machine.kernel, SampledKernel):
+        return _trajectory(setting, machine, gains, [_poked_on(setting, machine, machine.kernel, gains, tell, budget)])
     begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
@@ -60,6 +66,36 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
         state = poked(end, flight.vehicle, machine.law.e3, poke)
         begin, rotors, number = begin + float(part.t[-1]), part.rotors[-1], number + 1
     return _trajectory(setting, machine, gains, parts)
+
+
+def _poked_on(setting: Setting, machine: Tuned, kernel: SampledKernel, gains: Any, tell: Tell, budget: Budget) -> Part:
+    """Fly a sampled plant through all pokes: board, noise and commands in transit go on as if nothing had happened."""
+    flight, plant = setting.flight, kernel.loop.sampled
+    pieces, ticks = in_pieces(machine, tell), [round(poke.time * plant.rate) for poke in setting.pokes]
+    with SYMBOLS:
+        flown = pieces.begin(flight.starts, seed=flight.seed or 0, gains=dict(zip(machine.names, gains, strict=True)))
+    last = ticks[-1] + number_of_ticks(flight.duration, plant)
+    blows = [np.zeros(6), *(_impulses(poke, plant.true_vehicle(flight.vehicle)) for poke in setting.pokes)]
+    rows, blow = [], np.zeros(6)
+    for tick, struck in zip((*ticks, last), blows, strict=True):
+        budget.check(flown.ticks / plant.rate)
+        blow = blow + struck  # of pokes within one tick, all at once
+        if flown.flying and tick > flown.ticks:
+            rows.append(flown.advance(tick - flown.ticks, blow))
+            blow = np.zeros(6)
+    outcome, every = flown.outcome, np.concatenate(rows)
+    end = min(int(np.floor(outcome.time * plant.rate + 1e-6)), len(every) - 1)
+    whole = flight.replace(duration=last / plant.rate)
+    kept = nearest_ticks(whole.moments, plant, whole.duration)
+    kept = np.append(kept[kept < end], end)
+    samples = Samples(kept / plant.rate, every[kept, :SIZE], every[kept, SIZE:], outcome)
+    return _part_from(samples, flight, plant)
+
+
+def _impulses(poke: Poke, vehicle: Vehicle) -> Any:
+    """Return the impulses (6,) of `poke` on vehicle and bob, N s, e₃ up."""
+    blow = poke.velocity * (vehicle.bob_mass if poke.on == "bob" else vehicle.mass)
+    return np.concatenate([np.zeros(3), blow] if poke.on == "bob" else [blow, np.zeros(3)])
 
 
 def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:

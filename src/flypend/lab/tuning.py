@@ -7,6 +7,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
+from weakref import WeakSet
 
 import casadi as ca
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
+from flypend.flight.kernels.pieces import PiecesKernel, pieces_kernel
 from flypend.flight.verdict import goal
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw, Controller, Law
@@ -81,6 +83,7 @@ class Stepped:
 
 
 _made: OrderedDict[str, Tuned] = OrderedDict()
+_in_pieces: WeakSet[BoundLaw] = WeakSet()  # the laws of `_made` whose flights in pieces are compiled
 
 
 def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
@@ -105,6 +108,16 @@ def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
     if isinstance(flight.plant, Sampled) and isinstance(made.kernel, SampledKernel):
         return replace(made, kernel=made.kernel.through(flight.plant.replace(seed=0)))
     return made
+
+
+def in_pieces(machine: Tuned, tell: Tell = lambda: None) -> PiecesKernel:
+    """Return the flights in pieces of `machine`, a sampled one; `tell` is called before a compilation."""
+    if machine.law not in _in_pieces:
+        tell()
+    with SYMBOLS:
+        kernel = pieces_kernel(machine.kernel.loop, machine.criterion)
+        _in_pieces.add(machine.law)
+    return kernel
 
 
 def _make(setting: Setting, asked: Law, fixed: dict[str, Any]) -> Tuned:

@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 
 from flypend import errors
-from flypend.laws.bound import BoundLaw
+from flypend.laws.bound import BoundLaw, Control
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
 from flypend.model.state import SIZE
@@ -64,36 +64,63 @@ def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[st
     Raises InputError if a parameter is not a numeric gain of the law, or does not appear in its equations (for example,
     a weight from which a gain matrix was computed in advance).
     """
-    bound = law.bind(vehicle)
-    errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)
-    return _symbolic_loop(vehicle, bound, tuple(parameters))
+    return _symbolic_loop(vehicle, *_checked(vehicle, law, parameters))
 
 
 @lru_cache(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
 def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...]) -> SymbolicLoop:
-    t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
+    t, s, p, control = _output(vehicle, bound, parameters)
     state = State.symbolic(s)
-    control = bound.evaluate(t, state, vehicle, gains={name: p[i] for i, name in enumerate(parameters)})
     rates = equations_of_motion(state, control.wrench, vehicle, bound.e3)
-    check_parameters(bound.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
-
-    lyapunov = dict(control.lyapunov)
-    if lyapunov:
-        lyapunov["V"] = sum(lyapunov.values())
-    lyapunov |= {f"{name}_rate": lie_derivative(value, state, rates, t) for name, value in lyapunov.items()}
-    signals = {**lyapunov, **control.signals}
+    lyapunov = _lyapunov(control)
+    derived = {_rate(name): lie_derivative(value, state, rates, t) for name, value in lyapunov.items()}
+    signals = {**lyapunov, **derived, **control.signals}
     return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, parameters)
 
 
-def lyapunov_function(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> ca.Function | None:
-    """Return the CasADi function (t, state (24,), gains) → V of `law`, without rates; None for a law that has no V.
+def _lyapunov(control: Control) -> dict[str, Any]:
+    """Return the Lyapunov functions of a law by name, and their sum V if there are any."""
+    return dict(control.lyapunov) | ({"V": sum(control.lyapunov.values())} if control.lyapunov else {})
 
-    The gains are those named in `parameters`; raises InputError as `symbolic_loop`.
+
+def _rate(name: str) -> str:
+    return f"{name}_rate"
+
+
+@lru_cache(maxsize=8)
+def _output(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...]) -> tuple[Any, Any, Any, Control]:
+    """Return the symbols t, s and p of a `SymbolicLoop`, and what the law answers to them."""
+    t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
+    gains = {name: p[i] for i, name in enumerate(parameters)}
+    control = bound.evaluate(t, State.symbolic(s), vehicle, gains=gains)
+    check_parameters(bound.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
+    return t, s, p, control
+
+
+def lyapunov_function(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> ca.Function | None:
+    """Return the CasADi function (t, state (24,), gains) → V of `law`; None for a law that has no V.
+
+    The gains are those named in `parameters`; raises InputError as `symbolic_loop`. The rates, which take most of the
+    time of a closed loop, are not derived.
     """
-    loop = symbolic_loop(vehicle, law, parameters)
-    if "V" not in loop.signals:
+    t, s, p, control = _output(vehicle, *_checked(vehicle, law, parameters))
+    if not control.lyapunov:
         return None
-    return ca.Function("V", [loop.t, loop.s, loop.p], [ca.cse(ca.densify(loop.signals["V"]))])
+    return ca.Function("V", [t, s, p], [ca.cse(ca.densify(_lyapunov(control)["V"]))])
+
+
+def signal_names(vehicle: Vehicle, law: Law | BoundLaw) -> tuple[str, ...]:
+    """Return the names of the signals of `law`, as in `SymbolicLoop.signals`, without deriving a rate."""
+    *_, control = _output(vehicle, *_checked(vehicle, law, ()))
+    lyapunov = _lyapunov(control)
+    return tuple(dict.fromkeys((*lyapunov, *map(_rate, lyapunov), *control.signals)))
+
+
+def _checked(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str]) -> tuple[BoundLaw, tuple[str, ...]]:
+    """Return `law` bound to `vehicle`, and its gains `parameters`. Raises InputError for one that is no number."""
+    bound = law.bind(vehicle)
+    errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)
+    return bound, tuple(parameters)
 
 
 def check_parameters(law: str, wrench: Any, parameters: Sequence[str], symbols: Any) -> None:

@@ -1,6 +1,6 @@
 // The engine of the laboratory: a worker with machine code shows a flight at once, the server confirms it and knows the rest.
 //
-// The server alone flies own laws, the ideal plant, pokes, rotor limits (from which laws take gains), and what a law may refuse.
+// The server alone flies own laws, the ideal plant, rotor limits (from which laws take gains), and what a law may refuse.
 
 import { Local } from "../live/local.js";
 import { Link } from "./link.js";
@@ -29,7 +29,7 @@ export class Hybrid {
   /** Fly `setting` here, if that is possible; whether it is. */
   #preview(number, setting) {
     const { local } = this;
-    if (!local || setting.pokes?.length || "random" in setting.start || !this.#allowed(setting)) return false;
+    if (!local || "random" in setting.start || !this.#allowed(setting)) return false;
     local.ask("fly", { setting: this.#whole(setting) }, number);
     return true;
   }

@@ -26,6 +26,7 @@ export class Laboratory {
   /** With the engine that `connect` makes of a listener to replies and one to the connection: see link.js, live/local.js. */
   constructor(data, connect) {
     this.offer = data.offer;
+    this.link = connect((reply) => this.#told(reply), (words) => this.#say(words)); // first: its worker starts beside the page
     this.viewer = new Viewer({ ...data, runs: [] }, css + own); // until the engine has flown
     this.pinned = data.runs;
     this.main = document.querySelector("main");
@@ -33,7 +34,6 @@ export class Laboratory {
     this.setting = new Setting(data.offer.first, () => this.changed());
     Object.assign(this, { asked: 0, shown: 0, clock: new Map(), times: [], tab: "flight" });
     this.#header();
-    this.link = connect((reply) => this.#told(reply), (words) => this.#say(words));
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
     if (this.offer.story) this.story = new Story(this.panel.root, this.offer.story, (setting) => this.tell(setting));
@@ -264,7 +264,9 @@ export class Laboratory {
 
   #picture(reply) {
     this.main.classList.remove("stale");
-    if (this.flew) this.#notice("");
+    const first = !this.flew;
+    if (first) performance.mark("flypend flown"); // and "flypend drawn": marks that browsers keep of a page
+    else this.#notice("");
     this.flew = true;
     // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
     this.steady ??= reply.run.direction;
@@ -276,6 +278,7 @@ export class Laboratory {
     if (begun === undefined) return;
     const ready = performance.now() - begun; // all but the picture, for which the browser may let one wait
     requestAnimationFrame(() => {
+      if (first) performance.mark("flypend drawn");
       this.times = [...this.times.slice(-199), { here: reply.kind === "preview", flown: reply.milliseconds, ready, picture: performance.now() - begun }];
     });
   }

@@ -1,9 +1,11 @@
 // The machine: hub, arms, rotors, thrust arrows, rod and bob, as a group that takes poses with e3 up. Metres.
 
 import {
-  CircleGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial,
-  RingGeometry, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry, TorusGeometry, Vector3,
+  Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, ShaderMaterial,
+  SphereGeometry, TorusGeometry, Vector3,
 } from "three";
+
+import { Rotor } from "./rotor.js";
 
 const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
 const Z = new Vector3(0, 0, 1);
@@ -53,27 +55,6 @@ function solid(geometry, paint, ghost) {
   const mesh = new Mesh(geometry, paint);
   mesh.castShadow = !ghost;
   return mesh;
-}
-
-function rotor(radius, paint, ghost, height) {
-  const group = new Group();
-  const blade = new Shape();
-  blade.moveTo(0, -0.05).quadraticCurveTo(0.35, -0.16, 1, -0.05).lineTo(0.98, 0.06).quadraticCurveTo(0.4, 0.07, 0, 0.05);
-  const blades = new Group();
-  for (const turn of [0, Math.PI]) {
-    const mesh = solid(new ShapeGeometry(blade), paint.blade, ghost);
-    mesh.scale.setScalar(0.96 * radius);
-    mesh.rotation.z = turn;
-    blades.add(mesh);
-  }
-  const disc = new Mesh(new CircleGeometry(radius, 48), paint.disc);
-  const rim = new Mesh(new RingGeometry(0.965 * radius, radius, 64), paint.blade);
-  const motor = solid(new CylinderGeometry(0.16 * radius, 0.19 * radius, height, 20), paint.body, ghost);
-  motor.rotation.x = Math.PI / 2;
-  motor.position.z = -height / 2;
-  group.add(blades, disc, rim, motor);
-  Object.assign(group.userData, { blades, disc: [disc, rim] });
-  return group;
 }
 
 /** A cylinder from `start` to `end`, thinner there where `taper` is less than 1. */
@@ -132,20 +113,18 @@ export class Model extends Group {
     this.body.add(open ? solid(new TorusGeometry(hub, arm, 14, 48), paint.body, ghost) : this.#hub(span));
     const front = Math.max(...vehicle.rotor_positions.map((position) => position[0])) - 1e-9;
     const lift = open ? 0 : 0.13 * span; // how high discs are drawn above the arms, where nothing can touch them
-    this.glass = { front: this.#disc(), rear: this.#disc() };
     if (vehicle.mount === "cup") this.#cup();
     this.rotors = vehicle.rotor_positions.map((position, k) => {
       const side = position[0] > front ? "front" : "rear";
       const end = new Vector3(...position), rim = end.clone().setLength(hub);
       const strut = bar(rim, end, arm, paint.body, ghost, open ? 1 : 2 / 3);
-      const parts = { blade: paint[side], disc: this.glass[side], body: paint.body };
-      const turning = rotor(vehicle.rotor_radius, parts, ghost, 0.13 * span);
-      Object.assign(this.parts, { [`disc ${k + 1}`]: turning.userData.disc, [`arm ${k + 1}`]: [strut] });
-      turning.position.copy(end).add(new Vector3(0, 0, lift));
+      const rotor = new Rotor(vehicle.rotor_radius, 0.13 * span, vehicle.rotor_spins[k], { rim: paint[side], body: paint.body }, ghost);
+      Object.assign(this.parts, { [`disc ${k + 1}`]: rotor.touched, [`arm ${k + 1}`]: [strut] });
+      rotor.position.copy(end).add(new Vector3(0, 0, lift));
       const arrow = new Arrow(0.02 * vehicle.rod_length, paint.thrust, ghost);
-      arrow.position.copy(turning.position);
-      this.body.add(strut, turning, arrow);
-      return { blades: turning.userData.blades, arrow };
+      arrow.position.copy(rotor.position);
+      this.body.add(strut, rotor, arrow);
+      return { rotor, arrow, side };
     });
   }
 
@@ -165,13 +144,9 @@ export class Model extends Group {
     cup.rotation.x = Math.PI / 2;
     cup.position.z = height / 2;
     rim.position.z = height;
-    this.glass.cup = glass;
+    this.glass = glass;
     this.body.add(cup, rim);
     Object.assign(this.parts, { cone: [cup, rim], cup: [cup, rim] });
-  }
-
-  #disc() {
-    return new MeshBasicMaterial({ transparent: true, opacity: this.ghost ? 0.1 : 0.22, side: DoubleSide, depthWrite: false });
   }
 
   #rod(length) {
@@ -212,10 +187,10 @@ export class Model extends Group {
     this.body.quaternion.set(...pose.quat_xyzw);
     this.pole.quaternion.setFromUnitVectors(Z, new Vector3(...pose.y));
     this.thrust.stretch(length(pose.thrust, hover, HOVER_ARROW));
-    this.rotors.forEach(({ blades, arrow }, k) => {
-      // A rotor with spin +1 turns clockwise seen from above, which is a negative angle about the body's third axis.
-      blades.rotation.z = -vehicle.rotor_spins[k] * pose.turned[k];
-      arrow.stretch(length(pose.rotor_forces[k], hover / this.rotors.length, ROTOR_ARROW));
+    const share = hover / this.rotors.length;
+    this.rotors.forEach(({ rotor, arrow }, k) => {
+      rotor.show(pose.turned[k], pose.rotor_forces[k] / share);
+      arrow.stretch(length(pose.rotor_forces[k], share, ROTOR_ARROW));
     });
   }
 
@@ -226,7 +201,8 @@ export class Model extends Group {
       paint.side = DoubleSide;
     }
     this.rim.uniforms.color.value.set(this.ghost ? colours.ghost : colours.thrust);
-    for (const [side, glass] of Object.entries(this.glass)) glass.color.set(this.ghost ? colours.ghost : colours[side === "cup" ? "body" : side]);
+    this.glass?.color.set(this.ghost ? colours.ghost : colours.body);
+    for (const { rotor, side } of this.rotors) rotor.colour(this.ghost ? colours.ghost : colours[side]);
     this.alarm.color.set(colours.alarm);
   }
 }

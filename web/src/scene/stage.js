@@ -45,6 +45,11 @@ export class Stage {
     if (this.colours) this.colour(this.colours);
   }
 
+  /** Compile all shaders side by side, before the first picture waits for one after the other. */
+  compile() {
+    this.renderer.compile(this.scene, this.camera);
+  }
+
   /** Show what the first flight, one that grows, has flown of late: its last `span` seconds. */
   grow(span) {
     const [flyer] = this.flyers;

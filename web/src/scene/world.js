@@ -97,10 +97,8 @@ export class World extends Group {
   /** Put grid, points and light around `pivot`, as `Rig.apply` sees it; `pixels` to a point. */
   surround(pivot, { target, distance, back, follow }, spacing, pixels) {
     const size = Math.max(14 * distance, 40 * spacing);
-    for (const plane of [this.grid, this.floor]) {
-      plane.position.set(target[0], target[1], this.ground);
-      plane.scale.set(size, size, 1);
-    }
+    this.grid.position.set(target[0], target[1], this.ground);
+    this.grid.scale.set(size, size, 1);
     const grid = this.grid.material.uniforms, dust = this.dust.material.uniforms;
     grid.middle.value.set(target[0], target[1], 0);
     grid.spacing.value = spacing;
@@ -113,6 +111,9 @@ export class World extends Group {
     const height = 6 * this.reach, { camera } = this.sun.shadow;
     this.sun.target.position.set(...pivot);
     this.sun.position.set(pivot[0] + 0.12 * height, pivot[1] + 0.08 * height, pivot[2] + height);
+    const fallen = pivot[2] - this.ground, width = 2.1 * camera.right;
+    this.floor.position.set(pivot[0] - 0.12 * fallen, pivot[1] - 0.08 * fallen, this.ground);
+    this.floor.scale.set(width, width, 1);
     camera.far = 1.2 * (height + Math.max(pivot[2] - this.ground, 0)) + this.reach;
     camera.updateProjectionMatrix();
   }

@@ -31,6 +31,8 @@ from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS, Criterion
 from flypend.flight.kernels.flown import STATUS, address, aligned, inputs_of
 from flypend.flight.kernels.sampled import argument_kinds, sampled_problem, structure, written
+from flypend.flight.kernels.single import sampled_outcome
+from flypend.flight.outcome import Outcome
 from flypend.model import State
 from flypend.model.state import SIZE, seen_packed
 from flypend.plants.equations import struck
@@ -165,6 +167,12 @@ class PiecewiseFlight:
         flown: NDArray[np.float64] = samples[0]
         flown[kept / self._loop.sampled.rate > float(self._given["end"][0]) + 1e-9] = np.nan  # there it has ended
         return flown
+
+    @property
+    def outcome(self) -> Outcome:
+        """How and when the flight has ended; completed at its last tick while it goes on."""
+        code, end, part = (self._given[name][0] for name in ("status", "end", "part"))
+        return sampled_outcome(int(code), float(end), int(part), self._loop.vehicle)
 
     @property
     def status(self) -> str:

@@ -16,6 +16,7 @@ from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples, nearest_ticks
 from flypend.flight.touch import touched
+from flypend.model import Vehicle
 from flypend.model.state import MAX_STATE, SIZE, seen_packed
 
 REASONS = {
@@ -93,13 +94,16 @@ def sampled_samples(
         last = int(np.floor(end * plant.rate + 1e-6))  # a rod touches between two ticks
         ticks = np.append(ticks[ticks < last], last)
         flown = fly(keep_at=ticks)
-    outcome = Outcome("completed", end)
-    if code != runge_kutta.COMPLETED:
-        reason = {runge_kutta.UNDEFINED: NOT_FINITE, runge_kutta.DIVERGED: LEFT}
-        if code == runge_kutta.COLLIDED:
-            reason[code] = touched(flight.vehicle, int(flown.part[0]))
-        outcome = Outcome(str(STATUS[code]), end, reason[code])  # type: ignore[arg-type]
+    outcome = sampled_outcome(code, end, int(flown.part[0]) if code == runge_kutta.COLLIDED else -1, flight.vehicle)
     t, samples = ticks / plant.rate, flown.samples[0]
     kept = t <= end + 1e-9
     packed = seen_packed(samples[kept, :SIZE], law.e3)
     return Samples(t[kept], packed, samples[kept, SIZE:], outcome)
+
+
+def sampled_outcome(code: int, end: float, part: int, vehicle: Vehicle) -> Outcome:
+    """Return how a sampled flight has ended: `code` of the kernel, time `end` (s), `part` that the rod touched."""
+    reason = {runge_kutta.UNDEFINED: NOT_FINITE, runge_kutta.DIVERGED: LEFT}
+    if code == runge_kutta.COLLIDED:
+        reason[code] = touched(vehicle, part)
+    return Outcome(str(STATUS[code]), end, reason.get(code, ""))  # type: ignore[arg-type]

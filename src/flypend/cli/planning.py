@@ -115,7 +115,7 @@ def plan(
         verdict = "stands" if flown.success else f"does not stand ({flown.cause})"
         console.print(f"Flown on {fly}: {verdict}, excursion {flown.excursion:.3f} m.")
     if html is not None:
-        shown.to_html(html, ghost=ghosts)
+        shown.to_html(html, ghost=ghosts, windows=found.windows)
         console.print(f"The replay is {bold(html)}.")
     with counter() as tell:
         if figure is not None:

@@ -92,4 +92,4 @@ if __name__ == "__main__":
     planned, run = fly(chosen, *sys.argv[2:3])
     print(planned)
     print(f"stands: {fp.metrics(run).success}")
-    run.to_html(f"{chosen}.html", ghost=planned.trajectory, title=chosen)
+    run.to_html(f"{chosen}.html", ghost=planned.trajectory, title=chosen, windows=planned.windows)

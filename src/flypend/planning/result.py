@@ -18,6 +18,7 @@ from flypend.geometry import norm
 from flypend.laws.references import Reference, hover, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, split
+from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, held, step_timing
 
@@ -41,6 +42,8 @@ class Plan:
         Where the pivot is to hover, m.
     path : callable, optional
         Where the pivot is to be until then, m, as a function of time; default the target.
+    windows : tuple of Window
+        What it flies through.
     t : (n,)
         Times, s: `dense` in each stage.
     packed : (n, 24)
@@ -77,6 +80,7 @@ class Plan:
     iterations: int
     guess: int
     path: Reference | None = None
+    windows: tuple[Window, ...] = ()
 
     def __repr__(self) -> str:
         """Return the vehicle and what `told` says."""
@@ -145,7 +149,7 @@ class Plan:
 
     def to_html(self, path: str | Path | None = None) -> str:
         """Render a replay of the plan, as `Trajectory.to_html` does, and write it to `path` if given."""
-        return self.trajectory.to_html(path)
+        return self.trajectory.to_html(path, windows=self.windows)
 
     @cached_property
     def end_error(self) -> float:

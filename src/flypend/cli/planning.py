@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     "sphere",
     type=path,
     metavar="FILE",
-    help="Also draw how far plans and the inverted law stray from rest, over all directions of the rod.",
+    help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
 )
 @click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
 def plan(

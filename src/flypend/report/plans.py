@@ -37,5 +37,5 @@ def draw_front(path: Path, plan: Plan, start: State, wishes: Mapping[str, Any], 
 
 def draw_strays(path: Path, plan: Plan, tell: Tell) -> None:
     """Draw to `path` how far plans of the vehicle of `plan`, nmpc and the inverted law stray from rest."""
-    found = strays(plan.vehicle, (inverted(), nmpc()), CELLS, progress=lambda done, total: tell("plans", done, total))
+    found = strays(plan.vehicle, (inverted(), nmpc()), CELLS, tell=tell)
     save_figure(strays_figure(found), path)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -105,19 +106,21 @@ def strays(
     *,
     guesses: int = 4,
     workers: int | None = None,
-    progress: Progress = lambda *_: None,
+    tell: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> Strays:
     """Fly `laws` in the rotors plant, and plan with so many `guesses`, from rest with the rod all over the sphere.
 
-    The directions are the centres of the `cells` × `cells` squares of each hemisphere's disc that lie in it. Raises
-    InputError if an argument is out of range.
+    The directions are the centres of the `cells` × `cells` squares of each hemisphere's disc that lie in it. `tell` is
+    called with what is under way, and how much of it is done. Raises InputError if an argument is out of range.
     """
     count = int(errors.number("cells", cells, at_least=2))
     place, y = _directions(count)
     starts = State(y=y)
-    plans, by_law = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=progress), {}
+    plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=partial(tell, "plans"))
+    by_law = {}
     for law in laws:
-        flown = simulate_ensemble(vehicle, law, starts.seen(law.e3), DURATION, plant="rotors", workers=workers)
+        own, told = starts.seen(law.e3), partial(tell, f"flights of {law.name}")
+        flown = simulate_ensemble(vehicle, law, own, DURATION, plant="rotors", workers=workers, progress=told)
         by_law[flown.law] = np.where(flown.success, flown.excursion, np.nan)
     return Strays(count, place, starts, by_law, plans)
 

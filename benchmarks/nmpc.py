@@ -2,13 +2,16 @@
 
 python -m benchmarks.nmpc --runs 60 --seed 2211
 python -m benchmarks.nmpc --runs 60 --seed 2211 --row hub
+python -m benchmarks.nmpc --runs 500 --seed 6200 --row nominal --keep flights --piece 100   # five times
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -50,26 +53,31 @@ ROWS = {
 }
 
 
-@dataclass
-class Flown:
-    """What came of a row."""
+@dataclass(frozen=True)
+class Flight:
+    """What came of run `i`: its excursion and that of `fp.plan` (m), None without a plan; times in s."""
 
-    stood: list[bool] = field(default_factory=list)
-    excursion: list[float] = field(default_factory=list)
-    ratio: list[float] = field(default_factory=list)
-    clearance: list[float] = field(default_factory=list)
-    spent: list[float] = field(default_factory=list)
-    changes: list[int] = field(default_factory=list)
+    i: int
+    stood: bool
+    excursion: float
+    best: float | None
+    clearance: float
+    changes: int
+    spent: list[float]
 
-    def told(self) -> str:
-        """Return the row of the table."""
-        stood, runs = sum(self.stood), len(self.stood)
-        low, high = wilson(stood, runs)
-        flown = [f"{stood} of {runs} ({low:.1%} to {high:.1%})", f"excursion {quantiles(self.excursion, 0.5, 0.95)} m"]
-        flown += [f"ratio to the plan {quantiles(self.ratio, 0.5, 0.95)}"] if self.ratio else []
-        flown += [f"step p50, p99 {quantiles(1e3 * np.array(self.spent), 0.5, 0.99)} ms"]
-        flown += [f"clearance p5 {quantiles(self.clearance, 0.05)} m"] if np.isfinite(self.clearance[0]) else []
-        return ", ".join([*flown, f"handed over more than twice: {sum(n > 2 for n in self.changes)}"])
+
+def told(flights: Sequence[Flight]) -> str:
+    """Return the row of the table."""
+    stood, runs = sum(flight.stood for flight in flights), len(flights)
+    low, high = wilson(stood, runs)
+    ratio = [flight.excursion / flight.best for flight in flights if flight.best and flight.stood]
+    kept, spent = [f.clearance for f in flights], [took for f in flights for took in f.spent]
+    parts = [f"{stood} of {runs} ({low:.1%} to {high:.1%})"]
+    parts += [f"excursion {quantiles([flight.excursion for flight in flights], 0.5, 0.95)} m"]
+    parts += [f"ratio to the plan {quantiles(ratio, 0.5, 0.95)}"] if ratio else []
+    parts += [f"step p50, p99 {quantiles(1e3 * np.array(spent), 0.5, 0.99)} ms"]
+    parts += [f"clearance p5 {quantiles(kept, 0.05)} m"] if np.isfinite(kept[0]) else []
+    return ", ".join([*parts, f"handed over more than twice: {sum(flight.changes > 2 for flight in flights)}"])
 
 
 def fly(row: Row, start: fp.State, i: int) -> tuple[Any, Pilot]:
@@ -85,22 +93,27 @@ def fly(row: Row, start: fp.State, i: int) -> tuple[Any, Pilot]:
     return fp.metrics(run), pilots[0]
 
 
-def flown(row: Row, starts: fp.State, runs: int) -> Flown:
-    """Fly `runs` of the `starts`."""
-    found = Flown()
-    for i in range(runs):
-        result, pilot = fly(row, starts[i], i)
-        best = fp.plan(row.vehicle, starts[i], time_limit=PATIENT)
-        found.stood.append(result.success)
-        found.excursion.append(result.excursion)
-        found.ratio += [result.excursion / best.excursion] if best and result.success else []
-        found.clearance.append(result.clearance)
-        found.spent += pilot.spent
-        found.changes.append(len(pilot.changes))
-        if not result.success or len(pilot.changes) > 2:
-            changes = "; ".join(f"{t:.2f} s {mode}, {why}" for t, mode, why in pilot.changes)
-            print(f"  run {i}: {result.cause or 'stands'}, {changes}", flush=True)
-    return found
+def flown(row: Row, start: fp.State, i: int) -> Flight:
+    """Fly run `i` of a `row` from a `start`, and plan from it."""
+    result, pilot = fly(row, start, i)
+    best = fp.plan(row.vehicle, start, time_limit=PATIENT)
+    if not result.success or len(pilot.changes) > 2:
+        changes = "; ".join(f"{t:.2f} s {mode}, {why}" for t, mode, why in pilot.changes)
+        print(f"  run {i}: {result.cause or 'stands'}, {changes}", flush=True)
+    excursion, changed = best.excursion if best else None, len(pilot.changes)
+    return Flight(i, result.success, result.excursion, excursion, result.clearance, changed, pilot.spent)
+
+
+def flights_of(row: Row, starts: fp.State, kept: Path | None, piece: int) -> list[Flight]:
+    """Return flights from `starts`: those `kept` in a file, a line each, and up to a `piece` that are flown now."""
+    lines = kept.read_text().splitlines() if kept and kept.exists() else []
+    flights = [Flight(**json.loads(line)) for line in lines]
+    for i in sorted(set(range(len(starts))) - {flight.i for flight in flights})[:piece]:
+        flights.append(flown(row, starts[i], i))
+        if kept:
+            with kept.open("a") as file:
+                file.write(json.dumps(asdict(flights[-1])) + "\n")
+    return flights
 
 
 def main() -> None:
@@ -109,14 +122,19 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=60)
     parser.add_argument("--seed", type=int, default=2211)
     parser.add_argument("--row", choices=ROWS, action="append")
+    parser.add_argument("--keep", type=Path, help="a folder for what came of flights, which are not flown again")
+    parser.add_argument("--piece", type=int, default=10**9, help="most flights of a row now")
     asked = parser.parse_args()
+    if asked.keep:
+        asked.keep.mkdir(parents=True, exist_ok=True)
     for name in asked.row or ROWS:
         row = ROWS[name]
         if name == "hub":
             starts = task_starts(row.vehicle, asked.runs, asked.seed)["random"]
         else:
             starts = fp.random_starts(asked.runs, asked.seed)
-        print(f"{name}: {flown(row, starts, asked.runs).told()}", flush=True)
+        kept = asked.keep and asked.keep / f"{name}-{asked.seed}-{asked.runs}.jsonl"
+        print(f"{name}: {told(flights_of(row, starts, kept, asked.piece))}", flush=True)
 
 
 if __name__ == "__main__":

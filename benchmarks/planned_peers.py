@@ -22,11 +22,11 @@ from benchmarks.plans import PATIENT, VEHICLE, quantiles
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model.state import SIZE
 from flypend.planning.ensemble import ORDER
+from flypend.planning.method import Settings
 from flypend.planning.planner import HORIZONS
 from flypend.planning.request import Request, request
 from flypend.planning.scaled import Scaled
 from flypend.planning.search import NOT_REACHED, Found, Job, guessed, one_by_one, stages_of
-from flypend.planning.solver import Settings
 from flypend.planning.stage import stepped
 from flypend.planning.telling import told
 from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED, end_errors

@@ -38,12 +38,12 @@ def test_a_front_leaves_out_what_failed(plan):
     np.testing.assert_allclose(lines(axes)[0], [[3.0, plan.excursion]])
 
 
-def test_the_sphere_has_both_hemispheres_of_law_and_plan(plan):
+def test_the_sphere_has_both_hemispheres_of_laws_and_plan(plan):
     place, y = _directions(4)
     values = 0.5 + 0.1 * y[:, 2]
     ensemble = fp.plan_ensemble(HEHN, fp.State(y=y), guesses=1, duration=3.0, workers=1)
-    strays = Strays(4, place, fp.State(y=y), "inverted", values, ensemble)
+    strays = Strays(4, place, fp.State(y=y), {"inverted": values, "nmpc": values - 0.2}, ensemble)
     axes = strays_figure(strays).axes
-    shown = [panel.collections[0].get_array() for panel in axes[:4]]
-    assert np.nanmin(shown[0]) > 0.5 > np.nanmax(shown[1])
-    assert sum(np.count_nonzero(~np.ma.getmaskarray(np.ma.masked_invalid(part))) for part in shown) == 2 * len(y)
+    shown = [panel.collections[0].get_array() for panel in axes[:6]]
+    assert np.nanmin(shown[0]) > 0.5 > np.nanmax(shown[1]) > 0.35 > np.nanmin(shown[2])
+    assert sum(np.count_nonzero(~np.ma.getmaskarray(np.ma.masked_invalid(part))) for part in shown) == 3 * len(y)

@@ -12,13 +12,14 @@ from flypend.compile.llvm.stagewise import lanes
 from flypend.compile.numeric import as_numpy
 from flypend.planning import feedback
 from flypend.planning.kernels import kernels
+from flypend.planning.method import Problem
 from flypend.planning.race import Race, work
 from flypend.planning.request import request
 from flypend.planning.riccati import backward, packed_cost, packed_to_go
 from flypend.planning.scaled import Units
 from flypend.planning.search import Job, guessed
 from flypend.planning.single import laid, single
-from flypend.planning.solver import Problem, Solver
+from flypend.planning.solver import Solver
 from flypend.planning.wishes import Wishes
 
 HEHN = fp.vehicle("hehn2011")

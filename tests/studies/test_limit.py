@@ -40,9 +40,9 @@ def test_directions_are_the_middles_of_equal_cells():
 
 
 def test_plans_stray_less_than_the_law_everywhere():
-    found = strays(HEHN, fp.laws.inverted(), 3, guesses=4, workers=1)
+    found = strays(HEHN, [fp.laws.inverted()], 3, guesses=4, workers=1)
     assert np.all(found.plans.success)
-    assert np.all(found.plans.excursion < 0.2 * found.by_law)
-    upper = found.disc(found.by_law, 0)
+    assert np.all(found.plans.excursion < 0.2 * found.by_law["inverted"])
+    upper = found.disc(found.by_law["inverted"], 0)
     assert upper.shape == (3, 3)
     assert np.isfinite(upper).all()

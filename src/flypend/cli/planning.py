@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     "sphere",
     type=path,
     metavar="FILE",
-    help="Also draw how far plans and the inverted law stray from rest, over all directions of the rod.",
+    help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
 )
 @click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
 def plan(
@@ -115,7 +115,7 @@ def plan(
         verdict = "stands" if flown.success else f"does not stand ({flown.cause})"
         console.print(f"Flown on {fly}: {verdict}, excursion {flown.excursion:.3f} m.")
     if html is not None:
-        shown.to_html(html, ghost=ghosts)
+        shown.to_html(html, ghost=ghosts, windows=found.windows)
         console.print(f"The replay is {bold(html)}.")
     with counter() as tell:
         if figure is not None:

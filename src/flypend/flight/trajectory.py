@@ -235,6 +235,7 @@ class Trajectory:
         layout: str = "overlay",
         speed: float = 1.0,
         live: bool = False,
+        windows: Sequence[Any] = (),
     ) -> str:
         """Render a replay of this run: one HTML page that opens from disk, offline, in any browser.
 
@@ -254,6 +255,8 @@ class Trajectory:
             Whether the page flies by itself: pokes, starts, gains and a hand on the rod are answered by the equations,
             as WebAssembly. For flights through a sampled plant of the built-in equations, under a compiled law, flown
             in this session; the other runs stay as they were.
+        windows : sequence of Window
+            Openings in walls that are drawn, e₃ up; `Plan.windows` are those that a plan flies through.
 
         Returns
         -------
@@ -264,7 +267,7 @@ class Trajectory:
         ------
         InputError
             If there are more than four runs, the layout is unknown, the speed is not positive, the file is not
-            writable, or the run cannot be `live`.
+            writable, the run cannot be `live`, or a window is none.
         """
         from flypend.flight.verdict import verdict  # imported here: most runs are never shown
         from flypend.pages import replay
@@ -274,7 +277,8 @@ class Trajectory:
             raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
         runs = [self, *others]
         verdicts = [verdict(run) for run in runs]
-        text = replay.page(runs, verdicts, title=title, layout=layout, speed=speed, live=_live(self) if live else None)
+        flies = _live(self) if live else None
+        text = replay.page(runs, verdicts, title=title, layout=layout, speed=speed, live=flies, windows=windows)
         if path is not None:
             with whole_file(path, (".html",)) as partial:
                 partial.write_text(text, encoding="utf-8")

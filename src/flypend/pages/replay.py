@@ -30,6 +30,7 @@ MOST_RUNS = 4
 LARGEST = float(np.finfo(np.float32).max)
 
 Run = Any  # flypend.Trajectory, not imported: its module imports this one
+Opening = Any  # planning.Window, of a room above
 
 # The page may run inline scripts but fetch nothing.
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
@@ -62,6 +63,7 @@ def page(
     layout: str = "overlay",
     speed: float = 1.0,
     live: dict[str, Any] | None = None,
+    windows: Sequence[Opening] = (),
 ) -> str:
     """Return the HTML of a page that replays `runs`, or with `live` flies on from the first.
 
@@ -80,15 +82,17 @@ def page(
         Initial playback speed, flight time over playback time, > 0.
     live : dict, optional
         What the page flies by itself: see `flypend.flight.live`.
+    windows : sequence of planning.Window
+        Openings in walls that are drawn.
 
     Raises
     ------
     InputError
-        If there are no runs or more than four, the layout is unknown, or the speed is not positive.
+        If there are no runs or more than four, the layout is unknown, the speed is not positive, or a window is none.
     """
     if not 1 <= len(runs) <= MOST_RUNS:
         raise errors.InputError("runs", f"1 to {MOST_RUNS} runs", f"{len(runs)}")
-    data = {
+    data: dict[str, Any] = {
         "title": title or _title(runs),
         "layout": errors.one_of("layout", layout, ("overlay", "beside")),
         "speed": errors.number("speed", speed, above=0),
@@ -98,11 +102,20 @@ def page(
             for run, verdict, name in zip(runs, verdicts, names(runs), strict=True)
         ],
     }
+    if windows:
+        data["runs"][0]["windows"] = [_opening(window) for window in windows]
     policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "live")
     return PAGE.format(
         policy=html.escape(policy), title=html.escape(str(data["title"])), data=embedded(data | (live or {})),
         program=program(name),
     )  # fmt: skip
+
+
+def _opening(window: Opening) -> dict[str, Any]:
+    if not all(hasattr(window, name) for name in ("centre", "axes", "halves", "depth")):
+        raise errors.InputError("windows", "a sequence of Window", repr(window)[:80])
+    parts = {name: np.asarray(getattr(window, name)).tolist() for name in ("centre", "axes", "halves")}
+    return {**parts, "depth": float(window.depth)}
 
 
 def frame(text: str, height: int = 640) -> str:

@@ -104,16 +104,16 @@ def _plain(axis: Any) -> None:
 
 
 def strays_figure(strays: Strays) -> Figure:
-    """Draw the excursion of law and plans over both hemispheres, how it is distributed, and what the plans cost."""
-    figure = new_figure(PAGE, 4.2)
-    grid = figure.add_gridspec(2, 3, width_ratios=(1, 1, 1.25))
-    rows = {f"{strays.law} law": strays.by_law, "plan": strays.plans.excursion}
+    """Draw the excursion of laws and plans over both hemispheres, how it is distributed, and what the plans cost."""
+    rows = {**strays.by_law, "plan": strays.plans.excursion}
+    figure = new_figure(PAGE, 0.3 + 1.95 * len(rows))
+    grid = figure.add_gridspec(2 * len(rows), 3, width_ratios=(1, 1, 1.25))
     finite = np.concatenate([values[np.isfinite(values)] for values in rows.values()])
     scale = LogNorm(np.min(finite), np.max(finite))
     edges, discs = np.linspace(-EDGE, EDGE, strays.cells + 1), []
     for row, (name, values) in enumerate(rows.items()):
         for part in (0, 1):
-            axes = figure.add_subplot(grid[row, part])
+            axes = figure.add_subplot(grid[2 * row : 2 * row + 2, part])
             hemisphere(axes, part)
             image = axes.pcolormesh(edges, edges, strays.disc(values, part), norm=scale, cmap="viridis", zorder=0.5)
             image.set_clip_path(Circle((0, 0), EDGE, transform=axes.transData))
@@ -123,10 +123,10 @@ def strays_figure(strays: Strays) -> Figure:
     bar.set_label("excursion (m)", fontsize=LABEL)
     _plain(bar.ax.xaxis)
     bar.ax.tick_params(labelsize=SMALL)
-    far, spent = figure.add_subplot(grid[0, 2]), figure.add_subplot(grid[1, 2])
+    far, spent = figure.add_subplot(grid[: len(rows), 2]), figure.add_subplot(grid[len(rows) :, 2])
     for i, (name, values) in enumerate(rows.items()):
         _shares(far, values, SERIES[i], name)
-    _shares(spent, 1e3 * strays.plans.solve_time, SERIES[1], "plan")
+    _shares(spent, 1e3 * strays.plans.solve_time, SERIES[len(rows) - 1], "plan")
     far.set(xlabel="excursion (m)", ylabel="starts within (%)", xscale="log")
     _plain(far.xaxis)
     far.legend(fontsize=SMALL, frameon=False)

@@ -27,8 +27,8 @@ class Barrier:
         self._moves = [ca.SX.sym("delta", MOTION + n), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
         delta, upsilon, epsilon = self._moves
         shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", wishes.numbers)
-        here, command = retract(stage.before, delta), stage.command + upsilon
-        self._g = inequalities(here, command, shared + epsilon, numbers, wishes, stage.machine)
+        here, command, place = retract(stage.before, delta), stage.command + upsilon, ca.SX.sym("place", 3)
+        self._g = inequalities(here, command, shared + epsilon, numbers, place, wishes, stage.machine)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
         self._near = nearness(here, stage.before, numbers, wishes, stage.machine)
         self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers)
@@ -37,6 +37,7 @@ class Barrier:
         self._mu, self._numbers = ca.SX.sym("mu"), numbers
         self._weight = numbers[-2] if wishes.soft else 0
         self._point = [stage.before, stage.command, shared, numbers, stage.machine.numbers]
+        self._place = [place] if wishes.path else []
 
     def _function(self, name: str, inputs: list[Any], *outputs: Any) -> ca.Function:
         """Return a function of `inputs`, with all moves zero."""
@@ -44,19 +45,20 @@ class Barrier:
         return ca.Function(name, inputs, ca.cse([ca.densify(v) for v in ca.substitute(outputs, self._moves, still)]))
 
     def values(self) -> ca.Function:
-        """Return (*point, trial slack, μ) → (merit, violation) of the stage, and slack.
+        """Return (*point, trial slack, μ, *place) → (merit, violation) of the stage, and slack.
 
-        A point is (state, command, shared parameter, numbers, vehicle). The slack of an exact inequality is g, that of
-        another the larger of g and the trial slack: what lies above g is the violation.
+        A point is (state, command, shared parameter, numbers, vehicle), and there is a place, where the pivot is to be,
+        only with a path. The slack of an exact inequality is g, that of another the larger of g and the trial slack:
+        what lies above g is the violation.
         """
         k, g = self._exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
         merit = self._cost + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
         summary = ca.vertcat(merit, ca.sum1(slack[k:] - g[k:]) if k < g.numel() else 0)
-        return self._function("values", [*self._point, self._slack, self._mu], summary, slack)
+        return self._function("values", [*self._point, self._slack, self._mu, *self._place], summary, slack)
 
     def terms(self, packed: Callable[..., Any] = packed_cost) -> ca.Function:
-        """Return (*point, slack, dual, μ) → cost of the linear-quadratic problem, `packed`."""
+        """Return (*point, slack, dual, μ, *place) → cost of the linear-quadratic problem, `packed`."""
         s, z, (delta, upsilon, _) = self._slack, self._dual, self._moves
         push = self._mu / s - z / s * (self._g - s)
         J_x, J_u, J_e = self._J
@@ -73,7 +75,7 @@ class Barrier:
             ca.mtimes([J_e.T, weight, J_e]),
             -ca.mtimes(J_e.T, push),
         )
-        return self._function("terms", [*self._point, s, z, self._mu], cost)
+        return self._function("terms", [*self._point, s, z, self._mu, *self._place], cost)
 
     @property
     def pattern(self) -> ca.Sparsity:
@@ -96,7 +98,7 @@ class Barrier:
         return kept
 
     def steps(self) -> ca.Function:
-        """Return (*point, slack, dual, μ, δ, υ, ε) → steps of slack and dual, and shares that they take.
+        """Return (*point, slack, dual, μ, δ, υ, ε, *place) → steps of slack and dual, and shares that they take.
 
         The shares (2,) are the largest: max(−Δs/s) of inequalities that are not exact, and max(−Δz/z).
         """
@@ -106,7 +108,7 @@ class Barrier:
         ds = along + self._g - s
         dz = self._mu / s - z - z / s * ds
         shares = ca.vertcat(_largest(-ds[k:] / s[k:]), _largest(-dz / z))
-        return self._function("steps", [*self._point, s, z, self._mu, *given], ds, dz, shares)
+        return self._function("steps", [*self._point, s, z, self._mu, *given, *self._place], ds, dz, shares)
 
     def end(self, packed: Callable[..., Any] = packed_to_go) -> ca.Function:
         """Return (state, numbers, weight, offset) → end errors h, and ½ weight |h + offset|² to go, `packed`."""

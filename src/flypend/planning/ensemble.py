@@ -15,9 +15,10 @@ from flypend import errors
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.errors import InputError
 from flypend.flight.metrics import wilson
+from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
 from flypend.planning.planner import horizons_of
-from flypend.planning.request import Request, request, walls_of
+from flypend.planning.request import Request, end_of, request, walls_of
 from flypend.planning.result import Plan
 from flypend.planning.search import Job, one_by_one, prepared
 from flypend.planning.telling import told
@@ -103,7 +104,7 @@ def plan_ensemble(
     objective: str | Mapping[str, float] = "excursion",
     *,
     duration: float | None = None,
-    target: ArrayLike = (0.0, 0.0, 0.0),
+    target: ArrayLike | None = None,
     rotors: ArrayLike | None = None,
     box: ArrayLike | None = None,
     floor: float | None = None,
@@ -112,6 +113,7 @@ def plan_ensemble(
     lean: float | None = None,
     window: Window | Sequence[Window] | None = None,
     waypoints: ArrayLike | None = None,
+    path: Reference | None = None,
     clearance: float = 0.01,
     guesses: int = 2,
     workers: int | None = None,
@@ -123,7 +125,7 @@ def plan_ensemble(
 
     Parameters
     ----------
-    vehicle, duration, target, rotors, box, floor, ceiling, speed, lean, window, waypoints, clearance
+    vehicle, duration, target, rotors, box, floor, ceiling, speed, lean, window, waypoints, path, clearance
         As in `plan`.
     starts : State
         A batch of states with one leading axis, e₃ up.
@@ -147,7 +149,8 @@ def plan_ensemble(
     if objective == "time":
         raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
     first = errors.number("guesses", guesses, at_least=1, at_most=WIDTH)
-    wishes = (objective, target, rotors, walls_of(box, floor, ceiling), speed, lean, clearance, window, waypoints)
+    walls, goal = walls_of(box, floor, ceiling), end_of(path, duration, target)
+    wishes = (objective, goal, rotors, walls, speed, lean, clearance, window, waypoints, path)
     asked = [request(vehicle, starts[i], *wishes) for i in range(len(starts))]
     horizons = horizons_of(asked[0], duration)
     prepared(asked[0])  # compiling takes seconds, once

@@ -1,6 +1,6 @@
 """The flight computer of `nmpc`: who flies, and when a plan begins and ends.
 
-    waiting   the law flies; a plan may be under way
+    waiting   the law, or a sketch of the plan that is under way, flies
     planned   a plan is flown, and improved in every stage
     hovering  the law flies; the rod is about to stand
 
@@ -26,16 +26,15 @@ from flypend.laws import BoundLaw, Law
 from flypend.laws.references import Reference
 from flypend.model import State
 from flypend.model.state import SIZE
+from flypend.planning import waiting
 from flypend.planning.equilibrium import falls, hovers, upright, weighed
 from flypend.planning.flown import OF_STAGES, Flown
-from flypend.planning.nominal import stepping
 from flypend.planning.planner import plan_within
 from flypend.planning.race import work
 from flypend.planning.request import STAGES_PER_UNIT, Request, request
 from flypend.planning.result import Plan
 from flypend.planning.scaled import Units
 from flypend.planning.search import SOFT_LAST
-from flypend.planning.waiting import evasion, room
 from flypend.plants.loop import Loop
 
 # Horizon, √(l/g), and iterations of the first attempt, and of those after failures. After 22 iterations all of 160
@@ -71,13 +70,17 @@ class Receding:
 
 
 class Coming(NamedTuple):
-    """A plan under way: it is there at `due` (s) and begins at `begin` (s); without one, `why`."""
+    """A plan under way: it is there at `due` (s) and begins at `begin` (s); without one, `why`.
+
+    `meanwhile` are commands that fly until then; without, the law.
+    """
 
     plan: Plan | None
     asked: Request | None
     why: str
     due: float
     begin: float
+    meanwhile: waiting.Meanwhile | None
 
 
 class Pilot:
@@ -110,7 +113,7 @@ class Pilot:
         self._by_plan = replace(loop, law=_predicting(self._by_law.law, receding.latency))
         self._rotors = np.asarray(rotors, dtype=float)
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
-        self._where, self._step = _moving(receding.reference), stepping(loop.vehicle)
+        self._where, self._waits = _moving(receding.reference), waiting.Waits(self._by_law, receding.clearance)
         self._mode = "waiting"
         self._coming: Coming | None = None
         self._flown: Flown | None = None
@@ -160,7 +163,9 @@ class Pilot:
             if hovers(here, level, self._units):
                 self._hover(now)
             elif self._coming is None and now >= self._not_before and self._due(here, level):
-                self._begin(now, state, rotors)
+                self._coming = self._begun(now, state, rotors)
+            if self._coming is not None and self._coming.meanwhile is not None:
+                self._planned_command = self._coming.meanwhile.at(now)
         return self._law.command(t, self._measured)
 
     def _integrate(self, x: Any) -> None:
@@ -213,59 +218,45 @@ class Pilot:
         here[:6] -= self._where(t)[:6]
         return here
 
-    def _begin(self, t: float, state: Any, rotors: Any) -> None:
-        """Plan from where the law will have brought the vehicle by the time the plan is there."""
+    def _begun(self, t: float, state: Any, rotors: Any) -> Coming:
+        """Plan from where the vehicle will be by the time the plan is there, and a sketch before it, which is flown.
+
+        After a failure there is no sketch, as only the law is known to lead somewhere, nor for a slow computer.
+        """
         horizon, iterations = ATTEMPTS[self._failures]
         each = MEASURED_AT_FIRST if self._common.computing is None else self._common.computing
-        given = (
-            OF_GUESS * each * work(ROUNDS, WIDTH, iterations) * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
-        )
-        begun = time.process_time()
-        there = self._waits(t, state, rotors, given)
-        found, asked, why = self._planned(self._relative(t + given, there[:SIZE]), there[SIZE:], horizon, iterations)
+        each *= OF_GUESS * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
+        first, given = (each * work(*much) for much in (waiting.SKETCH, (ROUNDS, WIDTH, iterations)))
+        first *= not self._failures and given <= waiting.LONGEST * self._units.time
+        given, begun = first + given, time.process_time()
+        here = np.append(state, rotors)
+        if first:
+            measured = self._common.computing is None
+            meanwhile, there = self._waits.sketched(t, here, horizon, first, given, self._asked, measured=measured)
+        else:
+            meanwhile, there = self._waits.until(t, here, given)
+        found, asked, why = self._planned(t + given, there, horizon, iterations)
         took = time.process_time() - begun if self._common.computing is None else given
         if took > given:
             found, why, self._patience = None, "the plan is late", LATE * self._patience
-        self._coming = Coming(found, asked, why, t + max(took, given), t + given)
+        return Coming(found, asked, why, t + max(took, given), t + given, meanwhile)
 
-    def _planned(
-        self, here: Any, rotors: Any, horizon: float, iterations: int
-    ) -> tuple[Plan | None, Request | None, str]:
-        """Return a plan from a relative state `here` (24,), what it answers, and why there is none."""
-        forces = np.clip(rotors, *self._vehicle.rotor_limits)
+    def _asked(self, t: float, here: Any) -> Request:
+        """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError."""
+        start, forces = State.from_packed(self._relative(t, here[:SIZE])), here[SIZE:]
+        rotors, kept = np.clip(forces, *self._vehicle.rotor_limits), self._common.clearance
+        return request(self._vehicle, start, "excursion", np.zeros(3), rotors, None, None, None, kept)
+
+    def _planned(self, t: float, here: Any, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
+        """Return a plan from `here` as in `_asked`, what it answers, and why there is none."""
         try:
-            asked = request(
-                self._vehicle, State.from_packed(here), "excursion", np.zeros(3), forces, None, None, None,
-                self._common.clearance,
-            )  # fmt: skip
+            asked = self._asked(t, here)
         except InputError as error:
             return None, None, str(error)
         found = plan_within(asked, horizon, iterations, ROUNDS)
         if asked.wishes.mounted is not None:
             asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason
-
-    def _waits(self, t: float, state: Any, rotors: Any, wait: float) -> Any:
-        """Return state and rotor forces (24 + n,) after a `wait` (s) from `t` on, and see that it ends well."""
-        path = self._under_law(t, state, rotors, wait)
-        if self._vehicle.mount != "gimbal" and (kept := room(path, self._vehicle)) < self._common.clearance:
-            command, better, there = evasion(self._vehicle, state, rotors, wait)
-            if better > kept:
-                self._planned_command = command
-                return there
-        return path[-1]
-
-    def _under_law(self, t: float, state: Any, rotors: Any, duration: float) -> Any:
-        """Return states and rotor forces (k, 24 + n) for a `duration` (s) from `t` on under the law."""
-        path, passed, period = [np.append(state, rotors)], 0.0, 1 / self._by_law.sampled.rate
-        plant = self._by_law.sampled.replace(sensors=None)
-        board = SteppedBoard(replace(self._by_law, plant=plant), rotors)
-        while passed < duration - 1e-9:
-            h, here = min(period, duration - passed), path[-1]
-            command = board.command(t + passed, here[:SIZE])
-            path.append(self._step(here[:SIZE], here[SIZE:], command, h))
-            passed += h
-        return np.array(path)
 
 
 @lru_cache(maxsize=16)

@@ -10,8 +10,9 @@ from dataclasses import replace
 from numpy.typing import ArrayLike
 
 from flypend import errors
+from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
-from flypend.planning.request import STAGES_PER_UNIT, Request, request, walls_of
+from flypend.planning.request import STAGES_PER_UNIT, Request, end_of, request, walls_of
 from flypend.planning.result import Plan
 from flypend.planning.search import prepared, together
 from flypend.planning.telling import told
@@ -27,7 +28,7 @@ def plan(
     objective: str | Mapping[str, float] = "excursion",
     *,
     duration: float | None = None,
-    target: ArrayLike = (0.0, 0.0, 0.0),
+    target: ArrayLike | None = None,
     rotors: ArrayLike | None = None,
     box: ArrayLike | None = None,
     floor: float | None = None,
@@ -36,6 +37,7 @@ def plan(
     lean: float | None = None,
     window: Window | Sequence[Window] | None = None,
     waypoints: ArrayLike | None = None,
+    path: Reference | None = None,
     clearance: float = 0.01,
     time_limit: float = 5.0,
 ) -> Plan:
@@ -49,12 +51,12 @@ def plan(
     start : State
         A single state, e₃ up.
     objective : "excursion", "effort", "time" or dict
-        What to make small: the largest distance of the pivot from the target, the deviation of the rotor commands from
-        hover, or the duration; or weights of "excursion" (of its square, in rod lengths) and "effort".
+        What to make small: the largest distance of the pivot from target or path, the deviation of the rotor commands
+        from hover, or the duration; or weights of "excursion" (of its square, in rod lengths) and "effort".
     duration : float, optional
         Time until hover, s; default 12.5 √(l/g), or longer if that is too short. The most for the objective "time".
     target : (3,)
-        Where the pivot is to hover, m.
+        Where the pivot is to hover, m; default the origin, or the end of the path.
     rotors : (n,), optional
         Rotor forces at the start, N; default their minimum.
     box : (2, 3), optional
@@ -70,6 +72,9 @@ def plan(
     waypoints : (k, 3), optional
         Points that the pivot passes, one after the other on the way from start to target, within a twentieth of the
         rod's length, m.
+    path : callable, optional
+        Where the pivot is to be, m, as a function of time, with CasADi's functions (see `laws.references`): circles,
+        figures of eight. The excursion is measured from it. It takes the `duration`, and ends in hover.
     clearance : float
         Distance that the rod of a hub or cup keeps from what it can touch, and the machine from a window's frame, m.
     time_limit : float
@@ -85,8 +90,8 @@ def plan(
     InputError
         If an argument is out of range, or the start breaks a wish.
     """
-    walls = walls_of(box, floor, ceiling)
-    asked = request(vehicle, start, objective, target, rotors, walls, speed, lean, clearance, window, waypoints)
+    walls, goal = walls_of(box, floor, ceiling), end_of(path, duration, target)
+    asked = request(vehicle, start, objective, goal, rotors, walls, speed, lean, clearance, window, waypoints, path)
     limit = errors.number("time_limit", time_limit, above=0, unit="s")
     horizons = horizons_of(asked, duration)
     attempts = [asked.unwished(), asked] if asked.wishing and not asked.wishes.gates else [asked]

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from flypend.compile.llvm.stagewise import lanes
 from flypend.planning.kernels import Kernels
-from flypend.planning.solver import Problem, Scratch, Solver
+from flypend.planning.method import Problem, Scratch
+from flypend.planning.solver import Solver
 
 # After so many iterations so many go on, those of least cost. One of 160 random starts costs 5 % more for it.
 ROUNDS: Mapping[int, int] = MappingProxyType({6: 4})
@@ -39,7 +40,7 @@ class Race:
         self._solvers = [
             Solver(
                 kernels,
-                Problem(problem.stages, *(_lane(a, i) for a in (problem.timing, problem.vehicle, problem.numbers))),
+                Problem(problem.stages, *(_lane(a, i) for a in problem.arrays)),
                 _lane(states, i),
                 _lane(commands, i),
                 scratch=scratch,

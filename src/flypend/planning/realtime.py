@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from flypend.compile.llvm.stagewise import lanes
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
 from flypend.planning.equilibrium import hover_under
+from flypend.planning.method import Settings
 from flypend.planning.request import Request
 from flypend.planning.scaled import size
 from flypend.planning.single import single
-from flypend.planning.solver import Settings
 from flypend.planning.wishes import HIGH, LOW, SHARED
 from flypend.plants.lag import step_timing
 

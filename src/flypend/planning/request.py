@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, norm
+from flypend.laws.references import Reference, check_reference, sampled
 from flypend.model import State, Vehicle
 from flypend.planning.check import Limits
 from flypend.planning.passage import NEAR, along, through
@@ -49,6 +50,8 @@ class Request:
         What every sample of the plan must keep.
     wishes, numbers : Wishes, (k,)
         The inequalities and their numbers, in own units, about the target.
+    path : callable, optional
+        Where the pivot is to be, m, as a function of time, s; default the target.
     """
 
     vehicle: Vehicle
@@ -59,6 +62,13 @@ class Request:
     limits: Limits
     wishes: Wishes
     numbers: NDArray[np.float64]
+    path: Reference | None = None
+
+    def places(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where the pivot is to be at times `t` (n,), (n, 3), own units."""
+        assert self.path is not None
+        places: NDArray[np.float64] = (sampled(self.path, t * self.units.time) - self.target) / self.units.length
+        return places
 
     @property
     def rotors(self) -> int:
@@ -74,7 +84,7 @@ class Request:
         """The same within the limits of the machine alone; what comes of it is still held against `limits`."""
         mounted = self.wishes.mounted
         kept = self.numbers[:BASE] if mounted is None else np.append(self.numbers[:BASE], self.numbers[-2:])
-        return replace(self, wishes=Wishes(mounted=mounted), numbers=kept)
+        return replace(self, wishes=Wishes(path=self.wishes.path, mounted=mounted), numbers=kept)
 
 
 def request(
@@ -89,6 +99,7 @@ def request(
     clearance: Any,
     window: Any = None,
     waypoints: Any = None,
+    path: Any = None,
 ) -> Request:
     """Check the arguments of `planning.plan`; `walls` (2, 3) are from `walls_of`. Raises InputError."""
     if not isinstance(vehicle, Vehicle):
@@ -125,10 +136,22 @@ def request(
     begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
     limits = Limits(walls, speed, lean, TOLERANCE * units.length, windows, points, NEAR * units.length)
     wishes = Wishes(
-        box=walls is not None, speed=speed is not None, lean=lean is not None, gates=len(windows) + len(points),
-        mounted=mounted,
+        box=walls is not None, speed=speed is not None, lean=lean is not None, path=path is not None,
+        gates=len(windows) + len(points), mounted=mounted,
     )  # fmt: skip
-    return Request(vehicle, units, weights, goal, begin, limits, wishes, np.array(numbers))
+    return Request(vehicle, units, weights, goal, begin, limits, wishes, np.array(numbers), path)
+
+
+def end_of(path: Any, duration: Any, target: Any) -> Any:
+    """Return the `target`, or the end of a `path` of that `duration` (s). Raises InputError."""
+    check_reference(path)
+    if path is None:
+        return (0.0, 0.0, 0.0) if target is None else target
+    if duration is None:
+        raise InputError("duration", "the time that the path takes, s", "nothing")
+    if target is not None:
+        raise InputError("target", "nothing beside a path, at whose end the pivot hovers", repr(target)[:80])
+    return sampled(path, np.array([errors.number("duration", duration, above=0, unit="s")]))[0]
 
 
 def walls_of(box: Any, floor: Any, ceiling: Any) -> Any:

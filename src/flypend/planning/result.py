@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,8 +15,10 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
+from flypend.laws.references import Reference, hover, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, split
+from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, held, step_timing
 
@@ -37,6 +40,10 @@ class Plan:
         Weights of what was minimised, by name.
     target : (3,)
         Where the pivot is to hover, m.
+    path : callable, optional
+        Where the pivot is to be until then, m, as a function of time; default the target.
+    windows : tuple of Window
+        What it flies through.
     t : (n,)
         Times, s: `dense` in each stage.
     packed : (n, 24)
@@ -72,6 +79,8 @@ class Plan:
     solve_time: float
     iterations: int
     guess: int
+    path: Reference | None = None
+    windows: tuple[Window, ...] = ()
 
     def __repr__(self) -> str:
         """Return the vehicle and what `told` says."""
@@ -95,8 +104,20 @@ class Plan:
 
     @property
     def excursion(self) -> float:
-        """Largest distance of the pivot from the target, m."""
-        return float(np.max(norm(self.x - self.target)))
+        """Largest distance of the pivot from the target, or from where the path has it, m."""
+        return float(np.max(norm(self.x - self.x_ref)))
+
+    @property
+    def reference(self) -> Reference:
+        """Where the pivot is to be, as a function of time: the path, then the target."""
+        path = self.path
+        return hover(self.target) if path is None else lambda t: path(ca.fmin(t, self.duration))
+
+    @property
+    def x_ref(self) -> Array:
+        """Where the pivot is to be (n, 3), m."""
+        places: Array = np.tile(self.target, (len(self.t), 1)) if self.path is None else sampled(self.path, self.t)
+        return places
 
     @property
     def effort(self) -> float:
@@ -123,12 +144,12 @@ class Plan:
         return Trajectory(
             t=self.t, **split(self.packed), thrust=wrench[:, 0], moment=wrench[:, 1:], rotor_forces=self.rotor_forces,
             drift=np.zeros((0, 3)), outcome=Outcome("completed", self.duration), e3="up", vehicle=self.vehicle,
-            law="plan", gains={}, x_ref=np.tile(self.target, (len(self.t), 1)),
+            law="plan", gains={}, x_ref=self.x_ref,
         )  # fmt: skip
 
     def to_html(self, path: str | Path | None = None) -> str:
         """Render a replay of the plan, as `Trajectory.to_html` does, and write it to `path` if given."""
-        return self.trajectory.to_html(path)
+        return self.trajectory.to_html(path, windows=self.windows)
 
     @cached_property
     def end_error(self) -> float:
@@ -151,8 +172,6 @@ class Plan:
 
 def _independent_step(vehicle: Vehicle) -> Any:
     """Return (state, rotors, command, timing) → (state, rotors) after a Runge-Kutta step of the whole state."""
-    import casadi as ca
-
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
     timing = ca.SX.sym("h", TIMING_SIZE)

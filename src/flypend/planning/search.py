@@ -14,10 +14,11 @@ from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
 from flypend.planning.guesses import pumping, styles
 from flypend.planning.kernels import kernels
+from flypend.planning.method import Problem
 from flypend.planning.race import ROUNDS, Race
 from flypend.planning.request import STAGES_PER_UNIT, TOLERANCE, Request
 from flypend.planning.single import single
-from flypend.planning.solver import Problem, Solver
+from flypend.planning.solver import Solver
 from flypend.plants.lag import step_timing
 
 MOST_ITERATIONS = 80
@@ -227,7 +228,11 @@ def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]
     states, commands = lanes(stages + 1, SIZE + n), lanes(stages, n)
     states[0] = begin
     pumping(n)(stages, states, style, limits, timing, vehicle, states[1:], commands)
-    return Problem(stages, timing, vehicle, numbers), states, commands
+    places = None
+    if jobs[0].asked.wishes.path:
+        places = lanes(stages + 1, 3)
+        places[:] = np.stack([job.asked.places(h * np.arange(stages + 1, dtype=float)) for job in jobs], axis=-1)
+    return Problem(stages, timing, vehicle, numbers, places), states, commands
 
 
 def _columns(job: Job, h: float) -> tuple[Any, ...]:

@@ -7,7 +7,6 @@ length α leaves 1 − α of them. docs/planning/limit.md derives it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -15,106 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend.compile.llvm.stagewise import lanes as some_lanes
-from flypend.model.state import SIZE
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
 from flypend.planning.kernels import Kernels
+from flypend.planning.method import Lanes, Problem, Scratch, Settings
 from flypend.planning.stage import LEAST_ROOM
 from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED
-
-Lanes = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Settings:
-    """Numbers of the method, in the machine's own units, in which the cost is of order one.
-
-    Parameters
-    ----------
-    barrier, least_barrier, cooling : float
-        First and last μ, and its factor after a good step.
-    damping, least_damping, most_damping : float
-        First, least and largest damping of commands.
-    state_damping : float
-        Damping of states, as a share of that of commands.
-    worse, better : float
-        Factors of the damping after a step that failed, and after a long one.
-    shrink : float
-        Factor of the step length while the merit does not fall.
-    attempts : int
-        Most step lengths per iteration.
-    room : float
-        Largest share of the room to a limit that one step takes.
-    turn : float
-        Largest change of attitude or rod in one step, rad.
-    spread : float
-        Largest ratio between a multiplier and μ/s, either way.
-    end_weight, most_end_weight, end_growth : float
-        First and largest weight of the squared errors at the end, and its factor per iteration while they are too
-        large at a barrier below `end_barrier`.
-    end_barrier : float
-        See `end_growth`.
-    relief : float
-        Barrier down to which a large e costs its logarithm, so that it does not outweigh the end.
-    """
-
-    barrier: float = 1e-3
-    least_barrier: float = 1e-6
-    cooling: float = 0.8
-    damping: float = 3e-3
-    least_damping: float = 1e-6
-    most_damping: float = 1e6
-    state_damping: float = 0.1
-    worse: float = 8.0
-    better: float = 1 / 3
-    shrink: float = 0.4
-    attempts: int = 8
-    room: float = 0.9
-    turn: float = 2.0
-    spread: float = 100.0
-    end_weight: float = 0.005
-    most_end_weight: float = 50.0
-    end_growth: float = 1.3
-    end_barrier: float = 1e-4
-    relief: float = 1e-4
-
-
-@dataclass(frozen=True)
-class Problem:
-    """What is to be planned, one problem per lane, in each machine's own units.
-
-    Parameters
-    ----------
-    stages : int
-        Number of stages.
-    timing : (4, lanes)
-        Timing of a stage; see `plants.lag.step_timing`.
-    vehicle : (k, lanes)
-        Numbers of the machines; see `scaled.Units.numbers`.
-    numbers : (j, lanes)
-        Numbers of the wishes; see `wishes.Wishes.numbers`.
-    """
-
-    stages: int
-    timing: Lanes
-    vehicle: Lanes
-    numbers: Lanes
-
-
-class Scratch:
-    """What an iteration of a solver writes before it reads it, for a number of `stages` on `width` lanes.
-
-    Solvers that take turns share it: then it stays in the processor's cache.
-    """
-
-    def __init__(self, kernels: Kernels, stages: int, width: int) -> None:
-        shape, k, of = kernels.shape, kernels.inequalities, partial(some_lanes, stages, width=width)
-        self.slopes, self.d = tuple(of(length) for length in kernels.slopes), of(shape.n)
-        self.cost, self.gains, self.summary = of(kernels.of_stage), of(shape.gains), of(2)
-        self.to_go, self.end = (some_lanes(many, kernels.to_go, width=width) for many in (stages + 1, 1))
-        self.delta, self.upsilon = some_lanes(stages + 1, shape.n, width=width), of(shape.k)
-        self.costate, self.s_step, self.z_step, self.shares = of(1), of(k), of(k), of(2)
-        self.new_states, self.new_commands = some_lanes(stages + 1, SIZE + shape.k, width=width), of(shape.k)
-        self.trial, self.new_slack = of(k), of(k)
 
 
 class Solver:
@@ -171,42 +75,40 @@ class Solver:
         k, p, w, N = self._k, self._problem, self._w, self._problem.stages
         here = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
         there = (w.new_states, w.new_commands, self._new_shared, p.numbers, p.vehicle)
-        moves = (w.delta, w.upsilon, self._epsilon)
+        moves, places = (w.delta, w.upsilon, self._epsilon), () if p.places is None else (p.places,)
         slack, dual, to_go, d, slopes = self._slack, self._dual, w.to_go, w.d, w.slopes
         at_end = (p.numbers, self._weight, self._offset, self._errors)
         self._linearise = k.linearised.on(
             self.states, self.states[1:], self.commands, p.timing, p.vehicle, d, *slopes
         )  # fmt: skip
-        self._add_terms = k.terms.on(*here, slack, dual, self._mu, w.cost)
+        self._add_terms = k.terms.on(*here, slack, dual, self._mu, *places, w.cost)
         self._add_end = k.end.on(self.states[N:], *at_end, to_go[N:])
         self._back = k.backward.on(to_go[1:], *slopes, d, w.cost, self._damping, to_go, w.gains)
         self._ahead = k.forward.on(
             w.delta, self._epsilon, *slopes, d, w.gains, to_go[1:], w.delta[1:], w.upsilon, w.costate
         )  # fmt: skip
-        self._along = k.steps.on(*here, slack, dual, self._mu, *moves, w.s_step, w.z_step, w.shares)
+        self._along = k.steps.on(
+            *here, slack, dual, self._mu, *moves, *places, w.s_step, w.z_step, w.shares
+        )  # fmt: skip
         self._roll = k.rollout.on(
             self.states, self.commands, d, w.gains, w.new_states, self._length, self._epsilon, self._limits,
             p.timing, p.vehicle, w.new_states[1:], w.new_commands,
         )  # fmt: skip
         self._measured = (
             (
-                k.values.on(*here, slack, self._mu, w.summary, slack),
+                k.values.on(*here, slack, self._mu, *places, w.summary, slack),
                 k.end.on(self.states[N:], *at_end, w.end),
             ),
             (
-                k.values.on(*there, w.trial, self._mu, w.summary, w.new_slack),
+                k.values.on(*there, w.trial, self._mu, *places, w.summary, w.new_slack),
                 k.end.on(w.new_states[N:], *at_end, w.end),
             ),
         )
 
     def take(self, lane: int, problem: Problem, states: Lanes, commands: Lanes, source: int) -> None:
         """Begin another problem on a `lane`: that on the lane `source` of `problem`, `states` and `commands`."""
-        own = self._problem
-        pairs = (
-            (self.states, states), (self.commands, commands), (own.timing, problem.timing),
-            (own.vehicle, problem.vehicle), (own.numbers, problem.numbers),
-        )  # fmt: skip
-        for old, new in pairs:
+        own = (self.states, self.commands, *self._problem.arrays)
+        for old, new in zip(own, (states, commands, *problem.arrays), strict=True):
             old[..., lane] = new[..., source]
         self._begin(lane)
 
@@ -224,7 +126,7 @@ class Solver:
         self.commands[..., on] = np.clip(self.commands[..., on], low, high)
         self._mu[..., on], self._weight[..., on], self._offset[..., on] = settings.barrier, settings.end_weight, 0.0
         self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
-        self._shared[0, on] = 1.05 * np.max(_squared(self.states), axis=0)[on] + 0.05
+        self._shared[0, on] = 1.05 * np.max(self._squared(self.states), axis=0)[on] + 0.05
         self._slack[..., on], self._price[:, on] = 0.1, 1.0
         for measured in (self.merit, self.violation, self.gap, self.end):
             measured[on] = np.inf
@@ -238,8 +140,8 @@ class Solver:
 
     @property
     def excursion(self) -> Lanes:
-        """Largest distance of the pivot from the origin at the stages, (lanes,)."""
-        distance: Lanes = np.sqrt(np.max(_squared(self.states), axis=0))
+        """Largest distance of the pivot from where it is to be, at the stages, (lanes,)."""
+        distance: Lanes = np.sqrt(np.max(self._squared(self.states), axis=0))
         return distance
 
     @property
@@ -341,7 +243,7 @@ class Solver:
         self._roll(0, N)
         # The ball grows if need be, so that its slack keeps the same share as those of the commands.
         room = np.maximum((1 - self._set.room) * self._slack[:, k.exact - 1], LEAST_ROOM)
-        kept = _squared(self._w.new_states[:N]) + room
+        kept = self._squared(self._w.new_states[:N]) + room
         self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], np.max(kept, axis=0))
         self._w.trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._w.s_step[:, k.exact :]
 
@@ -376,6 +278,13 @@ class Solver:
         middle = self._mu / self._slack
         np.clip(self._dual, middle / settings.spread, middle * settings.spread, out=self._dual)
 
+    def _squared(self, states: Lanes) -> Lanes:
+        """Return the squared distances (k, lanes) of the pivot from where it is to be, at the first k stages."""
+        places, x = self._problem.places, states[:, POSITION]
+        x = x if places is None else x - places[: len(x)]
+        distances: Lanes = np.sum(x * x, axis=1)
+        return distances
+
     def _damp(self, damping: Lanes) -> None:
         self._damping[:] = self._set.state_damping * damping, damping
 
@@ -383,10 +292,3 @@ class Solver:
 MISSED = 0.5  # tolerances at the end, above which its weight grows
 # Coordinates that turn: attitude and rod.
 TURNS = [*range(ATTITUDE.start, ATTITUDE.stop), *range(ROD.start, ROD.stop)]
-
-
-def _squared(states: Lanes) -> Lanes:
-    """Return the squared distances (stages, lanes) of the pivot from the origin."""
-    x = states[:, POSITION]
-    distances: Lanes = np.sum(x * x, axis=1)
-    return distances

@@ -53,7 +53,8 @@ def _plan(asked: Request, found: Found, own: Any, horizon: float) -> Plan:
     lacks = found.lacks or broken(packed, forces, asked.vehicle, asked.limits)
     status: Status = "failed" if lacks else "feasible" if found.unfinished else "optimal"
     return Plan(
-        vehicle=asked.vehicle, objective=asked.objective, target=asked.target,
+        vehicle=asked.vehicle, objective=asked.objective, target=asked.target, path=asked.path,
+        windows=asked.limits.windows,
         t=np.arange(len(dense), dtype=float) * float(stage / DENSE), packed=packed, rotor_forces=forces,
         commands=found.commands * units.force, stage=stage, status=status, reason=lacks or found.unfinished,
         solve_time=found.spent, iterations=found.iterations, guess=found.style,

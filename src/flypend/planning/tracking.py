@@ -51,7 +51,7 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     return Controller(
         name="track",
         function=rotors_only("track"),
-        reference=hover(plan.target),
+        reference=plan.reference,
         computer=Computer(latency=latency),
         flight_computer=lambda loop, rotors: Tracker(feedback, plan.vehicle, law, loop, rotors),
         because="it follows a table",

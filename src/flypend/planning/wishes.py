@@ -36,6 +36,8 @@ class Wishes:
         Whether the speed of the pivot is limited.
     lean : bool
         Whether the lean of the rod is limited.
+    path : bool
+        Whether the ball is about a place that moves from stage to stage, not about the target.
     gates : int
         Number of windows to fly through and waypoints to pass.
     mounted : Vehicle, optional
@@ -45,6 +47,7 @@ class Wishes:
     box: bool = False
     speed: bool = False
     lean: bool = False
+    path: bool = False
     gates: int = 0
     mounted: Vehicle | None = None
 
@@ -67,7 +70,9 @@ class Wishes:
         return 2 * rotors + 1
 
 
-def inequalities(state: Any, command: Any, shared: Any, numbers: Any, wishes: Wishes, machine: Scaled) -> Any:
+def inequalities(
+    state: Any, command: Any, shared: Any, numbers: Any, middle: Any, wishes: Wishes, machine: Scaled
+) -> Any:
     """Return g (k, 1), every entry of which is to be ≥ 0.
 
     Parameters
@@ -78,11 +83,14 @@ def inequalities(state: Any, command: Any, shared: Any, numbers: Any, wishes: Wi
         e, the squared radius of the ball.
     numbers : SX
         See `Wishes.numbers`.
+    middle : SX
+        The middle of the ball, (3, 1).
     wishes, machine
         What is wished, and the machine.
     """
     s, place = State.symbolic(state[:SIZE]), BASE
-    g = [command - numbers[LOW], numbers[HIGH] - command, shared - dot(s.x, s.x)]
+    off = s.x - middle if wishes.path else s.x
+    g = [command - numbers[LOW], numbers[HIGH] - command, shared - dot(off, off)]
     if wishes.box:
         reach, low, high = numbers[place], numbers[place + 1 : place + 4], numbers[place + 4 : place + 7]
         for point in (s.x, s.x + reach * s.y):

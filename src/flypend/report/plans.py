@@ -13,7 +13,7 @@ from flypend.laws import inverted
 from flypend.laws.references import hover
 from flypend.model import State
 from flypend.pictures.plans import front_figure, plan_figure, strays_figure
-from flypend.planning import Plan
+from flypend.planning import Plan, nmpc
 from flypend.studies.limit import DURATION, front, strays
 
 CELLS = 10
@@ -36,6 +36,6 @@ def draw_front(path: Path, plan: Plan, start: State, wishes: Mapping[str, Any], 
 
 
 def draw_strays(path: Path, plan: Plan, tell: Tell) -> None:
-    """Draw to `path` how far plans of the vehicle of `plan`, and the inverted law, stray from rest."""
-    found = strays(plan.vehicle, inverted(), CELLS, progress=lambda done, total: tell("plans", done, total))
+    """Draw to `path` how far plans of the vehicle of `plan`, nmpc and the inverted law stray from rest."""
+    found = strays(plan.vehicle, (inverted(), nmpc()), CELLS, tell=tell)
     save_figure(strays_figure(found), path)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.flight.ensemble import simulate_ensemble
-from flypend.laws import Law
+from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.planning import Plan, PlanEnsemble, plan, plan_ensemble
 from flypend.planning.planner import HORIZONS
@@ -68,7 +69,7 @@ def front(
 
 @dataclass(frozen=True, eq=False)
 class Strays:
-    """How far a law and plans stray from rest, the vehicle level, with the rod in directions all over the sphere.
+    """How far laws and plans stray from rest, the vehicle level, with the rod in directions all over the sphere.
 
     Parameters
     ----------
@@ -78,10 +79,8 @@ class Strays:
         Hemisphere (0 is the upper), row and column of each start.
     starts : State
         The starts, (n,).
-    law : str
-        Name of the law.
-    by_law : (n,)
-        Its excursions, m; NaN where it fails.
+    by_law : dict
+        Excursions (n,), m, by the name of the law; NaN where it fails.
     plans : PlanEnsemble
         The plans.
     """
@@ -89,8 +88,7 @@ class Strays:
     cells: int
     place: NDArray[np.int64]
     starts: State
-    law: str
-    by_law: Array
+    by_law: Mapping[str, Array]
     plans: PlanEnsemble
 
     def disc(self, values: Array, part: int) -> Array:
@@ -103,25 +101,28 @@ class Strays:
 
 def strays(
     vehicle: Vehicle,
-    law: Law,
+    laws: Sequence[Law | Controller],
     cells: int = 12,
     *,
     guesses: int = 4,
     workers: int | None = None,
-    progress: Progress = lambda *_: None,
+    tell: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> Strays:
-    """Fly `law` in the rotors plant, and plan with so many `guesses`, from rest with the rod all over the sphere.
+    """Fly `laws` in the rotors plant, and plan with so many `guesses`, from rest with the rod all over the sphere.
 
-    The directions are the centres of the `cells` × `cells` squares of each hemisphere's disc that lie in it. Raises
-    InputError if an argument is out of range.
+    The directions are the centres of the `cells` × `cells` squares of each hemisphere's disc that lie in it. `tell` is
+    called with what is under way, and how much of it is done. Raises InputError if an argument is out of range.
     """
     count = int(errors.number("cells", cells, at_least=2))
     place, y = _directions(count)
     starts = State(y=y)
-    flown = simulate_ensemble(vehicle, law, starts.seen(law.e3), DURATION, plant="rotors", workers=workers)
-    plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=progress)
-    by_law = np.where(flown.success, flown.excursion, np.nan)
-    return Strays(count, place, starts, flown.law, by_law, plans)
+    plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=partial(tell, "plans"))
+    by_law = {}
+    for law in laws:
+        own, told = starts.seen(law.e3), partial(tell, f"flights of {law.name}")
+        flown = simulate_ensemble(vehicle, law, own, DURATION, plant="rotors", workers=workers, progress=told)
+        by_law[flown.law] = np.where(flown.success, flown.excursion, np.nan)
+    return Strays(count, place, starts, by_law, plans)
 
 
 def _directions(cells: int) -> tuple[NDArray[np.int64], Array]:

@@ -6,6 +6,7 @@ import { calm } from "../motion.js";
 import { norm, roundUp } from "../numbers.js";
 import { Flyer } from "./flyer.js";
 import { Rig } from "./rig.js";
+import { Walls } from "./walls.js";
 import { World } from "./world.js";
 
 const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
@@ -35,6 +36,7 @@ export class Stage {
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
     const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
+    this.walls = new Walls(flights[0].windows ?? []);
     this.box = box;
     if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box: this.holds.size ? this.rig.box : box });
     else {
@@ -81,7 +83,7 @@ export class Stage {
   }
 
   #things() {
-    return [this.world, ...this.flyers, ...this.ghosts].filter(Boolean);
+    return [this.world, this.walls, ...this.flyers, ...this.ghosts].filter(Boolean);
   }
 
   /** Colours of a theme, see `Model.colour`. */

@@ -237,6 +237,10 @@ GAINS = table(
             "latency", lambda v: min(LONGEST_LATENCY, scales(v).numbers["latency"] / _attitude_bandwidth(v)), "s",
             "Delay that the flight computer compensates by prediction", NOT_NEGATIVE,
         ),
+        Gain(
+            "delay_reach", 0.06, "s",
+            "Largest delay beyond `latency` that the flight computer finds in flight; 0 for none", NOT_NEGATIVE,
+        ),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain(
             "form", "full", doc="light needs three quarters of the computation, for slow processors: the demand is "
@@ -262,4 +266,5 @@ def go_together(gains: Mapping[str, Any]) -> None:
 
 def computer_of(gains: Mapping[str, Any]) -> Computer:
     """Return the flight computer settings for these `gains`."""
-    return Computer(lead=gains["lead"], latency=gains["latency"], observer=gains["observer"])
+    names = ("lead", "latency", "delay_reach", "observer")
+    return Computer(**{name: gains[name] for name in names})

@@ -10,13 +10,12 @@ recursive least squares with forgetting. While moments hardly change, as in hove
 false inertia or strength of the rotors makes an error along τ, which does not correlate with the rate of τ. A rotor lag
 longer than believed counts as delay.
 
-A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. Therefore
-both sides are compared through the same filter, whose band is below that.
+A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. So both
+sides are compared through the same filter, whose band is below that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import casadi as ca
@@ -27,7 +26,7 @@ from flypend.laws.inverted_gains import angular_authority
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
 from flypend.plants.cascade import cascade_step
-from flypend.plants.lag import Ramp
+from flypend.plants.lag import Ramp, held, step_timing
 
 # Time over which the past is forgotten, s.
 FORGETTING = 0.5
@@ -40,15 +39,29 @@ BAND = np.pi / 2
 SPACING = 8e-3
 # Shortest delay, in control periods, so that the mean over it exists.
 LEAST = 1e-3
-# Begun or not, ticks since the newest wrench that is remembered, delay, information, ω, moment, and the filters' states.
+# Begun or not, ticks since the newest wrench remembered, delay, information, ω, moment, and the filters' states.
 OWN = 1 + 1 + 1 + 1 + 3 + 3 + 12
 WRENCH = 4
 
 
 class DelayEstimator:
-    """What finds a delay of up to `told` + `reach` (s), beginning with `told`, at a control `period` (s)."""
+    """What finds the delay of a loop, and predicts over it.
 
-    def __init__(self, believed: Believed, told: float, reach: float, period: float) -> None:
+    Parameters
+    ----------
+    believed : Believed
+        The nominal vehicle.
+    told, reach : float
+        The delay (s) to begin with, and how much longer it may be.
+    period : float
+        Control period, s.
+    lag_left : float
+        What is left of the rotors' lag after the computer's lead, s. It is predicted over as well, under the last
+        command.
+    """
+
+    def __init__(self, believed: Believed, told: float, reach: float, period: float, lag_left: float) -> None:
+        self._lag_left = lag_left
         self._believed, self._period = believed, period
         self._told, self._longest = max(told, LEAST * period), told + reach
         self._stride = max(1, round(SPACING / period))
@@ -70,20 +83,18 @@ class DelayEstimator:
         return memory if isinstance(rotors, ca.SX) else np.asarray(ca.DM(memory)).ravel()
 
     def find(self) -> ca.Function:
-        """Return (memory, omega (3,), rotors (n,), params) → memory, delay (s), and wrenches (4, 3).
+        """Return (memory, ω (3,), rotors (n,), last command (n,), params) → memory, horizon, wrenches (4, 3), rotors.
 
-        The wrenches, N and N m, are the mean over that delay and the change of the ramp, as in `plants.lag`, and the
-        one that acts now.
+        The horizon (s) is the delay and the lag that is left. The wrenches, N and N m, are the mean and the change of
+        their ramp over it (see `plants.lag`), and the one that acts now; rotors are those at its end.
         """
         b, h = self._believed, self._period
-        memory, omega, rotors = ca.SX.sym("memory", self.size), ca.SX.sym("w", 3), ca.SX.sym("r", b.rotors)
+        memory, omega = ca.SX.sym("memory", self.size), ca.SX.sym("w", 3)
+        rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
         begun, phase, delay, known = (memory[i] for i in range(4))
         before, earlier, smooth, smoother = memory[4:7], memory[7:10], memory[10:16], memory[16:OWN]
-        now, past = self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self._depth)
-        entries = ca.horzcat(now, past)
-        at, over, moment = self._weights(delay, phase)
-        acting, impulse, lever = (ca.mtimes(entries, weights) for weights in (at, over, moment))
-        mean, change = impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever)
+        entries = ca.horzcat(self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self._depth))
+        acting, impulse, lever = (ca.mtimes(entries, weights) for weights in self._weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
         expected = angular_acceleration((acting[1:] + earlier) / 2, before, b.vehicle)
         wrong = (omega - before) / h - expected
@@ -96,21 +107,38 @@ class DelayEstimator:
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
-        acted = ca.mtimes(entries[1:, :], self._weights(found, phase)[0])  # what was `earlier`, a period from now
+        next_earlier = ca.mtimes(entries[1:, :], self._weights(found, phase)[0])
         full = phase > self._stride - 0.5
-        past = ca.if_else(full, ca.horzcat(now, past[:, :-1]), past)
+        past = ca.if_else(full, entries[:, :-1], entries[:, 1:])
         phase = ca.if_else(full, 1, phase + 1)
-        kept = ca.vertcat(1, phase, found, information, omega, acted, smooth, smoother, ca.vec(past))
-        outputs = [ca.densify(v) for v in (kept, delay, ca.horzcat(mean, change, acting))]
-        return ca.Function("find_delay", [memory, omega, rotors, b.symbols], ca.cse(outputs))
+        kept = ca.vertcat(1, phase, found, information, omega, next_earlier, smooth, smoother, ca.vec(past))
+        horizon = delay + self._lag_left
+        ramp, after = self._extended(delay, impulse, lever, rotors, command)
+        wrenches = ca.horzcat(ramp.mean, ramp.change, acting)
+        outputs = [ca.densify(v) for v in (kept, horizon, wrenches, after)]
+        return ca.Function("find_delay", [memory, omega, rotors, command, b.symbols], ca.cse(outputs))
+
+    def _extended(self, delay: Any, impulse: Any, lever: Any, rotors: Any, command: Any) -> tuple[Ramp, Any]:
+        """Return the wrench over delay and lag left, and the rotors (n,) at their end.
+
+        `impulse` and `lever` are the integrals of the wrench over the last `delay` (s) and of its age times it; after
+        that, the rotors follow the last `command`.
+        """
+        e = self._lag_left
+        if e == 0:
+            return Ramp(impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever)), rotors
+        forces, after = held(rotors, command, step_timing(self._believed.lag, e))
+        last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
+        first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
+        return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first), after
 
     def carry(self) -> ca.Function:
-        """Return (state (24,), delay, wrenches (4, 3), forces (6,), params) → state (24,) when commands act."""
+        """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""
         b = self._believed
-        packed, delay, forces = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", 6)
+        packed, horizon, forces = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", 6)
         wrenches = ca.SX.sym("W", WRENCH, 3)
-        moved = cascade_step(packed, Ramp(wrenches[:, 0], wrenches[:, 1]), forces, delay, b.vehicle)
-        return ca.Function("act_later", [packed, delay, wrenches, forces, b.symbols], [ca.cse(ca.densify(moved))])
+        moved = cascade_step(packed, Ramp(wrenches[:, 0], wrenches[:, 1]), forces, horizon, b.vehicle)
+        return ca.Function("act_later", [packed, horizon, wrenches, forces, b.symbols], [ca.cse(ca.densify(moved))])
 
     def skipped(self) -> ca.Function:
         """Return (memory) → memory after a period without measurement, which tells nothing of the delay."""

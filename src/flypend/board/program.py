@@ -17,7 +17,7 @@ import numpy as np
 
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
-from flypend.board.command import command_width, idle_command, law_command, steering
+from flypend.board.command import command_width, idle_command, law_command, steering, usable_lead
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, assumed_delay, assumed_segments
@@ -106,8 +106,8 @@ def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
     """Return what finds delays in `loop`, as `believed`; None if the law has no reach, or the vehicle a rate loop."""
     if not finds_delay(loop):
         return None
-    reach = loop.law.computer.delay_reach
-    return DelayEstimator(believed, loop.law.computer.latency, reach, 1 / loop.sampled.rate)
+    computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
+    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, believed.lag / lead)
 
 
 def filters(plant: Plant) -> bool:
@@ -177,16 +177,13 @@ def board(
 
 
 def _ahead(loop: Loop) -> tuple[Segment, ...]:
-    return ahead(_told(loop), 1 / loop.sampled.rate)
+    if finds_delay(loop):
+        return ()
+    return ahead(loop.law.computer.latency, 1 / loop.sampled.rate)
 
 
 def _within(loop: Loop) -> tuple[Segment, ...]:
-    return within_period(_told(loop), 1 / loop.sampled.rate)
-
-
-def _told(loop: Loop) -> float:
-    """Return the delay, s, of the commands in transit: none of their own, where a delay is found in flight."""
-    return 0.0 if finds_delay(loop) else loop.law.computer.latency
+    return within_period(0.0 if finds_delay(loop) else loop.law.computer.latency, 1 / loop.sampled.rate)
 
 
 def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
@@ -212,13 +209,13 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
     observed, finding, thrusts = observer_memory(loop), delay_estimator(loop, believed), rotors
     observer_kept, late = kept[:observed], kept[observed:]
     if finding is not None:
-        late, delay, wrenches = finding.find()(late, state[15:18], rotors, params)
+        late, horizon, wrenches, rotors = finding.find()(late, state[15:18], rotors, commands[0], params)
         thrusts = wrenches[0, 2]
     if observed:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
         observer_kept, forces = observe(state, thrusts, observer_kept, params)
     if finding is not None:
-        state = finding.carry()(state, delay, wrenches, forces, params)
+        state = finding.carry()(state, horizon, wrenches, forces, params)
     kept = ca.vertcat(observer_kept, late)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
     state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)

@@ -123,11 +123,11 @@ def depth(loop: Loop) -> int:
 
 def memory_size(loop: Loop) -> int:
     """Return the size of the memory that the board keeps between steps, the estimator's excepted."""
-    return len(loop.vehicle.rotor_spins) + _kept(loop) + depth(loop) * command_width(loop)
+    return len(loop.vehicle.rotor_spins) + kept_memory(loop) + depth(loop) * command_width(loop)
 
 
-def _kept(loop: Loop) -> int:
-    """Return the size of the memory of observer and lateness."""
+def kept_memory(loop: Loop) -> int:
+    """Return the size of the memory of observer and delay estimator, between rotors and commands."""
     finding = delay_estimator(loop, Believed.numbers(loop.vehicle))
     return observer_memory(loop) + (0 if finding is None else finding.size)
 
@@ -163,8 +163,8 @@ def board(
         corrected, state, outside = filtering.correct()(whole[own:], measurement[1:], params)
         measured = ca.vertcat(measurement[0], state)
     estimated = [outside] if filters(loop.sampled) else []
-    kept, forces, state, rotors = predict(memory, measured, params, *estimated)
-    given = command(measured[0], state, rotors, forces, path, gains, params)
+    kept, forces, state, rotors, horizon = predict(memory, measured, params, *estimated)
+    given = command(measured[0], horizon, state, rotors, forces, path, gains, params)
     after = remember(memory, kept, measured, forces, given, params)
     if filtering is not None:
         commands = ca.vertcat(given, *_parts(loop, memory)[2])
@@ -188,21 +188,23 @@ def _within(loop: Loop) -> tuple[Segment, ...]:
 
 def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
     """Return modelled rotors, observer memory, and the commands in transit, newest first."""
-    n, k, width = len(loop.vehicle.rotor_spins), _kept(loop), command_width(loop)
+    n, k, width = len(loop.vehicle.rotor_spins), kept_memory(loop), command_width(loop)
     ends = [0, n, n + k, *(n + k + width * (i + 1) for i in range(depth(loop)))]
     rotors, kept, *commands = ca.vertsplit(memory, ends)
     return rotors, kept, commands
 
 
 def predicting(loop: Loop, believed: Believed) -> ca.Function:
-    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation.
+    """Return (memory, measurement, params) → kept memory, forces (6,), state (24,), rotors (n,), and horizon (s).
+
+    State and rotors are those after the horizon, when the next command is taken to act.
 
     With a `Filter` there is one more input, the forces (6,) that it estimates, in place of the observer.
     """
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     params = ca.MX.sym("params", believed.symbols.numel())
     rotors, kept, commands = _parts(loop, memory)
-    state, forces = measurement[1:], ca.MX(ca.DM.zeros(6))
+    state, forces, horizon = measurement[1:], ca.MX(ca.DM.zeros(6)), ca.MX(loop.law.computer.latency)
     given = [ca.MX.sym("forces", 6)] if filters(loop.sampled) else []
     if given and loop.law.computer.observer > 0:
         forces = given[0]
@@ -219,7 +221,7 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
     kept = ca.vertcat(observer_kept, late)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
     state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
-    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors])
+    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors, horizon])
 
 
 def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
@@ -229,7 +231,7 @@ def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
 def remembering(loop: Loop, believed: Believed) -> ca.Function:
     """Return (memory, observer memory, measurement, forces, command, params) → memory."""
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
-    kept, forces = ca.MX.sym("kept", _kept(loop)), ca.MX.sym("forces", 6)
+    kept, forces = ca.MX.sym("kept", kept_memory(loop)), ca.MX.sym("forces", 6)
     command, params = ca.MX.sym("command", command_width(loop)), ca.MX.sym("params", believed.symbols.numel())
     rotors, _, commands = _parts(loop, memory)
     under_way = [command, *commands]

@@ -96,7 +96,7 @@ class DelayEstimator:
         entries = ca.horzcat(self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self._depth))
         acting, impulse, lever = (ca.mtimes(entries, weights) for weights in self._weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
-        expected = angular_acceleration((acting[1:] + earlier) / 2, before, b.vehicle)
+        expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
         wrong = (omega - before) / h - expected
         slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
         share = -np.expm1(-BAND / self._longest * h)

@@ -83,10 +83,10 @@ class DelayEstimator:
         return memory if isinstance(rotors, ca.SX) else np.asarray(ca.DM(memory)).ravel()
 
     def find(self) -> ca.Function:
-        """Return (memory, ω (3,), rotors (n,), last command (n,), params) → memory, horizon, wrenches (4, 3), rotors.
+        """Return (memory, ω (3,), rotors (n,), last command (n,), params) → memory, horizon, wrenches (4, 3).
 
         The horizon (s) is the delay and the lag that is left. The wrenches, N and N m, are the mean and the change of
-        their ramp over it (see `plants.lag`), and the one that acts now; rotors are those at its end.
+        their ramp over it (see `plants.lag`), and the one that acts now.
         """
         b, h = self._believed, self._period
         memory, omega = ca.SX.sym("memory", self.size), ca.SX.sym("w", 3)
@@ -113,24 +113,24 @@ class DelayEstimator:
         phase = ca.if_else(full, 1, phase + 1)
         kept = ca.vertcat(1, phase, found, information, omega, next_earlier, smooth, smoother, ca.vec(past))
         horizon = delay + self._lag_left
-        ramp, after = self._extended(delay, impulse, lever, rotors, command)
+        ramp = self._extended(delay, impulse, lever, rotors, command)
         wrenches = ca.horzcat(ramp.mean, ramp.change, acting)
-        outputs = [ca.densify(v) for v in (kept, horizon, wrenches, after)]
+        outputs = [ca.densify(v) for v in (kept, horizon, wrenches)]
         return ca.Function("find_delay", [memory, omega, rotors, command, b.symbols], ca.cse(outputs))
 
-    def _extended(self, delay: Any, impulse: Any, lever: Any, rotors: Any, command: Any) -> tuple[Ramp, Any]:
-        """Return the wrench over delay and lag left, and the rotors (n,) at their end.
+    def _extended(self, delay: Any, impulse: Any, lever: Any, rotors: Any, command: Any) -> Ramp:
+        """Return the wrench over delay and lag left.
 
         `impulse` and `lever` are the integrals of the wrench over the last `delay` (s) and of its age times it; after
         that, the rotors follow the last `command`.
         """
         e = self._lag_left
         if e == 0:
-            return Ramp(impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever)), rotors
-        forces, after = held(rotors, command, step_timing(self._believed.lag, e))
+            return Ramp(impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever))
+        forces, _ = held(rotors, command, step_timing(self._believed.lag, e))
         last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
         first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
-        return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first), after
+        return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)
 
     def carry(self) -> ca.Function:
         """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""

@@ -211,7 +211,7 @@ def predicting(loop: Loop, believed: Believed) -> ca.Function:
     observed, finding, thrusts = observer_memory(loop), delay_estimator(loop, believed), rotors
     observer_kept, late = kept[:observed], kept[observed:]
     if finding is not None:
-        late, horizon, wrenches, rotors = finding.find()(late, state[15:18], rotors, commands[0], params)
+        late, horizon, wrenches = finding.find()(late, state[15:18], rotors, commands[0], params)
         thrusts = wrenches[0, 2]
     if observed:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())

@@ -15,8 +15,8 @@ from scipy.spatial.transform import Rotation
 import flypend as fp
 from flypend import geometry as geo
 from flypend.laws import inverted_gains, throw
-from flypend.laws.inverted import SPIN_LAG
 from flypend.laws.closed_loop import close_loop
+from flypend.laws.inverted import SPIN_LAG
 from flypend.laws.inverted_gains import SEPARATION
 from flypend.laws.references import circle, hover, lemniscate, line
 from flypend.model import disturbed_motion

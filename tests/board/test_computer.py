@@ -194,7 +194,7 @@ def _observed(force, start, rotors, duration=5.0, period=2e-3, vehicle=VEHICLE):
 def _observer(period):
     """What an observer estimates, measurement after measurement."""
     update, memory = (
-        as_numpy(observer(Believed.numbers(VEHICLE), Computer(observer=BANDWIDTH), period)),
+        as_numpy(observer(Believed.numbers(VEHICLE), Computer(observer=BANDWIDTH), period, 4)),
         np.zeros(MEMORY),
     )
 

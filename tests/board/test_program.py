@@ -52,14 +52,15 @@ def test_a_program_of_ones_own_steers_in_place_of_the_law():
         np.testing.assert_array_equal(own.command(t, measured), plain.command(t, measured))
         np.testing.assert_array_equal(held.command(t, measured), np.full(4, 2.0))
         np.testing.assert_array_equal(given[k][1], plain.predicted[0])
-    # When the last command acts, the rotors of the model have followed the first for 39 periods.
-    followed = 2 - (2 - least) * np.exp(-39 / loop.plant.rate / VEHICLE.rotor_lag)
+    # When the last command acts, the rotors of the model have followed the first for 39 periods; and they are predicted
+    # for as long as the lag that the lead leaves.
+    followed = 2 - (2 - least) * np.exp(-39 / loop.plant.rate / VEHICLE.rotor_lag - 1 / LAW.gains["lead"])
     np.testing.assert_allclose(held.predicted[1], followed, rtol=1e-9)
 
 
 def test_it_remembers_as_many_commands_as_can_be_under_way():
     for latency, rate, commands in ((0.0, 500.0, 1), (0.024, 500.0, 12), (0.003, 100.0, 1), (0.03, 50.0, 2)):
-        law = fp.laws.inverted(latency=latency).bind(VEHICLE)
+        law = fp.laws.inverted(latency=latency, delay_reach=0).bind(VEHICLE)
         assert depth(Loop(VEHICLE, law, Plant(rate=rate))) == commands
 
 
@@ -76,6 +77,6 @@ def test_nothing_but_its_memory_decides_what_it_answers():
 
 def test_a_control_period_takes_a_fourth_of_the_operations_of_fourteen_steps():
     """docs/flight/engine.md says what each part takes; a prediction of more steps than one must be wanted."""
-    assert lower_calls(board(Loop(VEHICLE, LAW, Plant())).step).operations() < 2400
-    slow = fp.laws.inverted(latency=0.075).bind(VEHICLE)
+    assert lower_calls(board(Loop(VEHICLE, LAW, Plant())).step).operations() < 2900
+    slow = fp.laws.inverted(latency=0.075, delay_reach=0).bind(VEHICLE)
     assert lower_calls(board(Loop(VEHICLE, slow, Plant())).step).operations() < 2400 + 2 * 900

@@ -16,6 +16,7 @@ import flypend as fp
 from flypend import geometry as geo
 from flypend.laws import inverted_gains, throw
 from flypend.laws.closed_loop import close_loop
+from flypend.laws.inverted import SPIN_LAG
 from flypend.laws.inverted_gains import SEPARATION
 from flypend.laws.references import circle, hover, lemniscate, line
 from flypend.model import disturbed_motion
@@ -193,7 +194,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         u = turn - damping * v_e
         # ω̇ for z̈ = −|ż|² z + u, turned back by what the body spins while the rotors lag.
         wanted = R.T @ np.cross(z, u) + omega[2] * R.T @ z_dot
-        wanted = Rotation.from_rotvec([0, 0, -2 * np.arctan(vehicle.rotor_lag / k.lead * omega[2] / 2)]).apply(wanted)
+        wanted = Rotation.from_rotvec([0, 0, -2 * np.arctan(SPIN_LAG * vehicle.rotor_lag * omega[2] / 2)]).apply(wanted)
         close = 1e-5 * damping * max(1, np.max(np.abs(z_d_dot)))  # h² and eps/h in ż_d, of which damping makes u
         np.testing.assert_allclose(rates.omega_dot[:2], wanted[:2], rtol=0, atol=close)
         assert rates.omega_dot[2] == pytest.approx(-k.yaw_damping * omega[2], abs=ROUNDOFF)

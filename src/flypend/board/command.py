@@ -43,7 +43,7 @@ def command_width(loop: Loop) -> int:
 
 
 def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int = 0) -> ca.Function:
-    """Return the law of `loop` as (t, state, rotors, forces, reference, gains, params) → command.
+    """Return the law of `loop` as (t, horizon, state, rotors, forces, reference, gains, params) → command.
 
     Parameters
     ----------
@@ -59,20 +59,21 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     Returns
     -------
     Function
-        Inputs: time of the measurement (s), state (24,) at actuation, e₃ up, modelled rotor forces (n,), N, external
-        forces (6,), N, reference, gains and params. For the interface "wrench", a command is the rotor forces (n,), N,
-        with lead; for "rates", thrust and body rates (4,), which the onboard proportional rate loop turns into the
-        law's moment.
+        Inputs: time of the measurement and how much later the command acts, s; for then, state (24,), e₃ up, modelled
+        rotor forces (n,), N, and external forces (6,), N; reference, gains and params. For the interface "wrench", a
+        command is the rotor forces (n,), N, with lead; for "rates", thrust and body rates (4,), which the onboard
+        proportional rate loop turns into the law's moment.
     """
-    t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
+    t, horizon = ca.SX.sym("t"), ca.SX.sym("h")
+    packed, p = ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
     rotors, forces = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", 6)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
     wrench = steer(t, packed, forces, path, gains, believed.vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
-    wrench = ca.substitute(wrench, t, t + loop.law.computer.latency)  # time when the command is applied
+    wrench = ca.substitute(wrench, t, t + horizon)
     command = finished(loop, believed, wrench, packed, rotors)
-    inputs = [t, packed, rotors, forces, path, p, believed.symbols]
+    inputs = [t, horizon, packed, rotors, forces, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
 
 

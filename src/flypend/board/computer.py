@@ -15,9 +15,9 @@ from flypend.board.program import (
     estimator,
     filters,
     initial_memory,
+    kept_memory,
     known,
     memory_size,
-    observer_memory,
     predicting,
     remembering,
 )
@@ -27,7 +27,7 @@ from flypend.plants.loop import Loop
 
 NONE = np.zeros(0)
 
-# (t (s), state (24,), rotor forces (n,), external forces (6,)) → command, all as predicted for when it acts, e₃ up.
+# (t (s), state (24,), rotor forces (n,), external forces (6,)) → command, all for when it acts, as predicted, e₃ up.
 Steer = Callable[[float, Any, Any, Any], Any]
 
 
@@ -75,9 +75,9 @@ class SteppedBoard:
             told = [outside] if stages.estimating.forces else []
         self.estimated = measured
         measurement = np.append(t, measured)
-        kept, forces, state, rotors = stages.predict(self._memory, measurement, NONE, *told)
+        kept, forces, state, rotors, horizon = stages.predict(self._memory, measurement, NONE, *told)
         self.predicted = (state, rotors, forces)
-        command = self._steer(t, state, rotors, forces)
+        command = self._steer(t + horizon.item(), state, rotors, forces)
         if stages.estimating is not None:
             self._expecting = stages.estimating.carried(self.filtered, outside, command, self._memory)
         self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
@@ -116,7 +116,7 @@ def _stages(loop: Loop) -> _Stages:
     steer = _called(loop, loop.law) if isinstance(loop.law, Controller) else _compiled(loop, believed)
     estimating, made = None, estimator(loop, believed)
     if made is not None:
-        carry, first = made.carry(), believed.rotors + observer_memory(loop)
+        carry, first = made.carry(), believed.rotors + kept_memory(loop)
         estimating = _Estimating(
             as_numpy(made.correct()), as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled)
         )
@@ -125,11 +125,10 @@ def _stages(loop: Loop) -> _Stages:
 
 def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:
     law = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
-    return lambda t, state, rotors, forces: law(t, state, rotors, forces, NONE, NONE, NONE)
+    return lambda t, state, rotors, forces: law(t, 0.0, state, rotors, forces, NONE, NONE, NONE)
 
 
 def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
     """Like `_compiled`, for a callable `law`."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
-    latency = law.computer.latency
-    return lambda t, state, rotors, _: end(law.upright(t + latency, state), state, rotors, NONE)
+    return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)

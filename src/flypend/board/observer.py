@@ -15,8 +15,8 @@ from flypend.model.state import SIZE
 MEMORY = 1 + 3 * 6
 
 
-def observer(believed: Believed, computer: Computer, period: float) -> ca.Function:
-    """Build two momentum observers with one bandwidth L, e₃ up: (state, rotors, memory, params) → (memory, forces).
+def observer(believed: Believed, computer: Computer, period: float, thrusts: int) -> ca.Function:
+    """Build two momentum observers with one bandwidth L, e₃ up: (state, thrusts, memory, params) → (memory, forces).
 
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
     Ḣ = −(f/Ml) y × z + y × D/l with D = F_b/m − F_v/M. Each unknown term N enters as Ḣ = known + N and is estimated by
@@ -37,21 +37,23 @@ def observer(believed: Believed, computer: Computer, period: float) -> ca.Functi
         Source of `observer`, the bandwidth L, and of `force_limit`.
     period : float
         Time between measurements, s.
+    thrusts : int
+        Number of thrusts that it is given: one in total, or one of each rotor.
 
     Returns
     -------
     Function
-        Inputs: state (24,), rotor forces (n,), N, memory (19,) and params. Outputs: memory, and the forces (6,) on
+        Inputs: state (24,), thrusts (k,), N, memory (19,) and params. Outputs: memory, and the forces (6,) on
         vehicle and bob, N.
     """
     vehicle, L = believed.vehicle, computer.observer
     M, m, l = vehicle.M, vehicle.m, vehicle.l
-    packed, rotors = ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors)
+    packed, given = ca.SX.sym("s", SIZE), ca.SX.sym("f", thrusts)
     memory = ca.SX.sym("memory", MEMORY)
     begun, momenta, before, estimate = ca.vertsplit(memory, [0, 1, 7, 13, 19])
     s = State.symbolic(packed)
     measured = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
-    f = ca.sum1(rotors)
+    f = ca.sum1(given)
     known = ca.vertcat(f * s.z - vehicle.weight * E3, cross(s.y, pull_on_rod(f, s.z, vehicle)))
     following = momenta + period * ((before + known) / 2 + estimate)
     following = ca.if_else(begun, following, measured - estimate / L)  # keeps the estimate unchanged
@@ -62,4 +64,4 @@ def observer(believed: Believed, computer: Computer, period: float) -> ca.Functi
     forces = [force / ca.fmax(1, ca.norm_2(force) / limit) for force in (total - on_bob, on_bob)]
     kept = ca.vertcat(1, following, known, unknown)
     outputs = ca.cse([ca.densify(kept), ca.densify(ca.vertcat(*forces))])
-    return ca.Function("observe", [packed, rotors, memory, believed.symbols], outputs)
+    return ca.Function("observe", [packed, given, memory, believed.symbols], outputs)

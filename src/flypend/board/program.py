@@ -17,7 +17,8 @@ import numpy as np
 
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
-from flypend.board.command import command_width, idle_command, law_command, steering
+from flypend.board.command import command_width, idle_command, law_command, steering, usable_lead
+from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, assumed_delay, assumed_segments
 from flypend.board.twin import Twin
@@ -59,8 +60,10 @@ def initial_memory(loop: Loop, rotors: Any, estimate: Any = None, believed: Beli
     Numbers or CasADi symbols. A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up, and the
     `believed` vehicle, by default that of `loop`.
     """
-    parts = [rotors, np.zeros(observer_memory(loop)), *[idle_command(loop, rotors)] * depth(loop)]
     believed = believed or Believed.numbers(loop.vehicle)
+    finding = delay_estimator(loop, believed)
+    late = np.zeros(0) if finding is None else finding.begun(rotors)
+    parts = [rotors, np.zeros(observer_memory(loop)), late, *[idle_command(loop, rotors)] * depth(loop)]
     if (filtering := estimator(loop, believed)) is not None:
         begun = filtering.begun()(rotors, estimate, believed.symbols if believed.symbols.numel() else [])
         parts.append(begun if isinstance(rotors, ca.SX) else begun.full().ravel())
@@ -94,6 +97,19 @@ def observer_memory(loop: Loop) -> int:
     return observing.MEMORY if loop.law.computer.observer > 0 and not filters(loop.sampled) else 0
 
 
+def finds_delay(loop: Loop) -> bool:
+    """Whether the board of `loop` finds its delay in flight; not under a rate loop, whose forces it does not know."""
+    return loop.law.computer.delay_reach > 0 and loop.sampled.interface != "rates"
+
+
+def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
+    """Return what finds delays in `loop`, as `believed`; None if the law has no reach, or the vehicle a rate loop."""
+    if not finds_delay(loop):
+        return None
+    computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
+    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, believed.lag / lead)
+
+
 def filters(plant: Plant) -> bool:
     """Whether the board in `plant` has a `Filter`."""
     return plant.sensors is not None and plant.sensors.rates == "estimated"
@@ -107,7 +123,13 @@ def depth(loop: Loop) -> int:
 
 def memory_size(loop: Loop) -> int:
     """Return the size of the memory that the board keeps between steps, the estimator's excepted."""
-    return len(loop.vehicle.rotor_spins) + observer_memory(loop) + depth(loop) * command_width(loop)
+    return len(loop.vehicle.rotor_spins) + kept_memory(loop) + depth(loop) * command_width(loop)
+
+
+def kept_memory(loop: Loop) -> int:
+    """Return the size of the memory of observer and delay estimator, between rotors and commands."""
+    finding = delay_estimator(loop, Believed.numbers(loop.vehicle))
+    return observer_memory(loop) + (0 if finding is None else finding.size)
 
 
 def board(
@@ -141,8 +163,8 @@ def board(
         corrected, state, outside = filtering.correct()(whole[own:], measurement[1:], params)
         measured = ca.vertcat(measurement[0], state)
     estimated = [outside] if filters(loop.sampled) else []
-    kept, forces, state, rotors = predict(memory, measured, params, *estimated)
-    given = command(measured[0], state, rotors, forces, path, gains, params)
+    kept, forces, state, rotors, horizon = predict(memory, measured, params, *estimated)
+    given = command(measured[0], horizon, state, rotors, forces, path, gains, params)
     after = remember(memory, kept, measured, forces, given, params)
     if filtering is not None:
         commands = ca.vertcat(given, *_parts(loop, memory)[2])
@@ -155,39 +177,51 @@ def board(
 
 
 def _ahead(loop: Loop) -> tuple[Segment, ...]:
+    if finds_delay(loop):
+        return ()
     return ahead(loop.law.computer.latency, 1 / loop.sampled.rate)
 
 
 def _within(loop: Loop) -> tuple[Segment, ...]:
-    return within_period(loop.law.computer.latency, 1 / loop.sampled.rate)
+    return within_period(0.0 if finds_delay(loop) else loop.law.computer.latency, 1 / loop.sampled.rate)
 
 
 def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
     """Return modelled rotors, observer memory, and the commands in transit, newest first."""
-    n, k, width = len(loop.vehicle.rotor_spins), observer_memory(loop), command_width(loop)
+    n, k, width = len(loop.vehicle.rotor_spins), kept_memory(loop), command_width(loop)
     ends = [0, n, n + k, *(n + k + width * (i + 1) for i in range(depth(loop)))]
     rotors, kept, *commands = ca.vertsplit(memory, ends)
     return rotors, kept, commands
 
 
 def predicting(loop: Loop, believed: Believed) -> ca.Function:
-    """Return (memory, measurement, params) → observer memory, forces (6,), state (24,) and rotors (n,) at actuation.
+    """Return (memory, measurement, params) → kept memory, forces (6,), state (24,), rotors (n,), and horizon (s).
+
+    State and rotors are those after the horizon, when the next command is taken to act.
 
     With a `Filter` there is one more input, the forces (6,) that it estimates, in place of the observer.
     """
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
     params = ca.MX.sym("params", believed.symbols.numel())
     rotors, kept, commands = _parts(loop, memory)
-    state, forces = measurement[1:], ca.MX(ca.DM.zeros(6))
+    state, forces, horizon = measurement[1:], ca.MX(ca.DM.zeros(6)), ca.MX(loop.law.computer.latency)
     given = [ca.MX.sym("forces", 6)] if filters(loop.sampled) else []
     if given and loop.law.computer.observer > 0:
         forces = given[0]
-    if observer_memory(loop):
-        observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate)
-        kept, forces = observe(state, rotors, kept, params)
+    observed, finding, thrusts = observer_memory(loop), delay_estimator(loop, believed), rotors
+    observer_kept, late = kept[:observed], kept[observed:]
+    if finding is not None:
+        late, horizon, wrenches = finding.find()(late, state[15:18], rotors, commands[0], params)
+        thrusts = wrenches[0, 2]
+    if observed:
+        observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
+        observer_kept, forces = observe(state, thrusts, observer_kept, params)
+    if finding is not None:
+        state = finding.carry()(state, horizon, wrenches, forces, params)
+    kept = ca.vertcat(observer_kept, late)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
     state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
-    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors])
+    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors, horizon])
 
 
 def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
@@ -197,7 +231,7 @@ def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
 def remembering(loop: Loop, believed: Believed) -> ca.Function:
     """Return (memory, observer memory, measurement, forces, command, params) → memory."""
     memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
-    kept, forces = ca.MX.sym("kept", observer_memory(loop)), ca.MX.sym("forces", 6)
+    kept, forces = ca.MX.sym("kept", kept_memory(loop)), ca.MX.sym("forces", 6)
     command, params = ca.MX.sym("command", command_width(loop)), ca.MX.sym("params", believed.symbols.numel())
     rotors, _, commands = _parts(loop, memory)
     under_way = [command, *commands]
@@ -218,8 +252,12 @@ def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     """
     memory, command = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("command", command_width(loop))
     rotors, kept, commands = _parts(loop, memory)
-    if observer_memory(loop):
-        kept = ca.vertcat(ca.MX(ca.DM.zeros(1)), kept[1:])
+    observed, finding = observer_memory(loop), delay_estimator(loop, believed)
+    zero = ca.MX(ca.DM.zeros(1))
+    parts = [ca.vertcat(zero, kept[1:observed])] if observed else []
+    if finding is not None:
+        parts.append(finding.skipped()(kept[observed:]))
+    kept = ca.vertcat(*parts)
     under_way = [command, *commands]
     rotors = _lagged(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])

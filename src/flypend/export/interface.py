@@ -284,7 +284,7 @@ def _carry(params: Any, vehicle: Any) -> ca.Function:
     return ca.Function("carry", [path, forces, params], [ca.cse(followed(vehicle, path, forces[3:]))])
 
 
-def shifted(path: Any, time: float) -> Any:
+def shifted(path: Any, time: Any) -> Any:
     """The numbers of `records.PATH` on a `path` `time` seconds later, as far as its derivatives tell."""
     orders = ca.vertsplit(path, 3)
     return ca.densify(ca.vertcat(*(_polynomial(orders[i:], time) for i in range(len(orders)))))
@@ -297,21 +297,22 @@ def _command(
     loop: Loop, believed: Believed, steering: ca.Function, carry: ca.Function, *, follows: bool
 ) -> ca.Function:
     """As `board.command.law_command`, as calls of the functions that the bare law has, along a path of the pivot."""
-    t, state, rotors = ca.MX.sym("t"), ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
+    t, horizon = ca.MX.sym("t"), ca.MX.sym("horizon")
+    state, rotors = ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
     forces, path = ca.MX.sym("forces", FORCES), ca.MX.sym("path", records.PATH.length)
     gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", believed.symbols.numel())
     reference = ca.MX(ca.DM.zeros(records.REFERENCE.length))
     if follows:
-        reference = carry(_shift(loop)(path), forces, params)
+        reference = carry(_shift()(path, horizon), forces, params)
     wrench = steering(state, forces, reference, gains, params)
     command = finish(loop, believed)(wrench, state, rotors, params)
-    return ca.Function("command", [t, state, rotors, forces, path, gains, params], [command])
+    return ca.Function("command", [t, horizon, state, rotors, forces, path, gains, params], [command])
 
 
-def _shift(loop: Loop) -> ca.Function:
-    """The path at actuation for that at the measurement."""
-    path = ca.SX.sym("path", records.PATH.length)
-    return ca.Function("shift", [path], [shifted(path, loop.law.computer.latency)])
+def _shift() -> ca.Function:
+    """The path a time later, s, for the path now."""
+    path, time = ca.SX.sym("path", records.PATH.length), ca.SX.sym("time")
+    return ca.Function("shift", [path, time], [shifted(path, time)])
 
 
 def _begin(loop: Loop, count: int) -> ca.Function:

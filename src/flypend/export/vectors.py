@@ -121,7 +121,7 @@ def board_step(loop: Loop) -> ca.Function:
     believed = Believed.numbers(loop.vehicle)
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
-        reference = followed(vehicle, shifted(path, loop.law.computer.latency), forces[3:])
+        reference = followed(vehicle, shifted(path, t), forces[3:])  # the measurement is at t = 0
         return streamed_wrench(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 
     length = records.PATH.length

@@ -44,6 +44,8 @@ class Computer:
         Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force: a lag T acts like T/lead. 1 for none.
     latency : float
         Delay to compensate, s: the law sees the state predicted this far ahead, given the commands in transit.
+    delay_reach : float
+        Largest delay beyond `latency` that the flight computer finds in flight, s; 0 for none.
     observer : float
         Bandwidth of the external-force observer, 1/s; 0 for none. Only for a law with `uses_forces`.
     force_limit : float
@@ -52,12 +54,14 @@ class Computer:
 
     lead: float = 1.0
     latency: float = 0.0
+    delay_reach: float = 0.0
     observer: float = 0.0
     force_limit: float = 0.5
 
     def __post_init__(self) -> None:
         errors.number("lead", self.lead, at_least=1)
         errors.number("latency", self.latency, at_least=0, at_most=MAX_LATENCY, unit="s")
+        errors.number("delay_reach", self.delay_reach, at_least=0, at_most=MAX_LATENCY, unit="s")
         errors.number("observer", self.observer, at_least=0, unit="1/s")
         errors.number("force_limit", self.force_limit, at_least=0)
 

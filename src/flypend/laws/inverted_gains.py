@@ -30,8 +30,8 @@ LONGEST_LATENCY = 0.028
 AGILE: Mapping[str, float] = MappingProxyType(
     {
         "position_bandwidth": 0.57, "height_bandwidth": 0.78, "position_damping": 0.865,
-        "rod_bandwidth": 1.9, "rod_damping": 0.48, "attitude_bandwidth": 1.3, "attitude_damping": 0.95,
-        "rate_feedforward": 0.6, "coast": 1.28, "thrust_coast": 1.0, "latency": 0.44, "lead": 2.6,
+        "rod_bandwidth": 1.8, "rod_damping": 0.48, "attitude_bandwidth": 1.365, "attitude_damping": 0.855,
+        "rate_feedforward": 0.66, "coast": 1.28, "thrust_coast": 1.0, "latency": 0.52, "lead": 2.6,
         "throw_speed": 0.50, "flip_speed": 0.29, "flip_by_rod": 0.87, "flip_by_height": 0.72,
         "hanging_share": 0.77, "catch_time": 0.27, "catch_within": 0.092, "catch_width": 0.137, "catch_by_axis": 0.18,
         "descent": 0.55, "tilt_limit": 3.1, "pump_share": 0.0, "haste": 0.32, "shift": 0.12, "yaw_damping": 5.0,
@@ -42,8 +42,8 @@ SLOW: Mapping[str, float] = MappingProxyType(
     {
         **AGILE,
         "position_bandwidth": 0.30, "height_bandwidth": 0.25, "position_damping": 0.79, "rod_bandwidth": 0.55,
-        "rod_damping": 0.63, "attitude_bandwidth": 2.4, "attitude_damping": 0.67,
-        "rate_feedforward": 0.26, "coast": 1.05, "thrust_coast": 0.0, "throw_speed": 0.046, "flip_speed": 0.51,
+        "rod_damping": 0.63, "attitude_bandwidth": 2.4, "attitude_damping": 0.71,
+        "rate_feedforward": 0.26, "coast": 1.11, "thrust_coast": 0.0, "throw_speed": 0.046, "flip_speed": 0.51,
         "flip_by_rod": 0.84, "flip_by_height": 0.46, "hanging_share": 0.64, "catch_within": 0.12, "catch_width": 0.37,
         "catch_time": 0.0, "catch_by_axis": 0.0, "descent": 0.152,
         "tilt_limit": 0.80, "pump_share": 1.0, "haste": 0.0, "shift": 0.03, "latency": 0.53, "lead": 2.1,
@@ -55,7 +55,8 @@ MOUNTED: Mapping[str, Mapping[str, float]] = MappingProxyType(
     {
         "hub": {
             "catch_within": 0.95, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.085, "haste": 0.0,
-            "shift": 0.03, "yaw_damping": 8.0, "attitude_damping": 0.89,
+            "shift": 0.03, "yaw_damping": 8.0,
+            "rod_bandwidth": 1.9, "attitude_bandwidth": 1.3, "attitude_damping": 0.89, "rate_feedforward": 0.6,
             "position_bandwidth": 0.54, "height_bandwidth": 0.7, "position_damping": 0.93, "throw_speed": 0.63,
             "flip_speed": 0.28, "flip_by_rod": 0.78, "flip_by_height": 0.65,
         },
@@ -237,6 +238,10 @@ GAINS = table(
             "latency", lambda v: min(LONGEST_LATENCY, scales(v).numbers["latency"] / _attitude_bandwidth(v)), "s",
             "Delay that the flight computer compensates by prediction", NOT_NEGATIVE,
         ),
+        Gain(
+            "delay_reach", 0.06, "s",
+            "Largest delay beyond `latency` that the flight computer finds in flight; 0 for none", NOT_NEGATIVE,
+        ),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain(
             "form", "full", doc="light needs three quarters of the computation, for slow processors: the demand is "
@@ -262,4 +267,5 @@ def go_together(gains: Mapping[str, Any]) -> None:
 
 def computer_of(gains: Mapping[str, Any]) -> Computer:
     """Return the flight computer settings for these `gains`."""
-    return Computer(lead=gains["lead"], latency=gains["latency"], observer=gains["observer"])
+    names = ("lead", "latency", "delay_reach", "observer")
+    return Computer(**{name: gains[name] for name in names})

@@ -13,9 +13,10 @@ from typing import Any
 import casadi as ca
 
 from flypend.laws.almost_global import almost_global
-from flypend.laws.bound import Computer, Control
+from flypend.laws.bound import Control
 from flypend.laws.gain import NOT_NEGATIVE, Bounds, Gain, documented, table
 from flypend.laws.inverted import inverted
+from flypend.laws.inverted_gains import computer_of
 from flypend.laws.law import Law
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
@@ -30,6 +31,7 @@ GAINS = table(
         Gain("handover", 6.0, "s", "Time from which the almost global law flies", NOT_NEGATIVE, label="handover"),
         Gain("lead", _as_inverted("lead"), "", "As in the inverted law", Bounds(low=1.0)),
         Gain("latency", _as_inverted("latency"), "s", "As in the inverted law", NOT_NEGATIVE),
+        Gain("delay_reach", _as_inverted("delay_reach"), "s", "As in the inverted law", NOT_NEGATIVE),
         Gain("observer", _as_inverted("observer"), "1/s", "As in the inverted law, as long as it flies", NOT_NEGATIVE),
     )
 )
@@ -62,7 +64,7 @@ def supervised(reference: Reference | None = None, **gains: float) -> Law:
         gains=GAINS,
         given=gains,
         control=_control,
-        computer=_computer_of,
+        computer=computer_of,
         uses_forces=True,
         reference=followed,
         prepare=partial(_both, followed),
@@ -71,10 +73,6 @@ def supervised(reference: Reference | None = None, **gains: float) -> Law:
 
 def _both(reference: Reference, vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:
     return {"first": inverted(reference).bind(vehicle), "second": almost_global(reference).bind(vehicle)}
-
-
-def _computer_of(gains: Mapping[str, Any]) -> Computer:
-    return Computer(lead=gains["lead"], latency=gains["latency"], observer=gains["observer"])
 
 
 def _control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:

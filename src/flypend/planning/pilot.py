@@ -133,7 +133,7 @@ class Pilot:
 
     def command(self, t: float, measured: Any) -> Any:
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
-        self._measured = measured
+        self._time, self._measured = t, measured
         return self._board.command(t, measured)
 
     def _or_law(self, *predicted: Any) -> Any:
@@ -145,9 +145,8 @@ class Pilot:
         shown[:3] += self._off
         return self._law.law(t, shown, rotors, forces)
 
-    def _steer(self, t: float, state: Any, rotors: Any, forces: Any) -> Any:
-        """Return the command for what is predicted for t + latency; both boards remember it."""
-        now = t + self._common.latency
+    def _steer(self, now: float, state: Any, rotors: Any, forces: Any) -> Any:
+        """Return the command for what is predicted for `now`, when it acts; both boards remember it."""
         here, outside = self._relative(now, state), weighed(forces, self._where(now)[6:], self._vehicle)
         level = upright(outside, self._m)[:2]
         if self._coming is not None and now + 1e-9 >= self._coming.due:
@@ -166,7 +165,7 @@ class Pilot:
                 self._coming = self._begun(now, state, rotors)
             if self._coming is not None and self._coming.meanwhile is not None:
                 self._planned_command = self._coming.meanwhile.at(now)
-        return self._law.command(t, self._measured)
+        return self._law.command(self._time, self._measured)
 
     def _integrate(self, x: Any) -> None:
         """Add a distance `x` (3,), m, of one period to the integral."""
@@ -262,7 +261,7 @@ class Pilot:
 @lru_cache(maxsize=16)
 def _predicting(law: BoundLaw, latency: float) -> BoundLaw:
     """Return `law` on a board that predicts over a `latency` (s), and adds no lead: plans know of the rotors' lag."""
-    return replace(law, computer=replace(law.computer, latency=latency, lead=1.0))
+    return replace(law, computer=replace(law.computer, latency=latency, delay_reach=0.0, lead=1.0))
 
 
 @lru_cache(maxsize=16)

@@ -108,8 +108,8 @@ class Tracker:
         if self._other is not None:
             return self._other.command(t, measured)
         measurement = np.append(t, measured)
-        kept, forces, state, rotors = self._predict(self._memory, measurement, NONE)
-        command, off = self._follower.command(t + self._loop.law.computer.latency, state, rotors)
+        kept, forces, state, rotors, horizon = self._predict(self._memory, measurement, NONE)
+        command, off = self._follower.command(t + horizon.item(), state, rotors)
         if not (np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[0:3]) < self._far):
             loop = Loop(self._loop.vehicle, self._law.bind(self._loop.vehicle), self._loop.plant)
             self._other = SteppedBoard(loop, self._memory[: len(rotors)])

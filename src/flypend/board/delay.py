@@ -1,0 +1,169 @@
+"""The delay of a loop, found in flight by the flight computer.
+
+Commands act a delay d after their measurement: the wrench W of the rotor model at time t acts at t + d. Over a control
+period h, the angular velocity changes by
+
+    Δω = h J⁻¹ (τ − ω × Jω),    τ the mean moment of W from t − h − d to t − d,
+
+which is measured, and ∂Δω/∂d = J⁻¹ (τ(t − h − d) − τ(t − d)) follows from the same past wrenches. So d is estimated by
+recursive least squares with forgetting. While moments hardly change, as in hover, they tell nothing, and d stays. A
+false inertia or strength of the rotors makes an error along τ, which does not correlate with the rate of τ. A rotor lag
+longer than believed counts as delay.
+
+A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. So both
+sides are compared through the same filter, whose band is below that.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.board.believed import Believed
+from flypend.laws.inverted_gains import angular_authority
+from flypend.model.momenta import angular_acceleration
+from flypend.model.state import SIZE
+from flypend.plants.cascade import cascade_step
+from flypend.plants.lag import Ramp, held, step_timing
+
+# Time over which the past is forgotten, s.
+FORGETTING = 0.5
+# What is assumed of the delay before the flight weighs as much as the rate of a moment that, for a second, changes by
+# √0.2 of the largest per second.
+DOUBT = 0.2
+# Longest delay times the cut-off of the two filters, 1.
+BAND = np.pi / 2
+# Time between the wrenches that are remembered, s, at least; rotors with a lag change little within it.
+SPACING = 8e-3
+# Shortest delay, in control periods, so that the mean over it exists.
+LEAST = 1e-3
+# Begun or not, ticks since the newest wrench remembered, delay, information, ω, moment, and the filters' states.
+OWN = 1 + 1 + 1 + 1 + 3 + 3 + 12
+WRENCH = 4
+
+
+class DelayEstimator:
+    """What finds the delay of a loop, and predicts over it.
+
+    Parameters
+    ----------
+    believed : Believed
+        The nominal vehicle.
+    told, reach : float
+        The delay (s) to begin with, and how much longer it may be.
+    period : float
+        Control period, s.
+    lag_left : float
+        What is left of the rotors' lag after the computer's lead, s. It is predicted over as well, under the last
+        command.
+    """
+
+    def __init__(self, believed: Believed, told: float, reach: float, period: float, lag_left: float) -> None:
+        self._lag_left = lag_left
+        self._believed, self._period = believed, period
+        self._told, self._longest = max(told, LEAST * period), told + reach
+        self._stride = max(1, round(SPACING / period))
+        self._depth = int(np.ceil(self._longest / self._spacing - 1e-9))
+
+    @property
+    def size(self) -> int:
+        """Length of the memory."""
+        return OWN + self._depth * WRENCH
+
+    @property
+    def _spacing(self) -> float:
+        return self._stride * self._period
+
+    def begun(self, rotors: Any) -> Any:
+        """Return the memory before the first step, for rotor forces (n,), N: numbers or CasADi symbols."""
+        past = ca.repmat(self._wrench(rotors), self._depth, 1)
+        memory = ca.vertcat(0, 1, self._told, np.zeros(OWN - 3), past)
+        return memory if isinstance(rotors, ca.SX) else np.asarray(ca.DM(memory)).ravel()
+
+    def find(self) -> ca.Function:
+        """Return (memory, ω (3,), rotors (n,), last command (n,), params) → memory, horizon, wrenches (4, 3).
+
+        The horizon (s) is the delay and the lag that is left. The wrenches, N and N m, are the mean and the change of
+        their ramp over it (see `plants.lag`), and the one that acts now.
+        """
+        b, h = self._believed, self._period
+        memory, omega = ca.SX.sym("memory", self.size), ca.SX.sym("w", 3)
+        rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
+        begun, phase, delay, known = (memory[i] for i in range(4))
+        before, earlier, smooth, smoother = memory[4:7], memory[7:10], memory[10:16], memory[16:OWN]
+        entries = ca.horzcat(self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self._depth))
+        acting, impulse, lever = (ca.mtimes(entries, weights) for weights in self._weights(delay, phase))
+        # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
+        expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
+        wrong = (omega - before) / h - expected
+        slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
+        share = -np.expm1(-BAND / self._longest * h)
+        smooth = smooth + share * (begun * ca.vertcat(wrong, slope) - smooth)
+        smoother = smoother + share * (smooth - smoother)
+        wrong, slope = smoother[:3], smoother[3:]
+        information = np.exp(-h / FORGETTING) * known + h * ca.sumsqr(slope)
+        doubt = DOUBT * angular_authority(b.vehicle) ** 2
+        found = delay + h * ca.dot(slope, wrong) / (information + doubt)
+        found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
+        next_earlier = ca.mtimes(entries[1:, :], self._weights(found, phase)[0])
+        full = phase > self._stride - 0.5
+        past = ca.if_else(full, entries[:, :-1], entries[:, 1:])
+        phase = ca.if_else(full, 1, phase + 1)
+        kept = ca.vertcat(1, phase, found, information, omega, next_earlier, smooth, smoother, ca.vec(past))
+        horizon = delay + self._lag_left
+        ramp = self._extended(delay, impulse, lever, rotors, command)
+        wrenches = ca.horzcat(ramp.mean, ramp.change, acting)
+        outputs = [ca.densify(v) for v in (kept, horizon, wrenches)]
+        return ca.Function("find_delay", [memory, omega, rotors, command, b.symbols], ca.cse(outputs))
+
+    def _extended(self, delay: Any, impulse: Any, lever: Any, rotors: Any, command: Any) -> Ramp:
+        """Return the wrench over delay and lag left.
+
+        `impulse` and `lever` are the integrals of the wrench over the last `delay` (s) and of its age times it; after
+        that, the rotors follow the last `command`.
+        """
+        e = self._lag_left
+        if e == 0:
+            return Ramp(impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever))
+        forces, _ = held(rotors, command, step_timing(self._believed.lag, e))
+        last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
+        first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
+        return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)
+
+    def carry(self) -> ca.Function:
+        """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""
+        b = self._believed
+        packed, horizon, forces = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", 6)
+        wrenches = ca.SX.sym("W", WRENCH, 3)
+        moved = cascade_step(packed, Ramp(wrenches[:, 0], wrenches[:, 1]), forces, horizon, b.vehicle)
+        return ca.Function("act_later", [packed, horizon, wrenches, forces, b.symbols], [ca.cse(ca.densify(moved))])
+
+    def skipped(self) -> ca.Function:
+        """Return (memory) → memory after a period without measurement, which tells nothing of the delay."""
+        memory = ca.MX.sym("memory", self.size)
+        return ca.Function("skip_delay", [memory], [ca.vertcat(0, memory[1:])])
+
+    def _wrench(self, rotors: Any) -> Any:
+        return ca.mtimes(self._believed.vehicle.mixing(), rotors)
+
+    def _weights(self, age: Any, phase: Any) -> tuple[Any, Any, Any]:
+        """Return the weights (k,) of the wrenches now and remembered, which are linear in between.
+
+        Those of the wrench an `age` (s) ago, of its integral since (s), and of the integral of age times it (s²).
+        `phase` is the number of periods since the newest one that is remembered.
+        """
+        at, over, moment = ([ca.SX(0)] * (self._depth + 1) for _ in range(3))
+        at[0] = ca.SX(1)
+        newest, end = phase / self._stride, age / self._spacing  # in units of the spacing, as is what follows
+        for i in range(self._depth):
+            begin, length = (i - 1, 1) if i else (-newest, newest)  # of this interval, ages since the newest
+            share = ca.fmin(ca.fmax((end - newest - begin) / length, 0), 1)  # of it that is younger than `age`
+            half, third = share**2 / 2, share**3 / 3
+            at[i], at[i + 1] = at[i] - share, share
+            for j, area, arm in ((i, share - half, half - third), (i + 1, half, third)):
+                over[j] = over[j] + length * area
+                moment[j] = moment[j] + length * (begin * area + length * arm)
+        integral, since_newest = ca.vertcat(*over), ca.vertcat(*moment)
+        return ca.vertcat(*at), self._spacing * integral, self._spacing**2 * (since_newest + newest * integral)

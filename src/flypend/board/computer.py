@@ -14,6 +14,7 @@ from flypend.board.command import finish, law_command, steering
 from flypend.board.program import (
     estimator,
     filters,
+    found_delay,
     initial_memory,
     kept_memory,
     known,
@@ -58,6 +59,7 @@ class SteppedBoard:
     """
 
     def __init__(self, loop: Loop, rotors: Any, estimate: Any = None, steer: Steer | None = None) -> None:
+        self._loop = loop
         self._stages = _stages(replace(loop, plant=known(loop.sampled)))
         self.law: Steer = self._stages.steer
         self._steer = steer or self.law
@@ -66,6 +68,11 @@ class SteppedBoard:
         self.predicted: tuple[Any, Any, Any] | None = None
         self.estimated: Any = None
         self.filtered: Any = None
+
+    @property
+    def delay(self) -> float | None:
+        """The delay from measurement to command, s, that it has found; None if it does not look for it."""
+        return found_delay(self._loop, self._memory)
 
     def command(self, t: float, measured: Any) -> Any:
         """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""

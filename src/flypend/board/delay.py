@@ -65,12 +65,12 @@ class DelayEstimator:
         self._believed, self._period = believed, period
         self._told, self._longest = max(told, LEAST * period), told + reach
         self._stride = max(1, round(SPACING / period))
-        self._depth = int(np.ceil(self._longest / self._spacing - 1e-9))
+        self.depth = int(np.ceil(self._longest / self._spacing - 1e-9))
 
     @property
     def size(self) -> int:
         """Length of the memory."""
-        return OWN + self._depth * WRENCH
+        return OWN + self.depth * WRENCH
 
     @property
     def _spacing(self) -> float:
@@ -78,9 +78,13 @@ class DelayEstimator:
 
     def begun(self, rotors: Any) -> Any:
         """Return the memory before the first step, for rotor forces (n,), N: numbers or CasADi symbols."""
-        past = ca.repmat(self._wrench(rotors), self._depth, 1)
+        past = ca.repmat(self._wrench(rotors), self.depth, 1)
         memory = ca.vertcat(0, 1, self._told, np.zeros(OWN - 3), past)
         return memory if isinstance(rotors, ca.SX) else np.asarray(ca.DM(memory)).ravel()
+
+    def delay(self, memory: Any) -> float:
+        """Return the delay, s, in a `memory`."""
+        return float(memory[2])
 
     def find(self) -> ca.Function:
         """Return (memory, ω (3,), rotors (n,), last command (n,), params) → memory, horizon, wrenches (4, 3).
@@ -93,8 +97,8 @@ class DelayEstimator:
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
         begun, phase, delay, known = (memory[i] for i in range(4))
         before, earlier, smooth, smoother = memory[4:7], memory[7:10], memory[10:16], memory[16:OWN]
-        entries = ca.horzcat(self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self._depth))
-        acting, impulse, lever = (ca.mtimes(entries, weights) for weights in self._weights(delay, phase))
+        entries = ca.horzcat(self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self.depth))
+        acting, impulse, lever = (ca.mtimes(entries, weights) for weights in self.weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
         expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
         wrong = (omega - before) / h - expected
@@ -107,7 +111,7 @@ class DelayEstimator:
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
-        next_earlier = ca.mtimes(entries[1:, :], self._weights(found, phase)[0])
+        next_earlier = ca.mtimes(entries[1:, :], self.weights(found, phase)[0])
         full = phase > self._stride - 0.5
         past = ca.if_else(full, entries[:, :-1], entries[:, 1:])
         phase = ca.if_else(full, 1, phase + 1)
@@ -148,16 +152,16 @@ class DelayEstimator:
     def _wrench(self, rotors: Any) -> Any:
         return ca.mtimes(self._believed.vehicle.mixing(), rotors)
 
-    def _weights(self, age: Any, phase: Any) -> tuple[Any, Any, Any]:
+    def weights(self, age: Any, phase: Any) -> tuple[Any, Any, Any]:
         """Return the weights (k,) of the wrenches now and remembered, which are linear in between.
 
         Those of the wrench an `age` (s) ago, of its integral since (s), and of the integral of age times it (s²).
         `phase` is the number of periods since the newest one that is remembered.
         """
-        at, over, moment = ([ca.SX(0)] * (self._depth + 1) for _ in range(3))
+        at, over, moment = ([ca.SX(0)] * (self.depth + 1) for _ in range(3))
         at[0] = ca.SX(1)
         newest, end = phase / self._stride, age / self._spacing  # in units of the spacing, as is what follows
-        for i in range(self._depth):
+        for i in range(self.depth):
             begin, length = (i - 1, 1) if i else (-newest, newest)  # of this interval, ages since the newest
             share = ca.fmin(ca.fmax((end - newest - begin) / length, 0), 1)  # of it that is younger than `age`
             half, third = share**2 / 2, share**3 / 3

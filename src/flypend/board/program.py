@@ -126,6 +126,14 @@ def memory_size(loop: Loop) -> int:
     return len(loop.vehicle.rotor_spins) + kept_memory(loop) + depth(loop) * command_width(loop)
 
 
+def found_delay(loop: Loop, memory: Any) -> float | None:
+    """Return the delay, s, that the board of `loop` has found, from its `memory`; None if it does not look for it."""
+    if (finding := delay_estimator(loop, Believed.numbers(loop.vehicle))) is None:
+        return None
+    first = len(loop.vehicle.rotor_spins) + observer_memory(loop)
+    return finding.delay(memory[first : first + finding.size])
+
+
 def kept_memory(loop: Loop) -> int:
     """Return the size of the memory of observer and delay estimator, between rotors and commands."""
     finding = delay_estimator(loop, Believed.numbers(loop.vehicle))

@@ -54,11 +54,11 @@ SLOW: Mapping[str, float] = MappingProxyType(
 MOUNTED: Mapping[str, Mapping[str, float]] = MappingProxyType(
     {
         "hub": {
-            "catch_within": 0.95, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.085, "haste": 0.0,
-            "shift": 0.03, "yaw_damping": 8.0,
-            "rod_bandwidth": 1.9, "attitude_bandwidth": 1.3, "attitude_damping": 0.89, "rate_feedforward": 0.6,
-            "position_bandwidth": 0.54, "height_bandwidth": 0.7, "position_damping": 0.93, "throw_speed": 0.63,
-            "flip_speed": 0.28, "flip_by_rod": 0.78, "flip_by_height": 0.65,
+            "catch_within": 1.4, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.062, "haste": 0.0,
+            "shift": 0.03, "yaw_damping": 12.5, "rod_bandwidth": 2.19, "rod_damping": 0.66,
+            "attitude_bandwidth": 1.59, "attitude_damping": 1.49, "rate_feedforward": 0.685, "coast": 1.68,
+            "position_bandwidth": 0.298, "height_bandwidth": 0.687, "position_damping": 0.747, "throw_speed": 0.529,
+            "flip_speed": 0.317, "flip_by_rod": 0.469, "flip_by_height": 0.638, "hanging_share": 0.68, "latency": 0.257,
         },
         "cup": {"catch_within": 2.0, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.0},
     }

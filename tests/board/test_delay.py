@@ -1,0 +1,171 @@
+"""The delay that the flight computer finds: whether it is the true one, what hides it, and what it is worth."""
+
+import casadi as ca
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import flypend as fp
+from flypend.board.believed import Believed
+from flypend.board.delay import DelayEstimator
+from flypend.compile.numeric import as_numpy
+from flypend.flight import sampled
+from flypend.flight.request import Flight
+from flypend.flight.sampled import fly_stepwise
+from flypend.plants import ROTORS, SUITES
+from flypend.plants.equations import EquationsEngine
+from flypend.plants.loop import Loop
+
+VEHICLE = fp.vehicle("hehn2011")
+NONE = np.zeros(0)
+TOLD, REACH = 0.025, 0.06
+HOVER = VEHICLE.weight / 4 * np.ones(4)
+
+
+def made(vehicle=VEHICLE, period=0.002, lag_left=0.0):
+    return DelayEstimator(Believed.numbers(vehicle), TOLD, REACH, period, lag_left)
+
+
+def busy(t):
+    """Rotor forces (n, 4), N, that turn the vehicle about; linear between multiples of 8 ms."""
+    knots = np.arange(0, t.max() + 0.1, 0.008)
+    turn = 0.4 * np.sin(9 * knots)[:, None] * [1, 0, -1, 0] + 0.3 * np.sin(6 * knots + 1)[:, None] * [0, 1, 0, -1]
+    return np.stack([np.interp(t, knots, column) for column in (HOVER + turn).T], axis=-1)
+
+
+def turned(forces, period, vehicle=VEHICLE, substeps=20):
+    """Angular velocities (n, 3) at multiples of a `period` under `forces` of the time t (s): small Euler steps."""
+    omega, out, h = np.zeros(3), [], period / substeps
+    for k in range(round(2.5 / period)):
+        out.append(omega)
+        for tau in (vehicle.mixing() @ forces(k * period + (np.arange(substeps) + 0.5) * h).T)[1:].T:
+            omega = omega + h * vehicle.I_inv @ (tau - np.cross(omega, vehicle.I @ omega))
+    return np.array(out)
+
+
+def found(delay, *, wrong=1.0, noise=0.0, signal=busy, period=0.002):
+    """The delays estimated along a flight whose commands act `delay` (s) late, moments `wrong` times as large."""
+    estimator = made(period=period)
+    step, memory = as_numpy(estimator.find()), estimator.begun(HOVER)
+    omegas = turned(lambda t: HOVER + wrong * (signal(np.maximum(t - delay, 0)) - HOVER), period)
+    omegas = omegas + noise * np.random.default_rng(0).standard_normal(omegas.shape)
+    delays = []
+    for k, omega in enumerate(omegas):
+        acting = signal(np.array([k * period]))[0]
+        memory, *_ = step(memory, omega, acting, acting, NONE)
+        delays.append(memory[2])
+    return np.array(delays)
+
+
+@pytest.mark.parametrize("period", [0.001, 0.002, 0.01])
+@pytest.mark.parametrize("delay", [0.0, 0.013, 0.04, 0.08])
+def test_it_finds_the_true_delay(delay, period):
+    # 0.5 ms: in steps of 10 ms the mean moment of a period is that of its ends.
+    assert found(delay, period=period)[-1] == pytest.approx(delay, abs=5e-4)
+
+
+def test_it_does_not_go_beyond_its_reach():
+    assert found(0.12)[-1] == TOLD + REACH
+
+
+def test_strength_and_inertia_do_not_look_like_a_delay():
+    for wrong in (0.75, 1.25):
+        assert found(0.03, wrong=wrong)[-1] == pytest.approx(0.03, abs=5e-3)
+
+
+def test_noise_of_the_gyroscope_hides_it_only_where_nothing_moves():
+    assert found(0.04, noise=0.02)[-1] == pytest.approx(0.04, abs=3e-3)
+    still = found(0.04, noise=0.02, signal=lambda t: np.tile(HOVER, (len(t), 1)))
+    np.testing.assert_allclose(still, TOLD, atol=1e-12)
+
+
+def test_a_lag_longer_than_believed_counts_as_delay():
+    """A lag T + e is, to first order in the frequency, a lag T and a delay e."""
+    loop = Loop(VEHICLE, fp.laws.inverted().bind(VEHICLE), ROTORS)
+    late = _flown(loop, ROTORS.replace(lag=VEHICLE.rotor_lag + 0.02))
+    assert 0.01 < late < 0.025
+    assert _flown(loop, ROTORS) < 0.002
+
+
+def _flown(loop, plant, duration=1.5):
+    """The delay that the board of `loop` has found by the end of a throw in `plant`, s."""
+    start, seen = fp.State(y=(0.0, 0.6, -0.8)), []
+
+    original = sampled.SteppedBoard.command
+
+    def command(self, t, measured):
+        answer = original(self, t, measured)
+        seen.append(self.delay)
+        return answer
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sampled.SteppedBoard, "command", command)
+        fly_stepwise(Flight(vehicle=loop.vehicle, law=loop.law, starts=start, duration=duration, plant=plant, seed=1))
+    return seen[-1]
+
+
+def test_what_is_predicted_is_where_the_vehicle_is_when_its_command_acts():
+    """Without lag left and with the delay known, against small steps of the same equations."""
+    delay = 0.04
+    estimator = DelayEstimator(Believed.numbers(VEHICLE), delay, 0.02, 0.002, 0.0)
+    find, carry, memory = as_numpy(estimator.find()), as_numpy(estimator.carry()), estimator.begun(busy(np.zeros(1))[0])
+    engine = EquationsEngine(VEHICLE.replace(rotor_lag=0.0))
+    engine.reset(fp.State(y=(0.0, 0.6, 0.8), omega=(1.0, -2.0, 0.5)).packed(), HOVER)
+    states, predicted = [], []
+    for k in range(200):
+        states.append(engine.packed)
+        acting = busy(np.array([k * 0.002]))[0]
+        memory, horizon, wrenches = find(memory, engine.packed[15:18], acting, acting, NONE)
+        predicted.append(carry(engine.packed, horizon, wrenches, np.zeros(6), NONE))
+        for j in range(4):
+            engine.step(busy(np.array([max(0.0, k * 0.002 + (j + 0.5) * 0.0005 - delay)]))[0], 0.0005, np.zeros(6))
+    late = round(delay / 0.002)
+    wrong = np.abs(np.array(predicted)[50:-late] - np.array(states)[50 + late :]).max()
+    nothing = np.abs(np.array(states)[50:-late] - np.array(states)[50 + late :]).max()
+    assert wrong < 5e-3 < 0.1 < nothing
+
+
+@given(st.floats(0.002, 0.08), st.integers(1, 4), st.integers(0, 100))
+def test_mean_and_ramp_are_those_of_the_wrench_between_what_is_remembered(delay, phase, seed):
+    """What is remembered is linear in between, so the integrals by the trapezoidal rule are exact at its knots."""
+    estimator, rng = made(), np.random.default_rng(seed)
+    ages = np.append(0.0, 0.002 * phase + 0.008 * np.arange(estimator.depth))
+    values = rng.standard_normal(len(ages))
+    at, over, moment = (np.array(w).ravel() for w in as_numpy(_weights(estimator))(delay, float(phase)))
+    fine = np.unique(np.append(np.linspace(0, delay, 20001), ages[ages < delay]))
+    signal = np.interp(fine, ages, values)
+    assert at @ values == pytest.approx(np.interp(delay, ages, values), abs=1e-12)
+    assert over @ values == pytest.approx(np.trapezoid(signal, fine), abs=1e-12)
+    assert moment @ values == pytest.approx(np.trapezoid(signal * fine, fine), abs=1e-9)  # a parabola between knots
+
+
+def _weights(estimator):
+    age, phase = ca.SX.sym("age"), ca.SX.sym("phase")
+    return ca.Function("weights", [age, phase], [ca.densify(w) for w in estimator.weights(age, phase)])
+
+
+# What it is worth -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
+def test_an_untold_delay_of_twice_what_is_expected_is_no_loss(sensors):
+    """Negative control: without reach, hardly a flight stands."""
+    starts = fp.random_starts(40, 77)
+    plant = ROTORS.replace(delay=0.05, sensors=None if sensors is None else sensors.replace(command_delay=0.0))
+    stand = [
+        int(fp.simulate_ensemble(VEHICLE, fp.laws.inverted(**gains), starts, 10.0, plant=plant).success.sum())
+        for gains in ({}, {"delay_reach": 0.0})
+    ]
+    assert stand[0] >= 36
+    assert stand[1] <= 4
+
+
+def test_a_reference_is_followed_at_the_time_when_commands_act():
+    """The law looks ahead by the delay found: at 1 m/s, 40 ms that nobody told of would be 40 mm behind."""
+    circle = fp.laws.references.circle(0.5, 2.0)
+    at_once, late = (
+        fp.simulate(VEHICLE, fp.laws.inverted(circle), fp.State(y=(0, 0, 1)), 14.0, plant=ROTORS.replace(delay=delay))
+        for delay in (0.0, 0.04)
+    )
+    assert np.max(np.linalg.norm(late.x - at_once.x, axis=-1)[late.t > 10]) < 2e-3

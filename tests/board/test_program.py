@@ -52,9 +52,8 @@ def test_a_program_of_ones_own_steers_in_place_of_the_law():
         np.testing.assert_array_equal(own.command(t, measured), plain.command(t, measured))
         np.testing.assert_array_equal(held.command(t, measured), np.full(4, 2.0))
         np.testing.assert_array_equal(given[k][1], plain.predicted[0])
-    # When the last command acts, the rotors of the model have followed the first for 39 periods; and they are predicted
-    # for as long as the lag that the lead leaves.
-    followed = 2 - (2 - least) * np.exp(-39 / loop.plant.rate / VEHICLE.rotor_lag - 1 / LAW.gains["lead"])
+    # When the last command acts, the rotors of the model have followed the first for 39 periods.
+    followed = 2 - (2 - least) * np.exp(-39 / loop.plant.rate / VEHICLE.rotor_lag)
     np.testing.assert_allclose(held.predicted[1], followed, rtol=1e-9)
 
 

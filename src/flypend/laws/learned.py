@@ -29,7 +29,7 @@ LEAST_SHARE = 0.02  # of its range: what a rotor keeps to both limits in hover, 
 
 GAINS = table(
     (
-        Gain("policy", USUAL, doc="Name of a shipped policy, or a file of `flypend learn` (.npz); usual for the mount's"),
+        Gain("policy", USUAL, doc="Name of a shipped policy, or a file of `flypend learn` (.npz); usual: by mount"),
         Gain(
             "lead", lambda v: 2.1 if v.rotor_lag > 0 else 1.0, "",
             "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0),

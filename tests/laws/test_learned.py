@@ -71,6 +71,17 @@ def test_it_is_better_than_the_tuned_law():
     assert np.median(own.excursion) < 0.6 * np.median(tuned.excursion)
 
 
+def test_on_a_hub_another_policy_flies_which_keeps_clear():
+    """From nine in ten free starts of a seed not trained on, the tuned law from three in four."""
+    hub, starts = VEHICLE.replace(mount="hub"), fp.random_starts(300, 90002)
+    begun = fp.simulate_ensemble(hub, LAW, starts, duration=6.0)
+    free = begun.end > 0
+    tuned = fp.simulate_ensemble(hub, fp.laws.inverted(), starts, duration=6.0)
+    assert free.sum() > 200
+    assert begun.success[free].mean() > 0.92  # 96.7 % of 1,989; three deviations of 250
+    assert begun.success[free].mean() > tuned.success[free].mean() + 0.1
+
+
 def test_single_flights_and_kernels_agree():
     start = fp.random_starts(1, 5)[0]
     run = fp.simulate(VEHICLE, LAW, start, 4.0)

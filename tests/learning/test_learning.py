@@ -11,8 +11,11 @@ from flypend.learning import flights as flying
 from flypend.learning import world
 from flypend.learning.flights import Course, Flights
 from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
+from flypend.learning.scouts import AMONG, Scouts
 from flypend.learning.teacher import Imitation, Teacher, direct
-from flypend.learning.training import Learner, Training, starts
+from flypend.learning.training import Learner, Training, starts, usual
+from flypend.model.mount import clearances
+from flypend.planning.scaled import Scaled, Units
 
 VEHICLE = fp.vehicle("hehn2011")
 
@@ -167,6 +170,51 @@ def test_imitation_and_then_descent_make_flights_cheaper():
         learner.descend()
     assert imitated.cost < 0.67 * first.cost
     assert learner.curve[-1].cost < 0.9 * imitated.cost
+
+
+def nearest(course, weights, begin):
+    flights = Flights(course, len(begin))
+    flights.fly(weights, begin)
+    return flights.costs[:, :, 2].max(axis=0).ravel()
+
+
+def test_scouts_keep_the_starts_whose_rods_come_nearest_to_an_arm():
+    hub = VEHICLE.replace(mount="hub")
+    scouts, w = Scouts(Course(hub, duration=2.0), 16), weights_of()
+    begin = starts(hub, np.random.default_rng(4), scouts.count)
+    kept = scouts.dangerous(w, begin)
+    assert scouts.count == AMONG * len(kept)
+    near = nearest(Course(hub, duration=0.3), w, begin)
+    rest = begin[~np.isin(begin, kept).all(axis=1)]
+    assert len(kept) + len(rest) == len(begin)
+    assert nearest(Course(hub, duration=0.3), w, kept).min() >= np.sort(near)[-16]
+
+
+def test_whatever_rod_touches_a_disc_is_near_an_arm_and_those_above_are_not():
+    """On hehn2011, whose discs a rod touches within 24° of an arm, by the distances of the mount itself."""
+    import casadi as ca
+
+    hub, rng = VEHICLE.replace(mount="hub"), np.random.default_rng(0)
+    s = ca.SX.sym("s", 24)
+    machine = Scaled(ca.SX(ca.DM(Units.of(hub).numbers(hub))), 4)
+    near_of = ca.Function("near", [s], [world.costs(s, machine)[2]])
+    y = rng.standard_normal((4000, 3)) * [1, 1, 0.2]
+    y /= np.linalg.norm(y, axis=1, keepdims=True)
+    near = np.array([float(near_of(fp.State(y=row).packed())) for row in y])
+    gaps = clearances(y, hub.rotors_from_pivot, hub.reach, hub.body)[:, :4].min(axis=1)
+    touching, above = gaps < 0, np.abs(y[:, 2]) > world.HIGH
+    assert touching.sum() > 100
+    assert above.sum() > 100
+    assert near[touching].min() > 0.2
+    assert np.all(near[above] == 0)
+    assert np.all(near[gaps > 0.1] < 0.1)  # m; the discs' centres are at 0.17
+
+
+def test_on_a_hub_the_training_is_another():
+    hub = usual(VEHICLE.replace(mount="hub"), seed=3, updates=7)
+    assert usual(VEHICLE, seed=3) == Training(Course(VEHICLE), seed=3)
+    assert (hub.seed, hub.updates) == (3, 7)
+    assert hub.course.arms > Course(VEHICLE).arms
 
 
 @pytest.mark.slow

@@ -18,9 +18,12 @@ HELD_OUT = 10**6  # added to the seed: the starts of the judgement are none of t
 @vehicle_option
 @out_option("learn-out")
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="Seed of first weights and starts.")
-@click.option("--updates", type=click.IntRange(min=1), default=1500, help="Updates by descent of the gradient.")
+@click.option("--mount", help="What carries the rod: gimbal, hub or cup; default the vehicle's own.")
+@click.option(
+    "--updates", type=click.IntRange(min=1), help="Updates by descent of the gradient; default 1500, hub 1200."
+)
 @click.option("--runs", type=click.IntRange(min=1), default=500, help="Flights that judge the result.")
-def learn(vehicle: str, out: Path, seed: int, updates: int, runs: int) -> None:
+def learn(vehicle: str, out: Path, seed: int, mount: str | None, updates: int | None, runs: int) -> None:
     """Learn a law for VEHICLE: a small network that first imitates the tuned law and then flies better.
 
     Writes the policy, for --law learned and its gain policy, and the curve of the training. After an interruption, the
@@ -29,14 +32,15 @@ def learn(vehicle: str, out: Path, seed: int, updates: int, runs: int) -> None:
     from flypend import model
     from flypend.files.staging import check_writable
     from flypend.laws import inverted, learned, lqr
-    from flypend.learning.flights import Course
-    from flypend.learning.training import Learner, Training
+    from flypend.learning.training import Learner, usual
     from flypend.report.learning import write_learned
     from flypend.report.studies import comparison_table
     from flypend.studies import compare, random_starts
 
     machine = model.vehicle(vehicle)
-    learner = Learner(Training(Course(machine), seed=seed, updates=updates))
+    if mount is not None:
+        machine = machine.replace(mount=mount)
+    learner = Learner(usual(machine, seed, updates))
     check_writable(out)
     out.mkdir(parents=True, exist_ok=True)
     checkpoint = out / CHECKPOINT
@@ -44,10 +48,10 @@ def learn(vehicle: str, out: Path, seed: int, updates: int, runs: int) -> None:
         if not learner.resume(checkpoint):
             learner.imitate(lambda entry: tell("imitation", int(entry.update), learner.training.rounds))
             learner.save(checkpoint)
-        while learner.done < updates:
+        while learner.done < learner.training.updates:
             learner.descend()
-            tell("descent", learner.done, updates)
-            if learner.done % OFTEN == 0 or learner.done == updates:
+            tell("descent", learner.done, learner.training.updates)
+            if learner.done % OFTEN == 0 or learner.done == learner.training.updates:
                 learner.save(checkpoint)
     policy = write_learned(learner, out)
     console.print(f"The policy is {bold(policy)}, its training {bold(out / 'curve.png')}.")

@@ -22,19 +22,21 @@ from flypend.flight.kernels.flown import aligned
 WIDTH = 8
 # Fewest groups of worlds worth a thread: a hundred microseconds of work.
 LEAST_GROUPS = 16
+# Of the kernel's arguments.
+KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
 
 
 @lru_cache(maxsize=32)
 def compiled(made: WorldsProblem) -> jit.Native:
     """Return the kernel of `made`, compiled or from the cache."""
+    return jit.build(f"worlds, {WIDTH} lanes: {made!r}", lambda: module(made), "kernel", KINDS)
 
-    def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), WIDTH)
-        write_worlds(lanes, made)
-        return lanes.module
 
-    kinds = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
-    return jit.build(f"worlds, {WIDTH} lanes: {made!r}", module, "kernel", kinds)
+def module(made: WorldsProblem) -> ir.Module:
+    """Return the module with the kernel of `made`, before it is compiled."""
+    lanes = Lanes(ir.Module("flypend"), WIDTH)
+    write_worlds(lanes, made)
+    return lanes.module
 
 
 class Worlds:

@@ -24,12 +24,12 @@ from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 
 FOLDER = resources.files("flypend") / "policies"
-SHIPPED = "hehn2011"
+USUAL, SHIPPED, ON_HUB = "usual", "hehn2011", "hehn2011-hub"
 LEAST_SHARE = 0.02  # of its range: what a rotor keeps to both limits in hover, whatever the estimated forces
 
 GAINS = table(
     (
-        Gain("policy", SHIPPED, doc="Name of a shipped policy, or a file of `flypend learn` (.npz)"),
+        Gain("policy", USUAL, doc="Name of a shipped policy, or a file of `flypend learn` (.npz); usual: by mount"),
         Gain(
             "lead", lambda v: 2.1 if v.rotor_lag > 0 else 1.0, "",
             "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0),
@@ -73,7 +73,8 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
 def _prepared(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
     if vehicle.gravity == 0:
         raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
-    network = policy(gains["policy"])
+    usual = ON_HUB if vehicle.mount == "hub" else SHIPPED
+    network = policy(usual if gains["policy"] == USUAL else gains["policy"])
     if len(network.D) != len(vehicle.rotor_spins):
         raise InputError("vehicle", f"one with {len(network.D)} rotors, like the policy", f"{len(vehicle.rotor_spins)}")
     return {"network": network}

@@ -18,6 +18,7 @@ from flypend.files.whole import whole_file
 from flypend.laws.policy import MOST_WEIGHTS, Policy
 from flypend.learning.flights import Costs, Course, Flights
 from flypend.learning.network import Adam, Weights, first_weights
+from flypend.learning.scouts import Scouts
 from flypend.learning.teacher import RATE, Imitation, direct
 from flypend.model import State, Vehicle
 from flypend.model.mount import clearances
@@ -78,6 +79,17 @@ class Training:
         return {**vars(self), "course": course, "vehicle": self.course.vehicle.to_dict()}
 
 
+def usual(vehicle: Vehicle, seed: int = 0, updates: int | None = None) -> Training:
+    """Return the training for `vehicle` of `flypend learn`.
+
+    On a hub keeping clear is what costs most, by far, and takes a larger network and smaller steps.
+    """
+    if vehicle.mount != "hub":
+        return Training(Course(vehicle), seed=seed, updates=updates or 1500)
+    course = Course(vehicle, excursion=0.3, arms=40.0)
+    return Training(course, seed=seed, hidden=(96, 96), rate=2e-3, updates=updates or 1200)
+
+
 class Entry(NamedTuple):
     """A point of the curve: the `phase` (0 or 1), its updates so far, and what the flights since the last one did.
 
@@ -105,6 +117,7 @@ class Learner:
         self.adam, self.done = Adam(self.weights), 0
         self.curve: list[Entry] = []
         self._parts = [Flights(training.course, training.batch // PARTS) for _ in range(PARTS)]
+        self._scouts = Scouts(training.course, training.batch // 2) if vehicle.mount == "hub" else None
         self._since: list[Costs] = []
 
     @property
@@ -126,7 +139,7 @@ class Learner:
         """Make the next update by descent; `told` is called with every new point of the curve."""
         training, i = self.training, self.done
         rng = np.random.default_rng([training.seed, 2, i])
-        starts = self._starts(rng, training.batch).reshape(PARTS, -1, 24 + self._parts[0].rotors)
+        starts = self._chosen(rng, training.batch).reshape(PARTS, -1, 24 + self._parts[0].rotors)
         with threadpool_limits(1, "blas"), ThreadPoolExecutor(PARTS) as pool:
             flown = list(pool.map(self._flown, self._parts, starts))
         gradient = {name: np.sum([part[1][name] for part in flown], axis=0) / training.batch for name in self.weights}
@@ -147,6 +160,15 @@ class Learner:
     def _starts(self, rng: np.random.Generator, count: int) -> Any:
         """Return random starts (count, 24 + n), own units, with rotors at their least."""
         return starts(self.training.course.vehicle, rng, count)
+
+    def _chosen(self, rng: np.random.Generator, count: int) -> Any:
+        """Return `_starts`, of which half are dangerous ones under the present weights if the rod can touch a part."""
+        if self._scouts is None:
+            return self._starts(rng, count)
+        with threadpool_limits(1, "blas"):
+            dangerous = self._scouts.dangerous(self.weights, self._starts(rng, self._scouts.count))
+        both = np.concatenate([dangerous, self._starts(rng, count - len(dangerous))])
+        return both[rng.permutation(count)]
 
     def _add(self, costs: Costs, phase: int, update: int, told: Callable[[Entry], Any]) -> None:
         median, high = np.quantile(costs.distance, (0.5, 0.95))

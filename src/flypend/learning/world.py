@@ -22,10 +22,12 @@ from flypend.planning.stage import stepped
 from flypend.plants.lag import TIMING_SIZE
 
 COSTS = 3
-# The rod of a hub should keep this far from every arm, rad; on hehn2011 it touches a disc at 24°.
-APART = 0.58
+# The rod of a hub should keep this far from every arm, rad, where it is lower than `HIGH` over the plane of the rotors
+# (sine of its elevation); on hehn2011 it touches a disc at 24°, in that plane.
+APART, HIGH = 0.58, 0.3
 # Largest gradient with respect to a state that is carried back through a step: a flight that falls has no larger say.
 STEEPEST = 10.0
+FLAT = 1e-9  # keeps the bearing of a rod along the thrust axis differentiable
 
 
 @dataclass(frozen=True)
@@ -83,14 +85,15 @@ def costs(state: Any, machine: Scaled) -> Any:
     """Return squared distance of the pivot, how far the whole `state` is from hover, and nearness to arms (3, 1).
 
     Own units. The second is √(1 + 8 (1 − y₃) + (1 − z₃) + 0.3 |ẏ|² + 0.1 |ω|² + 0.3 |ẋ|² + 0.3 |x|²) − 1. The third is
-    0 while the rod keeps `APART` of all arms of the `machine`, and 1 along one.
+    0 while the rod keeps `APART` of all arms of the `machine` or `HIGH` over the rotors, and 1 along an arm.
     """
     s = State.symbolic(state[:SIZE])
     far = 8 * (1 - s.y[2]) + 1 - s.R[2, 2]
     moving = 0.3 * ca.sumsqr(s.y_dot) + 0.1 * ca.sumsqr(s.omega) + 0.3 * ca.sumsqr(s.x_dot) + 0.3 * ca.sumsqr(s.x)
     rod, moments = ca.mtimes(s.R.T, s.y), machine.mixing()[1:3, :]
-    near = ca.SX(0)
+    level, near = ca.sqrt(ca.sumsqr(rod[:2]) + FLAT), ca.SX(0)
     for i in range(machine.rotors):
         arm = ca.vertcat(-moments[1, i], moments[0, i]) / ca.norm_2(moments[:, i])
-        near += ca.fmax(0, (ca.dot(rod[:2], arm) - np.cos(APART)) / (1 - np.cos(APART))) ** 2
+        near += ca.fmax(0, (ca.dot(rod[:2], arm) / level - np.cos(APART)) / (1 - np.cos(APART)))
+    near *= ca.fmax(0, 1 - (rod[2] / HIGH) ** 2) ** 2
     return ca.vertcat(ca.sumsqr(s.x), ca.sqrt(1 + far + moving) - 1, near)

@@ -1,0 +1,171 @@
+"""Random steps of environments under AddressSanitizer: `python -m benchmarks.sanitised` makes 10⁷ of each task.
+
+The text of a kernel, which LLVM compiles for flights as well, is compiled by clang instead, with a check before every
+access to memory; the arrays are exactly as long as they have to be. `--planted K` shortens the K-th buffer of the
+kernel by one vector, `--planted NAME` an array by one byte: that must be found. Needs clang and its runtime
+(`make test-tools`).
+"""
+
+from __future__ import annotations
+
+import argparse
+import ctypes
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.envs import environment, kernel
+from flypend.envs.make import TASKS
+from flypend.envs.problem import problem
+
+# What a sanitised kernel is made of: every task, and what else is in the memory of a world.
+CASES: dict[str, dict[str, Any]] = {name: {"task": name} for name in TASKS} | {
+    "hub": {"task": "swing_up", "mount": "hub"},
+    "onboard": {"task": "balance", "sensors": "onboard"},
+    "varied": {
+        "task": "track", "action": "rates", "attitude": "6d",
+        "randomise": {"mass": (0.8, 1.2), "lag": (0.8, 1.5), "delay": (0.0, 0.025), "wind": (0.0, 0.3)},
+    },
+}  # fmt: skip
+BUFFER = re.compile(r"alloca \[(\d+) x (?:<\d+ x double>|i64)\]")
+DEFINED = re.compile(r"^(define .*\))", re.MULTILINE)
+ALIGNED = 64
+FOUND = 99  # exit status of a process in which the sanitiser found something
+
+
+def tool(*command: str) -> str:
+    """Run `command`; return what it prints. Raises RuntimeError with what it said if it fails."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(command)}\n{done.stderr[:4000]}")
+    return done.stdout.strip()
+
+
+@lru_cache(maxsize=1)
+def clang() -> tuple[str, ...]:
+    """Return clang and what it needs to read the text of a kernel; before version 15 pointers had types."""
+    version = int(tool("clang", "-dumpversion").split(".")[0])
+    opaque = ("-mllvm", "-opaque-pointers") if version < 15 else ()
+    return ("clang", "-fPIC", "-Wno-override-module", *opaque)
+
+
+def text(case: str) -> str:
+    """Return the text of the kernel of a case."""
+    return str(kernel.module(problem(environment(**CASES[case]))))
+
+
+def buffers(written: str) -> list[int]:
+    """Return the numbers of those buffers of a kernel that hold more than one vector."""
+    return [i for i, found in enumerate(BUFFER.finditer(written)) if int(found[1]) > 1]
+
+
+def shortened(written: str, number: int) -> str:
+    """Return the text of a kernel whose buffer `number` lacks its last vector."""
+    found = list(BUFFER.finditer(written))[number]
+    return f"{written[: found.start(1)]}{int(found[1]) - 1}{written[found.end(1) :]}"
+
+
+def built(written: str, folder: Path) -> Path:
+    """Compile the text of a kernel to a library in `folder` that checks each access; return its path.
+
+    Checks are inserted before anything is optimised: afterwards some accesses beyond a buffer are gone. Buffers of
+    vectors are aligned to 64 bytes, the sanitiser's own frames must be as well.
+    """
+    plain, checked, library = (folder / name for name in ("plain.ll", "checked.ll", "kernel.so"))
+    plain.write_text(DEFINED.sub(r"\1 sanitize_address", written))
+    checks = ("-fsanitize=address", "-mllvm", f"-asan-realign-stack={ALIGNED}", "-S", "-emit-llvm")
+    tool(*clang(), "-O0", *checks, str(plain), "-o", str(checked))
+    tool(*clang(), "-O1", "-march=native", "-c", str(checked), "-o", str(folder / "kernel.o"))
+    linked = ("-fsanitize=address", "-shared-libasan", "-shared")
+    tool("clang", *linked, str(folder / "kernel.o"), "-o", str(library), "-lm")
+    return library
+
+
+def stepped(case: str, steps: int, count: int, planted: str = "") -> tuple[int, str]:
+    """Step `count` worlds of a case in a process of its own; return its exit status and what it printed."""
+    written = text(case)
+    number = planted.isdigit()
+    with tempfile.TemporaryDirectory() as folder:
+        library = built(shortened(written, int(planted)) if number else written, Path(folder))
+        runtime = tool("clang", f"-print-file-name=libclang_rt.asan-{os.uname().machine}.so")
+        # Python itself leaves memory to its end; the symboliser outlives the process and would keep its output open.
+        options = f"detect_leaks=0:symbolize=0:exitcode={FOUND}"
+        done = subprocess.run(
+            [sys.executable, "-m", "benchmarks.sanitised", "--library", library, "--case", case, "--steps", str(steps),
+             "--count", str(count), "--planted", "" if number else planted],
+            capture_output=True, text=True, check=False, cwd=Path(__file__).parents[1],
+            env=os.environ | {"LD_PRELOAD": runtime, "ASAN_OPTIONS": options},
+        )  # fmt: skip
+    return done.returncode, done.stdout + done.stderr
+
+
+# In the process with the sanitiser ------------------------------------------------------------------------------------
+
+
+def exact(array: NDArray[Any], lacking: int = 0) -> NDArray[Any]:
+    """Return a copy of `array` in memory of its own that ends with it; or `lacking` bytes before."""
+    place = ctypes.c_void_p()
+    allocate = ctypes.CDLL(None).posix_memalign
+    allocate.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_size_t]
+    allocate(ctypes.byref(place), ALIGNED, array.nbytes - lacking)
+    memory = (ctypes.c_char * array.nbytes).from_address(place.value)
+    ctypes.memset(memory, 0, array.nbytes - lacking)
+    copy = np.frombuffer(memory, dtype=array.dtype).reshape(array.shape)
+    if not lacking:
+        copy[...] = array
+    return copy
+
+
+def step(library: Path, case: str, steps: int, count: int, planted: str) -> None:
+    """Step `count` worlds with the kernel in `library`, by random actions, some of them absurd."""
+    native = ctypes.CDLL(str(library)).kernel
+    native.restype, native.argtypes = None, kernel.KINDS
+    kernel.compiled = lambda made: native  # type: ignore[assignment, misc]
+    worlds = kernel.Worlds(environment(**CASES[case]), count)
+    own = {"memories": "_memories", "seeds": "_seeds", "actions": "_actions"}
+    for name, attribute in own.items():
+        setattr(worlds, attribute, exact(getattr(worlds, attribute), name == planted))
+    worlds._arrays = {name: exact(array, name == planted) for name, array in worlds._arrays.items()}
+    worlds.begin(np.arange(count))
+    rng, length = np.random.default_rng(1), worlds.env.actions
+    actions = rng.uniform(-1.5, 1.5, (50, count, length)).astype(np.float32)
+    actions[7, ::11], actions[13, ::13], actions[29, ::17] = np.nan, np.inf, 1e30
+    for k in range(-(-steps // count)):
+        worlds.step(actions[rng.integers(50)] if k % 3 else np.roll(actions[k % 50], k, axis=0))
+    if not all(np.isfinite(worlds._arrays[name]).all() for name in ("observations", "rewards")):
+        sys.exit("observations or rewards are not finite")
+
+
+def main() -> None:
+    """Step all cases, or those asked for; exit with 1 if anything is found."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--steps", type=int, default=10**7)
+    parser.add_argument("--count", type=int, default=4100)
+    parser.add_argument("--case", action="append", choices=CASES)
+    parser.add_argument("--planted", default="")
+    parser.add_argument("--library", type=Path, help=argparse.SUPPRESS)
+    asked = parser.parse_args()
+    if asked.library:
+        step(asked.library, asked.case[0], asked.steps, asked.count, asked.planted)
+        return
+    clean = True
+    for case in asked.case or CASES:
+        begin = time.perf_counter()
+        status, said = stepped(case, asked.steps, asked.count, asked.planted)
+        clean = clean and status == 0
+        told = "nothing found" if status == 0 else said
+        print(f"{case}: {asked.steps:.3g} steps in {time.perf_counter() - begin:.0f} s, {told}", flush=True)
+    sys.exit(not clean)
+
+
+if __name__ == "__main__":
+    main()

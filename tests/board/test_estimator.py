@@ -251,8 +251,8 @@ def test_noise_of_an_accelerometer_is_not_put_down_to_the_world():
     suite, all_but_yaw = SUITES["onboard"], [i for i in range(ERRORS) if i != 8]
     hover = fp.State(y=(0.0, 0.0, 1.0))
     found = [squared(suite, flown(suite, seed, 6.0, start=hover), all_but_yaw)[15:] for seed in range(4)]
-    # Errors of attitude and rod last for seconds: over eight flights, the means of flights scatter by 7, those of single
-    # independent instants would by √24. So each flight counts as one instant.
+    # Errors of attitude and rod last for seconds: over eight flights, the means of flights scatter by 7, and by √24 if
+    # each were one instant. So each flight counts as one.
     assert np.mean(found) < 12 + 3 * np.sqrt(24 / 4)  # without its noise in the model: 107
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from flypend.errors import InputError
 from flypend.laws.bound import Computer
-from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, table
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, table
 from flypend.laws.step import Step
 from flypend.model import Vehicle
 
@@ -92,6 +92,7 @@ GAINS = table(
         # The theorem knows of no rotors. With them, these two make up for most of their lag.
         Gain("lead", _lead, "", "Rotors are commanded f̂ + lead (f − f̂), f̂ being their modelled force", Bounds(low=1.0)),
         Gain("latency", _latency, "s", "Delay that the flight computer compensates by prediction", NOT_NEGATIVE),
+        Gain("delay_reach", 0.0, "s", DELAY_REACH, NOT_NEGATIVE),
     )
 )  # fmt: skip
 
@@ -108,7 +109,7 @@ def axis_step(k: Any) -> Step:
 
 def computer_of(gains: Mapping[str, Any]) -> Computer:
     """Return the flight computer settings for these `gains`."""
-    return Computer(lead=gains["lead"], latency=gains["latency"])
+    return Computer(**{name: gains[name] for name in ("lead", "latency", "delay_reach")})
 
 
 def demand_stays_upward(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -42,6 +42,8 @@ ANY = Bounds()
 POSITIVE = Bounds(low=0.0, open_low=True)
 NOT_NEGATIVE = Bounds(low=0.0)
 SHARE = Bounds(low=0.0, high=1.0)
+# What the gain of that name says, in every law that has it.
+DELAY_REACH = "Largest delay beyond `latency` that the flight computer finds in flight; 0 for none"
 POSITIVE_SHARE = Bounds(low=0.0, high=1.0, open_low=True)
 
 

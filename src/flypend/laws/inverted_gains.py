@@ -13,7 +13,7 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.laws.bound import Computer
-from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, table
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, table
 from flypend.model import Vehicle
 
 SEPARATION, LEAST_RATIO = 1.5, 2.0
@@ -236,12 +236,10 @@ GAINS = table(
         ),
         Gain(
             "latency", lambda v: min(LONGEST_LATENCY, scales(v).numbers["latency"] / _attitude_bandwidth(v)), "s",
-            "Delay that the flight computer compensates by prediction", NOT_NEGATIVE,
+            "Delay that the flight computer compensates by prediction; it begins with this to find the true one",
+            NOT_NEGATIVE,
         ),
-        Gain(
-            "delay_reach", 0.06, "s",
-            "Largest delay beyond `latency` that the flight computer finds in flight; 0 for none", NOT_NEGATIVE,
-        ),
+        Gain("delay_reach", 0.06, "s", DELAY_REACH, NOT_NEGATIVE),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain(
             "form", "full", doc="light needs three quarters of the computation, for slow processors: the demand is "

@@ -15,8 +15,9 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import norm
-from flypend.laws.bound import Computer, Control
-from flypend.laws.gain import NOT_NEGATIVE, Bounds, Gain, documented, table
+from flypend.laws.bound import Control
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, documented, table
+from flypend.laws.inverted_gains import computer_of
 from flypend.laws.law import Law
 from flypend.laws.policy import Policy, features, load, shares
 from flypend.laws.references import Reference, hover
@@ -36,6 +37,7 @@ GAINS = table(
         ),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain("latency", 0.0, "s", "Delay that the flight computer compensates by prediction", NOT_NEGATIVE),
+        Gain("delay_reach", 0.0, "s", DELAY_REACH, NOT_NEGATIVE),
     )
 )  # fmt: skip
 
@@ -65,7 +67,7 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
 
     return Law(
         name="learned", e3="up", gains=GAINS, given=gains, control=control, prepare=_prepared, reference=followed,
-        computer=lambda values: Computer(**{name: values[name] for name in ("lead", "latency", "observer")}),
+        computer=computer_of,
         uses_forces=True,
     )  # fmt: skip
 

@@ -3,7 +3,7 @@
 Commands act a delay d after their measurement: the wrench W of the rotor model at time t acts at t + d. Over a control
 period h, the angular velocity changes by
 
-    Δω = h J⁻¹ (τ − ω × Jω),    τ the mean moment of W from t − h − d to t − d,
+    Δω = h J⁻¹ (τ̄ − ω × Jω),    τ̄ the mean moment of W from t − h − d to t − d,
 
 which is measured, and ∂Δω/∂d = J⁻¹ (τ(t − h − d) − τ(t − d)) follows from the same past wrenches. So d is estimated by
 recursive least squares with forgetting. While moments hardly change, as in hover, they tell nothing, and d stays. A

@@ -76,6 +76,6 @@ def test_nothing_but_its_memory_decides_what_it_answers():
 
 def test_a_control_period_takes_a_fourth_of_the_operations_of_fourteen_steps():
     """docs/flight/engine.md says what each part takes; a prediction of more steps than one must be wanted."""
-    assert lower_calls(board(Loop(VEHICLE, LAW, Plant())).step).operations() < 2900
+    assert lower_calls(board(Loop(VEHICLE, LAW, Plant())).step).operations() < 3000
     slow = fp.laws.inverted(latency=0.075, delay_reach=0).bind(VEHICLE)
     assert lower_calls(board(Loop(VEHICLE, slow, Plant())).step).operations() < 2400 + 2 * 900

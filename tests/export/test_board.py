@@ -8,7 +8,8 @@ from numpy.random import default_rng
 
 import flypend as fp
 from flypend.board.computer import SteppedBoard
-from flypend.board.program import observer_memory
+from flypend.board.observer import MEMORY
+from flypend.board.program import kept_memory, observer_memory
 from flypend.export import compiled, records, vectors
 from flypend.export.library import CompiledBoard, library
 from flypend.flight import request
@@ -78,8 +79,8 @@ def test_six_rotors_a_full_inertia_matrix_and_other_numbers_at_run_time():
 
 
 def test_one_program_is_one_function_however_often_it_is_called():
-    slow = fp.laws.inverted(latency=0.075).bind(VEHICLE)
-    for law, steps in ((INVERTED, 1), (slow, 3)):
+    told, slow = (fp.laws.inverted(latency=latency, delay_reach=0).bind(VEHICLE) for latency in (0.024, 0.075))
+    for law, steps in ((INVERTED, 0), (told, 1), (slow, 3)):
         routine = library(law, VEHICLE, "double").made.board
         calls = [routine.programs[call.program].name for call in routine.calls]
         assert sum(name.startswith("twin") for name in calls) == steps
@@ -252,12 +253,10 @@ def test_after_a_refusal_it_remembers_the_command_that_was_given():
     before = made.memory.copy()
     safe = made.step(_broken("rod")[0])
     assert made.status == ROD
-    commands = slice(n + 19, n + 23)
-    assert np.array_equal(made.memory[commands], safe)
-    depth = (len(before) - n - 19) // n
-    acting = before[n + 19 + n * (depth - 1) :][:n]  # 24 ms of latency are twelve periods: the oldest acts
-    lag = np.exp(-2e-3 / VEHICLE.rotor_lag)
-    assert np.allclose(made.memory[:n], acting + (before[:n] - acting) * lag, rtol=1e-12)
+    first = n + kept_memory(made.code.made.loop)
+    assert np.array_equal(made.memory[first : first + n], safe)
+    lag = np.exp(-2e-3 / VEHICLE.rotor_lag)  # its rotor model is at the command's own time, before the delay
+    assert np.allclose(made.memory[:n], safe + (before[:n] - safe) * lag, rtol=1e-12)
     assert np.all(np.isfinite(made.memory))
 
 
@@ -265,11 +264,14 @@ def test_a_period_without_a_call_repeats_the_last_command():
     made, n = board(), 4
     last = made.step(_measurement())
     made.step(_measurement(8))
-    last = made.memory[n + 19 : n + 23].copy()
+    first = n + kept_memory(made.code.made.loop)
+    last, finding = made.memory[first : first + n].copy(), n + MEMORY
+    delay = made.memory[finding + 2]
     made.skip()
     assert made.status == OK
-    assert np.array_equal(made.memory[n + 19 : n + 27], [*last, *last])
-    assert made.memory[n] == 0  # the observer begins anew
+    assert np.array_equal(made.memory[first : first + n], last)
+    assert made.memory[n] == made.memory[finding] == 0  # observer and delay estimator begin anew
+    assert made.memory[finding + 2] == delay
 
 
 def test_no_measurement_no_board_no_params_are_refused_and_answered():

@@ -308,7 +308,7 @@ NOISY = Noise(x=1e-3, x_dot=1e-2, attitude=3e-3, omega=2e-2, y=3e-3, y_dot=3e-2)
 PLANTS = {
     "rotors": Plant(),
     "lag": Plant(lag=0.04, rate=250.0),
-    "none": Plant(limits=False, lag=0.0, rate=100.0),
+    "none": Plant(limits=False, lag=0.0, rate=500.0),  # slower, it is lost, and amplifies roundoff
     "wind": Plant(wind=Wind(on_vehicle=(0.2, 0.0, 0.0)), rate=100.0),  # nothing is drawn
     "delay": Plant(delay=0.013, rate=200.0),
     "noise": Plant(noise=NOISY, rate=200.0, seed=5),

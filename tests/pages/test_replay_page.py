@@ -175,13 +175,15 @@ def phases(page, i=0):
 def test_a_swing_up_climbs_flips_catches_and_stands(visit, thrown):
     page = visit(thrown)
     told = phases(page)
-    assert [phase["name"] for phase in told] == ["climbs", "flips", "catches", "stands"]
+    # It stands, leans by more than 15° once more on its way home, and stands.
+    assert [phase["name"] for phase in told] == ["climbs", "flips", *["catches", "stands"] * 2]
     assert told[0]["from"] == 0
     assert told[-1]["to"] == pytest.approx(3)
     assert all(before["to"] == after["from"] for before, after in itertools.pairwise(told))
     climbs, flips, catches, stands = (
-        (thrown.t > p["from"] + 0.02) & (thrown.t < p["to"] - 0.02) for p in told  # samples are 0.01 s apart
-    )  # fmt: skip
+        np.any([(thrown.t > p["from"] + 0.02) & (thrown.t < p["to"] - 0.02) for p in told if p["name"] == name], axis=0)
+        for name in ("climbs", "flips", "catches", "stands")  # samples are 0.01 s apart
+    )
     bob = thrown.x_dot + thrown.vehicle.rod_length * thrown.y_dot
     height, rate = thrown.y[:, 2], np.sqrt(thrown.vehicle.gravity / thrown.vehicle.rod_length)
     assert (bob[climbs & (thrown.t > 0.1), 2] > 0).all()

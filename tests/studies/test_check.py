@@ -122,7 +122,7 @@ def test_a_catch_ends_at_the_first_lean_of_which_a_direction_is_dropped(good):
 
 
 def test_noise_and_delay_of_the_plant_are_flown():
-    late = fp.check(HEHN, plant=fp.Plant(delay=0.06), **FEW)
+    late = fp.check(HEHN, plant=fp.Plant(delay=0.12), **FEW)
     assert not late.ok
     with pytest.raises(fp.InputError, match="plant: expected a plant with numbers"):
         fp.check(HEHN, plant="ideal")

@@ -35,11 +35,11 @@ FORGETTING = 0.5
 DOUBT = 0.2
 # Longest delay times the cut-off of the two filters, 1.
 BAND = np.pi / 2
-# Time between the wrenches that are remembered, s, at least; rotors with a lag change little within it.
+# Time between the forces that are remembered, s, at least; rotors with a lag change little within it.
 SPACING = 8e-3
 # Shortest delay, in control periods, so that the mean over it exists.
 LEAST = 1e-3
-# Begun or not, ticks since the newest wrench remembered, delay, information, ω, moment, and the filters' states.
+# Begun or not, ticks since the newest forces remembered, delay, information, ω, moment, and the filters' states.
 OWN = 1 + 1 + 1 + 1 + 3 + 3 + 12
 WRENCH = 4
 
@@ -70,7 +70,7 @@ class DelayEstimator:
     @property
     def size(self) -> int:
         """Length of the memory."""
-        return OWN + self.depth * WRENCH
+        return OWN + self.depth * self._believed.rotors
 
     @property
     def _spacing(self) -> float:
@@ -78,7 +78,7 @@ class DelayEstimator:
 
     def begun(self, rotors: Any) -> Any:
         """Return the memory before the first step, for rotor forces (n,), N: numbers or CasADi symbols."""
-        past = ca.repmat(self._wrench(rotors), self.depth, 1)
+        past = ca.repmat(rotors, self.depth, 1)
         memory = ca.vertcat(0, 1, self._told, np.zeros(OWN - 3), past)
         return memory if isinstance(rotors, ca.SX) else np.asarray(ca.DM(memory)).ravel()
 
@@ -97,8 +97,8 @@ class DelayEstimator:
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
         begun, phase, delay, known = (memory[i] for i in range(4))
         before, earlier, smooth, smoother = memory[4:7], memory[7:10], memory[10:16], memory[16:OWN]
-        entries = ca.horzcat(self._wrench(rotors), ca.reshape(memory[OWN:], WRENCH, self.depth))
-        acting, impulse, lever = (ca.mtimes(entries, weights) for weights in self.weights(delay, phase))
+        entries = self._entries(memory, rotors)
+        acting, impulse, lever = (self._wrench(entries @ weights) for weights in self.weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
         expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
         wrong = (omega - before) / h - expected
@@ -111,10 +111,8 @@ class DelayEstimator:
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
-        next_earlier = ca.mtimes(entries[1:, :], self.weights(found, phase)[0])
-        full = phase > self._stride - 0.5
-        past = ca.if_else(full, entries[:, :-1], entries[:, 1:])
-        phase = ca.if_else(full, 1, phase + 1)
+        next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
+        phase, past = self._aged(phase, entries)
         kept = ca.vertcat(1, phase, found, information, omega, next_earlier, smooth, smoother, ca.vec(past))
         horizon = delay + self._lag_left
         ramp = self._extended(delay, impulse, lever, rotors, command)
@@ -145,17 +143,28 @@ class DelayEstimator:
         return ca.Function("act_later", [packed, horizon, wrenches, forces, b.symbols], [ca.cse(ca.densify(moved))])
 
     def skipped(self) -> ca.Function:
-        """Return (memory) → memory after a period without measurement, which tells nothing of the delay."""
-        memory = ca.MX.sym("memory", self.size)
-        return ca.Function("skip_delay", [memory], [ca.vertcat(0, memory[1:])])
+        """Return (memory, rotors (n,)) → memory after a period without measurement: the delay stays."""
+        memory, rotors = ca.SX.sym("memory", self.size), ca.SX.sym("r", self._believed.rotors)
+        phase, past = self._aged(memory[1], self._entries(memory, rotors))
+        kept = ca.vertcat(0, phase, memory[2:OWN], ca.vec(past))
+        return ca.Function("skip_delay", [memory, rotors], [ca.densify(kept)])
+
+    def _entries(self, memory: Any, rotors: Any) -> Any:
+        """Return the forces (n, k) of the rotors now and remembered, newest first."""
+        return ca.horzcat(rotors, ca.reshape(memory[OWN:], self._believed.rotors, self.depth))
+
+    def _aged(self, phase: Any, entries: Any) -> tuple[Any, Any]:
+        """Return phase and remembered forces a period later: every `stride` periods the newest is remembered."""
+        full = phase > self._stride - 0.5
+        return ca.if_else(full, 1, phase + 1), ca.if_else(full, entries[:, :-1], entries[:, 1:])
 
     def _wrench(self, rotors: Any) -> Any:
         return ca.mtimes(self._believed.vehicle.mixing(), rotors)
 
     def weights(self, age: Any, phase: Any) -> tuple[Any, Any, Any]:
-        """Return the weights (k,) of the wrenches now and remembered, which are linear in between.
+        """Return the weights (k,) of the forces now and remembered, which are linear in between.
 
-        Those of the wrench an `age` (s) ago, of its integral since (s), and of the integral of age times it (s²).
+        Those of the force an `age` (s) ago, of its integral since (s), and of the integral of age times it (s²).
         `phase` is the number of periods since the newest one that is remembered.
         """
         at, over, moment = ([ca.SX(0)] * (self.depth + 1) for _ in range(3))

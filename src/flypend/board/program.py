@@ -264,7 +264,7 @@ def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     zero = ca.MX(ca.DM.zeros(1))
     parts = [ca.vertcat(zero, kept[1:observed])] if observed else []
     if finding is not None:
-        parts.append(finding.skipped()(kept[observed:]))
+        parts.append(finding.skipped()(kept[observed:], rotors))
     kept = ca.vertcat(*parts)
     under_way = [command, *commands]
     rotors = _lagged(loop, believed, rotors, under_way)

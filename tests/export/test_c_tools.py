@@ -140,7 +140,7 @@ def test_a_minute_of_fuzzing_and_cppcheck_for_every_law(exports, name, precision
 
 
 def test_the_goals_of_cost_are_met():
-    # The board: 25 microseconds on a desktop core; a third of an STM32F405 at 500 Hz, 3.2 KB of stack, 55 KB of code
+    # The board: 25 microseconds on a desktop core; a third of an STM32F405 at 500 Hz, 3.2 KB of stack, 57 KB of code
     # (3.1 and 48 until it found its delay in flight).
     # The bare law: a fifth, 2 KB and 32 KB.
     text = run([sys.executable, str(COST), "--law", "inverted"])
@@ -148,7 +148,7 @@ def test_the_goals_of_cost_are_met():
     cost = {(row[1], row[2]): dict(zip(head, row, strict=True)) for row in rows}
     assert 0.5 < float(cost["board", "double"]["us"]) < 25
     assert 0.05 < float(cost["law", "double"]["us"]) < 25
-    limits = {"board": (33, 55_000, 3_250, 66_000), "law": (20, 32_000, 2_000, 10_000)}
+    limits = {"board": (33, 58_000, 3_250, 66_000), "law": (20, 32_000, 2_000, 10_000)}
     for part, (share, code, stack, instructions) in limits.items():
         single = cost[part, "float"]
         assert 2 < float(single["M4%"]) < share

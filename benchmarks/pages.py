@@ -25,7 +25,9 @@ def shoot(page, name):
     page.wait_for_timeout(SETTLE)
     path = PICTURES / name
     page.screenshot(path=path)
-    Image.open(path).convert("RGB").save(path, optimize=True)  # browsers compress in haste
+    picture = Image.open(path).convert("RGB")  # browsers compress in haste, and 256 colours are enough
+    few = picture.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
 
 
 def replay(browser):
@@ -37,7 +39,7 @@ def replay(browser):
         run.to_html(file)
         page = browser.new_page(viewport=SIZE | {"height": 720})
         page.goto(file.as_uri())
-        page.evaluate("flypend.seek(1.45)")
+        page.evaluate("flypend.seek(1.2)")
         shoot(page, "replay.png")
 
 

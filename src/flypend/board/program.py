@@ -185,13 +185,16 @@ def board(
 
 
 def _ahead(loop: Loop) -> tuple[Segment, ...]:
-    if finds_delay(loop):
-        return ()
-    return ahead(loop.law.computer.latency, 1 / loop.sampled.rate)
+    return ahead(_in_transit(loop), 1 / loop.sampled.rate)
 
 
 def _within(loop: Loop) -> tuple[Segment, ...]:
-    return within_period(0.0 if finds_delay(loop) else loop.law.computer.latency, 1 / loop.sampled.rate)
+    return within_period(_in_transit(loop), 1 / loop.sampled.rate)
+
+
+def _in_transit(loop: Loop) -> float:
+    """Return for how long, s, the board's rotor model holds a command back: not at all where the delay is found."""
+    return 0.0 if finds_delay(loop) else loop.law.computer.latency
 
 
 def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:

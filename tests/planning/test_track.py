@@ -108,13 +108,21 @@ def test_a_plan_is_not_flown_by_another_vehicle(planned):
         fp.simulate(HEHN.replace(bob_mass=1.2 * HEHN.bob_mass), fp.track(planned), START, 1)
 
 
-def test_latency_is_predicted(planned):
-    plant = fp.Plant(delay=0.01)
-    told, untold = (fp.simulate(HEHN, fp.track(planned, latency=late), START, 5, plant=plant) for late in (0.01, 0.0))
-    distance = [np.max(np.abs(run.x[-100:])) for run in (told, untold)]
-    assert fp.metrics(told).success
-    assert distance[0] < 0.02
-    assert not distance[1] < distance[0]
+def test_latency_is_predicted_and_found(planned):
+    """Behind 30 ms the plan is followed if they are told or found; neither told nor looked for, they lose it."""
+    plant, deaf = fp.Plant(delay=0.03), fp.laws.inverted(delay_reach=0.0)
+    laws = (fp.track(planned, latency=0.03), fp.track(planned), fp.track(planned, otherwise=deaf))
+    told, untold, unsought = (fp.metrics(fp.simulate(HEHN, law, START, 6, plant=plant)) for law in laws)
+    assert told.success
+    assert untold.success
+    assert max(told.excursion, untold.excursion) < 0.2 * unsought.excursion
+
+
+@pytest.mark.parametrize("make", [lambda plan: fp.track(plan), lambda plan: fp.plan_and_track()], ids=["track", "plan"])
+def test_it_is_flown_on_sensors_with_their_estimator(make, planned):
+    run = fp.simulate(HEHN, make(planned), START, 6, plant=fp.Plant(sensors="mocap", seed=3))
+    assert fp.metrics(run).success
+    assert fp.metrics(run).excursion < 1.3 * planned.excursion
 
 
 def test_what_cannot_be_tracked_is_refused(planned):

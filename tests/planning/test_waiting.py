@@ -115,7 +115,7 @@ def test_after_a_failure_there_is_no_sketch(monkeypatch):
     monkeypatch.setattr(pilot, "plan_within", lambda *given: replace(NO_PLAN, reason="none"))
     monkeypatch.setattr(pilot, "PAUSE", 0.1)
     run = fp.simulate(HEHN, fp.nmpc(HEHN), STARTS[0], 8.0, plant="rotors")
-    assert begun == [0.0]
+    assert begun == pytest.approx([0.0], abs=1e-5)  # the board's least delay
     assert fp.metrics(run).success
 
 

@@ -11,7 +11,8 @@ false inertia or strength of the rotors makes an error along τ, which does not 
 longer than believed counts as delay.
 
 A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. So both
-sides are compared through the same filter, whose band is below that.
+sides of what is linear in d, e + d̂ s = d s with error e and slope s, pass the same filter, whose band is below that.
+Were e and s filtered by themselves, errors of old estimates would be corrected again and again, and d̂ would overshoot.
 """
 
 from __future__ import annotations
@@ -31,8 +32,8 @@ from flypend.plants.lag import Ramp, held, step_timing
 # Time over which the past is forgotten, s.
 FORGETTING = 0.5
 # What is assumed of the delay before the flight weighs as much as the rate of a moment that, for a second, changes by
-# √0.2 of the largest per second.
-DOUBT = 0.2
+# √0.1 of the largest per second.
+DOUBT = 0.1
 # Longest delay times the cut-off of the two filters, 1.
 BAND = np.pi / 2
 # Time between the forces that are remembered, s, at least; rotors with a lag change little within it.
@@ -104,9 +105,9 @@ class DelayEstimator:
         wrong = (omega - before) / h - expected
         slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
         share = -np.expm1(-BAND / self._longest * h)
-        smooth = smooth + share * (begun * ca.vertcat(wrong, slope) - smooth)
+        smooth = smooth + share * (begun * ca.vertcat(wrong + slope * delay, slope) - smooth)
         smoother = smoother + share * (smooth - smoother)
-        wrong, slope = smoother[:3], smoother[3:]
+        wrong, slope = smoother[:3] - smoother[3:] * delay, smoother[3:]
         information = np.exp(-h / FORGETTING) * known + h * ca.sumsqr(slope)
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)

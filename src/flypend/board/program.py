@@ -107,7 +107,8 @@ def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
     if not finds_delay(loop):
         return None
     computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
-    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, believed.lag / lead)
+    left = 0.0 if computer.models_lag else believed.lag / lead
+    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left)
 
 
 def filters(plant: Plant) -> bool:

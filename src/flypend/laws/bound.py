@@ -46,6 +46,9 @@ class Computer:
         Delay to compensate, s: the law sees the state predicted this far ahead, given the commands in transit.
     delay_reach : float
         Largest delay beyond `latency` that the flight computer finds in flight, s; 0 for none.
+    models_lag : bool
+        Whether the law reckons with the rotors' lag. If not, what the lead leaves of it counts like a delay that is
+        found: the law sees the state after both.
     observer : float
         Bandwidth of the external-force observer, 1/s; 0 for none. Only for a law with `uses_forces`.
     force_limit : float
@@ -55,6 +58,7 @@ class Computer:
     lead: float = 1.0
     latency: float = 0.0
     delay_reach: float = 0.0
+    models_lag: bool = False
     observer: float = 0.0
     force_limit: float = 0.5
 

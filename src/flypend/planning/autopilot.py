@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -41,7 +42,7 @@ def plan_and_track(
     objective, target
         As in `plan`.
     latency : float
-        Delay to compensate, s, as in `laws.Computer`.
+        As in `track`.
     otherwise : Law, optional
         The law that flies where there is no plan, or takes over once a flight is too far from it; default the inverted
         law about the target.
@@ -85,20 +86,26 @@ class Autopilot:
     def __init__(self, asked: Any, law: Law, loop: Loop, rotors: Any) -> None:
         self._asked, self._law, self._loop, self._rotors = asked, law, loop, np.asarray(rotors, dtype=float)
         self._flies: FlightComputer | None = None
-        self._begin = 0.0
+        self._begin, self._estimate = 0.0, None
+
+    def estimate_from(self, estimate: Any) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up, and plan from there."""
+        self._estimate = estimate
 
     def command(self, t: float, measured: Any) -> Any:
-        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, at time `t` (s)."""
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
         if self._flies is None:
-            self._flies, self._begin = self._planned(measured), t
+            self._flies, self._begin = self._planned(measured if self._estimate is None else self._estimate), t
         return self._flies.command(t - self._begin, measured)
 
-    def _planned(self, measured: Any) -> FlightComputer:
-        """Return what flies from the state `measured` on."""
+    def _planned(self, state: Any) -> FlightComputer:
+        """Return what flies from a `state` (24,) on."""
         vehicle = self._loop.vehicle
         forces = np.clip(self._rotors, *vehicle.rotor_limits)
-        found = self._asked(vehicle, State.trusted(np.array(measured)), rotors=forces)
-        if found:
-            return Tracker(regulator(found), vehicle, self._law, self._loop, self._rotors)
-        loop = Loop(self._loop.vehicle, self._law.bind(vehicle), self._loop.plant)
-        return SteppedBoard(loop, self._rotors)
+        found = self._asked(vehicle, State.trusted(np.array(state)), rotors=forces)
+        if not found:
+            return SteppedBoard(replace(self._loop, law=self._law.bind(vehicle)), self._rotors, self._estimate)
+        tracker = Tracker(regulator(found), vehicle, self._law, self._loop, self._rotors)
+        if self._estimate is not None:
+            tracker.estimate_from(self._estimate)
+        return tracker

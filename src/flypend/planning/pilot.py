@@ -17,16 +17,16 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.board.computer import SteppedBoard
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.geometry import norm
-from flypend.laws import BoundLaw, Law
+from flypend.laws import Law
 from flypend.laws.references import Reference
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.planning import waiting
+from flypend.planning.boards import Boards
 from flypend.planning.equilibrium import falls, hovers, upright, weighed
 from flypend.planning.flown import OF_STAGES, Flown
 from flypend.planning.planner import plan_within
@@ -110,7 +110,6 @@ class Pilot:
             raise InputError("plant.interface", "wrench: nmpc commands rotor forces", loop.sampled.interface)
         self._common, self._vehicle = receding, loop.vehicle
         self._by_law = replace(loop, law=receding.law.bind(loop.vehicle))
-        self._by_plan = replace(loop, law=_predicting(self._by_law.law, receding.latency))
         self._rotors = np.asarray(rotors, dtype=float)
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
         self._where, self._waits = _moving(receding.reference), waiting.Waits(self._by_law, receding.clearance)
@@ -119,7 +118,6 @@ class Pilot:
         self._flown: Flown | None = None
         self._failures, self._not_before, self._patience = 0, -np.inf, 1.0
         self._planned_command: Any = None
-        self._off = np.zeros(3)
         self.changes: list[tuple[float, str, str]] = []
         self.plans: list[Plan] = []
         self.spent: list[float] = []
@@ -128,25 +126,14 @@ class Pilot:
 
     def estimate_from(self, estimate: Any) -> None:
         """Begin with the `estimate` (24,) of the state, e₃ up."""
-        self._board = SteppedBoard(self._by_plan, self._rotors, estimate, self._steer)
-        self._law = SteppedBoard(self._by_law, self._rotors, estimate, self._or_law)
+        self._boards = Boards(self._by_law, self._common.latency, self._planned_for, self._rotors, estimate)
 
     def command(self, t: float, measured: Any) -> Any:
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
-        self._time, self._measured = t, measured
-        return self._board.command(t, measured)
+        return self._boards.command(t, measured)
 
-    def _or_law(self, *predicted: Any) -> Any:
-        """Return the command of the plan, if one is flown, else that of the law, for what its board has predicted."""
-        if self._planned_command is not None:
-            return self._planned_command
-        t, state, rotors, forces = predicted
-        shown = state.copy()
-        shown[:3] += self._off
-        return self._law.law(t, shown, rotors, forces)
-
-    def _steer(self, now: float, state: Any, rotors: Any, forces: Any) -> Any:
-        """Return the command for what is predicted for `now`, when it acts; both boards remember it."""
+    def _planned_for(self, now: float, state: Any, rotors: Any, forces: Any) -> Any:
+        """Return the command (n,), N, for what is predicted for `now`, when it acts; None if the law flies."""
         here, outside = self._relative(now, state), weighed(forces, self._where(now)[6:], self._vehicle)
         level = upright(outside, self._m)[:2]
         if self._coming is not None and now + 1e-9 >= self._coming.due:
@@ -165,12 +152,12 @@ class Pilot:
                 self._coming = self._begun(now, state, rotors)
             if self._coming is not None and self._coming.meanwhile is not None:
                 self._planned_command = self._coming.meanwhile.at(now)
-        return self._law.command(self._time, self._measured)
+        return self._planned_command
 
     def _integrate(self, x: Any) -> None:
         """Add a distance `x` (3,), m, of one period to the integral."""
-        off = self._off + INTEGRAL / self._units.time / self._by_law.sampled.rate * x
-        self._off = off / max(1.0, float(norm(off)) / (MOST_OFF * self._units.length))
+        off = self._boards.off + INTEGRAL / self._units.time / self._by_law.sampled.rate * x
+        self._boards.off = off / max(1.0, float(norm(off)) / (MOST_OFF * self._units.length))
 
     def _followed(self, flown: Flown, t: float, here: Any, rotors: Any, outside: Any, level: Any) -> Any:
         """Return the command of a plan that is flown; None if it ends now."""
@@ -189,7 +176,7 @@ class Pilot:
         if self._flown is not None:
             self.spent += self._flown.spent
         self._mode, self._coming, self._flown, self._planned_command = mode, None, None, None
-        self._off = np.zeros(3)
+        self._boards.off = np.zeros(3)
         self.changes.append((t, mode, why))
 
     def _hover(self, t: float) -> None:
@@ -256,12 +243,6 @@ class Pilot:
         if asked.wishes.mounted is not None:
             asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason
-
-
-@lru_cache(maxsize=16)
-def _predicting(law: BoundLaw, latency: float) -> BoundLaw:
-    """Return `law` on a board that predicts over a `latency` (s), and adds no lead: plans know of the rotors' lag."""
-    return replace(law, computer=replace(law.computer, latency=latency, delay_reach=0.0, lead=1.0))
 
 
 @lru_cache(maxsize=16)

@@ -40,7 +40,8 @@ def nmpc(
     reference : callable, optional
         Pivot position to hold or follow; see `laws.references`. Default that of `otherwise`, or the origin.
     latency : float
-        Delay to compensate while a plan is flown, s, as in `laws.Computer`. That of `otherwise` is its own.
+        Delay to compensate while a plan is flown, s, as in `laws.Computer`; that of `otherwise` is its own. What
+        exceeds it is found in flight as far as `otherwise` looks for it.
     computing : float or "measured"
         Time that a real-time iteration of 150 stages takes on the flight computer, s; its result, and that of the first
         plan in proportion, is there that much later. "measured" takes the processor time that it took here, and flights

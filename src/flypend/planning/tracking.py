@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from flypend.board.believed import Believed
-from flypend.board.computer import FlightComputer, SteppedBoard
-from flypend.board.program import initial_memory, predicting, remembering
-from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import hover
 from flypend.model import State, Vehicle, Wrench
+from flypend.planning.boards import Boards
 from flypend.planning.feedback import Feedback, regulator
 from flypend.planning.nominal import Follower
 from flypend.planning.result import Plan
@@ -23,7 +21,6 @@ from flypend.plants.loop import Loop
 
 # The plan is left when the rod is this far from where it should be, rad, or the pivot, rod lengths.
 FAR_ROD, FAR_PIVOT = 0.8, 1.5
-NONE = np.zeros(0)
 
 
 def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> Controller:
@@ -34,7 +31,8 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     plan : Plan
         The plan, which starts where the flight starts.
     latency : float
-        Delay to compensate, s, as in `laws.Computer`.
+        Delay to compensate, s, as in `laws.Computer`. What exceeds it is found in flight as far as `otherwise` looks
+        for it.
     otherwise : Law, optional
         The law that takes over for good once rod or pivot are too far from the plan; default the inverted law about the
         target.
@@ -68,7 +66,7 @@ def rotors_only(name: str) -> Callable[[float, State], Wrench]:
 
 
 class Tracker:
-    """The flight computer of a tracked plan: the board's prediction and rotor model around a `feedback`.
+    """The flight computer of a tracked plan: a `feedback` on a board of its own, and the law's, which takes over.
 
     Parameters
     ----------
@@ -82,6 +80,11 @@ class Tracker:
         The closed loop that is flown.
     rotors : (n,)
         Initial rotor forces, N.
+
+    Attributes
+    ----------
+    following : bool
+        Whether the plan is still followed.
     """
 
     def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: Any) -> None:
@@ -91,28 +94,25 @@ class Tracker:
             raise InputError(
                 "vehicle", f"that of the plan, {vehicle.name}; Plant(mismatch=…) changes it", loop.vehicle.name
             )
-        believed = Believed.numbers(loop.vehicle)
-        self._follower, self._loop, self._law = Follower(feedback, vehicle), loop, law
-        self._predict, self._remember = as_numpy(predicting(loop, believed)), as_numpy(remembering(loop, believed))
-        self._memory = initial_memory(loop, np.asarray(rotors, dtype=float))
-        self._far = FAR_PIVOT * Units.of(vehicle).length
-        self._other: FlightComputer | None = None
+        self._loop = replace(loop, law=law.bind(vehicle))
+        self._latency, self._rotors = loop.law.computer.latency, np.asarray(rotors, dtype=float)
+        self._follower, self._far = Follower(feedback, vehicle), FAR_PIVOT * Units.of(vehicle).length
+        self.following = True
+        if loop.sampled.sensors is None:
+            self.estimate_from(None)
 
-    @property
-    def following(self) -> bool:
-        """Whether the plan is still followed."""
-        return self._other is None
+    def estimate_from(self, estimate: Any) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up."""
+        self._boards = Boards(self._loop, self._latency, self._followed, self._rotors, estimate)
 
     def command(self, t: float, measured: Any) -> Any:
-        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, at time `t` (s)."""
-        if self._other is not None:
-            return self._other.command(t, measured)
-        measurement = np.append(t, measured)
-        kept, forces, state, rotors, horizon = self._predict(self._memory, measurement, NONE)
-        command, off = self._follower.command(t + horizon.item(), state, rotors)
-        if not (np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[0:3]) < self._far):
-            loop = Loop(self._loop.vehicle, self._law.bind(self._loop.vehicle), self._loop.plant)
-            self._other = SteppedBoard(loop, self._memory[: len(rotors)])
-            return self._other.command(t, measured)
-        self._memory = self._remember(self._memory, kept, measurement, forces, command, NONE)
-        return command
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
+        return self._boards.command(t, measured)
+
+    def _followed(self, t: float, state: Any, rotors: Any, _: Any) -> Any:
+        """Return the command (n,), N, at `t` (s) for state and rotors then; None once they are far from the plan."""
+        if not self.following:
+            return None
+        command, off = self._follower.command(t, state, rotors)
+        self.following = bool(np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[:3]) < self._far)
+        return command if self.following else None

@@ -58,6 +58,29 @@ def crazyflow() -> Iterator[Peer]:
     yield "crazyflow", COUNT, step
 
 
+def rotorpy() -> Iterator[Peer]:
+    """RotorPy's batch of Crazyflies, by the fourth-order method of fixed steps, rotor speeds commanded."""
+    import torch
+    from rotorpy.vehicles.crazyflie_params import quad_params
+    from rotorpy.vehicles.multirotor import BatchedMultirotor, BatchedMultirotorParams
+
+    device = torch.device("cpu")
+    lengths = {"x": 3, "v": 3, "w": 3, "wind": 3, "rotor_speeds": 4}
+    begin = {name: torch.zeros(COUNT, length).double() for name, length in lengths.items()}
+    begin["q"] = torch.tensor([0.0, 0.0, 0.0, 1.0]).double().repeat(COUNT, 1)
+    made = BatchedMultirotorParams([quad_params] * COUNT, COUNT, device)
+    sim = BatchedMultirotor(made, COUNT, begin, device, integrator="rk4")
+    given = torch.from_numpy(np.random.default_rng(0).uniform(1000.0, 2000.0, (ACTIONS, COUNT, 4)))
+
+    def step() -> None:
+        state = begin
+        for row in given:
+            for _ in range(STEPS):
+                state = sim.step(state, {"cmd_motor_speeds": row}, 1e-3)
+
+    yield "RotorPy", COUNT, step
+
+
 def mujoco() -> Iterator[Peer]:
     """MuJoCo's rollout on two threads, our vehicle with its rod; fewer worlds, since it takes long."""
     from mujoco import MjData, MjModel, mj_getState, mj_stateSize, mjtState
@@ -82,7 +105,7 @@ def mujoco() -> Iterator[Peer]:
 def main() -> None:
     """Print the table."""
     peers: list[Peer] = []
-    for make in (flypend, crazyflow, mujoco):
+    for make in (flypend, crazyflow, rotorpy, mujoco):
         with suppress(ModuleNotFoundError):
             peers += make()
     best = dict.fromkeys((name for name, *_ in peers), np.inf)

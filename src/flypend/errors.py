@@ -7,6 +7,7 @@ import functools
 import importlib.util
 import inspect
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from typing import Any, TypeVar
 
 import numpy as np
@@ -72,6 +73,13 @@ def number(
     if at_most is not None and result > at_most:
         raise InputError(field, f"at most {at_most:g}{' ' + unit if unit else ''}", f"{result:g}")
     return result
+
+
+def integer(field: str, value: Any, least: int) -> int:
+    """Return `value` as an int. Raises InputError unless it is an integer of at least `least`."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
+        raise InputError(field, f"an integer >= {least}", repr(value))
+    return int(value)
 
 
 def one_of(field: str, value: Any, known: Iterable[str]) -> str:

@@ -1,12 +1,15 @@
 """Worlds stepped by the kernel: the physics of `simulate`, seeds, ends, rewards, and what differs between them."""
 
+import re
+
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 
 import flypend as fp
-from flypend.envs import Randomisation, VectorWorlds, World, environment
+from flypend.envs import Gate, Randomisation, VectorWorlds, World, environment
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
 from flypend.laws import Controller
@@ -244,6 +247,17 @@ def test_without_copies_arrays_stay_where_they_are():
     assert np.shares_memory(seen, again)
 
 
+@pytest.mark.parametrize("history", [0, 2])
+def test_jax_shares_the_memory_of_the_worlds(history):
+    """It copies what does not begin at a multiple of 64 bytes, which an array of NumPy does one time in four."""
+    jax = pytest.importorskip("jax")
+    several = [VectorWorlds("balance", count, copy=False, history=history) for count in (3, 8, 40, 1000)]
+    for worlds in several:
+        arrays = worlds.reset(seed=0)[0], *worlds.step(np.zeros((worlds.num_envs, 4)))[:4]
+        for array in arrays:
+            assert jax.dlpack.from_dlpack(array).unsafe_buffer_pointer() == array.ctypes.data
+
+
 def test_starts_are_on_the_manifold_and_where_the_task_says():
     worlds = Worlds(environment("swing_up"), 4000)
     worlds.begin(np.arange(4000))
@@ -390,12 +404,73 @@ def test_what_has_been_flown_is_a_run(tmp_path):
         ({"action": "speed"}, "action"), ({"randomise": {"mass": (1.2, 0.8)}}, "randomise.mass"),
         ({"randomise": {"mass": (0.0, 1.0)}}, "randomise.mass"), ({"num_envs": 0}, "num_envs"),
         ({"plant": PHYSICS.replace(noise=fp.Noise(x=1e-3))}, "plant"), ({"duration": -1}, "duration"),
-        ({"task": "catch_in_cup", "mount": "hub"}, "mount"),
+        ({"task": "catch_in_cup", "mount": "hub"}, "mount"), ({"mount": "bogus"}, "mount"),
+        ({"history": -1}, "history"), ({"history": 1.5}, "history"), ({"workers": 0}, "workers"),
+        ({"num_envs": True}, "num_envs"), ({"randomise": {"mas": (1, 1)}}, "randomise.mas"),
+        ({"randomise": "mass"}, "randomise"), ({"randomise": {"mass": 1.2}}, "randomise.mass"),
+        ({"randomise": {"delay": (0, 20)}}, "randomise.delay"), ({"plant": "rotors"}, "plant"),
+        ({"shape": "circle"}, "shape"), ({"task": "track", "shap": "circle"}, "shap"),
+        ({"task": environment("balance").task, "shape": "circle"}, "shape"),
+        ({"task": "track", "size": np.nan}, "size"), ({"task": "track", "turn_rate": "fast"}, "turn_rate"),
+        ({"task": "inv_pendulum_fly_through", "gate": 3}, "gate"), ({"duration": 1e-9}, "duration"),
+        ({"duration": 1e300}, "duration"),
     ],
 )  # fmt: skip
 def test_what_is_not_possible_is_refused(arguments, field):
-    with pytest.raises((fp.InputError, TypeError), match=field.replace(".", r"\.")):
+    with pytest.raises(fp.InputError, match=rf"^{re.escape(field)}: "):
         VectorWorlds(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [({"radius": -1}, "radius"), ({"spacing": (1.2, 0.9)}, "spacing"), ({"lower": np.inf}, "lower"),
+     ({"payload": "large"}, "payload")],
+)  # fmt: skip
+def test_a_gate_is_one(arguments, field):
+    with pytest.raises(fp.InputError, match=rf"^gate\.{field}: "):
+        Gate(**arguments)
+
+
+@pytest.mark.parametrize(
+    "actions", [np.zeros((3, 5)), np.zeros(4), np.zeros((3, 1)), 0.3, "left", None, np.zeros((3, 4), dtype=complex)]
+)
+def test_actions_of_another_shape_are_refused_and_move_nothing(actions):
+    """Four numbers for three worlds would else be those of all."""
+    worlds = VectorWorlds("balance", 3)
+    worlds.reset(seed=0)
+    before = worlds.worlds.states
+    with pytest.raises(fp.InputError, match=r"^actions: expected real numbers of shape \(3, 4\)"):
+        worlds.step(actions)
+    assert np.array_equal(worlds.worlds.states, before)
+
+
+def test_a_number_beyond_single_precision_is_infinite():
+    worlds = VectorWorlds("balance", 2)
+    worlds.reset(seed=0)
+    assert worlds.step([[0, 0, 0, 0], [0, 1e300, 0, 0]])[2].tolist() == [False, True]
+
+
+@pytest.mark.parametrize("seed", [-1, 2**70, 1.5, "a", [1, 2], [1, -2, 3], [1, 2, 2**64]])
+def test_a_seed_is_an_integer_or_one_for_each_world(seed):
+    with pytest.raises(fp.InputError, match=r"^seed: "):
+        VectorWorlds("balance", 3).reset(seed=seed)
+    if not isinstance(seed, list):
+        with pytest.raises(fp.InputError, match=r"^seed: "):
+            World("balance").reset(seed=seed)
+
+
+def test_seeds_of_numpy_are_seeds():
+    several, one = VectorWorlds("balance", 3), World("balance")
+    assert np.array_equal(several.reset(seed=np.int64(7))[0], several.reset(seed=[7, 8, 9])[0])
+    assert np.array_equal(one.reset(seed=np.int64(7))[0], several.reset(seed=7)[0][0])
+
+
+def test_nothing_moves_before_it_has_begun():
+    with pytest.raises(ResetNeeded):
+        VectorWorlds("balance", 2).step(np.zeros((2, 4)))
+    for call in (lambda world: world.step(np.zeros(4)), World.trajectory):
+        with pytest.raises(ResetNeeded):
+            call(World("balance"))
 
 
 def test_ranges_are_intervals():

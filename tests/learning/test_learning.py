@@ -250,5 +250,51 @@ def test_a_policy_is_a_file(tmp_path):
     for wrong in ("c.npz", "none.npz"):
         with pytest.raises(fp.InputError, match="policy"):
             load(tmp_path / wrong)
-    with pytest.raises(fp.InputError, match="weights of shape"):
-        Policy(**(weights_of(7) | {"b_1": np.zeros(3)}))
+
+
+@pytest.mark.parametrize(
+    ("name", "array", "words"),
+    [("b_1", np.zeros(3), r"W_1: expected numbers of shape \(3, 18\)"), ("D", np.float32(1), "D: expected numbers of"),
+     ("W_2", np.full((9, 12), np.nan), "W_2: expected finite numbers"),
+     ("W_3", np.full((4, 9), 1e300), r"W_3: expected weights up to 3\.4e\+38")],
+)  # fmt: skip
+def test_weights_fit_together(name, array, words):
+    with pytest.raises(fp.InputError, match=words):
+        Policy(**(weights_of(7) | {name: array}))
+
+
+def damaged(whole, rng):
+    """What may have happened to the bytes of a file: cut short, changed, or with a piece missing."""
+    yield from (b"", whole[:-1], whole[:5000], whole[100:], b"nothing")
+    for _ in range(200):
+        changed, place = bytearray(whole), rng.integers(len(whole))
+        changed[place] ^= 1 << int(rng.integers(8))
+        yield bytes(changed)
+        yield whole[:place]
+        yield whole[:place] + whole[place + 7 :]
+
+
+def test_a_file_that_is_damaged_is_told_in_one_line(tmp_path):
+    save(Policy(**weights_of(7)), tmp_path / "whole.npz")
+    path, told, rng = tmp_path / "damaged.npz", [], np.random.default_rng(0)
+    for content in damaged((tmp_path / "whole.npz").read_bytes(), rng):
+        path.write_bytes(content)
+        try:
+            load(path)
+        except fp.InputError as error:
+            told.append(str(error))
+    assert len(told) > 500  # of 605; a changed date harms nothing
+    assert not any("\n" in words for words in told)
+
+
+def test_a_checkpoint_that_is_damaged_is_not_taken_up(tmp_path):
+    learner, path = Learner(small()), tmp_path / "a.npz"
+    learner.save(path)
+    path.write_bytes(path.read_bytes()[:3000])
+    with pytest.raises(fp.InputError, match=r"^checkpoint: "):
+        learner.resume(path)
+
+
+def test_no_law_is_learned_for_a_cup():
+    with pytest.raises(fp.InputError, match=r"^mount: expected gimbal or hub"):
+        usual(VEHICLE.replace(mount="cup"))

@@ -18,7 +18,7 @@ HELD_OUT = 10**6  # added to the seed: the starts of the judgement are none of t
 @vehicle_option
 @out_option("learn-out")
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="Seed of first weights and starts.")
-@click.option("--mount", help="What carries the rod: gimbal, hub or cup; default the vehicle's own.")
+@click.option("--mount", help="What carries the rod: gimbal or hub; default the vehicle's own.")
 @click.option(
     "--updates", type=click.IntRange(min=1), help="Updates by descent of the gradient; default 1500, hub 1200."
 )

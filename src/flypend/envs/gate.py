@@ -8,9 +8,11 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend import errors
 from flypend.envs.task import Moment
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Gate:
     """Two level bars along the second axis of the world, one above the other, above the origin; m.
@@ -25,12 +27,25 @@ class Gate:
         Least and largest height of the upper bar above the lower, drawn when a world begins.
     payload : float
         Radius of the payload.
+
+    Raises
+    ------
+    InputError
+        If a radius or a height is out of range.
     """
 
     radius: float = 0.04
     lower: float = 1.2
     spacing: tuple[float, float] = (0.9, 1.2)
     payload: float = 0.04
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "payload"):
+            errors.number(f"gate.{name}", getattr(self, name), at_least=0, unit="m")
+        errors.number("gate.lower", self.lower, unit="m")
+        least, largest = errors.array("gate.spacing", self.spacing, (2,)).tolist()
+        errors.number("gate.spacing", least, at_least=0, unit="m")
+        errors.number("gate.spacing", largest, at_least=least, unit="m")
 
     def bars(self, spacing: Any) -> list[Any]:
         """Return where the bars are, (2, 1) each: along the first axis, and height."""

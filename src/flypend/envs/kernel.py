@@ -17,6 +17,7 @@ from flypend.compile.llvm.stepped_worlds import ARGUMENTS, INTEGERS, write_world
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
+from flypend.errors import InputError
 from flypend.flight.kernels.flown import aligned
 
 WIDTH = 8
@@ -37,6 +38,13 @@ def module(made: WorldsProblem) -> ir.Module:
     lanes = Lanes(ir.Module("flypend"), WIDTH)
     write_worlds(lanes, made)
     return lanes.module
+
+
+def zeros(shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
+    """Return an array of zeros at the start of a cache line: JAX copies any other."""
+    array: NDArray[Any] = aligned(shape, kind)
+    array[...] = 0
+    return array
 
 
 class Worlds:
@@ -63,11 +71,11 @@ class Worlds:
         self._seeds = np.zeros(padded, dtype=np.int64)
         self._actions = np.zeros((padded, env.actions), dtype=np.float32)
         self._arrays: dict[str, NDArray[Any]] = {
-            "observations": np.zeros((padded, seen), dtype=np.float32),
-            "rewards": np.zeros(padded, dtype=np.float32),
-            "terminated": np.zeros(padded, dtype=np.bool_),
-            "truncated": np.zeros(padded, dtype=np.bool_),
-            "last": np.zeros((padded, seen), dtype=np.float32),
+            "observations": zeros((padded, seen), np.float32),
+            "rewards": zeros((padded,), np.float32),
+            "terminated": zeros((padded,), np.bool_),
+            "truncated": zeros((padded,), np.bool_),
+            "last": zeros((padded, seen), np.float32),
         }
         for name, array in self._arrays.items():
             setattr(self, name, array[:count])
@@ -83,8 +91,15 @@ class Worlds:
         self._call(fresh=1)
 
     def step(self, actions: Any) -> None:
-        """Advance all worlds by `actions` (count, m), each entry in [−1, 1]; one that is not finite ends its world."""
-        self._actions[: self.count] = actions
+        """Advance all worlds by `actions` (count, m), each entry in [−1, 1]; one that is not finite ends its world.
+
+        Raises InputError for another shape, or anything but real numbers.
+        """
+        mine, given = self._actions[: self.count], np.asarray(actions)
+        if given.shape != mine.shape or not np.can_cast(given.dtype, np.float32, "same_kind"):
+            raise InputError("actions", f"real numbers of shape {mine.shape}", f"{given.dtype} of shape {given.shape}")
+        with np.errstate(over="ignore"):  # a number beyond single precision is infinite
+            mine[:] = given
         self._call(fresh=0)
 
     def _call(self, fresh: int) -> None:

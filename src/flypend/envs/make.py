@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +73,7 @@ def environment(
     InputError
         If an argument is unknown or out of range.
     """
-    made = task if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)](**about)
+    made = _task(task, about)
     given = {"vehicle": vehicle, "rate": rate, "randomise": randomise}
     chosen = {**DEFAULTS, **made.defaults, **{name: value for name, value in given.items() if value is not None}}
     machine = chosen["vehicle"] if isinstance(chosen["vehicle"], Vehicle) else vehicle_named(chosen["vehicle"])
@@ -82,12 +83,29 @@ def environment(
     if made.name == "CatchInCup" and machine.mount != "cup":
         raise InputError("mount", "'cup', for the task catch_in_cup", repr(machine.mount))
     if duration is not None:
-        made = replace(made, duration=errors.number("duration", duration, above=0, unit="s"))
-    drawn = chosen["randomise"]
-    ranges = drawn if isinstance(drawn, Randomisation) else Randomisation(**drawn)
+        made = replace(made, duration=duration)
+    ranges = _ranges(chosen["randomise"])
     return Environment(
         made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, randomise=ranges, sensors=sensors
     )
+
+
+def _task(task: str | Task, about: Mapping[str, Any]) -> Task:
+    """The task itself, or that of this name with its own arguments."""
+    made: Callable[..., Task]
+    made = (lambda: task) if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)]
+    common = [name for name in signature(environment).parameters if name != "about"]
+    errors.only_known("", about, [*common, *signature(made).parameters])
+    return made(**about)
+
+
+def _ranges(given: Any) -> Randomisation:
+    if isinstance(given, Randomisation):
+        return given
+    if not isinstance(given, Mapping):
+        raise InputError("randomise", "a Randomisation or a table of intervals", repr(given))
+    errors.only_known("randomise", given, (entry.name for entry in fields(Randomisation)))
+    return Randomisation(**given)
 
 
 def spaces(env: Environment, seen: int) -> tuple[Box, Box]:

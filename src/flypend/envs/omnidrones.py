@@ -168,7 +168,9 @@ def inv_pendulum_fly_through(gate: Gate | None = None) -> Task:
     gate : Gate, optional
         The gate; default that of OmniDrones.
     """
-    opening = gate or Gate()
+    opening = Gate() if gate is None else gate
+    if not isinstance(opening, Gate):
+        raise InputError("gate", "a flypend.envs.Gate", repr(gate))
 
     def begin(draws: Draws, vehicle: Vehicle) -> Begin:
         if vehicle.body is None:

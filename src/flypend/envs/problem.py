@@ -23,12 +23,13 @@ from flypend.plants.actuation import rate_loop, rotor_forces
 from flypend.plants.equations import stepped
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.motors import motor_timing, moving, timing_size
-from flypend.plants.plant import Sampled
+from flypend.plants.plant import LONGEST_DELAY, Sampled
 from flypend.plants.sensors import sensors_called
 
 Action = Literal["rotors", "wrench", "rates"]
 Attitude = Literal["matrix", "6d"]
 MOST_RATE = 12.0  # rad/s, of the action "rates"
+LONGEST = 1e9  # s, of an episode
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +62,8 @@ class Environment:
     Raises
     ------
     InputError
-        If the rates do not fit, or the plant has what worlds do not: noise, sensors of its own, gusts, MuJoCo.
+        If the rates do not fit, the duration is less than an action, a delay is too long, or the plant has what worlds
+        do not: noise, sensors of its own, gusts, MuJoCo.
     """
 
     task: Task
@@ -76,14 +78,21 @@ class Environment:
     def __post_init__(self) -> None:
         errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
         errors.one_of("attitude", self.attitude, ("matrix", "6d"))
+        self._check_plant()
         errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
         if abs(self.plant.rate / self.rate - self.steps) > 1e-9:
             raise InputError("rate", f"a divisor of the plant's {self.plant.rate:g} Hz", f"{self.rate:g}")
+        errors.number("duration", self.task.duration, at_least=1 / self.rate, at_most=LONGEST, unit="s")
+        errors.number("randomise.delay", self.randomise.delay[1], at_most=LONGEST_DELAY - self.plant.delay, unit="s")
+        object.__setattr__(self, "sensors", sensors_called(self.sensors, "sensors"))
+
+    def _check_plant(self) -> None:
         plant = self.plant
+        if not isinstance(plant, Sampled):
+            raise InputError("plant", "an fp.Plant", repr(plant))
         if plant.engine != "equations" or any(part is not None for part in (plant.noise, plant.sensors, plant.wind)):
             wanted = "one by our equations, without noise and wind; sensors are an argument of their own"
             raise InputError("plant", wanted, repr(plant))
-        object.__setattr__(self, "sensors", sensors_called(self.sensors, "sensors"))
 
     @property
     def steps(self) -> int:

@@ -6,6 +6,7 @@ from typing import Any
 
 import gymnasium
 import numpy as np
+from gymnasium.error import ResetNeeded
 
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import environment, spaces
@@ -13,6 +14,7 @@ from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
 from flypend.model import State
 from flypend.model.state import SIZE
+from flypend.plants.plant import check_seed
 
 
 class World(gymnasium.Env[Any, Any]):
@@ -27,6 +29,8 @@ class World(gymnasium.Env[Any, Any]):
     ------
     InputError
         As `flypend.envs.environment`.
+    ResetNeeded
+        If it is stepped before it is reset.
     """
 
     metadata = {"render_modes": []}  # noqa: RUF012
@@ -38,6 +42,9 @@ class World(gymnasium.Env[Any, Any]):
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Begin anew, with `seed`, or with a new one of the generator that the last seed started."""
+        if seed is not None:
+            check_seed("seed", seed)
+            seed = int(seed)
         super().reset(seed=seed)
         fresh = int(self.np_random.integers(2**62)) if seed is None else seed
         self.worlds.begin(np.array([fresh], dtype=np.int64))
@@ -45,7 +52,8 @@ class World(gymnasium.Env[Any, Any]):
         return self.worlds.observations[0].copy(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Advance by `action` (m,), each entry in [−1, 1]."""
+        """Advance by `action` (m,), each entry in [−1, 1]. Raises InputError for another shape."""
+        self._check_begun()
         worlds = self.worlds
         worlds.step(np.asarray(action)[None])
         terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
@@ -54,8 +62,13 @@ class World(gymnasium.Env[Any, Any]):
         seen = (worlds.last if terminated or truncated else worlds.observations)[0].copy()
         return seen, float(worlds.rewards[0]), terminated, truncated, {}
 
+    def _check_begun(self) -> None:
+        if not self._flown:
+            raise ResetNeeded("reset the world first")
+
     def trajectory(self) -> Trajectory:
         """Return what has been flown since the last `reset` as a run, a state per action: for pages and figures."""
+        self._check_begun()
         env, states = self.worlds.env, np.array(self._flown)
         forces = states[:, SIZE:]
         wrench = forces @ env.vehicle.mixing().T

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
+from flypend import errors
 from flypend.envs.draws import Draws
 from flypend.model import State, Vehicle
 
@@ -160,10 +161,9 @@ def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> T
         Size, m, and angular rate, rad/s, of which a square takes four corners a turn.
     """
     ways = {"circle": _circle, "lemniscate": _eight, "waypoints": _square}
-    if shape not in ways:
-        from flypend import errors
-
-        errors.one_of("shape", shape, tuple(ways))
+    errors.one_of("shape", shape, ways)
+    errors.number("size", size, at_least=0, unit="m")
+    errors.number("turn_rate", turn_rate, unit="rad/s")
 
     def goal(t: Any, numbers: Any) -> tuple[Any, Any]:
         return ways[shape](turn_rate * t + numbers[0], size, turn_rate)

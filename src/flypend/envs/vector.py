@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from flypend.envs.kernel import Worlds
+from flypend import errors
+from flypend.envs.kernel import Worlds, zeros
 from flypend.envs.make import environment, spaces
 from flypend.errors import InputError
+from flypend.plants.plant import check_seed
 
 
 class VectorWorlds(VectorEnv[Any, Any, Any]):
@@ -37,6 +40,8 @@ class VectorWorlds(VectorEnv[Any, Any, Any]):
     ------
     InputError
         As `flypend.envs.environment`.
+    ResetNeeded
+        If they are stepped before they are reset.
     """
 
     metadata = {"autoreset_mode": AutoresetMode.SAME_STEP, "render_modes": []}  # noqa: RUF012
@@ -51,32 +56,37 @@ class VectorWorlds(VectorEnv[Any, Any, Any]):
         workers: int | None = None,
         **arguments: Any,
     ) -> None:
-        if not isinstance(num_envs, int | np.integer) or num_envs < 1:
-            raise InputError("num_envs", "an integer >= 1", repr(num_envs))
-        self.worlds = Worlds(environment(task, **arguments), int(num_envs), workers)
-        self.num_envs, self.copy, self.history = int(num_envs), copy, history
+        self.num_envs = errors.integer("num_envs", num_envs, 1)
+        self.history = errors.integer("history", history, 0)
+        threads = None if workers is None else errors.integer("workers", workers, 1)
+        self.worlds, self.copy = Worlds(environment(task, **arguments), self.num_envs, threads), copy
+        self._begun = False
         self._length = self.worlds.observations.shape[1]
-        self._seen = np.zeros((self.num_envs, (1 + history) * self._length), dtype=np.float32)
+        self._seen = zeros((self.num_envs, (1 + self.history) * self._length), np.float32)
         self.single_observation_space, self.single_action_space = spaces(self.worlds.env, self._seen.shape[1])
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
-    def reset(
-        self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Any, dict[str, Any]]:
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Begin all worlds: world i with `seed` + i, or with its own of a list; without a seed, with new ones."""
-        super().reset(seed=seed if isinstance(seed, int) else None)
+        several = isinstance(seed, list | tuple | np.ndarray)
+        if not several and seed is not None:
+            check_seed("seed", seed)
+        super().reset(seed=None if several or seed is None else int(seed))
         fresh = self.np_random.integers(2**62, size=self.num_envs)
-        if isinstance(seed, int | np.integer):
-            fresh = int(seed) + np.arange(self.num_envs)
+        if several:
+            fresh = self._own(seed, fresh)
         elif seed is not None:
-            fresh = np.array([new if given is None else given for new, given in zip(fresh, seed, strict=True)])
-        self.worlds.begin(fresh.astype(np.int64))
+            fresh = int(seed) + np.arange(self.num_envs)
+        self.worlds.begin(fresh)
+        self._begun = True
         self._seen[:] = np.tile(self.worlds.observations, 1 + self.history)
         return self._given(self._observations()), {}
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
-        """Advance all worlds by `actions` (num_envs, m), each entry in [−1, 1]."""
+        """Advance all worlds by `actions` (num_envs, m), each entry in [−1, 1]. Raises InputError for another shape."""
+        if not self._begun:
+            raise ResetNeeded("reset the worlds first")
         worlds = self.worlds
         worlds.step(actions)
         over = worlds.terminated | worlds.truncated
@@ -90,6 +100,15 @@ class VectorWorlds(VectorEnv[Any, Any, Any]):
         results = (worlds.rewards, worlds.terminated, worlds.truncated)
         rewards, terminated, truncated = (self._given(result) for result in results)
         return self._given(self._observations()), rewards, terminated, truncated, infos
+
+    def _own(self, seeds: Any, fresh: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return `seeds` (num_envs,), those that are None replaced by `fresh` ones."""
+        if len(seeds) != self.num_envs:
+            raise InputError("seed", f"an integer, or {self.num_envs} in a list", f"{len(seeds)}")
+        for seed in seeds:
+            if seed is not None:
+                check_seed("seed", seed)
+        return np.array([new if own is None else own for new, own in zip(fresh, seeds, strict=True)], dtype=np.int64)
 
     def _observations(self) -> NDArray[np.float32]:
         return self._seen if self.history else self.worlds.observations

@@ -1,10 +1,11 @@
-"""Train a policy to balance the rod, by PPO of Stable-Baselines3.
+"""Train a policy by PPO of Stable-Baselines3: to balance the rod, or for another task.
 
-`python examples/train.py` needs flypend[rl] and stable-baselines3, whose interface for many worlds is its own.
+`python examples/train.py [TASK]` needs flypend[rl] and stable-baselines3, whose interface for many worlds is its own.
 """
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -77,29 +78,30 @@ class VecWorlds(VecEnv):
         return [False for _ in self._get_indices(indices)]
 
 
-def kept_up(model: PPO, worlds: VecWorlds, seconds: float = 5.0) -> float:
-    """Share of new starts that stay up for so long."""
+def kept_up(model: PPO, worlds: VecWorlds) -> float:
+    """Share of new starts from which the rod stays up until the world is cut off."""
     worlds.seed(10**6)
     seen, up = worlds.reset(), np.ones(worlds.num_envs, dtype=bool)
-    for _ in range(round(100 * seconds)):
+    for _ in range(worlds.worlds.worlds.env.limit):
         seen, _, over, infos = worlds.step(model.predict(seen, deterministic=True)[0])
         up &= ~np.array([o and not info["TimeLimit.truncated"] for o, info in zip(over, infos, strict=True)])
     return float(up.mean())
 
 
-def train(most: int = 2_500_000, wanted: float = 0.95) -> tuple[PPO, float]:
+def train(task: str = "balance", most: int = 2_500_000, wanted: float = 0.95) -> tuple[PPO, float]:
     """Train until the `wanted` share of 500 new starts is kept up, or for `most` steps; return policy and share."""
     model = PPO(
-        "MlpPolicy", VecWorlds("balance", 64), n_steps=64, batch_size=1024, n_epochs=6, learning_rate=1e-3, seed=0,
+        "MlpPolicy", VecWorlds(task, 64), n_steps=64, batch_size=1024, n_epochs=6, learning_rate=1e-3, seed=0,
         policy_kwargs={"net_arch": [64, 64], "log_std_init": -1.0},
     )  # fmt: skip
     share = 0.0
     while share < wanted and model.num_timesteps < most:
         model.learn(100_000, reset_num_timesteps=False)
-        share = kept_up(model, VecWorlds("balance", 500))
+        share = kept_up(model, VecWorlds(task, 500))
         print(f"{model.num_timesteps} steps: {100 * share:.1f} % stay up")
     return model, share
 
 
 if __name__ == "__main__":
-    train()[0].save("balance")
+    task = sys.argv[1] if len(sys.argv) > 1 else "balance"
+    train(task)[0].save(task)

@@ -1,1 +1,1 @@
-"""Atomic writes of files and folders, and NetCDF."""
+"""Atomic writes of files and folders, arrays, and NetCDF."""

@@ -19,7 +19,9 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import errors
 from flypend.errors import InputError
+from flypend.files.arrays import read_arrays
 from flypend.files.whole import whole_file
 from flypend.geometry import E3
 from flypend.model import State
@@ -28,6 +30,7 @@ FEATURES = 18
 # What is seen in hover.
 HOVER = np.concatenate([np.zeros(6), E3, np.zeros(3), E3, np.zeros(3)])
 MOST_WEIGHTS = 30_000
+LARGEST = float(np.finfo(np.float32).max)
 
 Matrix = NDArray[np.float32]
 
@@ -56,13 +59,11 @@ class Policy:
     W_3: Matrix
 
     def __post_init__(self) -> None:
-        n, k, m = len(self.D), len(self.b_1), len(self.b_2)
+        n = len(_single("D", self.D, (None, FEATURES)))
+        k, m = (len(_single(name, getattr(self, name), (None,))) for name in ("b_1", "b_2"))
         shapes = {"D": (n, FEATURES), "W_1": (k, FEATURES), "b_1": (k,), "W_2": (m, k), "b_2": (m,), "W_3": (n, m)}
         for name, shape in shapes.items():
-            given = np.asarray(getattr(self, name), dtype=np.float32)
-            if given.shape != shape or not np.isfinite(given).all():
-                raise InputError(f"policy.{name}", f"finite weights of shape {shape}", f"shape {given.shape}")
-            object.__setattr__(self, name, given)
+            object.__setattr__(self, name, _single(name, getattr(self, name), shape))
         if self.size > MOST_WEIGHTS:
             raise InputError("policy", f"at most {MOST_WEIGHTS} weights", f"{self.size}")
 
@@ -86,6 +87,14 @@ class Policy:
         """Return N(φ) − N(φ₀) (n, 1) for `phi` (18, 1), in CasADi."""
         at_hover = ca.DM(ca.evalf(ca.densify(self.network(ca.SX(ca.DM(HOVER))))))
         return self.network(phi) - at_hover
+
+
+def _single(name: str, weights: Any, shape: tuple[int | None, ...]) -> Matrix:
+    """Return the `weights` of that name, single precision. Raises InputError unless they are finite and of `shape`."""
+    given = errors.array(f"policy.{name}", weights, shape)
+    if np.max(np.abs(given), initial=0.0) > LARGEST:
+        raise InputError(f"policy.{name}", f"weights up to {LARGEST:.2g}", f"{np.max(np.abs(given)):g}")
+    return given.astype(np.float32)  # type: ignore[no-any-return]
 
 
 def _constant(values: Any) -> Any:
@@ -126,8 +135,11 @@ def save(policy: Policy, path: Path) -> None:
 
 def load(path: Path) -> Policy:
     """Read a policy from the file `path`. Raises InputError if it holds none."""
+    expected = "a file written by `flypend learn`"
+    stored, names = read_arrays("policy", path, expected), [entry.name for entry in fields(Policy)]
+    if lacking := [name for name in names if name not in stored]:
+        raise InputError("policy", expected, f"{path}, without {', '.join(lacking)}")
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            return Policy(**{entry.name: stored[entry.name] for entry in fields(Policy)})
-    except (OSError, KeyError, ValueError) as error:
-        raise InputError("policy", "a file written by `flypend learn`", f"{path}: {error}") from None
+        return Policy(**{name: stored[name] for name in names})
+    except InputError as error:
+        raise InputError("policy", expected, f"{path}: {error}") from None

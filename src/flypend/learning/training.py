@@ -14,6 +14,7 @@ from threadpoolctl import threadpool_limits
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.files.arrays import read_arrays
 from flypend.files.whole import whole_file
 from flypend.laws.policy import MOST_WEIGHTS, Policy
 from flypend.learning.flights import Costs, Course, Flights
@@ -63,6 +64,8 @@ class Training:
         vehicle = self.course.vehicle
         if vehicle.gravity == 0 or vehicle.weight >= len(vehicle.rotor_spins) * vehicle.rotor_limits[1]:
             raise InputError("vehicle", "one that can hover", vehicle.name)
+        if vehicle.mount == "cup":
+            raise InputError("mount", "gimbal or hub: from random starts a rod leaves its cup at once", "cup")
         for name in ("rounds", "updates", "steps"):
             errors.number(name, getattr(self, name), at_least=0)
         if self.batch < 16 or self.batch % 16:
@@ -189,14 +192,15 @@ class Learner:
         """Take up the training saved in `path`; return whether there is one. Raises InputError if it is another."""
         if not path.exists():
             return False
-        with np.load(path, allow_pickle=False) as stored:
-            if str(stored["told"]) != _told(self.training):
-                raise InputError("checkpoint", "one of the same training (or another folder)", str(path))
-            for known in (self.weights, self.adam.moments):
-                for name, array in known.items():
-                    array[...] = stored[name]
-            self.done, self.adam.count = int(stored["done"]), int(stored["count"])
-            self.curve = [Entry(*row) for row in stored["curve"].tolist()]
+        expected = "one of the same training (or another folder)"
+        stored = read_arrays("checkpoint", path, expected)
+        if str(stored.get("told")) != _told(self.training):
+            raise InputError("checkpoint", expected, str(path))
+        for known in (self.weights, self.adam.moments):
+            for name, array in known.items():
+                array[...] = stored[name]
+        self.done, self.adam.count = int(stored["done"]), int(stored["count"])
+        self.curve = [Entry(*row) for row in stored["curve"].tolist()]
         return True
 
 

@@ -88,11 +88,15 @@ class Flown:
         return STATUS[self.code]
 
 
-def aligned(shape: tuple[int, ...]) -> Any:
-    """Allocate an array of doubles at the start of a cache line, so that rows of eight share no line."""
-    room = np.empty(int(np.prod(shape)) + 7)
-    first = -room.ctypes.data // room.itemsize % 8
-    return room[first : first + room.size - 7].reshape(shape)
+LINE = 64  # bytes of a cache line
+
+
+def aligned(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
+    """Allocate an array at the start of a cache line, so that rows of eight doubles share no line."""
+    size = int(np.prod(shape)) * np.dtype(kind).itemsize
+    room = np.empty(size + LINE - 1, dtype=np.uint8)
+    first = -room.ctypes.data % LINE
+    return room[first : first + size].view(kind).reshape(shape)
 
 
 def in_pieces(

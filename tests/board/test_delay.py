@@ -67,9 +67,12 @@ def test_it_finds_the_true_delay(delay, period):
 
 @pytest.mark.parametrize("delay", [0.005, 0.013])
 def test_it_does_not_overshoot(delay):
-    """What its filters remember is held against the delay as it is known now, not as it was believed then."""
+    """What its filters remember is held against the delay as it is known now, not as it was believed then.
+
+    By more than a seventh, for the moment is not linear over the 12 ms between what is told and what is true.
+    """
     delays = found(delay)
-    assert np.all((delays - TOLD) / (delay - TOLD) < 1.1)
+    assert np.all((delays - TOLD) / (delay - TOLD) < 8 / 7)
 
 
 def test_it_does_not_go_beyond_its_reach():

@@ -1,4 +1,4 @@
-"""Draw the pictures of the pages in docs/img: `python -m benchmarks.pages` writes replay.png and lab.png.
+"""Draw pictures in docs/img: `python -m benchmarks.pages` writes swing-up.png, replay.png and lab.png.
 
 The browser is the chromium of the tests, without a screen. The lab's flight is poked while it balances.
 """
@@ -14,6 +14,7 @@ from playwright.sync_api import sync_playwright
 
 import flypend as fp
 from benchmarks.lab import OPTIONS, SHOWN
+from flypend.pictures.stop_motion import stop_motion
 
 PICTURES = Path(__file__).parents[1] / "docs" / "img"
 SIZE = {"width": 1280, "height": 800}
@@ -43,6 +44,13 @@ def replay(browser):
         shoot(page, "replay.png")
 
 
+def stills():
+    """The flight of the animation, as stop-motion."""
+    machine = fp.vehicle("hehn2011").replace(mount="hub")
+    run = fp.simulate(machine, fp.laws.inverted(), fp.State(y=(0, 0, -1)), duration=6)
+    stop_motion(run).savefig(PICTURES / "swing-up.png", dpi=200)
+
+
 def lab(browser):
     """The laboratory, half a second after a poke."""
     command = [sys.executable, "-m", "flypend", "lab", "--no-browser"]
@@ -63,7 +71,8 @@ def lab(browser):
 
 
 def main():
-    """Draw both."""
+    """Draw all."""
+    stills()
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=OPTIONS)
         replay(browser)

@@ -26,6 +26,7 @@ html_show_sphinx = False
 html_show_copyright = False
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
+html_search_scorer = str(Path(__file__).with_name("search_scorer.js"))
 
 myst_heading_anchors = 3  # headings are link targets, as where the repository is read
 suppress_warnings = ["myst.header"]

@@ -20,6 +20,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
 import flypend as fp
+from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.metrics import metrics
@@ -65,6 +66,8 @@ CASES = [
         plant={"base": "rotors", "lag": 0.03, "wind": {"on_vehicle": [0.4, 0, 0]}, "noise": {"x": 1e-3, "y": 2e-3}},
         vehicle={"base": "hehn2011", "rotor_limits": [0.08, 3.0]},
     ),
+    asked(plant={"base": "rotors", "sensors": "mocap", "delay": 0.005}, gains={"throw_speed": 1.3}),
+    asked("lqr", plant={"base": "rotors", "sensors": "mocap"}),
 ]
 
 
@@ -96,6 +99,20 @@ def test_the_lyapunov_function_is_that_of_the_gains_flown(law, plant):
     run = fly(setting)
     along = Signals(setting.flight.vehicle, setting.flight.law, run.t, run.packed)
     np.testing.assert_allclose(run.signals["V"], along["V"], rtol=1e-9, atol=1e-9 * along["V"].max())
+
+
+@pytest.mark.parametrize("sensors", ["perfect", "mocap"])
+def test_gains_and_their_sliders_follow_from_the_sensors(sensors):
+    """At 50 Hz the law has to be calmer on poses with noise than on a state that is known."""
+    setting = setting_of(asked(plant={"base": "hehn2011", "sensors": sensors}))
+    told = {facts["path"]: facts["value"] for facts in sliders(setting)}
+    through = plants.plant("hehn2011").replace(sensors=sensors)
+    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1, plant=through)
+    for name, value in run.gains.items():
+        assert told.get(f"law.gains.{name}", value) == value
+    assert ("plant.noise" in told) == (sensors == "perfect")
+    usual = fp.laws.inverted().gains_for(fp.vehicle("hehn2011"))
+    assert (run.gains["rod_damping"] == usual["rod_damping"]) == (sensors == "perfect")
 
 
 def test_a_law_without_a_lyapunov_function_has_no_signals():
@@ -322,6 +339,9 @@ WRONG = [
     (asked(start={"y": [0, 0, 1], "x": [1e300, 0, 0]}), "start.x"),
     (asked(gains={"rod_bandwidth": [1, 2]}), "law.gains.rod_bandwidth"),
     (asked(plant="mujoco"), "plant.engine"),
+    (asked(plant={"base": "rotors", "sensors": "eyes"}), "plant.sensors"),
+    (asked(plant={"base": "rotors", "sensors": {"base": "mocap", "force_error": 1e-3}}), "plant.sensors"),
+    (asked(plant={"base": "rotors", "sensors": "mocap", "noise": {"x": 1e-3}}), "plant.noise"),
     (asked(plant={"base": "rotors", "rate": 1e9}), "plant.rate"),
     (asked(plant={"base": "rotors", "engine": "mujoco"}), "plant.engine"),
     (asked(plant={"base": "rotors", "lag": -1}), "plant.lag"),

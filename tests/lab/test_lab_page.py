@@ -264,6 +264,38 @@ def test_presets_random_laws_and_plants(visit):
     expect_flight(page)
 
 
+def test_sensors_are_chosen_flown_by_the_page_and_confirmed(visit):
+    page = visit()
+    able(page)
+    choice = page.locator("select[data-path='plant.sensors']")
+    assert choice.input_value() == "perfect"
+    slider(page, "plant.noise").fill("40")
+    choice.select_option("mocap")
+    shown(page)
+    assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap"}  # which have noise of their own
+    assert slider(page, "plant.noise").count() == 0
+    run = expect_flight(page)
+    assert run.x[-1] != pytest.approx(np.zeros(3), abs=1e-6)  # noise keeps it moving
+    able(page)
+    slider(page, "law.gains.throw_speed").fill("210")
+    until(page, "() => flypend.timings().some(({ here }) => here)")
+    expect_flight(page)  # by the page
+    shown(page)
+    expect_flight(page)  # by the server
+    slider(page, "plant.delay").fill("20")  # the estimator is told, so the server flies it
+    shown(page)
+    expect_flight(page)
+    page.locator("select[data-path='plant.base']").select_option("ideal")
+    shown(page)
+    assert choice.is_disabled()
+    expect_flight(page)
+    page.locator("select[data-path='plant.base']").select_option("rotors")
+    choice.select_option("perfect")
+    shown(page)
+    assert setting(page)["plant"] == {"base": "rotors"}
+    expect_flight(page)
+
+
 def test_a_reload_keeps_the_setting_and_another_page_is_not_disturbed(visit):
     first, second = visit(), visit()
     slider(first, "law.gains.rod_bandwidth").fill("230")

@@ -3,6 +3,7 @@
 import itertools
 import json
 import time
+from dataclasses import replace
 from urllib.parse import quote
 
 import numpy as np
@@ -15,6 +16,7 @@ from flypend.flight.signals import Signals
 from flypend.flight.verdict import goal
 from flypend.model.state import seen_packed
 from flypend.plants import MOTION_CAPTURE, plant
+from flypend.plants.sensors import SUITES
 
 SMALL = {"width": 900, "height": 520}
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
@@ -183,6 +185,45 @@ def test_it_is_small_and_begins_soon(chromium, run, tmp_path):
     assert worked < 1000, worked  # ms in the worker, for a flight of six seconds; 20 on an idle machine
 
 
+# Of the page's own time for a frame, in loops: the loop takes 55 ms where a live page takes 2.8 ms a frame.
+FRAME = 0.1
+UNDRAWN = """for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "clear"]) {
+  WebGL2RenderingContext.prototype[name] = () => {};
+}"""
+
+
+@pytest.mark.parametrize("live", [False, True])
+def test_a_frame_takes_little_of_the_page(chromium, run, tmp_path, live):
+    """Scripts, style and layout, in processor time of the main thread; without draw calls, which software would do."""
+    run.to_html(tmp_path / "page.html", live=live)
+    context = chromium.new_context(offline=True, viewport=SMALL)
+    page = context.new_page()
+    page.add_init_script(UNDRAWN)
+    session = context.new_cdp_session(page)
+    session.send("Performance.enable", {"timeDomain": "threadTicks"})
+
+    def spent(*names):
+        told = {entry["name"]: entry["value"] for entry in session.send("Performance.getMetrics")["metrics"]}
+        return sum(told[name] for name in names)
+
+    page.goto(tmp_path.joinpath("page.html").as_uri())
+    until(page, "() => window.flypend && flypend.frames().count > 0")
+    if live:
+        shown(page)
+    page.evaluate("flypend.seek(2), flypend.go(true)" if live else "flypend.play()")
+    page.wait_for_timeout(500)
+    parts, frames = ("ScriptDuration", "RecalcStyleDuration", "LayoutDuration"), "flypend.frames().count"
+    before, first = spent(*parts), page.evaluate(frames)
+    page.wait_for_timeout(2500)
+    each = (spent(*parts) - before) / (page.evaluate(frames) - first)
+    before = spent("TaskDuration")
+    page.evaluate("live => live ? flypend.go(false) : flypend.pause()", live)
+    page.evaluate(LOOP)
+    measure = spent("TaskDuration") - before
+    context.close()
+    assert each < FRAME * measure, (each, measure)
+
+
 def test_pokes_gains_limits_and_delay_are_flown_as_by_the_package(visit, run):
     page, gains = visit(run), run.flight.law.gains
     setting = page.evaluate("flypend.setting()") | {
@@ -247,6 +288,24 @@ def test_other_laws_fly_too(visit, law):
     for name in ("x", "R", "y", "rotor_forces"):
         np.testing.assert_allclose(seen[name], getattr(other, name)[::20], atol=1e-9, err_msg=name)
     assert page.locator(".has-gains").is_visible() == (law != "lqr")
+
+
+def test_sensors_and_estimator_fly_in_the_page(visit):
+    """Readings, their noise and the filter on board are those of the package.
+
+    Joint angles come in steps here too small to matter. On steps of a milliradian a flight keeps no digits for a
+    second, wherever it is flown: between two steps nobody sees which way the rod leans.
+    """
+    onboard = SUITES["onboard"].replace(joints=replace(SUITES["onboard"].joints, quantisation=1e-12))
+    for sensors in ("mocap", onboard):
+        seen = fp.Plant(sensors=sensors, wind=fp.Wind(gust_on_vehicle=0.05), seed=3)
+        start = fp.State(y=(0.3, 0, 0.91**0.5))
+        run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, 3.0, plant=seen)
+        page = visit(run)
+        told = poses(page, run.t[::20])
+        for name in ("x", "R", "y", "rotor_forces"):
+            np.testing.assert_allclose(told[name], getattr(run, name)[::20], atol=1e-9, err_msg=name)
+        assert page.locator("[data-path='plant.noise']").count() == 0
 
 
 def test_a_rod_that_touches_ends_the_flight_in_the_page_too(visit):
@@ -338,6 +397,120 @@ def test_it_stops_scrubs_and_begins_again(visit, run):
     tick = page.evaluate("flypend.live().tick")
     page.locator(".again").click()
     until(page, "tick => flypend.live().tick < tick", tick)
+
+
+def test_a_page_that_was_hidden_goes_on_where_it_was(visit, run):
+    """A hidden tab is given no frames: the time that it sleeps is not flown when it wakes."""
+    page = visit(run)
+    page.evaluate("flypend.seek(6), flypend.go(true)")
+    until(page, "() => flypend.live().tick > 3020")
+    page.evaluate(
+        "window.frame = requestAnimationFrame; window.requestAnimationFrame = (call) => ((window.held = call), 0)"
+    )
+    until(page, "() => Boolean(window.held)")
+    tick = None
+    while (now := page.evaluate("flypend.live().tick")) != tick:  # a piece that was under way arrives
+        tick = now
+        time.sleep(1)
+    woken = page.evaluate(
+        """(tick) => new Promise((resolve) => {
+            window.requestAnimationFrame = window.frame;
+            const look = () => (flypend.live().tick > tick ? resolve(flypend.live().tick) : window.frame(look));
+            window.frame(window.held);
+            look();
+        })""",
+        tick,
+    )
+    assert woken <= tick + 100  # of a second and more that has passed, two pieces of 0.1 s at most
+    until(page, "tick => flypend.live().tick > tick + 200", tick)
+    assert abs(page.evaluate("flypend.pose(0)")["y"][2] - 1) < 1e-3
+
+
+# Whatever one does to it ----------------------------------------------------------------------------------------------
+
+
+def test_every_slider_goes_to_its_ends(visit, run):
+    """Each alone, then all at once: the page shows a flight and says how it ended, whatever the law makes of it."""
+    page = visit(run, viewport={"width": 320, "height": 240})  # little to draw
+    sliders = page.locator(".panel input[type=range]:visible")
+    for i in range(sliders.count()):
+        for end in ("min", "max"):
+            usual = sliders.nth(i).input_value()
+            sliders.nth(i).fill(sliders.nth(i).get_attribute(end))
+            shown(page)
+            assert page.evaluate("flypend.verdict().words")
+            assert np.isfinite(page.evaluate("(flypend.seek(1e9), flypend.pose(0))")["x"]).all()
+            sliders.nth(i).fill(usual)
+    for end in ("min", "max"):
+        for i in range(sliders.count()):
+            sliders.nth(i).fill(sliders.nth(i).get_attribute(end))
+        shown(page)
+        assert page.evaluate("flypend.verdict().words")
+
+
+def test_a_rod_that_is_dragged_keeps_no_rate_along_itself(visit):
+    """The start has a rate; with the rod elsewhere, what of it is tangent is left, as in the laboratory."""
+    moving = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1), y_dot=(0, 1.5, 0)), 4.0)
+    page, rod = visit(moving), np.array([0.0, 0.6, 0.8])
+    setting = page.evaluate("flypend.setting()")
+    setting["start"] |= {"y": rod.tolist()}
+    go_to(page, setting)
+    setting["start"] |= {"y_dot": fp.geometry.project_tangent(rod, np.array(setting["start"]["y_dot"])).tolist()}
+    rows, seen = flown(moving, setting), poses(page, [0.0, 1.0, 3.0])
+    np.testing.assert_allclose(seen["y"], rows[[0, 500, 1500], 18:21], atol=1e-9)
+
+
+# Settings that no page can fly, as an address might have them; Infinity is what JSON makes of 1e999.
+BROKEN = {
+    "cut off": '{"law": {"na',
+    "no table": '{"law": {"name": "inverted"}, "start": "hanging"}',
+    "no number": '{"law": {"name": "inverted", "gains": {"rod_damping": NaN}}, "start": {}}',
+    "half a start": '{"law": {"name": "inverted"}, "start": {"y": [0, 0, 1]}, "duration": 6}',
+    "for ever": {"duration": np.inf},
+    "very long": {"duration": 1e6},
+    "poked too late": {"pokes": [{"time": 1e7, "on": "bob", "velocity": [1, 0, 0]}]},
+    "poked before": {"pokes": [{"time": t, "on": "bob", "velocity": [0, 0, 0]} for t in (2, 1)]},
+    "no such body": {"pokes": [{"time": 1, "on": "hand", "velocity": [1, 0, 0]}]},
+    "a wind of one number": {"plant": {"wind": {"on_vehicle": [1]}}},
+    "one limit": {"vehicle": {"rotor_limits": [1]}},
+    "no direction": {"start": {"y": [0, 0, 0]}},
+    "no rotation": {"start": {"R": [[1, 0, 0], [0, 1, 0], [0, 0, 2]]}},
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_an_address_that_leads_nowhere_is_no_dead_end(visit, run, name):
+    first, broken = live_data(run.flight)["offer"]["first"], BROKEN[name]
+    if isinstance(broken, dict):
+        changed = {key: first[key] | value if isinstance(value, dict) else value for key, value in broken.items()}
+        broken = json.dumps(first | changed).replace("Infinity", "1e999")
+    page = visit(run, hash_="#" + quote(broken))
+    until(page, "() => flypend.verdict()?.good")
+    assert page.locator(".notice").is_visible()
+    assert page.evaluate("flypend.setting()") == first
+    assert_flies(page, run)
+
+
+def test_an_address_that_is_broken_while_the_page_is_open_changes_nothing(visit, run):
+    page = visit(run)
+    setting = page.evaluate("flypend.setting()")
+    page.evaluate("location.hash = '%7B%22start%22%3A1'")
+    page.wait_for_timeout(200)
+    assert page.evaluate("flypend.setting()") == setting
+    wrong = setting | {"duration": 1e6}
+    page.evaluate("hash => { location.hash = hash; }", quote(json.dumps(wrong)))
+    until(page, "() => !document.querySelector('.notice').hidden")
+    page.locator(".notice button").click()  # Undo
+    shown(page)
+    assert page.evaluate("flypend.setting()") == setting
+
+
+@pytest.mark.parametrize("size", [(200, 150), (320, 240)])
+def test_a_tiny_window_shows_what_it_can(visit, run, size):
+    page = visit(run, viewport=dict(zip(("width", "height"), size, strict=True)))
+    page.evaluate("flypend.seek(6), flypend.go(true)")
+    until(page, "() => flypend.live().tick > 3050")
+    assert page.evaluate("flypend.frames().count") > 0
 
 
 # What one takes away --------------------------------------------------------------------------------------------------

@@ -30,20 +30,19 @@ export class Captions {
     });
   }
 
-  /** For the pictures of `stage` as last drawn, at the time `t`. */
-  show(stage, t, colours) {
+  /** For the pictures of `stage` as last drawn, at the time `t`; numbers only with `words`. */
+  show(stage, t, colours, words = true) {
     this.views.forEach((view, i) => {
       const picture = stage.views[i], { flight } = view;
       view.root.hidden = !picture;
       if (!picture) return;
-      const { left, top, width, height } = picture;
-      Object.assign(view.root.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+      place(view, picture);
       view.compass.draw(picture, flight.e3, colours);
       const { x, x_dot } = stage.flyers[i].pose;
-      const rise = (x[2] - stage.flyers[i].pivots[0][2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
+      const rise = (x[2] - stage.flyers[i].pivots[2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
       put(view.name, this.several ? `${flight.title}: ` : "");
       put(view.phase, flight.phase(t));
-      put(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
+      if (words) put(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
       put(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
@@ -53,4 +52,12 @@ export class Captions {
 
 function put(element, words) {
   if (element.textContent !== words) element.textContent = words;
+}
+
+/** Put the words of `view` where its picture is: to write what stands there has styles computed anew. */
+function place(view, { left, top, width, height }) {
+  const box = [left, top, width, height].join();
+  if (view.box === box) return;
+  view.box = box;
+  Object.assign(view.root.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
 }

@@ -32,7 +32,8 @@ export class Player {
     }));
   }
 
-  show() {
+  /** Show the time on the line, and with `words` in numbers. */
+  show(words = true) {
     const { clock } = this;
     const icon = clock.playing ? "pause" : !clock.drive && clock.time >= clock.end && clock.end > clock.start ? "again" : "play";
     if (this.shown !== icon) {
@@ -42,7 +43,7 @@ export class Player {
       this.button.title = `${this.button.getAttribute("aria-label")} (space)`;
     }
     const digits = clock.end >= 1 ? 2 : 4;
-    this.time.textContent = `${clock.time.toFixed(digits)} / ${clock.end.toFixed(digits)} s`;
+    if (words) this.time.textContent = `${clock.time.toFixed(digits)} / ${clock.end.toFixed(digits)} s`;
     Object.assign(this.line, { min: clock.start, max: clock.end, value: clock.time });
     const share = (clock.time - clock.start) / (clock.end - clock.start || 1);
     this.line.style.setProperty("--done", `${100 * share}%`);

@@ -36,10 +36,7 @@ export class Plot {
   load(options) {
     Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], phases: [], log: false, ...options });
     if (this.log) Object.assign(this, decades(this));
-    this.root.querySelector(".what").innerHTML = options.unit ? `${options.title} (${options.unit})` : options.title;
-    const values = this.root.querySelector(".values");
-    values.replaceChildren();
-    this.readings = this.lines.filter((line) => line.label).map((line) => this.#reading(values, line));
+    this.#head();
     [this.span, this.peak] = this.range ? [this.range, null] : range(this);
     this.canvas.setAttribute("aria-label", this.#told());
   }
@@ -51,6 +48,20 @@ export class Plot {
     const beyond = most !== null && most < high ? `; no rotor gives more than ${of(most)}` : least !== null && least > low ? `; no rotor gives less than ${of(least)}` : "";
     const told = this.phases.map(({ from, name }) => `${name} from ${from.toFixed(1)} s`).join(", ");
     return `${plain} over time, ${word(low)} to ${of(high)}${told && `; the rod ${told}`}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
+  }
+
+  /** Title and readings: made anew only if they are others, for in a flight that goes on plots are loaded many times. */
+  #head() {
+    const { title, unit } = this, told = this.lines.filter((line) => line.label);
+    const same = JSON.stringify([title, unit, told.map(({ label, role, mark }) => [label, role, mark])]);
+    if (same === this.same) this.readings.forEach((reading, i) => (reading.line = told[i]));
+    else {
+      this.same = same;
+      this.root.querySelector(".what").innerHTML = unit ? `${title} (${unit})` : title;
+      const values = this.root.querySelector(".values");
+      values.replaceChildren();
+      this.readings = told.map((line) => this.#reading(values, line));
+    }
   }
 
   #reading(parent, line) {
@@ -192,10 +203,11 @@ export class Plot {
       .filter(({ left, right, size }) => right - left > size + 6);
   }
 
-  /** Put the cursor to the time `t` and write the values there. */
-  show(t) {
+  /** Put the cursor to the time `t` and, with `words`, write the values there. */
+  show(t, words = true) {
     const share = (clamp(t, this.start, this.end) - this.start) / (this.end - this.start || 1);
     this.cursor.style.transform = `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`;
+    if (!words) return;
     for (const { line, output } of this.readings) {
       output.textContent = (this.log ? scientific : reading)(valueAt(line, t));
     }

@@ -20,6 +20,7 @@ import { LAYOUTS, Stage } from "./scene/stage.js";
 import { Theme } from "./theme.js";
 
 const STEP = 1 / 30; // s, of the arrow keys
+const WORDS = 80; // ms between two changes of the numbers while time runs: faster, nobody reads them
 
 export class Viewer {
   constructor({ runs, palette, title, layout, speed }, style = css) {
@@ -210,17 +211,18 @@ export class Viewer {
   }
 
   #frame(elapsed) {
-    const started = performance.now(), { stage, clock } = this;
+    const started = performance.now(), { stage, clock } = this, words = !clock.playing || !(started - this.told < WORDS);
+    if (words) this.told = started;
     let moving = false;
     if (stage?.width) {
       stage.show(this.flights.map((flight) => flight.at(clock.time)));
       moving = stage.render(elapsed || 1 / 60);
-      this.captions.show(stage, clock.time, this.theme.colours);
+      this.captions.show(stage, clock.time, this.theme.colours, words);
       this.recorder?.frame();
       this.shoot?.();
     }
-    this.player.show();
-    for (const plot of this.plots) plot.show(clock.time);
+    this.player.show(words);
+    for (const plot of this.plots) plot.show(clock.time, words);
     this.drew?.();
     this.drawn.count += 1;
     this.drawn.cost = [...this.drawn.cost.slice(-59), performance.now() - started];

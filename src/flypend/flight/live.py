@@ -77,12 +77,9 @@ def offered(flight: Flight) -> dict[str, Any]:
     }  # fmt: skip
     low, high = min(DURATIONS[0], flight.duration), max(DURATIONS[1], flight.duration)
     lasting = slider("duration", "flight", "duration", "s", flight.duration, low, high)
-    knobs = plant_sliders(plant, vehicle)
-    if plant.sensors is not None:
-        knobs = [entry for entry in knobs if entry["path"] != "plant.noise"]
     drawn = [State.random(np.random.default_rng(seed)) for seed in range(RANDOM)]
     return {
-        "first": first, "sliders": [*gains, *knobs, *_places(law, plant), lasting],
+        "first": first, "sliders": [*gains, *plant_sliders(plant, vehicle), *_places(law, plant), lasting],
         "starts": {"as flown": first["start"], **starts()},
         "randoms": [plain(state) for state in drawn],
         "seed": flight.seed or 0,

@@ -17,6 +17,7 @@ from flypend.plants import Sampled
 
 MOUNTS = {"gimbal": "gimbal, no limit", "hub": "hub, between arms", "cup": "cup, on top"}
 PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
+SENSORS = {"perfect": "perfect", "mocap": "motion capture", "onboard": "on board"}
 
 
 def offer(own: OwnLaws | None = None) -> dict[str, Any]:
@@ -35,6 +36,7 @@ def offer(own: OwnLaws | None = None) -> dict[str, Any]:
         "mounts": MOUNTS,
         "laws": [*law_names(), *mine],
         "plants": PLANTS,
+        "sensors": SENSORS,
         "first": first,
         "starts": starts(),
         "story": story(),
@@ -58,7 +60,7 @@ def _preset(name: str) -> dict[str, Any]:
 def sliders(setting: Setting) -> list[dict[str, Any]]:
     """Return the sliders of `setting`: path in it, group, label, unit, value, range, and whether logarithmic."""
     flight, law = setting.flight, setting.law
-    out = gain_sliders(law, flight.vehicle, law.gains_for(flight.vehicle))
+    out = gain_sliders(law, flight.vehicle, setting.gains)
     if isinstance(flight.plant, Sampled):
         out += plant_sliders(flight.plant, flight.vehicle)
     return [*out, slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]

@@ -11,6 +11,7 @@ from flypend.lab.setting import Setting
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
+from flypend.plants.sensors import SUITES, Sensors
 
 OWN = "from flypend.settings.laws import law_from\n"
 POKED = "# The pokes of the laboratory are left out.\n"
@@ -75,8 +76,13 @@ def _plant(plant: AnyPlant) -> str | dict[str, Any]:
         if value != getattr(ROTORS, entry.name):
             if entry.name in ("noise", "wind"):
                 value = _record(value)
-            changed[entry.name] = value.to_dict() if entry.name == "sensors" else value
+            changed[entry.name] = _suite(value) if entry.name == "sensors" else value
     return {"base": "rotors", **changed} if changed else "rotors"
+
+
+def _suite(sensors: Sensors) -> str | dict[str, Any]:
+    """The name of the suite that `sensors` are, else their table."""
+    return next((name for name, suite in SUITES.items() if suite == sensors), sensors.to_dict())
 
 
 def _record(record: Any) -> dict[str, Any]:

@@ -200,7 +200,7 @@ def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: l
         e3=law.e3,
         vehicle=machine.vehicle,
         law=law.name,
-        gains=law.gains_for(machine.vehicle),
+        gains=setting.gains,
         x_ref=None if law.reference is None else sampled(law.reference, t),
     )
 

@@ -17,20 +17,21 @@ from flypend import errors, geometry
 from flypend.errors import InputError
 from flypend.flight.request import Flight
 from flypend.lab.own import NONE, OwnLaws
-from flypend.laws import Controller, Law, law_from_dict
+from flypend.laws import BoundLaw, Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.shipped import vehicle_names
 from flypend.model.state import FLIP, SHAPES
 from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import plain
 from flypend.plants import Ideal
+from flypend.plants.sensors import SUITES
 from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
     "vehicle": ("base", "mount", "rotor_limits"),
     "law": ("name", "gains"),
-    "plant": ("base", "limits", "lag", "rate", "delay", "noise", "wind", "seed"),
+    "plant": ("base", "limits", "lag", "rate", "delay", "noise", "wind", "sensors", "seed"),
     "start": (*SHAPES, "random"),
 }
 LONGEST, MOST_POKES = 30.0, 20
@@ -66,6 +67,12 @@ class Setting:
     where: str = ""
     stamp: str = ""
 
+    @property
+    def gains(self) -> Mapping[str, Any]:
+        """The gains flown: what is not given follows from vehicle and sensors."""
+        flown = self.flight.law
+        return flown.gains if isinstance(flown, BoundLaw) else self.law.gains_for(self.flight.vehicle)
+
 
 def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
     """Validate a page's request `asked`, which may name one of the custom laws `own`.
@@ -81,6 +88,8 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
             errors.only_known(key, given[key], known)
     if isinstance(given.get("plant"), dict) and given["plant"].get("base") == "ideal":
         given["plant"] = "ideal"  # the page keeps the fields of the sampled plant for later; ignore them
+    if isinstance(given.get("plant"), dict) and "sensors" in given["plant"]:
+        errors.one_of("plant.sensors", given["plant"]["sensors"], SUITES)  # tables would each be compiled
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)

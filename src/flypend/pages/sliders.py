@@ -77,13 +77,14 @@ def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
     noise, wind = plant.noise or Noise(), plant.wind or Wind()
     level = noise.x / MOTION_CAPTURE.x
     high = 0.5 * vehicle.weight
+    seen = slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0, put=_NOISE)
     return [
         slider(
             "vehicle.rotor_limits", "plant", "rotor limit", "N", largest, 1.1 * share, 5 * share, put=[least, {"#": 1}]
         ),
         slider("plant.lag", "plant", "rotor lag", "s", lag, 0.0, 0.1),
         slider("plant.delay", "plant", "delay", "s", plant.delay, 0.0, 0.1),
-        slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0, put=_NOISE),
+        *([seen] if plant.sensors is None else []),  # sensors have noise of their own
         slider(
             "plant.wind.on_vehicle", "plant", "wind along e₁", "N", wind.on_vehicle[0], -high, high,
             put=[{"#": 1}, 0.0, 0.0],

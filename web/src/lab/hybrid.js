@@ -1,6 +1,7 @@
 // The engine of the laboratory: a worker with machine code shows a flight at once, the server confirms it and knows the rest.
 //
-// The server alone flies own laws, the ideal plant, rotor limits (from which laws take gains), and what a law may refuse.
+// The server alone flies own laws, the ideal plant, rotor limits (from which laws take gains), a delay that an estimator has to
+// be told, and what a law may refuse.
 
 import { Local } from "../live/local.js";
 import { Link } from "./link.js";
@@ -36,7 +37,7 @@ export class Hybrid {
 
   /** The machine code for the present setting, if it has come. */
   get local() {
-    return (this.known?.key === kind(this.asked) && !this.asked.vehicle?.rotor_limits && this.engines.get(this.known.key)) || null;
+    return (this.known?.key === kind(this.asked) && !rebuilt(this.asked) && this.engines.get(this.known.key)) || null;
   }
 
   /** Whether the law takes the gains beside each other, as far as the server has said. */
@@ -78,7 +79,7 @@ export class Hybrid {
     if (!this.engines.has(key)) {
       this.engines.set(key, null);
       const { vehicle, law, plant } = setting;
-      const plain = { vehicle: { base: vehicle.base, mount: vehicle.mount }, law: { name: law.name, gains: {} }, plant: { base: plant.base } };
+      const plain = { vehicle: { base: vehicle.base, mount: vehicle.mount }, law: { name: law.name, gains: {} }, plant: { base: plant.base, sensors: plant.sensors } };
       if (plant.base !== "ideal") this.link.ask("engine", { key, setting: { ...setting, ...plain, pokes: [] } });
     }
     this.#name();
@@ -116,4 +117,7 @@ export class Hybrid {
 }
 
 /** What machine code is for: vehicle, law and plant, whatever their numbers. An address may lack them. */
-const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base]);
+const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base, plant?.sensors]);
+
+/** Whether numbers of a setting change what is compiled. */
+const rebuilt = ({ vehicle, plant }) => Boolean(vehicle?.rotor_limits || (plant?.sensors && plant.delay !== undefined));

@@ -117,7 +117,8 @@ export class Laboratory {
     if (path === "law.name") value.law = { name, gains: {} };
     else if (path === "vehicle.mount") value.vehicle.mount = name;
     else if (path === "vehicle.base") Object.assign(value, { vehicle: { base: name, mount }, law: { name: value.law.name, gains: {} } });
-    else value.plant = { base: name };
+    else if (path === "plant.sensors") value.plant = sensed(value.plant, name);
+    else value.plant = sensed({ base: name }, value.plant.sensors);
     this.setting.replace(value);
   }
 
@@ -125,7 +126,7 @@ export class Laboratory {
     const value = structuredClone(this.setting.value);
     if (group === "gains") value.law.gains = {};
     else if (group === "place") delete value.origin;
-    else Object.assign(value, { plant: { base: value.plant.base }, vehicle: { base: value.vehicle.base, mount: value.vehicle.mount } });
+    else Object.assign(value, { plant: sensed({ base: value.plant.base }, value.plant.sensors), vehicle: { base: value.vehicle.base, mount: value.vehicle.mount } });
     this.setting.replace(value);
   }
 
@@ -329,4 +330,9 @@ export class Laboratory {
       map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good, path: this.disc.path }),
     });
   }
+}
+
+/** A plant with the `sensors` of that name, which have noise of their own; undefined for perfect ones. */
+function sensed({ noise, sensors: old, ...plant }, sensors) {
+  return sensors && sensors !== "perfect" ? { ...plant, sensors } : { ...plant, ...(noise && { noise }) };
 }

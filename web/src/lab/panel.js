@@ -12,7 +12,8 @@ const html = (served) => `
     ${served ? `<label class="row">Vehicle <select data-path="vehicle.base"></select></label>
     <label class="row">Mount <select data-path="vehicle.mount"></select></label>
     <label class="row">Law <select data-path="law.name"></select></label>
-    <label class="row">Plant <select data-path="plant.base"></select></label>` : ""}
+    <label class="row">Plant <select data-path="plant.base"></select></label>
+    <label class="row">Sensors <select data-path="plant.sensors"></select></label>` : ""}
     <div class="row two live"><button type="button" class="go" aria-pressed="false" title="Let the flight go on, and take the bob in hand (l)">Fly live</button>
     <button type="button" class="again" title="Begin again (r)">Reset</button></div>
     <div class="flight"></div></section>
@@ -60,6 +61,7 @@ export class Panel {
     const options = {
       "vehicle.base": offer.vehicles.map((name) => [name, NAMES[name] ?? name]), "vehicle.mount": Object.entries(offer.mounts),
       "law.name": offer.laws.map((name) => [name, name]), "plant.base": Object.entries(offer.plants),
+      "plant.sensors": Object.entries(offer.sensors),
     };
     this.selects = Object.entries(options).map(([path, entries]) => {
       const select = this.#find(`select[data-path="${path}"]`);
@@ -169,7 +171,8 @@ export class Panel {
     this.#find(".redo").disabled = !this.lab.setting.future.length;
     for (const select of this.selects) {
       const [what, key] = select.dataset.path.split(".");
-      select.value = value[what]?.[key] ?? this.lab.offer.first[what][key]; // an older address tells no mount
+      select.value = value[what]?.[key] ?? this.lab.offer.first[what][key] ?? select.options[0].value; // an older address tells no mount
+      if (key === "sensors") select.disabled = value.plant?.base === "ideal"; // whose law knows the state
     }
     const y = value.start.y;
     if (y) {

@@ -1,5 +1,7 @@
 // The setting of the laboratory: plain data that the server understands, kept in the address so that a reload keeps it.
 
+import { readable } from "./readable.js";
+
 const HASH_DELAY = 250; // ms
 const PAUSE = 1500; // ms between two moves of a slider that are two changes
 const MOST = 200; // changes that can be taken back
@@ -96,7 +98,7 @@ function filled(put, value) {
 function read() {
   try {
     const value = JSON.parse(decodeURIComponent(location.hash.slice(1)));
-    return value && typeof value === "object" && value.start && value.law ? value : null;
+    return readable(value) ? value : null;
   } catch {
     return null;
   }

@@ -50,4 +50,4 @@ export class Story {
   }
 }
 
-const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle.base, vehicle.mount, law.name, plant.base]);
+const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle.base, vehicle.mount, law.name, plant.base, plant.sensors]);

@@ -1,7 +1,7 @@
 // The engine of a page that flies by itself: machine code in a worker, which answers like the server of the laboratory.
 
 import source from "worker:./worker.js";
-import { request } from "./request.js";
+import { refused, request } from "./request.js";
 import { judged } from "./verdict.js";
 
 export class Local {
@@ -17,8 +17,11 @@ export class Local {
 
   /** Ask for something of a `kind`; returns its number. Only whole flights are answered here: there is no map. */
   ask(kind, content = {}, number = ++this.number) {
-    if (kind === "fly") {
-      this.waiting = { number, setting: this.whole(content.setting) };
+    if (kind !== "fly") return number;
+    const setting = this.whole(content.setting), message = refused(setting, this.facts);
+    if (message) queueMicrotask(() => this.told({ kind: "error", number, field: "", message }));
+    else {
+      this.waiting = { number, setting };
       this.#next();
     }
     return number;

@@ -1,12 +1,16 @@
 // From a setting of the page to what the simulation takes: gains, knobs of the plant, start, pokes.
 
+import { clamp, dot, norm, unit } from "../numbers.js";
+
+const LONGEST = 600; // s of flight that a page holds
+const LEAST = 1e-3, CLOSE = 1e-4; // as flypend.lab.setting and State take them
 const ORDER = ["x", "x_dot", "R", "omega", "y", "y_dot"];
 
 /** Gains and knobs that `setting` tells, for a module with `facts`; the reference moves in a `live` flight alone. */
 export function turned(setting, facts, live = false) {
   const { plant = {}, vehicle = {}, law = {}, origin = {} } = setting, { wind = {} } = plant;
   const told = {
-    lag: single(plant.lag), delay: single(Math.min(plant.delay, facts.delay)), noise: plant.noise && facts.noise.map((name) => plant.noise[name] ?? 0),
+    lag: single(plant.lag), delay: single(clamp(plant.delay, 0, facts.delay)), noise: plant.noise && facts.noise.map((name) => plant.noise[name] ?? 0),
     on_vehicle: wind.on_vehicle, on_bob: wind.on_bob, gust_on_vehicle: single(wind.gust_on_vehicle), gust_on_bob: single(wind.gust_on_bob),
     rotor_limits: vehicle.rotor_limits, origin: live ? ["x", "y", "z"].map((name) => origin[name] ?? 0) : undefined,
   };
@@ -15,8 +19,12 @@ export function turned(setting, facts, live = false) {
 
 const single = (value) => (value === undefined ? undefined : [value]);
 
-/** The packed state of a start, e3 up; its fields stand as flypend packs them. A start may be a seed: `random`. */
-export const packed = (start) => ORDER.flatMap((name) => start[name].flat());
+/** The packed state of a start, e3 up; its fields stand as flypend packs them. A rod that was dragged keeps no rate along itself. */
+export function packed(start) {
+  const y = unit(start.y), along = dot(y, start.y_dot);
+  const whole = { ...start, y, y_dot: start.y_dot.map((value, k) => value - along * y[k]) };
+  return ORDER.flatMap((name) => whole[name].flat());
+}
 
 /** Impulses on vehicle and bob (six numbers, N s) that would give the body `on` a `velocity` if it were free. */
 export function blow(on, velocity, { masses }) {
@@ -30,4 +38,22 @@ export function request(setting, facts, seed) {
   const pokes = (setting.pokes ?? []).map(({ time, on, velocity }) => ({ tick: tick(time), impulses: blow(on, velocity, facts) }));
   const begun = pokes.length ? pokes[pokes.length - 1].tick : 0;
   return { ...turned(setting, facts), start: packed(setting.start), seed: setting.plant?.seed ?? seed, pokes, ticks: begun + tick(setting.duration) };
+}
+
+/** Why a page cannot fly `setting`, which is a readable one (readable.js) with a start in numbers; "" if it can. */
+export function refused({ start, duration, pokes = [] }, { masses }) {
+  const lacking = ORDER.find((name) => !start[name]);
+  if (lacking) return `start.${lacking}: expected numbers, got nothing`;
+  if (norm(start.y) < LEAST) return `start.y: expected a direction, got one of length ${norm(start.y)}`;
+  if (!rotation(start.R)) return "start.R: expected a rotation matrix";
+  if (!(duration > 0)) return "duration: expected a number > 0";
+  if (pokes.some(({ on }) => !Object.hasOwn(masses, on))) return `pokes: expected one of ${Object.keys(masses).join(", ")}`;
+  if (pokes.some(({ time }, i) => time < (pokes[i - 1]?.time ?? 0))) return "pokes: expected increasing times";
+  return duration + (pokes.at(-1)?.time ?? 0) > LONGEST ? `duration: expected at most ${LONGEST} s of flight, pokes included` : "";
+}
+
+/** Whether the rows of `R` are an orthonormal, right-handed frame. */
+function rotation([a, b, c]) {
+  const across = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  return [norm(a) - 1, norm(b) - 1, dot(a, b), ...across.map((value, k) => value - c[k])].every((error) => Math.abs(error) < CLOSE);
 }

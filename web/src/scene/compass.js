@@ -19,7 +19,9 @@ export class Compass {
 
   /** Draw for a run with third axis `e3` through a camera with the unit vectors `right`, `up`, `back`. */
   draw({ right, up, back }, e3, colours) {
-    const { context } = this, sign = e3 === "up" ? 1 : -1;
+    const { context } = this, sign = e3 === "up" ? 1 : -1, drawn = JSON.stringify([right, up, e3, colours.ink]);
+    if (this.drawn === drawn) return;
+    this.drawn = drawn;
     const seen = (v) => [right, up, back].map((axis) => axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2]);
     context.clearRect(0, 0, SIZE, SIZE);
     const axes = [["e₁", [1, 0, 0]], ["e₂", [0, sign, 0]], ["e₃", [0, 0, sign]]];

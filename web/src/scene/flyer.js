@@ -17,14 +17,12 @@ export class Flyer extends Group {
     this.flight = flight;
     this.model = new Model(flight.vehicle, { ghost });
     const rod = flight.vehicle.rod_length;
-    const { times, poses } = path(flight);
-    this.pivots = poses.map((pose) => pose.x);
-    this.bobs = poses.map((pose) => pose.x.map((value, k) => value + rod * pose.y[k]));
+    const { times, pivots, bobs, references } = path(flight);
+    Object.assign(this, { pivots, bobs });
     const opacity = ghost ? 0.7 : 1;
     this.trail = new Ribbon(this.bobs, times, { width: 2.6, tail: 1.2, faint: 0.28, opacity });
     this.track = new Ribbon(this.pivots, times, { width: 1.4, tail: 1.2, faint: 0.3, opacity: 0.7 * opacity });
-    const reference = poses.map((pose) => pose.x_ref);
-    this.planned = new Ribbon(reference, times, { width: 1.6, opacity: 0.9, dash: 0.25 * rod });
+    this.planned = new Ribbon(references, times, { width: 1.6, opacity: 0.9, dash: 0.25 * rod });
     this.marker = new Group();
     const ring = new TorusGeometry(0.09 * rod, 0.008 * rod, 8, 40);
     this.paint = new MeshBasicMaterial({ transparent: true, opacity: 0.9 });
@@ -38,11 +36,14 @@ export class Flyer extends Group {
 
   /** Draw what a growing flight has flown of late: the last `span` seconds. */
   grow(span) {
-    const { flight } = this, { t } = flight, rod = flight.vehicle.rod_length;
-    const times = Array.from(t.subarray(indexBefore(t, flight.end - span)));
-    const poses = times.map((time) => upright(flight.at(time), flight.e3));
-    this.pivots = poses.map((pose) => pose.x);
-    this.bobs = poses.map((pose) => pose.x.map((value, k) => value + rod * pose.y[k]));
+    const { flight } = this, { x, y } = flight.columns, first = indexBefore(flight.t, flight.end - span);
+    const times = flight.t.subarray(first), rod = flight.vehicle.rod_length, size = 3 * times.length;
+    Object.assign(this, { pivots: new Float64Array(size), bobs: new Float64Array(size) });
+    for (let i = 0, from = 3 * first; i < size; i++) {
+      const sign = i % 3 && flight.e3 === "down" ? -1 : 1;
+      this.pivots[i] = sign * x[from + i];
+      this.bobs[i] = sign * (x[from + i] + rod * y[from + i]);
+    }
     this.trail.put(this.bobs, times);
     this.track.put(this.pivots, times);
   }
@@ -71,13 +72,20 @@ export class Flyer extends Group {
   }
 }
 
-/** Times and poses (e3 up) along a flight: its samples, and more where the rod turns fast. */
+/** Along a flight, e3 up: times (its samples, and more where the rod turns fast), and places one after the other. */
 function path(flight) {
-  const times = [], spare = Math.max(1, Math.floor(MOST / flight.t.length));
+  const times = [], spare = Math.max(1, Math.floor(MOST / flight.t.length)), rod = flight.vehicle.rod_length;
   flight.t.forEach((t, i) => {
     const step = i + 1 < flight.t.length ? flight.t[i + 1] - t : 0;
     const pieces = Math.min(spare, Math.max(1, Math.ceil(step * norm(flight.sample("y_dot", i)) / FINEST)));
     for (let k = 0; k < (step ? pieces : 1); k++) times.push(t + k / pieces * step);
   });
-  return { times, poses: times.map((t) => upright(flight.at(t), flight.e3)) };
+  const [pivots, bobs, references] = [0, 1, 2].map(() => new Float64Array(3 * times.length));
+  times.forEach((t, i) => {
+    const { x, y, x_ref } = upright(flight.at(t), flight.e3);
+    pivots.set(x, 3 * i);
+    bobs.set(x.map((value, k) => value + rod * y[k]), 3 * i);
+    references.set(x_ref, 3 * i);
+  });
+  return { times, pivots, bobs, references };
 }

@@ -46,7 +46,7 @@ function paints(ghost) {
   const roles = ["body", "front", "rear", "rod", "thrust"];
   return Object.fromEntries(roles.map((role) => {
     const paint = new MeshStandardMaterial({ roughness: 0.55, metalness: 0.05 });
-    if (ghost) Object.assign(paint, { transparent: true, opacity: 0.38, depthWrite: false });
+    if (ghost) Object.assign(paint, { transparent: true, opacity: 0.38, depthWrite: false, forceSinglePass: true });
     return [role, paint];
   }));
 }
@@ -95,7 +95,7 @@ export class Model extends Group {
   constructor(vehicle, { ghost = false } = {}) {
     super();
     Object.assign(this, { vehicle, ghost, paint: paints(ghost), parts: {}, touched: null });
-    this.alarm = new MeshBasicMaterial({ transparent: true, opacity: 0.85, side: DoubleSide });
+    this.alarm = new MeshBasicMaterial({ transparent: true, opacity: 0.85, side: DoubleSide, forceSinglePass: true });
     const rod = vehicle.rod_length;
     const span = Math.max(...vehicle.rotor_positions.map((position) => Math.hypot(...position)));
     this.body = new Group();
@@ -138,7 +138,7 @@ export class Model extends Group {
   #cup() {
     const { vehicle, ghost } = this, angle = vehicle.body.cup_angle, slant = CUP * vehicle.rod_length;
     const height = slant * Math.cos(angle), wide = slant * Math.sin(angle);
-    const glass = new MeshBasicMaterial({ transparent: true, opacity: ghost ? 0.12 : 0.3, side: DoubleSide, depthWrite: false });
+    const glass = new MeshBasicMaterial({ transparent: true, opacity: ghost ? 0.12 : 0.3, side: DoubleSide, depthWrite: false, forceSinglePass: true });
     const cup = new Mesh(new CylinderGeometry(wide, 0, height, 48, 1, true), glass);
     const rim = solid(new TorusGeometry(wide, 0.008 * vehicle.rod_length, 8, 64), this.paint.body, ghost);
     cup.rotation.x = Math.PI / 2;

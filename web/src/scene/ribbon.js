@@ -1,12 +1,15 @@
 // A path in space as a ribbon of constant width on the screen, drawn up to a time and paler with age, or dashed.
 
 import {
-  Color, InstancedBufferAttribute, InstancedBufferGeometry, Float32BufferAttribute, Mesh, ShaderMaterial, Vector2,
+  Color, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute, Float32BufferAttribute, Mesh, ShaderMaterial,
+  Vector2,
 } from "three";
+
+const POINT = 5; // numbers of a point: place, time, length of the path to it
 
 const VERTEX = `
 attribute vec3 from, to;
-attribute vec2 times, lengths;
+attribute vec2 begun, ended;
 uniform vec2 resolution;
 uniform float width;
 varying float time, along;
@@ -22,8 +25,8 @@ void main() {
   vec4 here = mix(a, b, position.x);
   vec2 offset = vec2(-way.y, way.x) * position.y + way * (position.x - 0.5) * 0.7;
   here.xy += offset * width / resolution * here.w;
-  time = mix(times.x, times.y, position.x);
-  along = mix(lengths.x, lengths.y, position.x);
+  time = mix(begun.x, ended.x, position.x);
+  along = mix(begun.y, ended.y, position.x);
   gl_Position = here;
 }`;
 
@@ -41,7 +44,7 @@ void main() {
 
 export class Ribbon extends Mesh {
   /**
-   * A path through `points` ([[x, y, z], ...], m) at `times` (s): `width` pixels wide, after `tail` seconds as faint as
+   * A path through `points` at `times` as `put` takes them: `width` pixels wide, after `tail` seconds as faint as
    * `faint`, in dashes of `dash` metres unless that is 0.
    */
   constructor(points, times, { width = 2, tail = 1, faint = 1, opacity = 1, dash = 0 } = {}) {
@@ -60,31 +63,37 @@ export class Ribbon extends Mesh {
     this.put(points, times);
   }
 
-  /** Take another path. */
+  /** Take another path, through `points` (x, y, z of each, one after the other; m) at `times` (s). */
   put(points, times) {
-    const { geometry } = this, count = Math.max(points.length - 1, 0), lengths = [0];
-    for (let i = 1; i < points.length; i++) {
-      lengths.push(lengths[i - 1] + Math.hypot(...points[i].map((value, k) => value - points[i - 1][k])));
+    const count = times.length, into = this.#room(count).array;
+    for (let i = 0, along = 0; i < count; i++) {
+      const [x, y, z] = [3 * i, 3 * i + 1, 3 * i + 2];
+      if (i) along += Math.hypot(points[x] - points[x - 3], points[y] - points[y - 3], points[z] - points[z - 3]);
+      into[POINT * i] = points[x];
+      into[POINT * i + 1] = points[y];
+      into[POINT * i + 2] = points[z];
+      into[POINT * i + 3] = times[i];
+      into[POINT * i + 4] = along;
     }
-    const pair = (values) => (i) => values[(i >> 1) + (i & 1)];
-    this.#set("from", 3, count, (i) => points[Math.floor(i / 3)][i % 3]);
-    this.#set("to", 3, count, (i) => points[Math.floor(i / 3) + 1][i % 3]);
-    this.#set("times", 2, count, pair(times));
-    this.#set("lengths", 2, count, pair(lengths));
-    geometry.instanceCount = count;
-    this.visible = count > 0;
+    this.geometry.instanceCount = Math.max(count - 1, 0);
+    this.visible = count > 1;
   }
 
-  /** Fill an attribute, in the room that it has if that is enough: what the graphics card holds is written over. */
-  #set(name, width, count, value) {
-    let attribute = this.geometry.getAttribute(name);
-    if (!attribute || attribute.count < count) {
-      if (attribute) this.geometry.dispose();
-      attribute = new InstancedBufferAttribute(new Float32Array(width * (attribute ? 2 * count : count)), width);
-      this.geometry.setAttribute(name, attribute);
+  /** A buffer for `count` points: that which there is, if it is large enough, so that the graphics card's is written over. */
+  #room(count) {
+    if (!this.points || this.points.count < count) {
+      if (this.points) this.geometry.dispose();
+      this.points = new InstancedInterleavedBuffer(new Float32Array(POINT * (this.points ? 2 * count : Math.max(count, 2))), POINT);
+      const attribute = (name, size, offset) => this.geometry.setAttribute(name, new InterleavedBufferAttribute(this.points, size, offset));
+      attribute("from", 3, 0);
+      attribute("to", 3, POINT); // of the next point
+      attribute("begun", 2, 3);
+      attribute("ended", 2, POINT + 3);
     }
-    for (let i = 0; i < width * count; i++) attribute.array[i] = value(i);
-    attribute.needsUpdate = true;
+    this.points.clearUpdateRanges();
+    this.points.addUpdateRange(0, POINT * count);
+    this.points.needsUpdate = true;
+    return this.points;
   }
 
   /** Show the path up to the time `now`, for a viewport of `width` by `height` pixels. */

@@ -34,7 +34,7 @@ export class Stage {
     this.flyers = flights.map((flight) => new Flyer(flight, false));
     this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true) : null));
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
-    const box = bounds(this.flyers.flatMap((flyer) => [...flyer.pivots, ...flyer.bobs]));
+    const box = bounds(this.flyers.flatMap((flyer) => [flyer.pivots, flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
     this.walls = new Walls(flights[0].windows ?? []);
     this.box = box;
@@ -56,7 +56,7 @@ export class Stage {
   grow(span) {
     const [flyer] = this.flyers;
     flyer.grow(span);
-    const { centre, half } = bounds([...flyer.pivots, ...flyer.bobs]), reach = flyer.flight.vehicle.reach;
+    const { centre, half } = bounds([flyer.pivots, flyer.bobs]), reach = flyer.flight.vehicle.reach;
     this.world.ground = Math.min(this.world.ground, centre[2] - half[2] - 0.35 * reach);
     const low = centre.map((value, k) => Math.min(value - half[k], this.box.centre[k] - this.box.half[k]));
     const high = centre.map((value, k) => Math.max(value + half[k], this.box.centre[k] + this.box.half[k]));
@@ -163,8 +163,14 @@ export class Stage {
   }
 }
 
-function bounds(points) {
-  const range = [0, 1, 2].map((k) => points.reduce(([low, high], point) =>
-    [Math.min(low, point[k]), Math.max(high, point[k])], [Infinity, -Infinity]));
-  return { centre: range.map(([low, high]) => (low + high) / 2), half: range.map(([low, high]) => (high - low) / 2) };
+/** Middle and half the size of the box around places, which are in arrays one after the other. */
+function bounds(arrays) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const places of arrays) {
+    for (let i = 0; i < places.length; i++) {
+      low[i % 3] = Math.min(low[i % 3], places[i]);
+      high[i % 3] = Math.max(high[i % 3], places[i]);
+    }
+  }
+  return { centre: low.map((value, k) => (value + high[k]) / 2), half: low.map((value, k) => (high[k] - value) / 2) };
 }

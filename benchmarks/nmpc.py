@@ -47,6 +47,7 @@ class Row:
 ROWS = {
     "nominal": Row(lambda _: BY_MUJOCO),
     "mismatch": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY), DELAY),
+    "untold": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=3 * DELAY)),
     "mocap": Row(lambda i: BY_MUJOCO.replace(sensors="mocap", seed=i), 0.0),
     "mocap-mismatch": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY, sensors="mocap", seed=i), DELAY),
     "hub": Row(lambda _: BY_MUJOCO, 0.0, VEHICLE.replace(mount="hub")),

@@ -62,6 +62,7 @@ CASES = [
     asked("corrected", gains={"k_1": 7.0}, vehicle={"base": "nayak2018"}),
     asked(plant="rotors", gains={"attitude_bandwidth": 17.0}),
     asked("lqr", plant="hehn2011", gains={"rod_error": 0.1}),
+    asked("learned", plant="rotors", vehicle={"base": "hehn2011", "mount": "hub"}),
     asked(
         plant={"base": "rotors", "lag": 0.03, "wind": {"on_vehicle": [0.4, 0, 0]}, "noise": {"x": 1e-3, "y": 2e-3}},
         vehicle={"base": "hehn2011", "rotor_limits": [0.08, 3.0]},

@@ -10,6 +10,7 @@ from test_lab import Lab
 
 from flypend.flight.simulate import fly as fly_request
 from flypend.lab.controls import offer, sliders
+from flypend.lab.engine import engine_of
 from flypend.lab.flying import fly
 from flypend.lab.setting import setting_of
 from flypend.laws import inverted
@@ -159,6 +160,34 @@ def test_a_flight_goes_on_in_the_laboratory(visit):
     shown(page)
     assert not page.evaluate("flypend.live().on")
     expect_flight(page)
+
+
+def test_the_learned_law_is_flown_poked_and_goes_on(visit):
+    """Its network takes longer to compile than any other law: what is compiled here is at hand for the server."""
+    learned = OFFER["first"] | {"law": {"name": "learned", "gains": {}}}
+    usual = setting_of(learned)
+    fly(usual)
+    engine_of(usual)
+    fly(setting_of(learned | {"pokes": [{"time": 1.2, "on": "bob", "velocity": [1, 0, 0]}]}))
+    page = visit()
+    page.locator("select[data-path='law.name']").select_option("learned")
+    shown(page)
+    assert expect_flight(page).law == "learned"
+    assert page.locator("header > .verdict").inner_text().startswith("upright after")
+    assert page.locator(".has-gains").is_hidden()  # its weights are no gains
+    page.evaluate("flypend.seek(1.2)")
+    page.locator("[data-on=bob]").click()
+    shown(page)
+    page.evaluate("flypend.pause()")
+    assert expect_flight(page).t[-1] == pytest.approx(7.2)
+    able(page)
+    slider(page, "plant.lag").fill("100")
+    shown(page)
+    expect_flight(page)
+    page.evaluate("flypend.seek(7.2)")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 3700")
+    assert page.evaluate("flypend.pose(0).y[2]") > 0.99
 
 
 def test_the_rod_is_dragged_over_its_sphere(visit):

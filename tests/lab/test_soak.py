@@ -22,6 +22,7 @@ from flypend.lab.flying import fly
 from flypend.lab.own import OwnLaws
 from flypend.lab.server import MOST_PAGES
 from flypend.lab.setting import setting_of
+from flypend.lab.tuning import in_pieces
 
 # Within the bounds of a page, a hundred times the proposed gains: 37 s of processor without a budget.
 STIFF = {"attitude_bandwidth": 1700.0, "attitude_damping": 70.0}
@@ -50,6 +51,23 @@ def test_a_flight_of_too_many_steps_ends_within_seconds_and_says_so():
     early = fly(setting_of(asked(gains=STIFF, duration=0.1)))  # what was flown is the flight
     assert early.outcome.status == "completed"
     np.testing.assert_allclose(run.y[:10], early.y[:10], atol=1e-9)
+
+
+def test_what_is_compiled_for_a_poke_is_not_of_its_budget(monkeypatch):
+    """A law with a network took three seconds, after which the flight was refused."""
+    poke = {"time": 0.5, "on": "bob", "velocity": [1, 0, 0]}
+    setting = setting_of(asked(plant="rotors", duration=1.0, pokes=[poke]))
+    fly(setting)
+
+    def slow(machine, tell):
+        begin = time.thread_time()
+        while time.thread_time() < begin + 0.4:
+            pass
+        return in_pieces(machine, tell)
+
+    monkeypatch.setattr(flying, "in_pieces", slow)
+    monkeypatch.setattr(flying, "Budget", partial(Budget, seconds=0.3))
+    assert fly(setting).t[-1] == 1.5
 
 
 def test_pokes_share_one_budget():

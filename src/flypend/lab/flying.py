@@ -14,6 +14,7 @@ import numpy as np
 
 from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels import IdealKernel, SampledKernel
+from flypend.flight.kernels.pieces import PiecesKernel
 from flypend.flight.kernels.single import REASONS, Solution, sampled_samples
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
@@ -50,9 +51,10 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
-    budget = Budget(wanted)
     if setting.pokes and isinstance(machine, Tuned) and isinstance(machine.kernel, SampledKernel):
-        return _trajectory(setting, machine, gains, [_poked_on(setting, machine, machine.kernel, gains, tell, budget)])
+        pieces = in_pieces(machine, tell)  # before the budget begins: it is one of flying
+        return _trajectory(setting, machine, gains, [_poked_on(setting, machine, pieces, gains, Budget(wanted))])
+    budget = Budget(wanted)
     begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
@@ -68,10 +70,10 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
     return _trajectory(setting, machine, gains, parts)
 
 
-def _poked_on(setting: Setting, machine: Tuned, kernel: SampledKernel, gains: Any, tell: Tell, budget: Budget) -> Part:
+def _poked_on(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any, budget: Budget) -> Part:
     """Fly a sampled plant through all pokes: board, noise and commands in transit go on as if nothing had happened."""
-    flight, plant = setting.flight, kernel.loop.sampled
-    pieces, ticks = in_pieces(machine, tell), [round(poke.time * plant.rate) for poke in setting.pokes]
+    flight, plant = setting.flight, machine.kernel.loop.sampled
+    ticks = [round(poke.time * plant.rate) for poke in setting.pokes]
     with SYMBOLS:
         flown = pieces.begin(flight.starts, seed=flight.seed or 0, gains=dict(zip(machine.names, gains, strict=True)))
     last = ticks[-1] + number_of_ticks(flight.duration, plant)

@@ -7,6 +7,7 @@ import functools
 import importlib.util
 import inspect
 from collections.abc import Iterable, Mapping
+from numbers import Integral
 from typing import Any, TypeVar
 
 import numpy as np
@@ -72,6 +73,15 @@ def number(
     if at_most is not None and result > at_most:
         raise InputError(field, f"at most {at_most:g}{' ' + unit if unit else ''}", f"{result:g}")
     return result
+
+
+def integer(field: str, value: Any, least: int, most: int | None = None) -> int:
+    """Return `value`. Raises InputError unless it is an integer of at least `least`, and at most `most`."""
+    upper = "" if most is None else f" and <= {most}"
+    whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if not whole or value < least or (most is not None and value > most):
+        raise InputError(field, f"an integer >= {least}{upper}", repr(value))
+    return int(value)
 
 
 def one_of(field: str, value: Any, known: Iterable[str]) -> str:

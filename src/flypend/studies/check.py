@@ -22,7 +22,6 @@ from flypend.plants import AnyPlant, Sampled
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
 from flypend.studies.possible import STARTS, possible, told
-from flypend.studies.sweep.axes import integer
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -197,7 +196,7 @@ def check(
     quick = isinstance(bound, BoundLaw) and world.engine == "equations"
     usual, directions, long = USUAL if quick else SLOW
     seconds = long if duration is None else errors.number("duration", duration, above=0, unit="s")
-    starts = task_starts(vehicle, usual if runs is None else integer("runs", runs, 1), seed, directions)
+    starts = task_starts(vehicle, usual if runs is None else errors.integer("runs", runs, 1), seed, directions)
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
     reasons = _failed(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}

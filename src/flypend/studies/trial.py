@@ -24,7 +24,6 @@ from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
 from flypend.studies.margins import SEARCHES, mismatched
-from flypend.studies.sweep.axes import integer
 
 DURATION, KNOCKS = 60.0, 15  # s
 UP = 0.95  # the rod counts as up while its bob is higher than this share of its length
@@ -129,7 +128,7 @@ def trial(
     """
     world, bound = plants.sampled_plant(plant), bound_to(vehicle, law if law is not None else inverted())
     speed = 0.3 * float(np.sqrt(vehicle.g * vehicle.l)) if knock is None else errors.number("knock", knock, at_least=0)
-    starts = task_starts(vehicle, RUNS if runs is None else integer("runs", runs, 1), seed)
+    starts = task_starts(vehicle, RUNS if runs is None else errors.integer("runs", runs, 1), seed)
     random = starts["random"]
     flight = Flight(vehicle=vehicle, law=bound, starts=random.seen(bound.e3), duration=10.0, plant=world)
     if not has_kernel(flight) and runs is None:

@@ -17,7 +17,6 @@ from flypend.flight.metrics import wilson
 from flypend.model import State
 from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
-from flypend.studies.sweep.axes import integer
 from flypend.studies.sweep.chunk import program_digest
 from flypend.studies.sweep.design import design
 from flypend.studies.sweep.study import Study
@@ -249,11 +248,11 @@ def _task(made: Study) -> _Task:
         low=np.array([low for low, _ in limits]),
         high=np.array([high for _, high in limits]),
         objective=Objective(**weights),
-        runs=integer("tune.runs", table.get("runs", 200), 1),
-        generations=integer("tune.generations", table.get("generations", 30), 1),
-        population=None if population is None else integer("tune.population", population, 2),
+        runs=errors.integer("tune.runs", table.get("runs", 200), 1),
+        generations=errors.integer("tune.generations", table.get("generations", 30), 1),
+        population=None if population is None else errors.integer("tune.population", population, 2),
         step=errors.number("tune.step", table.get("step", 0.2), above=0),
-        seed=integer("tune.seed", table.get("seed", 1), 1),
+        seed=errors.integer("tune.seed", table.get("seed", 1), 1),
     )
 
 

@@ -143,7 +143,7 @@ def _range(group: str, name: str, value: Any) -> Axis:
         raise InputError(field, "a range of finite length", f"{low:g} to {high:g}")
     if "points" not in value:
         return Axis(group, name, 1, low, high, log)
-    points = integer(f"{field}.points", value["points"], 2)
+    points = errors.integer(f"{field}.points", value["points"], 2)
     _check_points(field, points, 2)
     spaced = np.geomspace(low, high, points) if log else np.linspace(low, high, points)
     return Axis(group, name, 0, values=tuple(spaced.tolist()))
@@ -152,10 +152,3 @@ def _range(group: str, name: str, value: Any) -> Axis:
 def _check_points(field: str, points: int, least: int) -> None:
     if not least <= points <= MOST_POINTS:
         raise InputError(f"{field}", f"{least} to {MOST_POINTS} points", points)
-
-
-def integer(field: str, value: Any, least: int) -> int:
-    """Return `value`. Raises InputError unless it is an integer of at least `least`."""
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise InputError(field, f"an integer >= {least}", repr(value))
-    return value

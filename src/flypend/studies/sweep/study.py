@@ -22,7 +22,7 @@ from flypend.model.vehicle import read_toml
 from flypend.plants import AnyPlant, Ideal, Sampled
 from flypend.settings.laws import absolute, law_from, law_table, table_of
 from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, start_of, table_at, vehicle_table
-from flypend.studies.sweep.axes import Axis, axes, integer
+from flypend.studies.sweep.axes import Axis, axes
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
 KEYS = (
@@ -172,10 +172,10 @@ def _build(given: dict[str, Any]) -> Study:
         flight=flight,
         engine=errors.one_of("engine", given.get("engine", "kernel"), ENGINES),
         axes=found,
-        samples=integer("runs", given.get("runs", 1), 1),
+        samples=errors.integer("runs", given.get("runs", 1), 1),
         sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
-        seed=integer("seed", given.get("seed", 1), 0),
-        chunk=integer("chunk", given.get("chunk", _chunk(flight)), 1),
+        seed=errors.integer("seed", given.get("seed", 1), 0),
+        chunk=errors.integer("chunk", given.get("chunk", _chunk(flight)), 1),
         final=_flag("final", given.get("final", False)),
         settings={},
         tune=table_at(given, "tune"),
@@ -200,7 +200,7 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
     exact = Tolerances(
         rtol=errors.number("rtol", given.get("rtol", 1e-6), above=0),
         precision=given.get("precision", "double"),
-        max_steps=integer("max_steps", given.get("max_steps", STEPS), 100),
+        max_steps=errors.integer("max_steps", given.get("max_steps", STEPS), 100),
     )
     vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
     return Flight(

@@ -5,6 +5,7 @@ python -m benchmarks.planned random --vehicles 200 --runs 4 --fly 1 --seed 2025 
 python -m benchmarks.planned leans
 python -m benchmarks.planned pareto
 python -m benchmarks.planned windows
+python -m benchmarks.planned low --runs 24 --seed 7702
 python -m benchmarks.planned ensemble --runs 500 --seed 4711 --guesses 2
 """
 
@@ -22,6 +23,7 @@ from flypend.flight.tasks import touching
 
 HEHN = fp.vehicle("hehn2011")
 LONG, LEAST = 12.0, 3.0  # √(l/g), and s at least, of hover after a plan, which must stand in the last second
+MARGIN = 0.08  # m, by which a window must be higher than a leaning rod: the rotors lean as well
 LEANS = {20: 0.46, 30: 0.78, 40: 1.15, 60: 2.1}  # degrees, and m that optimal control with free rotors takes
 
 
@@ -138,6 +140,29 @@ def windows(_: argparse.Namespace) -> None:
         print(f"{vehicle.mount}, {sizes}: {plan.told}; room {1e3 * room:.0f} mm, lean to {lean:.0f}°", flush=True)
 
 
+def low(asked: argparse.Namespace) -> None:
+    """Plan flights through random windows lower than the rod is long, with a limit of the lean, and tell what leads.
+
+    Such a window is lower than rod and margin, level flight with the rod at its limit would pass it, with 5° to 25° to
+    spare, and the wall is up to 20° oblique.
+    """
+    rng, found = np.random.default_rng(asked.seed), []
+    for i in range(asked.runs):
+        height, width, oblique = rng.uniform(0.34, 0.52), rng.uniform(0.5, 0.8), np.radians(rng.uniform(-20, 20))
+        lean = np.arccos((height - MARGIN) / HEHN.reach) + np.radians(rng.uniform(5, 25))
+        window = fp.Window((0, *rng.uniform(-0.2, 0.2, 2)), width, height, (np.cos(oblique), np.sin(oblique), 0))
+        start = fp.State(x=(-rng.uniform(1, 2), 0, 0), y=(0, 0, 1))
+        plan = fp.plan(
+            HEHN, start, "effort", target=(rng.uniform(1, 2), 0, 0), window=window, lean=lean, time_limit=600
+        )
+        found.append(bool(plan))
+        print(
+            f"{i:2d} {width:.2f} m by {height:.2f} m, at most {np.degrees(lean):.0f}°: guess {plan.guess}, {plan.told}",
+            flush=True,
+        )
+    print(f"planned {share(sum(found), asked.runs)}")
+
+
 def pareto(_: argparse.Namespace) -> None:
     """Plan the swing-up from hanging at rest within less and less time."""
     hanging = fp.State(y=(0, 0, -1))
@@ -163,7 +188,7 @@ def ensemble(asked: argparse.Namespace) -> None:
 def main() -> None:
     """Run one of the benchmarks."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=("vehicles", "random", "leans", "pareto", "windows", "ensemble"))
+    parser.add_argument("what", choices=("vehicles", "random", "leans", "pareto", "windows", "low", "ensemble"))
     parser.add_argument("--runs", type=int, default=24)
     parser.add_argument("--seed", type=int, default=7702)
     parser.add_argument("--vehicles", type=int, default=20)
@@ -172,7 +197,7 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="the first of the random vehicles")
     parser.add_argument("--mount", choices=("gimbal", "hub"), default="gimbal")
     asked = parser.parse_args()
-    jobs = (vehicles, random, leans, pareto, windows, ensemble)
+    jobs = (vehicles, random, leans, pareto, windows, low, ensemble)
     {job.__name__: job for job in jobs}[asked.what](asked)
 
 

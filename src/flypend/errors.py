@@ -75,10 +75,12 @@ def number(
     return result
 
 
-def integer(field: str, value: Any, least: int) -> int:
-    """Return `value` as an int. Raises InputError unless it is an integer of at least `least`."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
-        raise InputError(field, f"an integer >= {least}", repr(value))
+def integer(field: str, value: Any, least: int, most: int | None = None) -> int:
+    """Return `value` as an int. Raises InputError unless it is an integer of at least `least`, and at most `most`."""
+    upper = "" if most is None else f" and <= {most}"
+    whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if not whole or value < least or (most is not None and value > most):
+        raise InputError(field, f"an integer >= {least}{upper}", repr(value))
     return int(value)
 
 

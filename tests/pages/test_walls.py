@@ -50,3 +50,6 @@ def test_a_plan_shows_what_it_flies_through():
 def test_what_is_no_window_is_told(still):
     with pytest.raises(fp.InputError, match="windows: expected a sequence of Window"):
         still.to_html(windows=[(0, 0, 1)])
+    with pytest.raises(fp.InputError, match="windows: expected a sequence of Window"):
+        still.to_html(windows=3)
+    assert still.to_html(windows=DOOR) == still.to_html(windows=[DOOR])

@@ -47,3 +47,17 @@ def test_it_has_a_name_for_commands_and_files():
         fp.plan_and_track(cielo=2.0)
     with pytest.raises(fp.InputError, match="gains"):
         law_from({"name": "plan", "gains": {}})
+
+
+@pytest.mark.parametrize(
+    ("wish", "line"),
+    [
+        ({"objective": "excursio"}, "did you mean 'excursion'"),
+        ({"box": 3}, "box: expected numbers"),
+        ({"window": 3}, "window: expected a Window"),
+        ({"otherwise": 3}, "otherwise: expected a Law"),
+    ],
+)
+def test_what_cannot_be_planned_is_refused_before_a_flight(wish, line):
+    with pytest.raises(fp.InputError, match=line):
+        fp.plan_and_track(**wish)

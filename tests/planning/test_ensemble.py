@@ -90,7 +90,9 @@ def test_jobs_keep_their_order():
     [
         ({"starts": STARTS[0]}, "starts: expected a State with one leading batch axis"),
         ({"objective": "time"}, "objective: expected one that a single solve finds"),
-        ({"guesses": 9}, "guesses: expected at most 8"),
+        ({"guesses": 9}, "guesses: expected an integer >= 1 and <= 8"),
+        ({"guesses": 1.5}, "guesses: expected an integer"),
+        ({"workers": -1}, "workers: expected an integer >= 1"),
         ({"floor": 0.0}, "box: expected one that holds pivot and rod at the start"),
     ],
 )

@@ -285,6 +285,13 @@ def test_a_slow_computer_plans_less_and_stands():
     assert flown.changes[0][0] == pytest.approx(1.064, abs=2.1 * LEAST_DELAY)
 
 
+def test_a_computer_too_slow_for_any_plan_flies_the_law():
+    run, flown = flown_by(fp.nmpc(computing=10), STARTS[1], 1.0)
+    law = fp.simulate(HEHN, fp.laws.inverted(), STARTS[1], 1.0)
+    np.testing.assert_allclose(run.x, law.x, atol=1e-9)
+    assert flown.changes[0][1:] == ("waiting", "a plan would take longer than its flight")
+
+
 def test_time_that_is_measured_is_charged():
     run, flown = flown_by(fp.nmpc(computing="measured"), STARTS[1], 8.0)
     assert fp.metrics(run).success

@@ -152,6 +152,16 @@ def test_the_rod_stays_on_its_mount(mount):
     assert broken(free.packed, free.rotor_forces, vehicle, Limits(None, None, None, 0.0))
 
 
+@pytest.mark.parametrize(
+    ("mount", "y", "why"),
+    [("hub", (1, 0, 0), "the rod touched arm 1"), ("cup", (0, 0, -1), "the rod left the cone of its cup")],
+)
+def test_a_start_that_touches_is_told_at_once(mount, y, why):
+    plan = fp.plan(HEHN.replace(mount=mount), fp.State(y=y))
+    assert plan.reason == f"{why} at the start"
+    assert plan.iterations == 0
+
+
 @pytest.mark.parametrize("degrees", [6, 14])
 def test_a_rod_that_leans_a_little_is_let_fall_if_that_takes_less_room(degrees):
     """Caught, as every guess did once, it takes 12 and 34 cm; let fall and pumped up again, less than one."""
@@ -223,6 +233,7 @@ def test_a_time_limit_is_kept_and_told():
         ({"rotors": (9, 9, 9, 9)}, "rotors: expected forces from 0.08 to 3.5 N"),
         ({"duration": 1e3}, "duration: expected at most"),
         ({"time_limit": 0}, "time_limit: expected a finite number > 0 s"),
+        ({"path": lambda t: t, "duration": 3.0}, r"path: expected a function of time"),
     ],
 )
 def test_bad_wishes_are_refused(wish, line):

@@ -133,3 +133,5 @@ def test_what_cannot_be_tracked_is_refused(planned):
         fp.track(failed)
     with pytest.raises(fp.InputError, match="wrench: a plan commands rotor forces"):
         fp.simulate(HEHN, fp.track(planned), START, 1, plant="hehn2011")
+    with pytest.raises(fp.InputError, match="otherwise: expected a Law"):
+        fp.track(planned, otherwise=3)

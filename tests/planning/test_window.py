@@ -175,3 +175,13 @@ def test_a_vehicle_without_a_body_is_refused():
 def test_windows_that_are_none_are_refused(changes, line):
     with pytest.raises(fp.InputError, match=line):
         fp.Window(**{"centre": (0, 0, 0), "width": 1.0, "height": 1.0, **changes})
+
+
+@pytest.mark.parametrize(("width", "height", "degrees"), [(0.7, 0.4, 60), (0.55, 0.4, 75)])
+def test_a_rod_that_must_lean_and_may_not_fall_passes_a_low_window(width, height, degrees):
+    """Upright is a saddle: from guesses that stay upright none of these was found, whatever the horizon."""
+    window, limit = fp.Window(centre=(0, 0, 0.2), width=width, height=height), np.radians(degrees)
+    assert height < HEHN.reach < height / np.cos(limit)
+    plan = plan_of(HEHN, START, "effort", window=window, lean=limit, **HOVER)
+    check_passes(plan, window)
+    assert np.max(np.arccos(plan.y[:, 2])) <= limit + 1e-3

@@ -49,19 +49,19 @@ def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.
     return lambda t: ca.DM(middle) + a * ca.vertcat(ca.sin(w * t), ca.sin(w * t) * ca.cos(w * t), 0)
 
 
-def check_reference(reference: Any) -> None:
-    """Raise InputError unless `reference` is None or a function of time that gives a position (3, 1)."""
+def check_reference(reference: Any, field: str = "reference") -> None:
+    """Raise InputError in `field` unless `reference` is None or a function of time that gives a position (3, 1)."""
     if reference is None:
         return
     what = "a function of time that gives a position (3,), such as laws.references.hover((0, 0, 1))"
     if not callable(reference):
-        raise InputError("reference", what, repr(reference)[:80])
+        raise InputError(field, what, repr(reference)[:80])
     try:
         shape = ca.SX(reference(ca.SX.sym("t"))).shape
     except (TypeError, ValueError, NotImplementedError, RuntimeError) as error:
-        raise InputError("reference", what, f"one that fails: {error}"[:80]) from error
+        raise InputError(field, what, f"one that fails: {error}"[:80]) from error
     if shape != (3, 1):
-        raise InputError("reference", what, f"one that gives shape {shape}")
+        raise InputError(field, what, f"one that gives shape {shape}")
 
 
 def sampled(reference: Reference, t: Any) -> Any:

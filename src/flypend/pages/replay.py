@@ -103,7 +103,8 @@ def page(
         ],
     }
     if windows:
-        data["runs"][0]["windows"] = [_opening(window) for window in windows]
+        several = windows if isinstance(windows, Sequence) else [windows]
+        data["runs"][0]["windows"] = [_opening(window) for window in several]
     policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "live")
     return PAGE.format(
         policy=html.escape(policy), title=html.escape(str(data["title"])), data=embedded(data | (live or {})),

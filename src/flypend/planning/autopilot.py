@@ -12,12 +12,13 @@ from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.board.computer import FlightComputer, SteppedBoard
-from flypend.laws import Computer, Controller, Law, inverted
+from flypend.laws import Computer, Controller, Law
 from flypend.laws.references import hover
 from flypend.model import State
 from flypend.planning.feedback import regulator
 from flypend.planning.planner import plan
-from flypend.planning.tracking import Tracker, rotors_only
+from flypend.planning.request import walls_of, weights_of, windows_of
+from flypend.planning.tracking import Tracker, fallback, rotors_only
 from flypend.plants.loop import Loop
 
 WISHES = ("box", "floor", "ceiling", "speed", "lean", "window", "waypoints", "duration", "clearance")
@@ -52,12 +53,16 @@ def plan_and_track(
     Raises
     ------
     InputError
-        If a wish is unknown; other errors of `plan` come when a flight begins.
+        If a wish is unknown, or objective, walls, windows or `otherwise` are none; other errors of `plan` come when a
+        flight begins.
     """
     errors.only_known("wish", wishes, WISHES)
+    weights_of(objective)
+    walls_of(*(wishes.get(name) for name in ("box", "floor", "ceiling")))
+    windows_of(wishes.get("window"))
     goal = errors.array("target", target, (3,))
     asked = partial(plan, objective=objective, target=goal, time_limit=PATIENT, **wishes)
-    law = otherwise or inverted(hover(goal))
+    law = fallback(otherwise, hover(goal))
     return Controller(
         name="plan",
         function=rotors_only("plan"),

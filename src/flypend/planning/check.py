@@ -62,13 +62,23 @@ def broken(packed: Any, rotor_forces: Any, vehicle: Vehicle, limits: Limits) -> 
         return f"the rod leans {over:.3g} rad too far"
     if missed := _missed(state, vehicle, limits):
         return missed
-    if vehicle.mount != "gimbal":
-        wrench = rotor_forces @ vehicle.mixing().T
-        found = margins(state, Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
-        least = np.min(found, axis=0)
-        if np.min(least) < 0:
-            return touched(vehicle, int(np.argmin(least)))
-    return ""
+    return _touched(state, rotor_forces, vehicle)
+
+
+def begins_touching(packed: Any, rotor_forces: Any, vehicle: Vehicle) -> str:
+    """Return what the rod touches at the first of the states `packed` (n, 24), from where no plan leads; or ""."""
+    found = _touched(State.trusted(packed[:1]), rotor_forces[:1], vehicle)
+    return found and f"{found} at the start"
+
+
+def _touched(state: State, rotor_forces: Any, vehicle: Vehicle) -> str:
+    """Return what the rod of `vehicle` touches most in a batch of states with `rotor_forces` (n, k); or ""."""
+    if vehicle.mount == "gimbal":
+        return ""
+    wrench = rotor_forces @ vehicle.mixing().T
+    found = margins(state, Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
+    least = np.min(found, axis=0)
+    return touched(vehicle, int(np.argmin(least))) if np.min(least) < 0 else ""
 
 
 def _missed(state: State, vehicle: Vehicle, limits: Limits) -> str:

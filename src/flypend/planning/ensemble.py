@@ -148,18 +148,18 @@ def plan_ensemble(
         raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
     if objective == "time":
         raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
-    first = errors.number("guesses", guesses, at_least=1, at_most=WIDTH)
+    first = errors.integer("guesses", guesses, 1, WIDTH)
+    threads = errors.integer("workers", os.cpu_count() or 1 if workers is None else workers, 1)
     walls, goal = walls_of(box, floor, ceiling), end_of(path, duration, target)
     wishes = (objective, goal, rotors, walls, speed, lean, clearance, window, waypoints, path)
     asked = [request(vehicle, starts[i], *wishes) for i in range(len(starts))]
     horizons = horizons_of(asked[0], duration)
     prepared(asked[0])  # compiling takes seconds, once
-    threads = workers or os.cpu_count() or 1
     share = min(CHUNK, WIDTH * -(-len(asked) // (WIDTH * threads)))
     parts = [asked[i : i + share] for i in range(0, len(asked), share)]
     plans: list[Plan] = []
     with ThreadPoolExecutor(threads) as pool:
-        for some in pool.map(lambda part: _planned(part, horizons, int(first)), parts):
+        for some in pool.map(lambda part: _planned(part, horizons, first), parts):
             plans += some
             progress(len(plans), len(asked))
     return PlanEnsemble(tuple(plans))

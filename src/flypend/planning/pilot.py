@@ -213,6 +213,8 @@ class Pilot:
         each = MEASURED_AT_FIRST if self._common.computing is None else self._common.computing
         each *= OF_GUESS * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
         first, given = (each * work(*much) for much in (waiting.SKETCH, (ROUNDS, WIDTH, iterations)))
+        if given > horizon * self._units.time:
+            return Coming(None, None, "a plan would take longer than its flight", t, t, None)
         first *= not self._failures and given <= waiting.LONGEST * self._units.time
         given, begun = first + given, time.process_time()
         here = np.append(state, rotors)

@@ -95,9 +95,11 @@ def plan(
     limit = errors.number("time_limit", time_limit, above=0, unit="s")
     horizons = horizons_of(asked, duration)
     attempts = [asked.unwished(), asked] if asked.wishing and not asked.wishes.gates else [asked]
+    if asked.leaning:
+        attempts.append(replace(asked, again=True))
     for attempt in attempts:
         prepared(attempt)  # compiling takes seconds, once
-    deadline = time.monotonic() + limit
+    deadline = time.monotonic() + (0 if asked.begins_touching else limit)
     first = _first(attempts, horizons, deadline)
     return _shortened(asked, first, deadline) if objective == "time" and first else first
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import Literal
 
 from flypend import errors
-from flypend.errors import InputError
 from flypend.geometry import E3
-from flypend.laws import Computer, Controller, Law, inverted
+from flypend.laws import Computer, Controller, Law
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle
 from flypend.planning.pilot import Receding
 from flypend.planning.request import request
-from flypend.planning.tracking import rotors_only
+from flypend.planning.tracking import fallback, rotors_only
 
 COMPUTING = 0.001  # s
 
@@ -62,12 +61,10 @@ def nmpc(
     else:
         errors.number("computing", computing, above=0, unit="s")
     errors.number("clearance", clearance, at_least=0, unit="m")
-    if otherwise is not None and not isinstance(otherwise, Law):
-        raise InputError("otherwise", "a Law", repr(otherwise)[:80])
     if vehicle is not None:
         request(vehicle, State(y=E3), "excursion", (0.0, 0.0, 0.0), None, None, None, None, clearance)
-    followed = reference or (otherwise.reference if otherwise else None) or hover()
-    law = otherwise or inverted(followed)
+    law = fallback(otherwise, reference or hover())
+    followed = reference or law.reference or hover()
     return Controller(
         name="nmpc",
         function=rotors_only("nmpc"),

@@ -15,7 +15,8 @@ from flypend.errors import InputError
 from flypend.geometry import E3, norm
 from flypend.laws.references import Reference, check_reference, sampled
 from flypend.model import State, Vehicle
-from flypend.planning.check import Limits
+from flypend.model.state import SIZE
+from flypend.planning.check import Limits, begins_touching
 from flypend.planning.passage import NEAR, along, through
 from flypend.planning.scaled import Units
 from flypend.planning.window import Window
@@ -24,6 +25,7 @@ from flypend.planning.wishes import BASE, END, Wishes
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
+HATCH = 0.1  # least level part of the normal of a window in which guesses lean
 FAR = 1e6  # rod lengths: no wall
 # Each objective has a little of the other, without which its problem has no unique solution.
 LEAST = {"excursion": 1e-3, "effort": 1e-4}
@@ -52,6 +54,8 @@ class Request:
         The inequalities and their numbers, in own units, about the target.
     path : callable, optional
         Where the pivot is to be, m, as a function of time, s; default the target.
+    again : bool
+        Whether guesses that lean in windows are to lean in other ways; see `planning.leaning`.
     """
 
     vehicle: Vehicle
@@ -63,6 +67,7 @@ class Request:
     wishes: Wishes
     numbers: NDArray[np.float64]
     path: Reference | None = None
+    again: bool = False
 
     def places(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return where the pivot is to be at times `t` (n,), (n, 3), own units."""
@@ -79,6 +84,19 @@ class Request:
     def wishing(self) -> bool:
         """Whether there are inequalities beyond those of the machine."""
         return self.wishes.box or self.wishes.speed or self.wishes.lean or self.wishes.gates > 0
+
+    @property
+    def begins_touching(self) -> bool:
+        """Whether the rod touches something at the start, from where no plan leads."""
+        start = self.start * self.units.states(self.rotors)
+        return bool(begins_touching(start[None, :SIZE], start[None, SIZE:], self.vehicle))
+
+    @property
+    def leaning(self) -> bool:
+        """Whether guesses are to lean in windows: where the rod may not fall, upright is a saddle."""
+        walls = self.limits.windows
+        level = all(float(np.hypot(*window.axes[2, :2])) > HATCH for window in walls)
+        return self.wishes.lean and len(walls) > 0 and level
 
     def unwished(self) -> Request:
         """The same within the limits of the machine alone; what comes of it is still held against `limits`."""
@@ -110,7 +128,7 @@ def request(
     low, high = (float(limit) for limit in vehicle.rotor_limits)
     if n * high <= vehicle.weight:
         raise InputError("vehicle", f"rotors that lift {vehicle.weight:.3g} N", f"{n * high:.3g} N at most")
-    weights, goal = _weights(objective), errors.array("target", target, (3,))
+    weights, goal = weights_of(objective), errors.array("target", target, (3,))
     per_command = weights["effort"] / STAGES_PER_UNIT / n
     numbers = [weights["excursion"], per_command, low / units.force, high / units.force, _yaw(vehicle, units)]
     if walls is not None:
@@ -144,7 +162,7 @@ def request(
 
 def end_of(path: Any, duration: Any, target: Any) -> Any:
     """Return the `target`, or the end of a `path` of that `duration` (s). Raises InputError."""
-    check_reference(path)
+    check_reference(path, "path")
     if path is None:
         return (0.0, 0.0, 0.0) if target is None else target
     if duration is None:
@@ -224,8 +242,8 @@ def _yaw(vehicle: Vehicle, units: Units) -> float:
     return END["omega"] * max(1.0, 1 / float(authority))
 
 
-def _weights(objective: Any) -> dict[str, float]:
-    """Return the weights of excursion and effort."""
+def weights_of(objective: Any) -> dict[str, float]:
+    """Return the weights of excursion and effort. Raises InputError."""
     if isinstance(objective, Mapping):
         errors.only_known("objective", objective, LEAST)
         given = {name: errors.number(f"objective.{name}", value, at_least=0) for name, value in objective.items()}

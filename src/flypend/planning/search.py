@@ -14,6 +14,7 @@ from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
 from flypend.planning.guesses import pumping, styles
 from flypend.planning.kernels import kernels
+from flypend.planning.leaning import leaned, leans
 from flypend.planning.method import Problem
 from flypend.planning.race import ROUNDS, Race
 from flypend.planning.request import STAGES_PER_UNIT, TOLERANCE, Request
@@ -228,6 +229,9 @@ def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]
     states, commands = lanes(stages + 1, SIZE + n), lanes(stages, n)
     states[0] = begin
     pumping(n)(stages, states, style, limits, timing, vehicle, states[1:], commands)
+    for lane, job in enumerate(jobs):
+        if leans(job.asked, job.style):
+            states[..., lane], commands[..., lane] = leaned(job.asked, job.style, stages, h)
     places = None
     if jobs[0].asked.wishes.path:
         places = lanes(stages + 1, 3)

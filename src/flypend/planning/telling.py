@@ -11,7 +11,7 @@ import numpy as np
 from flypend.compile.llvm.abreast import abreast
 from flypend.compile.llvm.stagewise import Stagewise
 from flypend.model.state import SIZE
-from flypend.planning.check import broken
+from flypend.planning.check import begins_touching, broken
 from flypend.planning.request import Request
 from flypend.planning.result import Plan, Status
 from flypend.planning.search import Found, stages_of
@@ -50,7 +50,8 @@ def _plan(asked: Request, found: Found, own: Any, horizon: float) -> Plan:
     dense = own * units.states(asked.rotors)
     dense[:, :3] += asked.target
     packed, forces = dense[:, :SIZE], dense[:, SIZE:]
-    lacks = found.lacks or broken(packed, forces, asked.vehicle, asked.limits)
+    lacks = begins_touching(packed, forces, asked.vehicle) or found.lacks
+    lacks = lacks or broken(packed, forces, asked.vehicle, asked.limits)
     status: Status = "failed" if lacks else "feasible" if found.unfinished else "optimal"
     return Plan(
         vehicle=asked.vehicle, objective=asked.objective, target=asked.target, path=asked.path,

@@ -10,7 +10,7 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.laws import Computer, Controller, Law, inverted
-from flypend.laws.references import hover
+from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
 from flypend.planning.boards import Boards
 from flypend.planning.feedback import Feedback, regulator
@@ -40,11 +40,11 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     Raises
     ------
     InputError
-        If the plan failed.
+        If the plan failed, or `otherwise` is no law.
     """
     if not isinstance(plan, Plan) or not plan:
         raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
-    law = otherwise or inverted(hover(plan.target))
+    law = fallback(otherwise, hover(plan.target))
     feedback = regulator(plan)
     return Controller(
         name="track",
@@ -54,6 +54,16 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
         flight_computer=lambda loop, rotors: Tracker(feedback, plan.vehicle, law, loop, rotors),
         because="it follows a table",
     )
+
+
+def fallback(otherwise: Any, reference: Reference) -> Law:
+    """Return the law that flies where no plan does, `otherwise`, or the inverted law about `reference`.
+
+    Raises InputError if it is no law in symbols.
+    """
+    if otherwise is not None and not isinstance(otherwise, Law):
+        raise InputError("otherwise", "a Law", repr(otherwise)[:80])
+    return otherwise or inverted(reference)
 
 
 def rotors_only(name: str) -> Callable[[float, State], Wrench]:

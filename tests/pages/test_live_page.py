@@ -185,8 +185,9 @@ def test_it_is_small_and_begins_soon(chromium, run, tmp_path):
     assert worked < 1000, worked  # ms in the worker, for a flight of six seconds; 20 on an idle machine
 
 
-# Of the page's own time for a frame, in loops: the loop takes 55 ms where a live page takes 2.8 ms a frame.
-FRAME = 0.1
+# The page's own time for a frame, in loops: the loop takes 55 ms where a replay takes 1.8 ms a frame, and a flight that
+# goes on 2.8 ms, but 6 ms at ten frames a second, of which each has four times as much to tell.
+FRAME = {False: 0.08, True: 0.15}
 UNDRAWN = """for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "clear"]) {
   WebGL2RenderingContext.prototype[name] = () => {};
 }"""
@@ -221,7 +222,7 @@ def test_a_frame_takes_little_of_the_page(chromium, run, tmp_path, live):
     page.evaluate(LOOP)
     measure = spent("TaskDuration") - before
     context.close()
-    assert each < FRAME * measure, (each, measure)
+    assert each < FRAME[live] * measure, (each, measure)
 
 
 def test_pokes_gains_limits_and_delay_are_flown_as_by_the_package(visit, run):

@@ -2,8 +2,8 @@
 
 4,096 worlds, actions at 100 Hz over motion at 1 kHz, random actions, in turns. crazyflow (Euler steps of a Crazyflie,
 rotor speeds commanded, JAX) and RotorPy (batched, PyTorch) fly where they are installed (`pip install crazyflow
-rotorpy`), MuJoCo by its own `rollout` over our model. They observe nothing, pay no reward and have no rod but for
-MuJoCo's. Prints steps of the motion and of the environment per second on the wall, and the best of some turns.
+rotorpy roma torchdiffeq`), MuJoCo by its own `rollout` over our model. They observe nothing, pay no reward and have no
+rod but for MuJoCo's. Prints steps of the motion and of the environment per second on the wall, the best of some turns.
 """
 
 from __future__ import annotations
@@ -59,18 +59,18 @@ def crazyflow() -> Iterator[Peer]:
 
 
 def rotorpy() -> Iterator[Peer]:
-    """RotorPy's batch of Crazyflies, by the fourth-order method of fixed steps, rotor speeds commanded."""
+    """RotorPy's batch of Crazyflies, by the fourth-order method of fixed steps; fewer worlds, since it takes long."""
     import torch
     from rotorpy.vehicles.crazyflie_params import quad_params
     from rotorpy.vehicles.multirotor import BatchedMultirotor, BatchedMultirotorParams
 
-    device = torch.device("cpu")
+    device, few = torch.device("cpu"), 256
     lengths = {"x": 3, "v": 3, "w": 3, "wind": 3, "rotor_speeds": 4}
-    begin = {name: torch.zeros(COUNT, length).double() for name, length in lengths.items()}
-    begin["q"] = torch.tensor([0.0, 0.0, 0.0, 1.0]).double().repeat(COUNT, 1)
-    made = BatchedMultirotorParams([quad_params] * COUNT, COUNT, device)
-    sim = BatchedMultirotor(made, COUNT, begin, device, integrator="rk4")
-    given = torch.from_numpy(np.random.default_rng(0).uniform(1000.0, 2000.0, (ACTIONS, COUNT, 4)))
+    begin = {name: torch.zeros(few, length).double() for name, length in lengths.items()}
+    begin["q"] = torch.tensor([0.0, 0.0, 0.0, 1.0]).double().repeat(few, 1)
+    made = BatchedMultirotorParams([quad_params] * few, few, device)
+    sim = BatchedMultirotor(made, few, begin, device, integrator="rk4")
+    given = torch.from_numpy(np.random.default_rng(0).uniform(1000.0, 2000.0, (ACTIONS, few, 4)))
 
     def step() -> None:
         state = begin
@@ -78,7 +78,7 @@ def rotorpy() -> Iterator[Peer]:
             for _ in range(STEPS):
                 state = sim.step(state, {"cmd_motor_speeds": row}, 1e-3)
 
-    yield "RotorPy", COUNT, step
+    yield "RotorPy", few, step
 
 
 def mujoco() -> Iterator[Peer]:

@@ -171,5 +171,5 @@ def test_the_counts_of_the_page(clearance, capsys, monkeypatch):
     printed = capsys.readouterr().out
     wide, narrow, above = (int(text) for text in re.findall(r": (\d+) of 1000", printed))
     assert [narrow, wide, above] == told(
-        r"hehn2011, (\d+) \(13.3 %.*? the rotors, (\d+) \(.*? 0.0635 m, and (\d+) \(3.6"
+        r"hehn2011, (\d+) \(15.6 %.*? the rotors, (\d+) \(.*? 0.0635 m, and (\d+) \(5.2"
     )

@@ -8,7 +8,7 @@ import pytest
 import flypend as fp
 from flypend.flight.tasks import task_starts
 from flypend.model.state import SIZE
-from flypend.planning import pilot, waiting
+from flypend.planning import evasion, pilot, waiting
 from flypend.planning.request import request
 from flypend.planning.waiting import Meanwhile, Waits
 from flypend.plants.equations import EquationsEngine
@@ -93,6 +93,24 @@ def test_a_sketch_under_which_the_rod_touches_is_not_flown(monkeypatch):
     assert otherwise is None
     np.testing.assert_array_equal(elsewhere, waits.until(0.0, begin_of(start, HUB), WAIT)[1])
     assert not np.array_equal(elsewhere, there)
+
+
+@pytest.mark.parametrize("number", [1, 12])
+def test_from_a_start_nearer_than_its_clearance_a_sketch_flies_that_keeps_the_rod_as_far(number):
+    """Constant forces flew there, from where the best plan strays 5.7 and 3.1 times as far as from the start."""
+    start = task_starts(HUB, 26, seed=501)["random"][number]
+    waits, begin = waits_of(HUB), begin_of(start, HUB)
+    assert evasion.room(begin[None], HUB) < 0.01
+    found, there = sketched(waits, start, HUB)
+    assert found is not None
+    instead, elsewhere = waits.until(0.0, begin, WAIT)
+    assert instead is not None
+
+    def strays(end):
+        state, rotors = fp.State.from_packed(end[:SIZE]), np.clip(end[SIZE:], *HUB.rotor_limits)
+        return fp.plan(HUB, state, rotors=rotors, time_limit=120).excursion
+
+    assert strays(there) < strays(elsewhere) / 2
 
 
 def test_a_sketch_that_is_late_is_not_flown(monkeypatch):

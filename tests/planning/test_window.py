@@ -179,7 +179,7 @@ def test_windows_that_are_none_are_refused(changes, line):
 
 @pytest.mark.parametrize(("width", "height", "degrees"), [(0.7, 0.4, 60), (0.55, 0.4, 75)])
 def test_a_rod_that_must_lean_and_may_not_fall_passes_a_low_window(width, height, degrees):
-    """Upright is a saddle: from guesses that stay upright none of these was found, whatever the horizon."""
+    """Upright is a saddle, which guesses that stay upright do not leave."""
     window, limit = fp.Window(centre=(0, 0, 0.2), width=width, height=height), np.radians(degrees)
     assert height < HEHN.reach < height / np.cos(limit)
     plan = plan_of(HEHN, START, "effort", window=window, lean=limit, **HOVER)

@@ -99,11 +99,13 @@ class Verdict:
 class Watch:
     """Watches some `lanes` of a solver with `jobs`, of which the best counts, until that is steady.
 
-    There are at `most` so many iterations.
+    There are at `most` so many iterations. In the first, being too near what must not be touched has the weight `soft`.
     """
 
-    def __init__(self, jobs: Sequence[Job], on: Sequence[int], most: int = MOST_ITERATIONS) -> None:
-        self._jobs, self._on, self._most = jobs, np.array(on), most
+    def __init__(
+        self, jobs: Sequence[Job], on: Sequence[int], most: int = MOST_ITERATIONS, soft: float = SOFT_FIRST
+    ) -> None:
+        self._jobs, self._on, self._most, self._first = jobs, np.array(on), most, soft
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
         self._soft = jobs[0].asked.wishes.soft
         self._kept: tuple[Array, Array, str, int] | None = None
@@ -117,7 +119,7 @@ class Watch:
     def before(self, solver: Solver | Race) -> None:
         """Prepare an iteration: what must not be touched costs more and more to be near."""
         if self._soft:
-            weight = SOFT_FIRST * SOFT_GROWTH**self._iterations
+            weight = self._first * SOFT_GROWTH**self._iterations
             solver.insist(-2, min(SOFT_LAST, weight), self._on)
             self._best = self._best if weight > SOFT_LAST else np.inf  # costs under other weights do not compare
 
@@ -161,16 +163,18 @@ def together(
     deadline: float,
     most: int = MOST_ITERATIONS,
     rounds: Mapping[int, int] | None = None,
+    first: float = SOFT_FIRST,
 ) -> Found:
     """Solve from all styles of guesses, until the best is steady or the `deadline` (monotonic) is over.
 
     There are at `most` so many iterations. `rounds` are as in `race.Race`; by default no guess is given up where costs
-    are soft at first, since the dearest may be the one that keeps away.
+    are soft at first, since the dearest may be the one that keeps away. `first` as
+    `soft` in `Watch`.
     """
     jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.wishes.soft
     given_up = ({} if soft else ROUNDS) if rounds is None else rounds
     solver = Race(single(asked.rotors, asked.wishes), *guessed(jobs, horizon), given_up)
-    watch = Watch(jobs, range(WIDTH), most)
+    watch = Watch(jobs, range(WIDTH), most, first)
     while not watch.done and time.monotonic() < deadline:
         begin = time.thread_time()
         watch.before(solver)

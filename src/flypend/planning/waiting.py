@@ -28,6 +28,8 @@ from flypend.plants.loop import Loop
 
 # How many guesses go on after how many iterations of a sketch, guesses, and iterations; see `race.work`.
 SKETCH = ({1: 3}, WIDTH, 4)
+SOFT = 0.1  # first weight of being too near: a few iterations must know what the rod may not touch
+NEARER = 0.75  # a sketch may come nearer than the clearance if it keeps so much of what the rod keeps without it
 LONGEST = 0.6  # √(l/g), for which a sketch, which knows no feedback, may fly
 
 Array = NDArray[np.float64]
@@ -74,19 +76,24 @@ class Waits:
 
         `begin` and what is returned are states and rotor forces (24 + n,).
         """
+        _, meanwhile, there = self._instead(t, begin, wait)
+        return meanwhile, there
+
+    def _instead(self, t: float, begin: Array, wait: float) -> tuple[float, Meanwhile | None, Array]:
+        """Return what the rod keeps, m, before the answer of `until`."""
         path = self._under_law(t, begin, wait)
         if (kept := self._kept(path)) < self._clearance:
             command, better, there = evasion(self._vehicle, begin[:SIZE], begin[SIZE:], wait)
             if better > kept:
-                return Meanwhile(t, math.inf, math.inf, command[None]), there
-        return None, path[-1]
+                return better, Meanwhile(t, math.inf, math.inf, command[None]), there
+        return kept, None, path[-1]
 
     def sketched(
         self, t: float, begin: Array, horizon: float, first: float, wait: float, ask: Ask, *, measured: bool
     ) -> tuple[Meanwhile | None, Array]:
         """Return as `until`, but with a sketch of a plan with a `horizon` (√(l/g)) that is there after `first` (s).
 
-        There is none if the rod would touch something, or if the time is `measured` and it is late.
+        There is none if the rod would come too near to what it may touch, or if the time is `measured` and it is late.
         """
         path, begun = self._under_law(t, begin, first), time.process_time()
         try:
@@ -95,9 +102,12 @@ class Waits:
             return self.until(t, begin, wait)
         late = measured and time.process_time() - begun > first
         path = np.concatenate([path, found.flown(self._vehicle, path[-1])])
-        if late or self._kept(path) < self._clearance:
-            return self.until(t, begin, wait)
-        return found, path[-1]
+        kept = -math.inf if late else self._kept(path)
+        if kept >= self._clearance:
+            return found, path[-1]
+        # From a start that is nearer than that, constant forces that keep away best lead nowhere.
+        least, meanwhile, there = self._instead(t, begin, wait)
+        return (found, path[-1]) if kept >= NEARER * least else (meanwhile, there)
 
     def _kept(self, path: Array) -> float:
         return math.inf if self._vehicle.mount == "gimbal" else room(path, self._vehicle)
@@ -117,5 +127,5 @@ class Waits:
 def sketch(asked: Request, horizon: float, begin: float, end: float) -> Meanwhile:
     """Return what a few iterations from all guesses make of what is `asked`, to fly from `begin` to `end` (s)."""
     rounds, _, iterations = SKETCH
-    found = together(asked, horizon, math.inf, iterations, rounds)
+    found = together(asked, horizon, math.inf, iterations, rounds, SOFT)
     return Meanwhile(begin, end, stages_of(horizon)[1] * asked.units.time, found.commands * asked.units.force)

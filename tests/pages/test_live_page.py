@@ -185,8 +185,8 @@ def test_it_is_small_and_begins_soon(chromium, run, tmp_path):
     assert worked < 1000, worked  # ms in the worker, for a flight of six seconds; 20 on an idle machine
 
 
-# The page's own time for a frame, in loops: the loop takes 55 ms where a replay takes 1.8 ms a frame, and a flight that
-# goes on 2.8 ms, but 6 ms at ten frames a second, of which each has four times as much to tell.
+# The page's own time for a frame, in loops: the loop takes 55 ms where a replay takes 2.2 ms a frame, and a flight that
+# goes on 3.2 ms, but 6 ms at nine frames a second, of which each has more to tell.
 FRAME = {False: 0.08, True: 0.15}
 UNDRAWN = """for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "clear"]) {
   WebGL2RenderingContext.prototype[name] = () => {};

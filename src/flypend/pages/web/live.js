@@ -119,7 +119,7 @@ main:not(.running) .has-place { display: none; }
 .notice { position: absolute; left: 16px; right: 124px; top: 40px; z-index: 1; margin: 0; padding: 10px 14px; border-radius: 10px; border: 1px solid var(--alarm); background: var(--panel); color: var(--ink); font-size: 13.5px; }
 .notice button { margin-left: 8px; padding: 3px 10px; font-size: 13px; }
 .row { display: flex; align-items: center; justify-content: space-between; gap: 10px; margin: 4px 0; font-size: 13px; }
-.row select { flex: 0 1 178px; min-width: 0; font-size: 13px; padding: 4px 6px; }
+.row select { flex: none; width: min(178px, 100% - 78px); font-size: 13px; padding: 4px 6px; }
 .row.two > * { flex: 1; }
 .panel button, .panel .save { font-size: 13px; padding: 6px 8px; }
 .panel .save { text-align: center; border: 1px solid var(--line); border-radius: 8px; color: inherit; text-decoration: none; background: var(--panel); }
@@ -185,7 +185,7 @@ main:not(.running) .has-place { display: none; }
   .row { font-size: 14px; }
   .panel button, .panel .save { padding: 10px; font-size: 14px; }
   .panel .chips button { padding: 8px 13px; font-size: 14px; }
-  .row select { padding: 8px; font-size: 14px; flex-basis: 230px; }
+  .row select { padding: 8px; font-size: 14px; width: min(230px, 100% - 78px); }
   .map { grid-template: minmax(0, 84vw) auto / minmax(0, 1fr); gap: 8px; padding: 0 16px 12px; }
 }
 `;var Ve=(s,t,e)=>Math.min(Math.max(s,t),e),ii=(s,t,e)=>s+(t-s)*e,Re=(s,t)=>s.reduce((e,i,n)=>e+i*t[n],0),ni=s=>Math.hypot(...s),ei=s=>{let t=ni(s)||1;return s.map(e=>e/t)};function Nh(s,t,e,i,n,r){let a=r,o=1-a;return s.map((l,c)=>(1+2*a)*o*o*l+a*o*o*n*t[c]+a*a*(3-2*a)*e[c]-a*a*o*n*i[c])}function Dh(s,t,e){let i=Re(s,t),n=i<0?-1:1;i=Math.min(Math.abs(i),1);let r=Math.acos(i),a=Math.sin(r);if(a<1e-6)return ei(s.map((c,h)=>ii(c,n*t[h],e)));let o=Math.sin((1-e)*r)/a,l=n*Math.sin(e*r)/a;return ei(s.map((c,h)=>o*c+l*t[h]))}function Cr([s,t,e,i]){return[[1-2*(t*t+e*e),2*(s*t-e*i),2*(s*e+t*i)],[2*(s*t+e*i),1-2*(s*s+e*e),2*(t*e-s*i)],[2*(s*e-t*i),2*(t*e+s*i),1-2*(s*s+t*t)]]}function $i(s,t){let e=0,i=s.length-1;for(;e<i;){let n=e+i+1>>1;s[n]<=t?e=n:i=n-1}return e}function _n(s){let t=10**Math.floor(Math.log10(s));return t*[1,2,5,10].find(e=>e*t>=s*(1-1e-9))}var wl=[.1,.25,.5,1,2],Pr=class{constructor(t,e,i){Object.assign(this,{start:t,end:e,changed:i,time:t,speed:1,playing:!1,drive:null})}span(t,e){Object.assign(this,{start:t,end:e}),this.seek(this.time)}follow(t){this.drive=t,this.playing=!!t,this.changed()}play(){this.drive?this.time=this.end:this.time>=this.end&&(this.time=this.start),this.playing=!!this.drive||this.end>this.start,this.changed()}pause(){this.playing=!1,this.changed()}toggle(){this.playing?this.pause():this.play()}seek(t){Number.isFinite(t)&&(this.time=Ve(t,this.start,this.end),this.changed())}setSpeed(t){t>0&&(this.speed=t,this.changed())}shift(t){let e=wl.filter(i=>(i-this.speed)*t>1e-9);e.length&&this.setSpeed(t>0?e[0]:e[e.length-1])}tick(t){if(this.playing){if(this.drive){this.drive(t,this.speed);return}this.time=Math.min(this.time+t*this.speed,this.end),this.time>=this.end&&this.pause()}}};var Ff={play:"M8 5.5v13l11-6.5z",pause:"M7 5h3.6v14H7zM13.4 5H17v14h-3.6z",again:"M12 5V1.8L7 6l5 4.2V7a5 5 0 1 1-5 5H5a7 7 0 1 0 7-7z"},Ir=class{constructor(t,e){this.clock=e,t.innerHTML=`<button class="play" type="button"><svg viewBox="0 0 24 24" aria-hidden="true"><path/></svg></button>

@@ -22,7 +22,7 @@ PARTS = {"TaskDuration": "all", "ScriptDuration": "scripts", "RecalcStyleDuratio
 
 
 def opened(browser, file):
-    """The page in `file`, with its first flight shown, and a session that knows its processor time."""
+    """The page in `file`, and a session that knows its processor time."""
     page = browser.new_context(viewport=SIZE, offline=True).new_page()
     page.add_init_script(UNDRAWN)
     session = page.context.new_cdp_session(page)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from benchmarks.frames import UNDRAWN
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
 from flypend.flight.signals import Signals
@@ -188,9 +189,6 @@ def test_it_is_small_and_begins_soon(chromium, run, tmp_path):
 # The page's own time for a frame, in loops: the loop takes 55 ms where a replay takes 2.2 ms a frame, and a flight that
 # goes on 3.2 ms, but 6 ms at nine frames a second, of which each has more to tell.
 FRAME = {False: 0.08, True: 0.15}
-UNDRAWN = """for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "clear"]) {
-  WebGL2RenderingContext.prototype[name] = () => {};
-}"""
 
 
 @pytest.mark.parametrize("live", [False, True])

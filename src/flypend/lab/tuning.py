@@ -143,4 +143,5 @@ def values(setting: Setting) -> NDArray[np.float64]:
     if law.name == "lqr" and not setting.where:
         with SYMBOLS:  # the linearisation is symbolic
             return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
-    return np.array([float(setting.gains[name]) for name in sliders_of(law)])
+    gains = setting.gains
+    return np.array([float(gains[name]) for name in sliders_of(law)])

@@ -168,8 +168,7 @@ def together(
     """Solve from all styles of guesses, until the best is steady or the `deadline` (monotonic) is over.
 
     There are at `most` so many iterations. `rounds` are as in `race.Race`; by default no guess is given up where costs
-    are soft at first, since the dearest may be the one that keeps away. `first` as
-    `soft` in `Watch`.
+    are soft at first, since the dearest may be the one that keeps away. `first` is the `soft` of `Watch`.
     """
     jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.wishes.soft
     given_up = ({} if soft else ROUNDS) if rounds is None else rounds

@@ -5,6 +5,7 @@
 
 import { Local } from "../live/local.js";
 import { Link } from "./link.js";
+import { kind } from "./setting.js";
 
 const REST = 150; // ms without a change until the server is asked to confirm
 
@@ -115,9 +116,6 @@ export class Hybrid {
     return this.local.sliders(setting);
   }
 }
-
-/** What machine code is for: vehicle, law and plant, whatever their numbers. An address may lack them. */
-const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base, plant?.sensors]);
 
 /** Whether numbers of a setting change what is compiled. */
 const rebuilt = ({ vehicle, plant }) => Boolean(vehicle?.rotor_limits || (plant?.sensors && plant.delay !== undefined));

@@ -95,6 +95,9 @@ function filled(put, value) {
   return Object.fromEntries(Object.entries(put).map(([key, entry]) => [key, filled(entry, value)]));
 }
 
+/** What machine code is for: vehicle, law and plant, whatever their numbers. An address may lack them. */
+export const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base, plant?.sensors]);
+
 function read() {
   try {
     const value = JSON.parse(decodeURIComponent(location.hash.slice(1)));

@@ -1,5 +1,7 @@
 // A story in steps, each of them a flight: a row of numbers, and what there is to see.
 
+import { kind } from "./setting.js";
+
 export class Story {
   /** Of `steps` ({ title, words, setting }), at the top of `parent`; `tell` is called with the setting of a step. */
   constructor(parent, steps, tell) {
@@ -49,5 +51,3 @@ export class Story {
     this.next.textContent = next && `Next: ${next.title}`;
   }
 }
-
-const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle.base, vehicle.mount, law.name, plant.base, plant.sensors]);

@@ -616,6 +616,8 @@ def test_the_computer_around_a_law_is_checked():
     for name, value in (("lead", 0.9), ("latency", -0.01), ("observer", np.nan), ("force_limit", -1)):
         with pytest.raises(fp.InputError, match=f"^{name}: expected a finite number >= "):
             Computer(**{name: value})
+    with pytest.raises(fp.InputError, match=r"^models_lag: "):
+        Computer(models_lag="x")
 
 
 @pytest.mark.parametrize("lag", [7e-4, 3e-3])

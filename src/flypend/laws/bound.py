@@ -66,6 +66,8 @@ class Computer:
         errors.number("lead", self.lead, at_least=1)
         errors.number("latency", self.latency, at_least=0, at_most=MAX_LATENCY, unit="s")
         errors.number("delay_reach", self.delay_reach, at_least=0, at_most=MAX_LATENCY, unit="s")
+        if not isinstance(self.models_lag, bool):
+            raise errors.InputError("models_lag", "true or false", repr(self.models_lag))
         errors.number("observer", self.observer, at_least=0, unit="1/s")
         errors.number("force_limit", self.force_limit, at_least=0)
 

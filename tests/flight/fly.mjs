@@ -1,10 +1,10 @@
 // Flies a module through the simulation of the pages: a JSON of facts, start, seed and pieces comes in; rows go out, and what is shown beside the last of each piece.
 import { readFileSync, writeFileSync } from "node:fs";
-import { Simulation } from "../../web/src/live/simulation.js";
+import { simulation as made } from "../../web/src/live/kinds.js";
 
 const [, , code, from, to] = process.argv;
 const { facts, start, seed, pieces } = JSON.parse(readFileSync(from));
-const simulation = await Simulation.from(new WebAssembly.Module(readFileSync(code)), facts);
+const simulation = await made(new WebAssembly.Module(readFileSync(code)), facts);
 simulation.begin(start, seed);
 const shown = [];
 const rows = pieces.map(({ ticks, gains, knobs, impulses }) => {

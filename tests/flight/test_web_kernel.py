@@ -1,12 +1,10 @@
 """Kernels as WebAssembly, flown by Node.js through the engine of the pages, beside native ones."""
 
-import base64
-import json
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
+from by_page import DURATION, EXACT, SEED, flown_by_page
 from llvmlite import ir
 
 import flypend as fp
@@ -16,7 +14,7 @@ from flypend.compile.llvm.target import wasm32
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_kernel
-from flypend.flight.live import engine_facts, tunable
+from flypend.flight.live import tunable
 from flypend.flight.signals import Signals
 from flypend.laws.references import circle
 from flypend.model.state import seen_packed
@@ -24,33 +22,9 @@ from flypend.plants import plant
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Noise, Wind
 
-DURATION, KEPT = 6.0, 60
+KEPT = 60
 LAWS = ("inverted", "corrected", "printed", "repaired", "almost_global", "lqr")
-SEED = 7
 CHANGE = np.random.default_rng(1).standard_normal(24)
-
-
-def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None):
-    """States and rotor forces at every tick of the module's flights, (runs, ticks, 24 + n), and how they ended.
-
-    The list `shown` takes what the page shows beside the last state of each piece.
-    """
-    facts = engine_facts(loop)
-    code, into, out = (tmp_path / name for name in ("kernel.wasm", "in.json", "out.json"))
-    code.write_bytes(base64.b64decode(facts.pop("code")))
-    pieces = pieces or [{"ticks": round(DURATION * loop.sampled.rate)}]
-    flown, ends = [], []
-    for i, start in enumerate(np.atleast_2d(seen_packed(starts.packed(), loop.law.e3))):
-        into.write_text(json.dumps({"facts": facts, "start": start.tolist(), "seed": SEED + i, "pieces": pieces}))
-        subprocess.run(["node", Path(__file__).with_name("fly.mjs"), code, into, out], check=True)
-        told = json.loads(out.read_text())
-        rows = np.frombuffer(base64.b64decode(told["rows"])).reshape(-1, 24 + len(loop.vehicle.rotor_spins))
-        count = 1 + sum(piece["ticks"] for piece in pieces)
-        flown.append(np.pad(rows, ((0, count - len(rows)), (0, 0)), constant_values=np.nan))
-        ends.append(told["outcome"])
-        if shown is not None:
-            shown += told["shown"]
-    return np.array(flown), ends
 
 
 def flown_here(loop, starts):
@@ -161,7 +135,7 @@ def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(
 
 
 def test_the_module_takes_two_things_and_gives_one(tmp_path):
-    (tmp_path / "kernel.wasm").write_bytes(web_kernel(loop_of("inverted"), fp.Criterion()))
+    (tmp_path / "kernel.wasm").write_bytes(web_kernel(loop_of("inverted"), fp.Criterion(), EXACT))
     script = """
         const module = new WebAssembly.Module(require('fs').readFileSync('kernel.wasm'));
         const names = (list) => list.map(({ name }) => name).sort().join();

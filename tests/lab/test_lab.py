@@ -38,6 +38,7 @@ from flypend.lab.session import Lanes, Slot, engines, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
 from flypend.laws import law_names
+from flypend.pages.sliders import sliders_of
 from flypend.paper import experiment
 from flypend.settings.runfile import run_file
 
@@ -207,12 +208,21 @@ def test_the_verdict_names_what_the_law_is_to_do():
     assert verdict(fly(singular), tuned(singular).criterion)["words"].startswith("singular after ")
 
 
-def test_machine_code_is_for_laws_whose_gains_are_inputs_and_sampled_plants():
-    facts = engine_of(setting_of(asked(plant="rotors")))
-    assert facts["gains"] == [name for name in tuned(setting_of(asked(plant="rotors"))).names if name in facts["gains"]]
+@pytest.mark.parametrize("plant", ["rotors", "ideal"])
+def test_machine_code_takes_the_gains_that_are_inputs(plant):
+    asked_for = setting_of(asked(plant=plant))
+    facts = engine_of(asked_for)
+    assert facts["kind"] == ("ideal" if plant == "ideal" else "sampled")
+    assert facts["fixed"] == []
+    assert facts["gains"] == list(tuned(asked_for).names)
     assert len(facts["code"]) > 1000
-    assert engine_of(setting_of(asked("lqr", plant="rotors"))) is None
-    [reply] = engines({"number": 3, "key": "k", "setting": asked()}, lambda: None)  # the ideal plant
+    balanced = engine_of(setting_of(asked("lqr", plant=plant)))
+    assert balanced["gains"] == []
+    assert balanced["fixed"] == sorted(sliders_of(fp.laws.lqr()))
+
+
+def test_no_machine_code_is_sent_for_what_cannot_be_flown():
+    [reply] = engines({"number": 3, "key": "k", "setting": asked(duration=-1)}, lambda: None)
     assert (reply["number"], reply["key"], reply["engine"]) == (3, "k", None)
 
 

@@ -14,7 +14,9 @@ from benchmarks.frames import UNDRAWN
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
 from flypend.flight.signals import Signals
-from flypend.flight.verdict import goal
+from flypend.flight.verdict import goal, verdict
+from flypend.lab.flying import poked
+from flypend.lab.setting import Poke
 from flypend.model.state import seen_packed
 from flypend.plants import MOTION_CAPTURE, plant
 from flypend.plants.sensors import SUITES
@@ -287,6 +289,89 @@ def test_other_laws_fly_too(visit, law):
     for name in ("x", "R", "y", "rotor_forces"):
         np.testing.assert_allclose(seen[name], getattr(other, name)[::20], atol=1e-9, err_msg=name)
     assert page.locator(".has-gains").is_visible() == (law != "lqr")
+
+
+def test_the_ideal_plant_flies_is_poked_and_goes_on(visit):
+    vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.6, 0, 0.8), x_dot=(0.1, 0, 0))
+    run = fp.simulate(vehicle, fp.laws.corrected(), start, 6.0, plant="ideal")
+    page = visit(run)
+    seen = poses(page, run.t[::20])
+    for name in ("x", "x_dot", "R", "y", "y_dot", "rotor_forces"):
+        np.testing.assert_allclose(seen[name], getattr(run, name)[::20], atol=1e-7, rtol=1e-9, err_msg=name)
+    assert page.evaluate("flypend.verdict().words") == verdict(run)["words"]
+    assert page.locator("[data-path^=plant]").count() == 0
+
+    poke = {"time": 1.5, "on": "bob", "velocity": [0.8, -0.2, 0.1]}
+    go_to(page, page.evaluate("flypend.setting()") | {"pokes": [poke]})
+    struck = poked(run.states[150], vehicle, "down", Poke(1.5, "bob", np.array(poke["velocity"])))
+    on = fp.simulate(vehicle, fp.laws.corrected(), struck, 6.0, plant="ideal")
+    seen = poses(page, 1.5 + on.t[1::20])
+    for name in ("x", "R", "y", "rotor_forces"):
+        np.testing.assert_allclose(seen[name], getattr(on, name)[1::20], atol=1e-6, rtol=1e-9, err_msg=name)
+
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 200")
+    page.evaluate("flypend.poke('vehicle', [0, 0.3, 0])")
+    page.evaluate("flypend.pull([0, 0, -1])")
+    until(page, "() => flypend.live().poked === 1 && flypend.live().pulled")
+    page.evaluate("flypend.pull(null)")
+    now = page.evaluate("flypend.live().tick")
+    until(page, f"() => flypend.live().tick > {now} + 300")
+    assert not page.evaluate("flypend.live().over")
+
+
+def ideal_states(run, setting, times, moved=0.0):
+    """States (n, 24) of a page's `setting` through the ideal plant by the package, the start `moved` along e₁, m."""
+    law = getattr(fp.laws, run.law)(**setting["law"]["gains"])
+    start = fp.State(**setting["start"]).seen(run.e3)
+    start, [poke] = fp.State.from_packed(start.packed() + moved * np.eye(24)[0]), setting["pokes"]
+    before = fp.simulate(run.vehicle, law, start, poke["time"], plant="ideal")
+    struck = poked(before.states[-1], run.vehicle, run.e3, Poke(0.0, poke["on"], np.array(poke["velocity"])))
+    after = fp.simulate(run.vehicle, law, struck, setting["duration"], plant="ideal")
+    early = times < poke["time"]
+    return np.concatenate([before.at(times[early]).packed(), after.at(times[~early] - poke["time"]).packed()])
+
+
+def fly_random_ideal(page, run, count):
+    rng, first = np.random.default_rng(6), page.evaluate("flypend.setting()")
+    for _ in range(count):
+        start, gains = fp.State.random(rng), ("k_d", "k_1", "k_2")
+        poke = {"time": round(rng.uniform(0.5, 2), 2), "on": "bob", "velocity": rng.normal(0, 0.3, 3).tolist()}
+        setting = first | {
+            "law": {"name": run.law, "gains": {name: run.gains[name] * rng.uniform(0.9, 1.1) for name in gains}},
+            "start": {name: np.asarray(getattr(start, name)).tolist() for name in first["start"]}, "pokes": [poke],
+        }  # fmt: skip
+        go_to(page, setting)
+        times = np.round(np.arange(0.0, poke["time"] + 2.0, 0.1), 2)
+        seen, states = poses(page, times), ideal_states(run, setting, times)
+        apart = np.abs(ideal_states(run, setting, times, 1e-12) - states).max()
+        for name, place in {"x": slice(0, 3), "y": slice(18, 21)}.items():
+            scale = 1 + np.abs(states[:, place])
+            assert np.max(np.abs(seen[name] - states[:, place]) / scale) < max(1e-8, 10 * apart), name
+
+
+@pytest.fixture(scope="module")
+def corrected():
+    start = fp.State(y=(0.6, 0, 0.8), x_dot=(0.1, 0, 0))
+    return fp.simulate(fp.vehicle("nayak2018"), fp.laws.corrected(), start, 4.0, plant="ideal")
+
+
+def test_random_settings_of_the_ideal_plant_are_flown_as_by_the_package(visit, corrected):
+    fly_random_ideal(visit(corrected), corrected, 3)
+
+
+@pytest.mark.slow
+def test_a_hundred_random_settings_of_the_ideal_plant_too(visit, corrected):
+    fly_random_ideal(visit(corrected), corrected, 100)
+
+
+def test_a_singular_flight_says_why_in_the_page_too(visit):
+    run = fp.simulate(fp.vehicle("nayak2018"), fp.laws.printed(), fp.State(y=(0.6, 0, 0.8)), 3.0, plant="ideal")
+    assert run.outcome.status == "singular"
+    page = visit(run)
+    told, expected = page.evaluate("flypend.verdict()"), verdict(run)
+    assert (told["words"], told["reason"]) == (expected["words"], expected["reason"])
+    assert page.evaluate("flypend.duration()") == pytest.approx(run.outcome.time, abs=0.002)
 
 
 def test_sensors_and_estimator_fly_in_the_page(visit):
@@ -593,7 +678,6 @@ def test_what_no_page_can_fly_is_told_in_a_line(run, tmp_path):
         return fp.Wrench(machine.weight, np.zeros(3))
 
     flights = {
-        "ideal": fp.simulate(machine, fp.laws.inverted(), start, 0.1, plant="ideal"),
         "mujoco": fp.simulate(machine, fp.laws.inverted(), start, 0.1, plant="mujoco"),
         "callable": fp.simulate(machine, fp.Controller(name="still", function=still), start, 0.1, plant="rotors"),
     }

@@ -5,7 +5,7 @@ const STACK = 1 << 20; // bytes at the beginning for constants and the stack, wh
 const LINE = 64; // bytes of a cache line, at whose beginning every array lies
 // What the C library would give.
 const LIBRARY = Object.fromEntries(
-  ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "pow", "hypot"].map((name) => [name, Math[name]]),
+  ["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "pow", "hypot"].map((name) => [name, Math[name]]),
 );
 
 export class Engine {
@@ -31,8 +31,8 @@ export class Engine {
     return { place, kind, length, view: () => new kind(this.memory.buffer, place, length) };
   }
 
-  /** Call the function `name` with `given`: arrays of `reserve`, integers as BigInt, null for none. */
+  /** Call the function `name` with `given`: arrays of `reserve`, integers as BigInt, real numbers, null for none. */
   call(name, ...given) {
-    this.functions[name](...given.map((value) => (typeof value === "bigint" ? value : value?.place ?? 0)));
+    this.functions[name](...given.map((value) => (typeof value === "object" ? value?.place ?? 0 : value)));
   }
 }

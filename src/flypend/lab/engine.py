@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from flypend.flight.live import engine_facts, live_loop, tunable
+from flypend.flight.live import live_loop, tunable
+from flypend.flight.live_engine import engine_facts
+from flypend.lab.budget import MOST_STEPS
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw
 from flypend.pages.sliders import sliders_of
@@ -13,11 +16,13 @@ from flypend.pages.sliders import sliders_of
 def engine_of(setting: Setting) -> dict[str, Any] | None:
     """Return what a page needs to fly settings like `setting` by itself; None for one that only the server flies.
 
-    The page changes gains and numbers of the plant. The law must be one of the package whose equations read all gains
-    that have sliders, the plant a sampled one.
+    The page changes numbers of the plant and gains but those that are `fixed`: from these the law, which must be one of
+    the package, computes others in advance.
     """
     law = setting.flight.law
     with SYMBOLS:
-        if setting.where or not isinstance(law, BoundLaw) or set(tunable(law)) != set(sliders_of(law)):
+        if setting.where or not isinstance(law, BoundLaw):
             return None
-        return engine_facts(live_loop(setting.flight))
+        exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
+        fixed = set(sliders_of(law)) - set(tunable(law))
+        return engine_facts(live_loop(setting.flight), exact) | {"fixed": sorted(fixed)}

@@ -16,6 +16,7 @@ from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels import IdealKernel, SampledKernel
 from flypend.flight.kernels.pieces import PiecesKernel
 from flypend.flight.kernels.single import REASONS, Solution, sampled_samples
+from flypend.flight.live_engine import PERIOD
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
@@ -58,7 +59,7 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
     begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
-        while_ = flight.duration if poke is None else poke.time - begin
+        while_ = flight.duration if poke is None else _struck_at(poke, flight) - begin
         budget.check(begin)
         part = _after(machine, gains, flight, state, rotors, while_, number, budget)
         parts.append(_moved(part, begin, last=poke is None))
@@ -98,6 +99,11 @@ def _impulses(poke: Poke, vehicle: Vehicle) -> Any:
     """Return the impulses (6,) of `poke` on vehicle and bob, N s, e₃ up."""
     blow = poke.velocity * (vehicle.bob_mass if poke.on == "bob" else vehicle.mass)
     return np.concatenate([np.zeros(3), blow] if poke.on == "bob" else [blow, np.zeros(3)])
+
+
+def _struck_at(poke: Poke, flight: Flight) -> float:
+    """Return the time of `poke`, s; in the ideal plant, at the row of a page that is nearest."""
+    return poke.time if isinstance(flight.plant, Sampled) else PERIOD * round(poke.time / PERIOD)
 
 
 def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:

@@ -1,9 +1,10 @@
 // The engine of the laboratory: a worker with machine code shows a flight at once, the server confirms it and knows the rest.
 //
-// The server alone flies own laws, the ideal plant, rotor limits (from which laws take gains), a delay that an estimator has to
-// be told, and what a law may refuse.
+// The server alone flies own laws, rotor limits (from which laws take gains), gains from which a law computes others in advance, a
+// delay that an estimator has to be told, and what a law may refuse.
 
 import { Local } from "../live/local.js";
+import { isWhole, refused } from "../live/request.js";
 import { Link } from "./link.js";
 import { kind } from "./setting.js";
 
@@ -31,14 +32,17 @@ export class Hybrid {
   /** Fly `setting` here, if that is possible; whether it is. */
   #preview(number, setting) {
     const { local } = this;
-    if (!local || "random" in setting.start || !this.#allowed(setting)) return false;
-    local.ask("fly", { setting: this.#whole(setting) }, number);
+    if (!local || !isWhole(setting.start) || !this.#allowed(setting)) return false;
+    const whole = this.#whole(setting);
+    if (refused(whole, local.facts)) return false; // the server has words for it
+    local.ask("fly", { setting: whole }, number);
     return true;
   }
 
   /** The machine code for the present setting, if it has come. */
   get local() {
-    return (this.known?.key === kind(this.asked) && !rebuilt(this.asked) && this.engines.get(this.known.key)) || null;
+    const found = this.known?.key === kind(this.asked) && this.engines.get(this.known.key);
+    return found && !rebuilt(this.asked, found.facts) ? found : null;
   }
 
   /** Whether the law takes the gains beside each other, as far as the server has said. */
@@ -81,7 +85,7 @@ export class Hybrid {
       this.engines.set(key, null);
       const { vehicle, law, plant } = setting;
       const plain = { vehicle: { base: vehicle.base, mount: vehicle.mount }, law: { name: law.name, gains: {} }, plant: { base: plant.base, sensors: plant.sensors } };
-      if (plant.base !== "ideal") this.link.ask("engine", { key, setting: { ...setting, ...plain, pokes: [] } });
+      this.link.ask("engine", { key, setting: { ...setting, ...plain, pokes: [] } });
     }
     this.#name();
   }
@@ -118,4 +122,5 @@ export class Hybrid {
 }
 
 /** Whether numbers of a setting change what is compiled. */
-const rebuilt = ({ vehicle, plant }) => Boolean(vehicle?.rotor_limits || (plant?.sensors && plant.delay !== undefined));
+const rebuilt = ({ vehicle, law, plant }, { fixed }) =>
+  Boolean(vehicle?.rotor_limits || (plant?.sensors && plant.delay !== undefined) || fixed.some((name) => name in (law.gains ?? {})));

@@ -8,6 +8,7 @@ import css from "../replay.css";
 import own from "../lab.css";
 import { Choice, keys } from "../controls.js";
 import { judge } from "../layout.js";
+import { isWhole } from "../live/request.js";
 import { Running } from "../live/running.js";
 import { Saving } from "../live/saving.js";
 import { calm } from "../motion.js";
@@ -291,9 +292,9 @@ export class Laboratory {
     this.viewer.load([this.record, ...ghosts]);
   }
 
-  /** A random start comes back in numbers, which the setting then keeps. */
+  /** A start that is random, or not told in full, comes back in numbers, which the setting then keeps. */
   adopt(start) {
-    if (!("random" in this.setting.value.start)) return;
+    if (isWhole(this.setting.value.start)) return;
     this.setting.adopt(start);
     this.panel.setting(this.setting.value);
   }

@@ -6,6 +6,9 @@ const LONGEST = 600; // s of flight that a page holds
 const LEAST = 1e-3, CLOSE = 1e-4; // as flypend.lab.setting and State take them
 const ORDER = ["x", "x_dot", "R", "omega", "y", "y_dot"];
 
+/** Whether a start is told in numbers, all of them. */
+export const isWhole = (start) => !("random" in start) && ORDER.every((name) => start[name]);
+
 /** Gains and knobs that `setting` tells, for a module with `facts`; the reference moves in a `live` flight alone. */
 export function turned(setting, facts, live = false) {
   const { plant = {}, vehicle = {}, law = {}, origin = {} } = setting, { wind = {} } = plant;

@@ -7,8 +7,9 @@ export function judged({ status, end, part, reductions }, { words }) {
   const distance = `excursion ${+(Math.round(100 * excursion) / 100).toPrecision(3)} m`;
   const named = words.status[status];
   if (named !== "completed") {
-    const [name, reason] = (named === "collided" && words.touched[part]) || [null, ""];
-    return { words: `${named} after ${+end.toPrecision(3)} s${reason && `, ${reason}`}`, good: false, settling: null, excursion: null, reason, part: name };
+    const [name, touched] = (named === "collided" && words.touched[part]) || [null, ""];
+    const said = `${named} after ${+end.toPrecision(3)} s${touched && `, ${touched}`}`;
+    return { words: said, good: false, settling: null, excursion: null, reason: touched || words.reasons[status], part: name };
   }
   const late = last.map((time) => time >= end - words.hold - SAME), cause = words.parts[late.indexOf(true)];
   const said = cause ? `${words.missed[cause]} during the last second, ${distance}` : `${words.pose} after ${since.toFixed(1)} s, ${distance}`;

@@ -1,15 +1,16 @@
 // The simulation beside the page: whole flights that are asked for, and one that goes on piece by piece.
 
 import { chosen, columns } from "./columns.js";
-import { Simulation } from "./simulation.js";
+import { simulation as made } from "./kinds.js";
+import { joined } from "./simulation.js";
 
 let still, running, ready;
 
 const actions = {
   load({ code, facts }) {
     ready = WebAssembly.compile(code)
-      .then((module) => Promise.all([Simulation.from(module, facts), Simulation.from(module, facts)]))
-      .then((made) => ([still, running] = made));
+      .then((module) => Promise.all([made(module, facts), made(module, facts)]))
+      .then((both) => ([still, running] = both));
   },
 
   /** A whole flight. */
@@ -48,9 +49,7 @@ function flown(simulation, { start, seed, gains, knobs, pokes }, ticks) {
     impulses = added(impulses, poke.impulses);
   }
   parts.push(simulation.advance(Math.max(ticks - simulation.tick, 1), impulses));
-  const all = new Float64Array(parts.reduce((sum, part) => sum + part.length, 0));
-  parts.reduce((place, part) => (all.set(part, place), place + part.length), 0);
-  return all;
+  return joined(parts);
 }
 
 const added = (sum, impulses) => (sum ? sum.map((value, i) => value + impulses[i]) : impulses);

@@ -26,9 +26,9 @@ class Grid:
         return ir.Constant(self.places, [number] * self.code.lanes.width)
 
     def begin(self, new: Value) -> Value:
-        """Move the lanes that are `new` to the start; return those whose first time is the start."""
+        """Move the lanes that are `new` to the start, at `begin`; return those whose first time is the start."""
         builder = self.code.builder
-        first = new & (self.time(self.constant(0), new) <= 0.0)
+        first = new & (self.time(self.constant(0), new) <= self.code.value(self._number("begin")))
         places = builder.select(first.raw, self.constant(1), self.constant(0))
         builder.store(builder.select(new.raw, places, builder.load(self._cursor, typ=self.places)), self._cursor)
         return first

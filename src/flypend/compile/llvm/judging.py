@@ -230,7 +230,7 @@ class Judge:
     # End of runs ----------------------------------------------------------------------------------------------------
 
     def store(self, lane: ir.Value, run: ir.Value, time: ir.Value) -> None:
-        """Write the reductions of the run in `lane`, which ended at the scalar `time`, into row `run`."""
+        """Write the reductions of the run in `lane`, which lasted for the scalar `time`, into row `run`."""
         code, builder = self.code, self.code.builder
         one, none = ir.Constant(I64, 1), ir.Constant(self.code.lanes.scalar, 0.0)
         places = [code.scalar(self._last, self._entry(i, lane), I64) for i in range(self.k)]

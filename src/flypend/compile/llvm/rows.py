@@ -19,13 +19,14 @@ def define_turn(lanes: Lanes, length: int) -> ir.Function:
         return known
     function, code = lanes.function(f"turn_{length}", 2)
     source, rows = function.args
+    blocks = length - length % BLOCK if lanes.width % BLOCK == 0 else 0
     for lane in range(0, lanes.width, BLOCK):
-        for first in range(0, length - length % BLOCK, BLOCK):
+        for first in range(0, blocks, BLOCK):
             block = [_eight_lanes(code, source, first + i, lane) for i in range(BLOCK)]
             for i, row in enumerate(_transposed(code.builder, block)):
                 place = ir.Constant(I64, (lane + i) * length + first)
                 code.builder.store(row, code.scalar_at(rows, place, ir.DoubleType())).align = 8
-    for i in range(length - length % BLOCK, length):
+    for i in range(blocks, length):
         with code.count(lanes.width) as lane:
             here = code.builder.add(ir.Constant(I64, i * lanes.width), lane)
             there = code.builder.add(code.builder.mul(lane, ir.Constant(I64, length)), ir.Constant(I64, i))

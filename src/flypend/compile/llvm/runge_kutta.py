@@ -34,12 +34,13 @@ SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.8, 0.2, 5.0
 SHORTEST = 1e-13
 
 ARGUMENTS = (
-    "starts", "parameters", "queue", "runs", "duration", "rtol", "atol", "max_steps",
+    "starts", "parameters", "queue", "runs", "begin", "until", "rtol", "atol", "max_steps",
     "times", "time_count", "judge_times", "bins", "bin_count", "bin_rate",
     "samples", "reductions", "final", "end", "status", "steps", "knots", "clearance", "part", "stop",
 )  # fmt: skip
+# The runs fly from `begin` until `until`, s; all times lie between.
 INTEGERS = ("runs", "max_steps", "time_count")
-REALS = ("duration", "rtol", "atol", "bin_count", "bin_rate")
+REALS = ("begin", "until", "rtol", "atol", "bin_count", "bin_rate")
 
 
 def write_kernel(lanes: Lanes, problem: Problem, method: Method) -> None:
@@ -75,7 +76,8 @@ class _Kernel:
     def write(self) -> None:
         code, builder = self.code, self.code.builder
         builder.store(ir.Constant(I64, self.lanes.width), self.left)
-        self.duration, self.rtol, self.atol = (code.value(self._real(name)) for name in ("duration", "rtol", "atol"))
+        self.begin, self.until = (code.value(self._real(name)) for name in ("begin", "until"))
+        self.rtol, self.atol = (code.value(self._real(name)) for name in ("rtol", "atol"))
         for memory, length in ((self.S, self.problem.size), (self.P, self.problem.parameters)):
             with code.count(length) as i:
                 code.store(0.0, memory, i)
@@ -106,10 +108,10 @@ class _Kernel:
         code = self.code
         t, active = code.load(self.t), code.load(self.active) > 0.0
         h = self._trial_step(t)
-        last = t + 1.0001 * h >= self.duration
-        h = code.select(last, self.duration - t, h)
+        last = t + 1.0001 * h >= self.until
+        h = code.select(last, self.until - t, h)
         error, largest = self.stages.attempt(t, h, self.rtol, self.atol)
-        t_new = code.select(last, self.duration, t + h)
+        t_new = code.select(last, self.until, t + h)
         accepted = (error <= 1.0) & active
         code.call(self.project, self.Y, self.Y, self.drift)
         guarded = None
@@ -223,7 +225,7 @@ class _Kernel:
         if guarded is not None:
             value = code.select(stuck & guarded, float(SINGULAR), value)
         value = code.select(lost, float(DIVERGED), value)
-        value = code.select(accepted & (t >= self.duration), float(COMPLETED), value)
+        value = code.select(accepted & (t >= self.until), float(COMPLETED), value)
         value = code.select(code.load(self.touched) > 0.0, float(COLLIDED), value)
         value = code.select(self._first_rate_undefined(), float(UNDEFINED), value)
         if guarded is not None:  # the guard says why, also where a rate is not finite
@@ -254,7 +256,7 @@ class _Kernel:
     def _first_rate_undefined(self) -> Value:
         """Whether a run is at its start and has a non-finite rate."""
         code = self.code
-        total, at_start = code.reserve(1), code.load(self.t) <= 0.0
+        total, at_start = code.reserve(1), code.load(self.t) <= self.begin
         code.store(0.0, total)
         with code.when(code.any(at_start)), code.count(self.problem.size) as i:
             code.store(code.load(total) + 0.0 * code.load(self.K, i), total)
@@ -262,13 +264,13 @@ class _Kernel:
 
     def _store_result(self, lane: ir.Value, status: ir.Value) -> None:
         code, builder = self.code, self.code.builder
-        run = code.scalar(self.run, lane, I64)
+        run, time = code.scalar(self.run, lane, I64), code.scalar(self.t, lane)
         copy_lane(code, self.S, lane, self.at["final"], run, self.problem.size, out=True)
-        code.put(as_double(code, code.scalar(self.t, lane)), self.at["end"], run)
+        code.put(as_double(code, time), self.at["end"], run)
         code.put(status, self.at["status"], run)
         code.put(builder.fptosi(code.scalar(self.count, lane), I64), self.at["steps"], run)
         self.sampler.finish(lane)
-        self._if_judged(lambda judge: judge.store(lane, run, code.scalar(self.t, lane)))
+        self._if_judged(lambda judge: judge.store(lane, run, builder.fsub(time, self._real("begin"))))
         if self.touching is not None:
             self.touching.touching.store(lane, run)
 
@@ -292,7 +294,8 @@ class _Kernel:
                 code.put(one, self.active, lane)
                 copy_lane(code, self.S, lane, self.at["starts"], run, self.problem.size, out=False)
                 copy_lane(code, self.P, lane, self.at["parameters"], run, self.problem.parameters, out=False)
-                for memory in (self.t, self.h, self.count, self.limit):
+                code.put(self._real("begin"), self.t, lane)
+                for memory in (self.h, self.count, self.limit):
                     code.put(zero, memory, lane)
                 self.sampler.reset(lane)
             with none:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
+from flypend.compile.llvm.target import Target
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
@@ -197,7 +199,7 @@ def call(
     """
     queue = np.zeros(1, dtype=np.int64) if queue is None else queue
     function(
-        address(starts), address(values), address(queue), len(starts), *setting,
+        address(starts), address(values), address(queue), len(starts), 0.0, *setting,
         address(moments.kept), len(moments.kept) - 1,
         address(moments.judged), address(moments.bins), len(moments.bins), moments.rate,
         address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
@@ -231,24 +233,35 @@ def ideal_kernel(
     one_of("precision", precision, BYTES)
     problem = ideal_problem(loop, criterion)
     one_of("method", method, METHODS)
-    key = f"ideal {method} {precision} {problem!r}"
+    key = key_of(problem, method, precision)
     return IdealKernel(loop, criterion, compiled(key, problem, method, precision), key)
+
+
+def key_of(problem: Problem, method: str, precision: str) -> str:
+    """Return what determines the kernel of `problem`, whatever its width."""
+    return f"ideal {method} {precision} {problem!r}"
 
 
 def compiled(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
     """Return the kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
-    width = lane_count(problem, precision)
-
-    def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), width, precision)
-        write_kernel(lanes, problem, method_named(method))
-        return lanes.module
-
     kinds = [
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    return jit.build(f"{key} {width} lanes, states below {MAX_STATE}", module, "kernel", kinds)
+    return jit.build(*written(key, problem, lane_count(problem, precision), method, precision), "kernel", kinds)
+
+
+def written(
+    key: str, problem: Problem, width: int, method: str, precision: str, target: Target | None = None
+) -> tuple[str, Callable[[], ir.Module]]:
+    """Return the cache key of the kernel of `problem`, `width` runs at a time, and what writes its module."""
+
+    def module() -> ir.Module:
+        lanes = Lanes(ir.Module("flypend"), width, precision, target=target)
+        write_kernel(lanes, problem, method_named(method))
+        return lanes.module
+
+    return f"{key} {width} lanes, states below {MAX_STATE}", module
 
 
 def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:

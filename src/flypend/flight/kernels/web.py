@@ -1,6 +1,8 @@
-"""Sampled flights for web pages: the kernel of `flypend.flight.kernels.pieces` as a WebAssembly module."""
+"""Flights for web pages: the kernels of this room as modules of WebAssembly, with what a page needs beside them."""
 
 from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 
 import casadi as ca
 import numpy as np
@@ -13,30 +15,51 @@ from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import lower
 from flypend.compile.wasm import module
 from flypend.flight.criterion import Criterion
+from flypend.flight.kernels import ideal, sampled
 from flypend.flight.kernels.pieces import pieces_problem
-from flypend.flight.kernels.sampled import written
-from flypend.laws.closed_loop import lyapunov_function
-from flypend.model import State, Wrench, rod_tension
+from flypend.flight.request import Tolerances
+from flypend.laws.closed_loop import lyapunov_function, symbolic_loop
+from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE, seen_packed
+from flypend.plants import Ideal
+from flypend.plants.equations import struck
 from flypend.plants.knobs import turned
 from flypend.plants.loop import Loop
 
 
-def web_kernel(loop: Loop, criterion: Criterion) -> bytes:
-    """Return a module that flies `loop` in pieces and judges by `criterion`, compiled or from the cache.
+def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
+    """Return a module that flies `loop` and judges by `criterion`, compiled or from the cache.
 
-    Its functions are "kernel", with the arguments `ARGUMENTS` and `RESUMED_ARGUMENTS` of
-    `flypend.compile.llvm.sampled` in that order; "context_size", which stores its bytes; "turned", from
-    `flypend.plants.knobs` to the kernel's argument "plant"; and `shown`.
+    Its functions are "kernel" and `shown`, and
+
+    - for a sampled plant, which flies in pieces: "context_size", which stores the bytes of the kernel's argument
+      "context", and "turned", from `flypend.plants.knobs` to the argument "plant". The kernel has the arguments
+      `ARGUMENTS` and `RESUMED_ARGUMENTS` of `flypend.compile.llvm.sampled` in that order;
+    - for the ideal plant, whose method and precision are those of `exact`: `row`, `own` and "strike", an impulse. The
+      kernel has the arguments `ARGUMENTS` of `flypend.compile.llvm.runge_kutta`.
 
     Raises
     ------
     InputError
         If the law has operations that cannot be compiled, or another engine simulates the plant.
     """
-    problem, programs = pieces_problem(loop, criterion), [lower(turned(loop.sampled)), lower(shown(loop))]
-    key, kernel = written(problem, 1, wasm32())
+    if isinstance(loop.plant, Ideal):
+        return _ideal(loop, criterion, exact)
+    key, kernel = sampled.written(pieces_problem(loop, criterion), 1, wasm32())
+    return _linked(key, kernel, ["kernel", "context_size"], [turned(loop.sampled), shown(loop)])
+
+
+def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
+    problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
+    key, kernel = ideal.written(ideal.key_of(problem, *chosen), problem, 1, *chosen, wasm32())
+    centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
+    return _linked(key, kernel, ["kernel"], [own(loop), row(loop), struck(centred), shown(loop)])
+
+
+def _linked(key: str, kernel: Callable[[], ir.Module], names: list[str], functions: Sequence[ca.Function]) -> bytes:
+    """Return the module of `kernel`, whose functions are `names`, and of the CasADi `functions` beside them."""
+    programs = [lower(function) for function in functions]
 
     def whole() -> ir.Module:
         made = kernel()
@@ -44,8 +67,31 @@ def web_kernel(loop: Loop, criterion: Criterion) -> bytes:
             define(Lanes(made, 1, target=wasm32()), program).linkage = "external"
         return made
 
-    names = ["kernel", "context_size", *(program.name for program in programs)]
-    return module(jit.build_object(f"{key} {programs!r}", whole, wasm32()), names)
+    exported = [*names, *(program.name for program in programs)]
+    return module(jit.build_object(f"{key} {programs!r}", whole, wasm32()), exported)
+
+
+def own(loop: Loop) -> ca.Function:
+    """Return the CasADi function (state, e₃ up; origin) → the state in the frame of the law, whose origin is there."""
+    packed, origin = ca.SX.sym("s", SIZE), ca.SX.sym("o", 3)
+    return ca.Function("own", [packed, origin], [ca.densify(seen_packed(_beside(packed, origin), loop.law.e3))])
+
+
+def row(loop: Loop) -> ca.Function:
+    """Return the CasADi function (t, state of `own`, gains, origin) → state and rotor forces, e₃ up.
+
+    The rotor forces, N, are those that the wrench of the law requires.
+    """
+    symbols, law, origin = symbolic_loop(loop.vehicle, loop.symbolic, loop.parameters), loop.law, ca.SX.sym("o", 3)
+    up = _beside(seen_packed(symbols.s, law.e3), -origin)
+    wrench = ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment)
+    forces = ca.mtimes(ca.DM(loop.vehicle.unmixing(law.e3)), wrench)
+    return ca.Function("row", [symbols.t, symbols.s, symbols.p, origin], [ca.densify(ca.vertcat(up, forces))])
+
+
+def _beside(packed: ca.SX, origin: ca.SX) -> ca.SX:
+    """The state `packed` as seen from `origin`."""
+    return ca.vertcat(packed[:3] - origin, packed[3:SIZE])
 
 
 def shown(loop: Loop) -> ca.Function:
@@ -55,7 +101,7 @@ def shown(loop: Loop) -> ca.Function:
     along z = R e₃ of that frame, N; the clearance of the rod, m, infinite on a gimbal; and V, if the law has one. The
     state is e₃ up, the gains are the parameters of `loop`.
     """
-    law, true = loop.symbolic, loop.sampled.true_vehicle(loop.vehicle)
+    law, true = loop.symbolic, flown_vehicle(loop)
     t, origin = ca.SX.sym("t"), ca.SX.sym("o", 3)
     packed = ca.SX.sym("s", SIZE + len(true.rotor_spins))
     place = ca.SX(3, 1) if law.reference is None else ca.densify(law.reference(t))
@@ -69,6 +115,10 @@ def shown(loop: Loop) -> ca.Function:
     gains, numbers = ca.SX.sym("p", len(loop.parameters)), [place + moved, thrust, clearance]
     lyapunov = lyapunov_function(loop.vehicle, law, loop.parameters)
     if lyapunov is not None:
-        beside = ca.vertcat(packed[:3] - origin, packed[3:SIZE])
-        numbers.append(lyapunov(t, seen_packed(beside, law.e3), gains))
+        numbers.append(lyapunov(t, seen_packed(_beside(packed, origin), law.e3), gains))
     return ca.Function("shown", [t, packed, origin, gains], [ca.densify(ca.vertcat(*numbers))])
+
+
+def flown_vehicle(loop: Loop) -> Vehicle:
+    """Return the vehicle that flies: in a sampled plant the true one, which may differ from what the law believes."""
+    return loop.vehicle if isinstance(loop.plant, Ideal) else loop.sampled.true_vehicle(loop.vehicle)

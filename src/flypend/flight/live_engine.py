@@ -1,0 +1,80 @@
+"""Machine code with which a page flies, and what it takes and gives: for web/src/live/simulation.js and its kinds."""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from flypend.compile.llvm import runge_kutta, sampled
+from flypend.flight.criterion import PARTS, REDUCTIONS
+from flypend.flight.kernels.flown import STATUS
+from flypend.flight.kernels.pieces import pieces_problem
+from flypend.flight.kernels.single import REASONS
+from flypend.flight.kernels.web import flown_vehicle, web_kernel
+from flypend.flight.request import SAMPLE_PERIOD, Tolerances
+from flypend.flight.sampled import LEFT, NOT_FINITE
+from flypend.flight.touch import touched
+from flypend.flight.verdict import MISSED, POSES, goal
+from flypend.laws.closed_loop import lyapunov_function
+from flypend.model.mount import part_names
+from flypend.model.state import SIZE
+from flypend.plants import Ideal, Noise
+from flypend.plants.knobs import LONGEST_DELAY, knob_values
+from flypend.plants.loop import Loop
+
+PERIOD = 0.002  # s between two rows of a flight through the ideal plant
+MOST_STEPS = 100_000  # of such a flight, some seconds of a page's worker, unless its tolerances say otherwise
+
+
+def engine_facts(loop: Loop, exact: Tolerances) -> dict[str, Any]:
+    """Return the machine code of `loop` for pages; in the ideal plant, with the tolerances `exact`."""
+    law, true = loop.symbolic, flown_vehicle(loop)
+    criterion = goal(law.e3)
+    facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
+    return {
+        "code": base64.b64encode(web_kernel(loop, criterion, exact)).decode("ascii"),
+        **facts,
+        "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
+        "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],
+        "judge": max(1, round(SAMPLE_PERIOD / facts["period"])), "e3": law.e3, "rod": true.rod_length,
+        "masses": {"bob": true.bob_mass, "vehicle": true.mass},
+        "clear": true.mount != "gimbal",
+        "lyapunov": lyapunov_function(loop.vehicle, law, loop.parameters) is not None,
+        "words": {
+            "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSES[law.e3],
+            "status": np.asarray(STATUS).tolist(), "reasons": _reasons(loop),
+            "touched": [[name, touched(loop.vehicle, i)] for i, name in enumerate(part_names(loop.vehicle))],
+        },
+    }  # fmt: skip
+
+
+def _sampled(loop: Loop) -> dict[str, Any]:
+    vehicle, plant = loop.vehicle, loop.sampled
+    return {
+        "kind": "sampled", "arguments": [*sampled.ARGUMENTS, *sampled.RESUMED_ARGUMENTS],
+        "plant": sum(pieces_problem(loop, goal(loop.law.e3)).inputs),
+        "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)],
+        "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate,
+    }  # fmt: skip
+
+
+def _ideal(loop: Loop, exact: Tolerances) -> dict[str, Any]:
+    return {
+        "kind": "ideal", "arguments": list(runge_kutta.ARGUMENTS), "knobs": {"origin": [0.0, 0.0, 0.0]}, "noise": [],
+        "delay": 0.0, "period": PERIOD,
+        "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps or MOST_STEPS},
+    }  # fmt: skip
+
+
+def _reasons(loop: Loop) -> list[str]:
+    """Why flights end early, by their status; what the rod touches is told elsewhere."""
+    if isinstance(loop.plant, Ideal):
+        guard = loop.symbolic.guard
+        told = {**REASONS, runge_kutta.SINGULAR: "" if guard is None else guard.reason}
+        told[runge_kutta.TOO_MANY] = "more integration steps than a page takes"
+    else:
+        told = {runge_kutta.UNDEFINED: NOT_FINITE, runge_kutta.DIVERGED: LEFT}
+    return [told.get(code, "") for code in range(len(STATUS))]

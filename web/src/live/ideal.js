@@ -1,0 +1,117 @@
+// A flight through the ideal plant: continuous time, in which a tick is no more than the time between two rows.
+
+import { rooms, Simulation } from "./simulation.js";
+
+const ROUNDING = 5e-7; // share by which single precision may move the place of a time in a table
+
+export class Ideal extends Simulation {
+  constructor(engine, facts) {
+    super(engine, facts);
+    const { doubles, integers } = rooms(engine);
+    Object.assign(this.at, { starts: doubles(facts.state), queue: integers(1), steps: integers(1) });
+    Object.assign(this, { state: doubles(facts.state), impulses: doubles(6), first: doubles(1), most: 0 });
+    this.turn({});
+  }
+
+  /** Begin from the packed `start`; nothing is random here. */
+  begin(start) {
+    this.state.view().set(start);
+    Object.assign(this, { tick: 0, ended: false, judged: null });
+  }
+
+  /**
+   * Fly on for `ticks`; first, `impulses` strike vehicle and bob (six numbers, N s). Returns the rows of state and rotor forces
+   * that have been flown, one after the other; the first piece of a flight begins with its start. All are one integration.
+   */
+  advance(ticks, impulses = null) {
+    if (this.ended) return new Float64Array(0);
+    const { at, engine, facts, row } = this, { period, exact } = facts, begun = this.tick;
+    this.#fit(ticks);
+    if (impulses) this.#strike(impulses);
+    engine.call("own", this.state, this.asked.origin, at.starts);
+    const times = at.times.view();
+    for (let i = 0; i < ticks; i++) times[i] = (begun + 1 + i) * period;
+    times[ticks] = Infinity;
+    at.queue.view()[0] = 0n;
+    this.fly({
+      runs: 1n, begin: begun * period, until: times[ticks - 1], rtol: exact.rtol, atol: exact.atol, max_steps: BigInt(exact.max_steps),
+      time_count: BigInt(ticks), ...this.#judge(begun, ticks),
+    });
+    this.tick = begun + ticks;
+    this.#reduce(begun * period);
+    const count = this.lived(begun + 1, ticks), before = begun === 0 ? 1 : 0;
+    if (before) this.#row(this.first, at.starts, 0);
+    for (let i = 0; i < count; i++) this.#row(entry(at.times, i), entry(at.samples, facts.state * i), before + i);
+    if (!this.ended) this.state.view().set(this.rows.view().subarray((before + count - 1) * row, (before + count - 1) * row + facts.state));
+    return this.rows.view().slice(0, (before + count) * row);
+  }
+
+  /** Write the row `place` of the state `own` at the time at `t`. */
+  #row(t, own, place) {
+    this.engine.call("row", t, own, this.at.parameters, this.asked.origin, entry(this.rows, this.row * place));
+  }
+
+  /** Have room for so many ticks. */
+  #fit(ticks) {
+    if (ticks <= this.most) return;
+    this.most = Math.max(ticks, 2 * this.most);
+    const { doubles } = rooms(this.engine), { most } = this;
+    Object.assign(this.at, { times: doubles(most + 1), judge_times: doubles(most + 2), bins: doubles(2 * (most + 1)), samples: doubles(most * this.facts.state) });
+    this.rows = doubles((most + 1) * this.row);
+  }
+
+  #strike(impulses) {
+    this.impulses.view().set(impulses);
+    this.engine.call("strike", this.state, this.impulses, this.state);
+  }
+
+  /** Write the times after tick `begun`, and that of a start, at which the criterion is judged; see compile/llvm/grid.py. */
+  #judge(begun, ticks) {
+    const { judge, period } = this.facts, { at } = this, times = at.judge_times.view(), bins = at.bins.view();
+    let count = 0;
+    for (let tick = begun === 0 ? 0 : judge * (Math.floor(begun / judge) + 1); tick <= begun + ticks; tick += judge) times[count++] = tick * period;
+    times[count] = Infinity;
+    const rate = count > 1 ? (2 * count) / times[count - 1] : 0;
+    bins[0] = 0;
+    for (let i = 1, passed = 0; rate && i < 2 * count; i++) {
+      while (times[passed] <= ((1 - ROUNDING) * i) / rate) passed++;
+      bins[i] = passed;
+    }
+    return { bin_count: rate ? 2 * count : 1, bin_rate: rate };
+  }
+
+  /** Add what the last piece, begun at a time, says of the criterion to what those before have said. */
+  #reduce(begun) {
+    const now = Array.from(this.at.reductions.view()), { judged } = this, end = this.at.end.view()[0], parts = this.facts.words.parts.length;
+    if (!judged) {
+      this.judged = now;
+      return;
+    }
+    const [since, ...rest] = now, within = rest.slice(0, parts).every((time) => time < 0), [before, ...older] = judged;
+    const last = rest.slice(0, parts).map((time, k) => Math.max(time, older[k]));
+    const [most, mean, peak] = rest.slice(parts), [mostBefore, meanBefore, peakBefore] = older.slice(parts);
+    const share = end > 0 ? begun / end : 0;
+    this.judged = [
+      within && Number.isFinite(before) ? before : since, ...last, most > mostBefore ? most : mostBefore,
+      share * meanBefore + (1 - share) * mean, Math.max(peak, peakBefore),
+    ];
+  }
+
+  outcome() {
+    return { ...super.outcome(), reductions: this.judged };
+  }
+
+  /** Fly one tick, begun by the impulse of a `force` (N) on the bob during the tick. */
+  pushed(force, impulses) {
+    const blow = [0, 0, 0, ...force.map((value) => value * this.facts.period)];
+    return this.advance(1, impulses ? blow.map((value, k) => value + impulses[k]) : blow);
+  }
+
+  /** The state at the last tick; that of the start before the first. */
+  get last() {
+    return this.state.view();
+  }
+}
+
+/** The numbers of an array of the engine from the place `index` on. */
+const entry = ({ place, kind }, index) => ({ place: place + index * kind.BYTES_PER_ELEMENT });

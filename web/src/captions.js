@@ -1,19 +1,20 @@
 // Words over the pictures: which flight, its height and speed, how it ended; the key; the compass of each.
 
+import { write } from "./drawing.js";
 import { norm } from "./numbers.js";
 import { Compass } from "./scene/compass.js";
 
 const KEY = [["front", "front rotor"], ["thrust", "rotor thrusts, their sum in outline"], ["trail", "bob"], ["ink", "vehicle"], ["reference", "reference"]];
 
 export class Captions {
-  /** Over the element `parent`. */
-  constructor(parent) {
+  /** Over the element `parent`, the key in `low` at its foot. */
+  constructor(parent, low) {
     Object.assign(this, { parent, views: [] });
     const key = document.createElement("p");
     key.className = "key";
     key.innerHTML = KEY.map(([role, words]) => `<span><i style="background:var(--${role})"></i>${words}</span>`).join("")
       + `<span class="grid"></span>`;
-    parent.append(key);
+    low.append(key);
     this.grid = key.querySelector(".grid");
   }
 
@@ -40,18 +41,14 @@ export class Captions {
       view.compass.draw(picture, flight.e3, colours);
       const { x, x_dot } = stage.flyers[i].pose;
       const rise = (x[2] - stage.flyers[i].pivots[2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
-      put(view.name, this.several ? `${flight.title}: ` : "");
-      put(view.phase, flight.phase(t));
-      if (words) put(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
-      put(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
+      write(view.name, this.several ? `${flight.title}: ` : "");
+      write(view.phase, flight.phase(t));
+      if (words) write(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
+      write(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
-    put(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
+    write(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
   }
-}
-
-function put(element, words) {
-  if (element.textContent !== words) element.textContent = words;
 }
 
 /** Put the words of `view` where its picture is: to write what stands there has styles computed anew. */

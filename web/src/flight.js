@@ -112,10 +112,13 @@ export function angles(flight, turned = []) {
   return turned;
 }
 
-/** A pose in the frame with e3 up, turned by a half turn about e1 if the run has e3 down; what a scene draws. */
+/** A vector of a run in the frame with e3 up: turned by a half turn about e1 if the run has e3 down. */
+export const rise = ([a, b, c], e3) => (e3 === "up" ? [a, b, c] : [a, -b, -c]);
+
+/** A pose in the frame with e3 up; what a scene draws. */
 export function upright(pose, e3) {
   if (e3 === "up") return pose;
-  const turn = ([a, b, c]) => [a, -b, -c];
+  const turn = (v) => rise(v, e3);
   const [x, y, z, w] = pose.quat_xyzw;
   return {
     ...pose,

@@ -1,5 +1,6 @@
 // Quantities over time on a canvas, with a cursor that follows the clock and that one can drag.
 
+import { clear, move } from "./drawing.js";
 import { drawMark, markIcon } from "./marks.js";
 import { clamp, indexBefore, mix, roundUp } from "./numbers.js";
 import { large, power, reading, scientific, tick } from "./words.js";
@@ -82,17 +83,20 @@ export class Plot {
       at(event);
     });
     this.area.addEventListener("pointermove", (event) => event.buttons && at(event));
+    new ResizeObserver(([{ contentRect: { width, height } }]) => {
+      Object.assign(this, { width, height });
+      if (this.colours) this.draw(this.colours);
+      this.show(this.now ?? this.start, false);
+    }).observe(this.area);
   }
 
-  /** Draw everything but the cursor, in the colours of a theme. */
+  /** Draw everything but the cursor, in the colours of a theme, once it is known how large it is. */
   draw(colours) {
-    const { width, height } = this.area.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
+    this.colours = colours;
+    const { width, height } = this;
     if (!width || !height) return;
-    Object.assign(this, { width, height });
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
     const context = this.canvas.getContext("2d");
-    context.scale(ratio, ratio);
+    clear(context, width, height);
     const [low, high] = this.span;
     const place = {
       x: (t) => LEFT + (t - this.start) / (this.end - this.start || 1) * (width - LEFT - RIGHT),
@@ -205,8 +209,9 @@ export class Plot {
 
   /** Put the cursor to the time `t` and, with `words`, write the values there. */
   show(t, words = true) {
+    this.now = t;
     const share = (clamp(t, this.start, this.end) - this.start) / (this.end - this.start || 1);
-    this.cursor.style.transform = `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`;
+    move(this.cursor, `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`);
     if (!words) return;
     for (const { line, output } of this.readings) {
       output.textContent = (this.log ? scientific : reading)(valueAt(line, t));

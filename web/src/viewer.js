@@ -12,6 +12,7 @@ import { Flight } from "./flight.js";
 import { frame, legend } from "./layout.js";
 import { matrix } from "./numbers.js";
 import { Plot } from "./plots.js";
+import { Portrait } from "./portrait.js";
 import { Recorder, movieKind, save } from "./record.js";
 import { plots } from "./series.js";
 import { steer } from "./scene/pointers.js";
@@ -31,6 +32,7 @@ export class Viewer {
     this.clock.speed = speed;
     this.player = new Player(this.parts.player, this.clock);
     this.plots = [];
+    this.portrait = new Portrait(this.parts.low, (t) => this.clock.seek(t));
     this.theme = new Theme(palette, (colours) => this.#paint(colours));
     this.#choices();
     this.flights = [];
@@ -40,7 +42,6 @@ export class Viewer {
     this.layout(layout);
     this.#keys();
     new ResizeObserver(() => this.#resize()).observe(this.parts.scene);
-    new ResizeObserver(() => this.#redraw()).observe(this.parts.plots);
     this.#resize();
     this.last = null;
   }
@@ -55,6 +56,7 @@ export class Viewer {
     legend(this.parts.legend, this.flights);
     this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
     this.#plot(plots(this.flights));
+    this.portrait.load(this.flights);
     this.#stage();
     if (first) this.#begin();
     if (first) this.stage?.compile();
@@ -79,8 +81,9 @@ export class Viewer {
     this.stage?.grow(span);
     if (time) {
       this.#plot(plots(this.flights, flight.end - span));
+      this.portrait.load(this.flights, flight.end - span);
       this.#redraw();
-    }
+    } else this.portrait.grow();
     this.wake();
   }
 
@@ -89,7 +92,7 @@ export class Viewer {
       if (this.stage) this.stage.load(this.flights);
       else {
         this.stage = new Stage(this.parts.canvas, this.flights);
-        this.captions = new Captions(this.parts.scene);
+        this.captions = new Captions(this.parts.scene, this.parts.low);
         steer(this.parts.canvas, this.stage.rig, () => this.wake());
       }
       this.captions.load(this.flights);
@@ -134,6 +137,7 @@ export class Viewer {
       g: () => this.layout(this.stage?.layout === "overlay" ? "beside" : "overlay"),
       t: () => this.theme.toggle(),
       m: () => this.film(),
+      s: () => this.portrait.fold(),
       ...Object.fromEntries(PRESETS.map((name, i) => [String(i + 1), () => this.camera(name)])),
     });
   }
@@ -191,6 +195,13 @@ export class Viewer {
       plot.draw(this.theme.colours);
       plot.show(this.clock.time);
     }
+    if (!this.flights.length) return;
+    this.portrait.draw(this.theme.colours);
+    this.portrait.show(this.#poses());
+  }
+
+  #poses() {
+    return this.flights.map((flight) => flight.at(this.clock.time));
   }
 
   /** Draw a frame soon: nothing is drawn while nothing changes. */
@@ -213,9 +224,10 @@ export class Viewer {
   #frame(elapsed) {
     const started = performance.now(), { stage, clock } = this, words = !clock.playing || !(started - this.told < WORDS);
     if (words) this.told = started;
+    const poses = this.#poses();
     let moving = false;
     if (stage?.width) {
-      stage.show(this.flights.map((flight) => flight.at(clock.time)));
+      stage.show(poses);
       moving = stage.render(elapsed || 1 / 60);
       this.captions.show(stage, clock.time, this.theme.colours, words);
       this.recorder?.frame();
@@ -223,6 +235,7 @@ export class Viewer {
     }
     this.player.show(words);
     for (const plot of this.plots) plot.show(clock.time, words);
+    if (poses.length) this.portrait.show(poses, words);
     this.drew?.();
     this.drawn.count += 1;
     this.drawn.cost = [...this.drawn.cost.slice(-59), performance.now() - started];

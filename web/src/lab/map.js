@@ -1,7 +1,9 @@
 // The region of attraction: every direction of the rod on a disc of equal areas, upright in the middle, hanging at the rim.
 
+import { rise } from "../flight.js";
+import { axes, direction, place, rings, way } from "../sphere.js";
+
 const STOPS = ["#00224e", "#3b496c", "#7d7c78", "#bcae6c", "#fee838"]; // cividis, which every kind of vision reads
-const RINGS = [30, 60, 90, 120, 150]; // degrees from upright
 
 const HTML = `<div class="disc"><canvas role="img" aria-label="Region of attraction over the directions of the rod"></canvas></div>
   <div class="told"><p class="share"></p><p class="hint">A point of the disc is a direction of the rod at the start, at rest; the rest of the
@@ -39,8 +41,7 @@ export class Map {
 
   /** Draw over the map the way of the rod in `flight` (flight.js). */
   follow(flight) {
-    const sign = flight.e3 === "up" ? 1 : -1;
-    this.path = Array.from(flight.t, (_, i) => flight.sample("y", i)).map(([a, b, c]) => [a, sign * b, sign * c]);
+    this.path = Array.from(flight.t, (_, i) => rise(flight.sample("y", i), flight.e3));
     if (!this.root.hidden) this.draw();
   }
 
@@ -90,36 +91,18 @@ export class Map {
     this.share.textContent = count ? `Settles from ${share} % of ${count} directions${count < this.total ? "…" : ""}` : "computing…";
   }
 
-  /** The way of the rod, from the ring; through the rim it comes in again on the other side. */
+  /** The way of the rod, from the ring. */
   #way(context, role) {
-    const places = this.path.map((y) => this.#place(y));
-    for (const [width, tone] of [[4, role("paper")], [1.8, role("ink")]]) {
-      Object.assign(context, { lineWidth: width, strokeStyle: tone, lineJoin: "round" });
-      context.beginPath();
-      places.forEach(([x, y], i) => {
-        const [a, b] = places[i - 1] ?? [x, y], apart = Math.hypot(x - a, y - b) > this.radius / 2;
-        if (i === 0 || apart) context.moveTo(x, y);
-        else context.lineTo(x, y);
-      });
-      context.stroke();
+    const places = this.path.flatMap((y) => place(y));
+    for (const [lineWidth, tone] of [[4, role("paper")], [1.8, role("ink")]]) {
+      Object.assign(context, { lineWidth, strokeStyle: tone, lineJoin: "round" });
+      way(context, places, this.radius);
     }
   }
 
   #frame(context, role) {
-    context.lineWidth = 1;
-    context.strokeStyle = "rgb(255 255 255 / 0.45)";
-    for (const ring of RINGS) {
-      context.beginPath();
-      context.arc(0, 0, this.radius * Math.sin(ring * Math.PI / 360), 0, 2 * Math.PI);
-      context.stroke();
-    }
-    context.strokeStyle = role("muted");
-    context.beginPath();
-    context.arc(0, 0, this.radius, 0, 2 * Math.PI);
-    context.stroke();
-    Object.assign(context, { font: "12px system-ui, sans-serif", textAlign: "center", textBaseline: "middle", fillStyle: role("muted") });
-    context.fillText("e₁", this.radius + 13, 0);
-    context.fillText("e₂", 0, -this.radius - 13);
+    rings(context, this.radius, "rgb(255 255 255 / 0.45)", role("muted"));
+    axes(context, this.radius, "up", role("muted"));
     context.fillText("rim: hanging", 0, this.radius + 14);
     const label = (words, x, y) => {
       Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: role("paper"), fillStyle: role("ink") });
@@ -138,19 +121,14 @@ export class Map {
     }
   }
 
-  /** Lambert's azimuthal projection: the distance from the middle is sin(θ/2). */
-  #place([a, b, c]) {
-    const level = Math.hypot(a, b), share = this.radius * Math.sqrt(Math.max(1 - c, 0) / 2);
-    return level > 1e-9 ? [share * a / level, -share * b / level] : [share, 0];
+  #place(y) {
+    return place(y).map((share) => this.radius * share);
   }
 
   #direction(event) {
     const area = this.canvas.getBoundingClientRect();
-    const across = (event.clientX - area.left - this.size / 2) / this.radius, along = -(event.clientY - area.top - this.size / 2) / this.radius;
-    const square = across ** 2 + along ** 2;
-    if (!(square <= 1)) return null;
-    const stretch = 2 * Math.sqrt(1 - square);
-    return [across * stretch, along * stretch, 1 - 2 * square];
+    const share = (pixels) => (pixels - this.size / 2) / this.radius;
+    return direction([share(event.clientX - area.left), share(event.clientY - area.top)]);
   }
 
   #tell(y) {

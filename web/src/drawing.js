@@ -1,0 +1,22 @@
+// What all that draws beside the scene does: a canvas as sharp as the screen, elements that follow the time.
+
+/** Clear the canvas of `context` for `width` by `height` CSS pixels, in which one then draws, from its upper left. */
+export function clear(context, width, height) {
+  const { canvas } = context, ratio = window.devicePixelRatio || 1, across = Math.round(width * ratio), along = Math.round(height * ratio);
+  if (canvas.width !== across || canvas.height !== along) Object.assign(canvas, { width: across, height: along });
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, across, along);
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+}
+
+/** Put `element` to `transform`, unless it is there: to write a style has styles computed anew. */
+export function move(element, transform) {
+  if (element.moved === transform) return;
+  element.moved = transform;
+  element.style.transform = transform;
+}
+
+/** Write `words` into `element`, unless they stand there. */
+export function write(element, words) {
+  if (element.textContent !== words) element.textContent = words;
+}

@@ -10,7 +10,8 @@ from docutils import nodes
 
 from flypend import __version__
 
-sys.path.insert(0, str(Path(__file__).parent))  # accessible, mathml
+SITE = Path(__file__).with_name("site")  # what makes the pages, beside what is on them
+sys.path.insert(0, str(SITE))
 
 project = "flypend"
 author = "The flypend authors"
@@ -27,8 +28,8 @@ extensions = [
 ]
 
 exclude_patterns = ["_build", "jupyter_execute"]
-templates_path = ["_templates"]
-html_static_path = ["_static"]
+templates_path = ["site/templates"]
+html_static_path = ["site/static"]
 html_css_files = ["flypend.css"]
 html_js_files = [("scrolling.js", {"defer": "defer"})]
 html_theme = "furo"
@@ -37,7 +38,7 @@ html_show_sphinx = False
 html_show_copyright = False
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
-html_search_scorer = str(Path(__file__).with_name("search_scorer.js"))
+html_search_scorer = str(SITE / "search_scorer.js")
 
 html_math_renderer = "mathml"
 

@@ -31,6 +31,6 @@ def _add(app: Sphinx) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Add the filter `accessible`, which docs/_templates/page.html uses."""
+    """Add the filter `accessible`, which docs/site/templates/page.html uses."""
     app.connect("builder-inited", _add)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

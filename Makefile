@@ -41,7 +41,6 @@ bench: setup
 # The site of the documentation, in docs/_build: open index.html there. Needs no network once set up.
 docs: setup
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build
-	$(BIN)/python paper/build.py docs/_build/paper.html
 	@echo open docs/_build/index.html
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which

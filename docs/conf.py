@@ -1,16 +1,24 @@
 """The site of these pages: `make docs` writes it to docs/_build, without a network."""
 
 import os
+import runpy
 import sys
 from pathlib import Path
 from typing import Any
 
+from docutils import nodes
+
 from flypend import __version__
+
+SITE = Path(__file__).with_name("site")  # what makes the pages, beside what is on them
+sys.path.insert(0, str(SITE))
 
 project = "flypend"
 author = "The flypend authors"
 release = version = __version__
 extensions = [
+    "accessible",
+    "mathml",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
@@ -20,14 +28,21 @@ extensions = [
 ]
 
 exclude_patterns = ["_build", "jupyter_execute"]
+templates_path = ["site/templates"]
+html_static_path = ["site/static"]
+html_css_files = ["flypend.css"]
+html_js_files = [("scrolling.js", {"defer": "defer"})]
 html_theme = "furo"
 html_title = "flypend"
 html_show_sphinx = False
 html_show_copyright = False
 html_copy_source = False
 html_theme_options = {"navigation_with_keys": True}
-html_search_scorer = str(Path(__file__).with_name("search_scorer.js"))
+html_search_scorer = str(SITE / "search_scorer.js")
 
+html_math_renderer = "mathml"
+
+myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3  # headings are link targets, as where the repository is read
 suppress_warnings = ["myst.header"]
 
@@ -41,6 +56,7 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
+autodoc_preserve_defaults = True
 autodoc_default_options = {"members": True, "exclude-members": "__new__"}
 maximum_signature_line_length = 100
 
@@ -59,8 +75,27 @@ def _site(app: Any) -> None:
     os.environ["FLYPEND_SITE"] = str(app.outdir)
 
 
+def _paper(app: Any, failed: Exception | None) -> None:
+    """Write the paper beside the pages; the first of them leads to it."""
+    if failed is None and app.builder.format == "html":
+        build = runpy.run_path(str(Path(__file__).parents[1] / "paper" / "build.py"))["build"]
+        build(Path(app.outdir) / "paper.html")
+
+
+COMMANDS = ("flypend ", "make ", "pip ", "pytest ", "python ")
+
+
+def _commands(_: Any, page: nodes.document) -> None:
+    """Let what is typed into a shell look like that: its comments are not part of it."""
+    for block in page.findall(nodes.literal_block):
+        if block.get("language") == "none" and block.astext().startswith(COMMANDS):
+            block["language"] = "shell"
+
+
 def setup(app: Any) -> None:
     """Escape docstrings before their sections are read, and say where the site is."""
     app.connect("builder-inited", _site)
+    app.connect("build-finished", _paper)
+    app.connect("doctree-read", _commands)
     app.connect("autodoc-process-docstring", lambda *given: _escaped(given[-1]), priority=400)
     app.connect("sphinx-click-process-description", lambda *given: _escaped(given[-1]))

@@ -48,7 +48,7 @@ def test_the_sign_of_the_page_drives_the_energy_to_its_value_upright_and_the_oth
         change, _ = _energy_rate(y, y_dot, force, vehicle)
         assert change == pytest.approx(-sign * rate * (1 - share) * (y_dot @ y_dot), rel=1e-9, abs=1e-9)
         assert (change * (1 - share) > 0) == towards
-    assert "F = (M+m) A − M l κ (1 − E/w²) ẏ" in PAGE
+    assert r"F &= (M+m)\, A - M l\, \kappa\, (1 - E/w^2)\, \dot y" in PAGE
 
 
 def test_the_law_has_the_sign_of_the_page():

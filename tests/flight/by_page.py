@@ -20,15 +20,11 @@ def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None, exact=EXACT):
 
     The list `shown` takes what the page shows beside the last state of each piece.
     """
-    facts = engine_facts(loop, exact)
-    code, into, out = (tmp_path / name for name in ("kernel.wasm", "in.json", "out.json"))
-    code.write_bytes(base64.b64decode(facts.pop("code")))
+    facts, code = machine(loop, exact, tmp_path)
     pieces = pieces or [{"ticks": round(DURATION / facts["period"])}]
     flown, ends = [], []
     for i, start in enumerate(np.atleast_2d(seen_packed(starts.packed(), loop.law.e3))):
-        into.write_text(json.dumps({"facts": facts, "start": start.tolist(), "seed": SEED + i, "pieces": pieces}))
-        subprocess.run(["node", Path(__file__).with_name("fly.mjs"), code, into, out], check=True)
-        told = json.loads(out.read_text())
+        told = by_node({"facts": facts, "start": start.tolist(), "seed": SEED + i, "pieces": pieces}, code)
         rows = np.frombuffer(base64.b64decode(told["rows"])).reshape(-1, 24 + len(loop.vehicle.rotor_spins))
         count = 1 + sum(piece["ticks"] for piece in pieces)
         flown.append(np.pad(rows, ((0, count - len(rows)), (0, 0)), constant_values=np.nan))
@@ -36,3 +32,26 @@ def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None, exact=EXACT):
         if shown is not None:
             shown += told["shown"]
     return np.array(flown), ends
+
+
+def ended_by_page(loop, starts, tmp_path, exact=EXACT):
+    """Status codes, end times (s) and reductions of flights that share the lanes of the module."""
+    facts, code = machine(loop, exact, tmp_path)
+    own, ticks = seen_packed(starts.packed(), loop.law.e3).tolist(), round(DURATION / facts["period"])
+    told = by_node({"facts": facts, "starts": own, "seed": SEED, "ticks": ticks}, code)
+    reductions = [[np.inf if value is None else value for value in end["reductions"]] for end in told]  # as JSON has it
+    return [end["status"] for end in told], [end["end"] for end in told], np.array(reductions)
+
+
+def machine(loop, exact, tmp_path):
+    """What a page knows of its machine code, which is written to the path that is returned with it."""
+    facts, code = engine_facts(loop, exact), tmp_path / "kernel.wasm"
+    code.write_bytes(base64.b64decode(facts.pop("code")))
+    return facts, code
+
+
+def by_node(asked, code):
+    into, out = code.with_name("in.json"), code.with_name("out.json")
+    into.write_text(json.dumps(asked))
+    subprocess.run(["node", Path(__file__).with_name("fly.mjs"), code, into, out], check=True)
+    return json.loads(out.read_text())

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_page import DURATION, EXACT, flown_by_page
+from by_page import DURATION, EXACT, ended_by_page, flown_by_page
 
 import flypend as fp
 from flypend.flight.kernels.ideal import ideal_kernel
@@ -118,6 +118,20 @@ def test_a_flight_in_pieces_is_judged_as_a_whole(tmp_path):
     _, [parts] = flown_by_page(loop, start(), tmp_path, [{"ticks": n} for n in (3, 297, 1000, 1, count - 1301)])
     np.testing.assert_allclose(parts["reductions"], whole["reductions"], rtol=1e-5, atol=1e-6)
     assert whole["reductions"][0] == pytest.approx(2.0, abs=0.02)
+
+
+def test_flights_that_take_the_lanes_in_turn_end_as_in_the_package(tmp_path):
+    """More of them than the page flies in one call, some of which LQR loses."""
+    loop, starts = loop_of("lqr"), fp.random_starts(21, 5)
+    codes, ends, reductions = ended_by_page(loop, starts, tmp_path)
+    flown = ideal_kernel(loop, goal("up")).fly(
+        starts.packed(), DURATION, rtol=EXACT.rtol, judge_at=PERIOD * np.arange(0, round(DURATION / PERIOD) + 1, 5)
+    )
+    assert codes == flown.code.tolist()
+    np.testing.assert_allclose(ends, flown.end, rtol=1e-6)
+    good = np.isfinite(flown.reductions[:, 0]) & (flown.code == 0)
+    assert 0 < good.sum() < len(good)
+    np.testing.assert_allclose(reductions[good, :5], flown.reductions[good, :5], rtol=1e-4, atol=0.011)
 
 
 def test_a_reference_that_moves_is_followed_from_piece_to_piece(tmp_path):

@@ -4,7 +4,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from by_page import DURATION, EXACT, SEED, flown_by_page
+from by_page import DURATION, EXACT, SEED, ended_by_page, flown_by_page
 from llvmlite import ir
 
 import flypend as fp
@@ -83,6 +83,22 @@ def test_noise_gusts_delay_and_observer_are_those_of_the_package(tmp_path):
     starts = fp.random_starts(4, 11)
     error = assert_equal(loop_of("inverted", through=REAL), starts, tmp_path)
     assert error.shape == (4, KEPT + 1)
+
+
+@pytest.mark.parametrize(("mount", "through"), [("gimbal", REAL), ("hub", plant("rotors"))])
+def test_flights_that_share_lanes_end_as_in_the_package(mount, through, tmp_path):
+    """Seven of them, so that one flies alone; lanes keep their own seeds, and on a hub some flights touch early."""
+    vehicle, starts = fp.vehicle("hehn2011").replace(mount=mount), fp.random_starts(7, 5)
+    loop = Loop(vehicle, fp.laws.inverted().bind(vehicle), through)
+    codes, ends, reductions = ended_by_page(loop, starts, tmp_path)
+    rate = loop.sampled.rate
+    judged = np.arange(0, round(DURATION * rate) + 1, round(rate / 100))
+    here = sampled_kernel(loop, fp.Criterion()).fly(starts.packed(), DURATION, judge_at=judged, first_seed=SEED)
+    assert codes == here.code.tolist()
+    np.testing.assert_allclose(ends, here.end, atol=1e-9)
+    lived = here.code == 0
+    assert lived.all() == (mount == "gimbal")
+    np.testing.assert_allclose(reductions[lived], here.reductions[lived], rtol=1e-6, atol=1e-9)
 
 
 def test_a_reference_that_moves_is_followed(tmp_path):

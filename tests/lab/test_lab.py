@@ -32,13 +32,14 @@ from flypend.lab.controls import offer, sliders
 from flypend.lab.engine import engine_of
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked
-from flypend.lab.map import directions, region
+from flypend.lab.map import region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Lanes, Slot, engines, flights, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.tuning import tuned
 from flypend.laws import law_names
 from flypend.pages.sliders import sliders_of
+from flypend.pages.starts import directions
 from flypend.paper import experiment
 from flypend.settings.runfile import run_file
 

@@ -420,7 +420,7 @@ def test_the_map_fills_and_a_point_of_it_flies(visit):
     last = page.evaluate("flypend.map()")
     assert early["done"] < early["total"] == last["done"]
     assert 0 < last["good"] < last["total"]
-    assert str(last["total"]) in page.locator(".share").inner_text()
+    until(page, f"document.querySelector('.share').innerText.includes('{last['total']} directions')")
     box = page.locator(".disc canvas").bounding_box()
     page.mouse.click(box["x"] + box["width"] / 2 + 6, box["y"] + box["height"] / 2)
     shown(page)

@@ -365,6 +365,47 @@ def test_a_hundred_random_settings_of_the_ideal_plant_too(visit, corrected):
     fly_random_ideal(visit(corrected), corrected, 100)
 
 
+@pytest.mark.parametrize("plant", ["ideal", "rotors"])
+def test_the_page_maps_the_region_of_attraction_by_itself(visit, plant):
+    """Twelve hundred flights, each of which settles or not, and when, as in the package."""
+    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0.28, 0, 0.96)), 8.0, plant=plant)
+    page = visit(run)
+    page.get_by_role("button", name="Region of attraction").click()
+    until(page, "() => flypend.map().total > 0 && flypend.map().done === flypend.map().total")
+    points = page.evaluate("flypend.map().points")
+    rods = np.array([point["y"] for point in points])
+    rods /= np.linalg.norm(rods, axis=1)[:, None]
+    mine = np.array([np.nan if point["settling"] is None else point["settling"] for point in points])
+    here = fp.simulate_ensemble(run.vehicle, fp.laws.lqr(), fp.State(y=rods), 8.0, plant=plant)
+    good = np.asarray(here.success)
+    assert 50 < good.sum() < len(good) - 50
+    assert np.mean(np.isfinite(mine) == good) > 0.998  # one at the very border may fall on either side
+    both = good & np.isfinite(mine)
+    np.testing.assert_allclose(mine[both], np.asarray(here.settling)[both], atol=0.0101)
+    page.get_by_role("button", name="Flight", exact=True).click()
+    shown(page)
+    assert page.locator(".map").is_hidden()
+
+
+def test_a_map_begins_anew_when_a_gain_moves_and_ends_with_its_tab(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.go(true)")
+    page.get_by_role("button", name="Region of attraction").click()
+    assert not page.evaluate("flypend.live().on")  # a map is of flights that begin and end
+    until(page, "() => flypend.map().done > 60")
+    page.locator("[data-path='duration'] input").fill("20")
+    until(page, "() => flypend.map().done === 0")
+    until(page, "() => flypend.map().done > 30")
+    box = page.locator(".disc canvas").bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 4)
+    shown(page)
+    assert page.locator(".map").is_hidden()
+    assert page.evaluate("flypend.setting().start.y")[1] > 0.5
+    done = page.evaluate("flypend.map().done")
+    time.sleep(0.5)
+    assert page.evaluate("flypend.map().done") <= done + 64  # what was under way
+
+
 def test_a_singular_flight_says_why_in_the_page_too(visit):
     run = fp.simulate(fp.vehicle("nayak2018"), fp.laws.printed(), fp.State(y=(0.6, 0, 0.8)), 3.0, plant="ideal")
     assert run.outcome.status == "singular"

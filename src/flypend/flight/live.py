@@ -14,14 +14,16 @@ from flypend.flight.request import Flight
 from flypend.laws import BoundLaw
 from flypend.model import State
 from flypend.model.state import SIZE
+from flypend.pages.replay import in_base64
 from flypend.pages.sliders import gain_sliders, plant_sliders, slider, sliders_of
-from flypend.pages.starts import plain, starts
+from flypend.pages.starts import directions, plain, starts
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.loop import Loop
 
 DURATIONS = (2.0, 30.0)  # s
 FURTHEST = 2.0  # m, that the reference moves
 RANDOM = 40  # starts that a page holds, each drawn from `State.random`
+MAPPED = 1200  # directions of the rod that a map has
 
 
 def live_data(flight: Flight | None) -> dict[str, Any]:
@@ -73,6 +75,7 @@ def offered(flight: Flight) -> dict[str, Any]:
         "first": first, "sliders": [*gains, *turned, *_places(law, plant), lasting],
         "starts": {"as flown": first["start"], **starts()},
         "randoms": [plain(state) for state in drawn],
+        "directions": in_base64(directions(MAPPED)),
         "seed": flight.seed or 0,
     }  # fmt: skip
 

@@ -13,7 +13,7 @@ from flypend.flight.criterion import PARTS, REDUCTIONS
 from flypend.flight.kernels.flown import STATUS
 from flypend.flight.kernels.pieces import pieces_problem
 from flypend.flight.kernels.single import REASONS
-from flypend.flight.kernels.web import flown_vehicle, web_kernel
+from flypend.flight.kernels.web import LANES, flown_vehicle, web_kernel
 from flypend.flight.request import SAMPLE_PERIOD, Tolerances
 from flypend.flight.sampled import LEFT, NOT_FINITE
 from flypend.flight.touch import touched
@@ -37,7 +37,7 @@ def engine_facts(loop: Loop, exact: Tolerances) -> dict[str, Any]:
     return {
         "code": base64.b64encode(web_kernel(loop, criterion, exact)).decode("ascii"),
         **facts,
-        "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
+        "lanes": LANES, "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
         "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],
         "judge": max(1, round(SAMPLE_PERIOD / facts["period"])), "e3": law.e3, "rod": true.rod_length,
         "masses": {"bob": true.bob_mass, "vehicle": true.mass},

@@ -15,21 +15,12 @@ from flypend.lab.setting import Setting
 from flypend.lab.tuning import Stepped, Tell, tuned, values
 from flypend.model import State
 from flypend.model.state import SHAPES
+from flypend.pages.starts import directions
 from flypend.plants import Ideal
 
 RUNS = {"ideal": 3000, "sampled": 1200, "stepped": 96}
 FIRST, MOST = {"ideal": 16, "sampled": 16, "stepped": 2}, {"ideal": 256, "sampled": 64, "stepped": 8}  # of a chunk
 CHUNK_TIME = 0.1  # s of processor time that a chunk should take, so that other pages get their turn
-# 1/ρ and 1/ρ² for the plastic number ρ³ = ρ + 1: Roberts's R2 low-discrepancy sequence on the unit square.
-STEPS = (0.7548776662466927, 0.5698402909980532)
-
-
-def directions(count: int) -> Any:
-    """Return `count` unit vectors (count, 3) spread evenly over S²; every prefix is spread evenly, too."""
-    height, turn = (np.modf(0.5 + step * np.arange(count))[0] for step in STEPS)
-    y_3 = 1 - 2 * height
-    level = np.sqrt(1 - y_3**2)
-    return np.stack([level * np.cos(2 * np.pi * turn), level * np.sin(2 * np.pi * turn), y_3], axis=-1)
 
 
 def region(

@@ -166,7 +166,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
             "body": None if vehicle.body is None else vehicle.body.to_dict(),
             "reach": sketch.reach(vehicle),
         },
-        "columns": {name: _base64(values) for name, values in columns.items()},
+        "columns": {name: in_base64(values) for name, values in columns.items()},
     }
 
 
@@ -242,7 +242,8 @@ def _length(vectors: Any) -> Any:
     return np.sqrt(np.sum(np.square(vectors), axis=-1))
 
 
-def _base64(values: Any) -> str:
+def in_base64(values: Any) -> str:
+    """Return `values` as 32-bit floats in base64, which floats() of web/src/flight.js reads."""
     finite = np.clip(np.nan_to_num(np.asarray(values, dtype=float)), -LARGEST, LARGEST)
     return base64.b64encode(finite.astype("<f4").tobytes()).decode("ascii")
 

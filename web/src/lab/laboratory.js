@@ -53,7 +53,7 @@ export class Laboratory {
 
   #header() {
     const header = this.main.querySelector("header");
-    if (this.offer.vehicles) this.tabs = new Choice(header, "View", [["flight", "Flight", "The flight and its plots"], ["map", "Region of attraction", "From which directions of the rod it settles"]], (name) => this.show(name));
+    this.tabs = new Choice(header, "View", [["flight", "Flight", "The flight and its plots"], ["map", "Region of attraction", "From which directions of the rod it settles"]], (name) => this.show(name));
     this.words = document.createElement("p");
     Object.assign(this.words, { className: "verdict", ariaLive: "polite" });
     header.append(this.words);
@@ -64,7 +64,7 @@ export class Laboratory {
     Object.assign(this.note, { className: "notice", hidden: true });
     this.note.setAttribute("role", "alert");
     this.viewer.parts.scene.append(this.note);
-    this.tabs?.show("flight");
+    this.tabs.show("flight");
   }
 
   #say(words) {
@@ -195,12 +195,13 @@ export class Laboratory {
     this.setting.replace({ ...this.setting.value, pokes: [] });
   }
 
-  /** Show a tab: "flight" or "map". */
+  /** Show a tab: "flight" or "map", which is of flights that begin and end. */
   show(tab) {
+    if (tab === "map") this.running?.go(false);
     this.tab = tab;
     this.main.dataset.tab = tab;
     this.disc.root.hidden = tab !== "map";
-    this.tabs?.show(tab);
+    this.tabs.show(tab);
     if (tab === "map") this.#map();
     else {
       clearTimeout(this.mapping);
@@ -328,7 +329,7 @@ export class Laboratory {
       shown: () => this.shown, timings: () => structuredClone(this.times), tab: (name) => this.show(name),
       live: () => this.running.told(), go: (on) => this.running.go(on), poke: (on, velocity) => this.running.poke(on, velocity),
       pull: (place) => this.running.pull(place), pin: () => this.pin(),
-      map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good, path: this.disc.path }),
+      map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good, points: structuredClone(this.disc.points), path: this.disc.path }),
     });
   }
 }

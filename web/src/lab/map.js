@@ -5,6 +5,8 @@ import { axes, direction, place, rings, way } from "../sphere.js";
 
 const STOPS = ["#00224e", "#3b496c", "#7d7c78", "#bcae6c", "#fee838"]; // cividis, which every kind of vision reads
 
+const REDRAW = 200; // ms between two pictures of a map that grows
+
 const HTML = `<div class="disc"><canvas role="img" aria-label="Region of attraction over the directions of the rod"></canvas></div>
   <div class="told"><p class="share"></p><p class="hint">A point of the disc is a direction of the rod at the start, at rest; the rest of the
   start is that of the flight. Equal areas are equal shares of the sphere. Touch a point to fly from there.</p>
@@ -36,7 +38,8 @@ export class Map {
   add({ y, settling, cause, total }) {
     this.total = total;
     y.forEach((direction, i) => this.points.push({ y: direction, settling: settling[i], cause: cause[i] }));
-    this.draw();
+    // Points come faster than pictures are worth.
+    this.due ??= setTimeout(() => requestAnimationFrame(() => this.draw()), this.points.length < total ? REDRAW : 0);
   }
 
   /** Draw over the map the way of the rod in `flight` (flight.js). */
@@ -55,6 +58,8 @@ export class Map {
   }
 
   draw() {
+    clearTimeout(this.due);
+    this.due = null;
     const { width, height } = this.disc.getBoundingClientRect(), ratio = devicePixelRatio || 1;
     const size = Math.floor(Math.min(width, height));
     if (size < 20) return;

@@ -2,13 +2,14 @@
 
 import { rooms, Simulation } from "./simulation.js";
 
+const TOGETHER = 16; // flights of which the lanes take one after the other
 const ROUNDING = 5e-7; // share by which single precision may move the place of a time in a table
 
 export class Ideal extends Simulation {
   constructor(engine, facts) {
-    super(engine, facts);
+    super(engine, facts, TOGETHER);
     const { doubles, integers } = rooms(engine);
-    Object.assign(this.at, { starts: doubles(facts.state), queue: integers(1), steps: integers(1) });
+    Object.assign(this.at, { starts: doubles(TOGETHER * facts.state), queue: integers(1), steps: integers(TOGETHER) });
     Object.assign(this, { state: doubles(facts.state), impulses: doubles(6), first: doubles(1), most: 0 });
     this.turn({});
   }
@@ -25,18 +26,14 @@ export class Ideal extends Simulation {
    */
   advance(ticks, impulses = null) {
     if (this.ended) return new Float64Array(0);
-    const { at, engine, facts, row } = this, { period, exact } = facts, begun = this.tick;
+    const { at, facts, row } = this, { period } = facts, begun = this.tick;
     this.#fit(ticks);
     if (impulses) this.#strike(impulses);
-    engine.call("own", this.state, this.asked.origin, at.starts);
+    this.engine.call("own", this.state, this.asked.origin, at.starts);
     const times = at.times.view();
     for (let i = 0; i < ticks; i++) times[i] = (begun + 1 + i) * period;
     times[ticks] = Infinity;
-    at.queue.view()[0] = 0n;
-    this.fly({
-      runs: 1n, begin: begun * period, until: times[ticks - 1], rtol: exact.rtol, atol: exact.atol, max_steps: BigInt(exact.max_steps),
-      time_count: BigInt(ticks), ...this.#judge(begun, ticks),
-    });
+    this.#integrate(1, begun, ticks, ticks);
     this.tick = begun + ticks;
     this.#reduce(begun * period);
     const count = this.lived(begun + 1, ticks), before = begun === 0 ? 1 : 0;
@@ -44,6 +41,33 @@ export class Ideal extends Simulation {
     for (let i = 0; i < count; i++) this.#row(entry(at.times, i), entry(at.samples, facts.state * i), before + i);
     if (!this.ended) this.state.view().set(this.rows.view().subarray((before + count - 1) * row, (before + count - 1) * row + facts.state));
     return this.rows.view().slice(0, (before + count) * row);
+  }
+
+  /** Fly from packed `starts` for so many ticks, and return how each flight has ended. */
+  several(starts, ticks) {
+    const endings = [];
+    this.#fit(ticks);
+    this.at.times.view()[0] = Infinity;
+    for (let i = 0; i < starts.length; i += TOGETHER) {
+      const group = starts.slice(i, i + TOGETHER);
+      group.forEach((start, k) => {
+        this.state.view().set(start);
+        this.engine.call("own", this.state, this.asked.origin, entry(this.at.starts, k * this.facts.state));
+      });
+      this.#integrate(group.length, 0, ticks, 0);
+      endings.push(...group.map((_, k) => super.outcome(k)));
+    }
+    return endings;
+  }
+
+  /** Fly so many `runs` from tick `begun` on, keeping the states at the first `kept` of the times. */
+  #integrate(runs, begun, ticks, kept) {
+    const { period, exact: { rtol, atol, max_steps } } = this.facts;
+    this.at.queue.view()[0] = 0n;
+    this.fly(runs, {
+      begin: begun * period, until: (begun + ticks) * period, rtol, atol, max_steps: BigInt(max_steps), time_count: BigInt(kept),
+      ...this.#judge(begun, ticks),
+    });
   }
 
   /** Write the row `place` of the state `own` at the time at `t`. */
@@ -82,7 +106,7 @@ export class Ideal extends Simulation {
 
   /** Add what the last piece, begun at a time, says of the criterion to what those before have said. */
   #reduce(begun) {
-    const now = Array.from(this.at.reductions.view()), { judged } = this, end = this.at.end.view()[0], parts = this.facts.words.parts.length;
+    const { reductions: now, end } = super.outcome(), { judged } = this, parts = this.facts.words.parts.length;
     if (!judged) {
       this.judged = now;
       return;

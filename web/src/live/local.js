@@ -1,8 +1,11 @@
 // The engine of a page that flies by itself: machine code in a worker, which answers like the server of the laboratory.
 
 import source from "worker:./worker.js";
-import { refused, request } from "./request.js";
+import { floats } from "../flight.js";
+import { packed, refused, request } from "./request.js";
 import { judged } from "./verdict.js";
+
+const CHUNK = 32; // directions of a map that are flown at a time
 
 export class Local {
   /** `told` is called with every reply to a question that is still asked. */
@@ -15,16 +18,38 @@ export class Local {
     this.worker.postMessage({ kind: "load", code: Uint8Array.from(atob(code), (character) => character.charCodeAt(0)), facts });
   }
 
-  /** Ask for something of a `kind`; returns its number. Only whole flights are answered here: there is no map. */
+  /** Ask for a flight ("fly") or a map, or for no more of a map ("stop"); returns the number of the question. */
   ask(kind, content = {}, number = ++this.number) {
-    if (kind !== "fly") return number;
+    if (kind !== "fly") this.mapping = null;
+    if (kind === "stop") return number;
     const setting = this.whole(content.setting), message = refused(setting, this.facts);
     if (message) queueMicrotask(() => this.told({ kind: "error", number, field: "", message }));
-    else {
+    else if (kind === "fly") {
       this.waiting = { number, setting };
       this.#next();
-    }
+    } else this.#chunk({ number, setting: { ...setting, pokes: [] }, done: 0 });
     return number;
+  }
+
+  /** Fly the next directions of a map: the rod at rest there, the rest of the start as it is. */
+  #chunk(mapping) {
+    const { number, setting, done } = mapping, rods = this.directions.slice(done, done + CHUNK);
+    this.mapping = { ...mapping, rods, done: done + rods.length };
+    const starts = rods.map((y) => packed({ ...setting.start, y, y_dot: [0, 0, 0] }));
+    this.worker.postMessage({ kind: "several", number, asked: request(setting, this.facts, this.offer.seed), starts, first: done });
+  }
+
+  #mapped({ number, endings }) {
+    const { mapping } = this, total = this.directions.length;
+    if (number !== mapping?.number) return; // another has been asked for
+    const verdicts = endings.map((ending) => judged(ending, this.facts)), told = (name) => verdicts.map((verdict) => verdict[name]);
+    this.told({ kind: "map", number, total, done: mapping.done, y: mapping.rods, settling: told("settling"), cause: told("cause") });
+    if (this.mapping === mapping && mapping.done < total) this.#chunk(mapping);
+  }
+
+  /** The directions of a map's points, e3 up. */
+  get directions() {
+    return (this.spread ??= triples(Array.from(floats(this.offer.directions))));
   }
 
   /** Begin a flight that goes on: that of `setting`, up to `tick`; `flown` is told every piece, until the next begins. */
@@ -53,6 +78,10 @@ export class Local {
   }
 
   #answer(reply) {
+    if (reply.kind === "several") {
+      this.#mapped(reply);
+      return;
+    }
     if (reply.kind === "piece") {
       if (reply.number === this.begun) this.flown?.(reply);
       return;
@@ -74,6 +103,8 @@ export class Local {
     });
   }
 }
+
+const triples = (flat) => Array.from({ length: flat.length / 3 }, (_, i) => flat.slice(3 * i, 3 * i + 3));
 
 /** What a slider's `put` was filled with to become `stored`; see setting.js. */
 function read(put, stored) {

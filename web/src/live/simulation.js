@@ -9,13 +9,14 @@ export class Simulation {
     return new this(await Engine.from(module), facts);
   }
 
-  constructor(engine, facts) {
+  /** With room for so many `runs` at a time. */
+  constructor(engine, facts, runs) {
     const { state, rotors, gains, reductions } = facts, { doubles, integers } = rooms(engine);
-    Object.assign(this, { engine, facts, row: state + rotors, tick: 0, ended: true });
+    Object.assign(this, { engine, facts, runs, row: state + rotors, tick: 0, ended: true });
     // Arguments of the kernel, by their names.
     this.at = {
-      parameters: doubles(Math.max(gains.length, 1)), reductions: doubles(reductions), final: doubles(state), end: doubles(1),
-      status: integers(1), clearance: doubles(1), part: integers(1), stop: integers(1),
+      parameters: doubles(Math.max(runs * gains.length, 1)), reductions: doubles(runs * reductions), final: doubles(runs * state),
+      end: doubles(runs), status: integers(runs), clearance: doubles(runs), part: integers(runs), stop: integers(1),
     };
     this.asked = { t: doubles(1), state: doubles(this.row), origin: doubles(3), shown: doubles(6) };
     this.tune({});
@@ -23,7 +24,8 @@ export class Simulation {
 
   /** Take the gains of a law by name; those that are not told are as in the page. */
   tune(gains) {
-    this.at.parameters.view().set(this.facts.gains.map((name, i) => gains[name] ?? this.facts.parameters[i]));
+    const values = this.facts.gains.map((name, i) => gains[name] ?? this.facts.parameters[i]);
+    this.at.parameters.view().set(Array(this.runs).fill(values).flat());
   }
 
   /** Turn knobs of the plant, by name; those that are not told are as in the page. */
@@ -32,10 +34,11 @@ export class Simulation {
     this.asked.origin.view().set(this.turned.origin);
   }
 
-  /** Call the kernel with `numbers` beside the arrays that it always takes. */
-  fly(numbers) {
-    this.engine.call("kernel", ...this.facts.arguments.map((name) => numbers[name] ?? this.at[name] ?? null));
-    this.ended = this.at.status.view()[0] !== 0n;
+  /** Call the kernel for so many `runs`, with `numbers` beside the arrays that it always takes. */
+  fly(runs, numbers) {
+    const given = { runs: BigInt(runs), ...numbers };
+    this.engine.call("kernel", ...this.facts.arguments.map((name) => given[name] ?? this.at[name] ?? null));
+    this.ended = this.at.status.view().subarray(0, runs).every((status) => status !== 0n);
   }
 
   /** How many of `count` ticks from the tick `first` on the flight has lived to see. */
@@ -62,9 +65,9 @@ export class Simulation {
   }
 
   /** How the flight has ended so far, and what the criterion says of it. */
-  outcome() {
-    const { at } = this;
-    return { status: Number(at.status.view()[0]), end: at.end.view()[0], part: Number(at.part.view()[0]), reductions: Array.from(at.reductions.view()) };
+  outcome(run = 0) {
+    const { at } = this, { reductions } = this.facts, [status, end, part] = ["status", "end", "part"].map((name) => Number(at[name].view()[run]));
+    return { status, end, part, reductions: Array.from(at.reductions.view().subarray(run * reductions, (run + 1) * reductions)) };
   }
 
   /** Reference, thrust, clearance and V of a row at the time `t`: six numbers, see `shown` in flypend.flight.kernels.web. */

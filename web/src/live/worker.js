@@ -20,6 +20,13 @@ const actions = {
     return { kind: "flown", number, columns: columns(still, rows, kept, 0), outcome: still.outcome(), milliseconds: performance.now() - begun };
   },
 
+  /** How flights from several `starts`, the first of which is number `first`, end. */
+  several({ number, asked: { gains, knobs, seed, ticks }, starts, first }) {
+    still.tune(gains);
+    still.turn(knobs);
+    return { kind: "several", number, endings: still.several(starts, ticks, seed + first) };
+  },
+
   /** Begin a flight that goes on, and fly it up to a tick at once. */
   begin({ number, asked, until }) {
     return piece(number, flown(running, asked, until), 0);

@@ -27,9 +27,11 @@ from flypend.plants.equations import struck
 from flypend.plants.knobs import turned
 from flypend.plants.loop import Loop
 
+LANES = 2  # of a kernel: two flights take the time of one, and the module is no larger
+
 
 def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
-    """Return a module that flies `loop` and judges by `criterion`, compiled or from the cache.
+    """Return a module that flies `loop`, `LANES` flights at a time, and judges by `criterion`: compiled or cached.
 
     Its functions are "kernel" and `shown`, and
 
@@ -46,13 +48,13 @@ def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
     """
     if isinstance(loop.plant, Ideal):
         return _ideal(loop, criterion, exact)
-    key, kernel = sampled.written(pieces_problem(loop, criterion), 1, wasm32())
+    key, kernel = sampled.written(pieces_problem(loop, criterion), LANES, wasm32())
     return _linked(key, kernel, ["kernel", "context_size"], [turned(loop.sampled), shown(loop)])
 
 
 def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
     problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
-    key, kernel = ideal.written(ideal.key_of(problem, *chosen), problem, 1, *chosen, wasm32())
+    key, kernel = ideal.written(ideal.key_of(problem, *chosen), problem, LANES, *chosen, wasm32())
     centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
     return _linked(key, kernel, ["kernel"], [own(loop), row(loop), struck(centred), shown(loop)])
 

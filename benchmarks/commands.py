@@ -31,16 +31,16 @@ LINES = (
     "flypend paper",
     "flypend theorem",
     "flypend compare --law inverted --law lqr --runs 2000",
-    "flypend ladder --law inverted --runs 200",
+    "flypend ladder --law inverted --runs 50",
     "flypend circles",
     "flypend check hehn2011",
     "flypend plan",
     "flypend plan --fly mujoco --figure plan.png",
-    "flypend map --law lqr --runs 100000",
+    "flypend map --law lqr",
     "flypend sweep examples/studies/hanging.toml --out hanging.zarr",
     "flypend tune examples/studies/hanging.toml",
     "flypend export-c --precision float",
-    "flypend learn",
+    "flypend learn --updates 100",
 )
 FOR_OTHERS = LINES[:2]
 

@@ -62,7 +62,7 @@ maximum_signature_line_length = 100
 
 # The commands whose output a page shows: of this installation, as wide as the page.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-os.environ["COLUMNS"] = "100"
+os.environ["COLUMNS"] = "88"
 
 
 def _escaped(lines: list[str]) -> None:

@@ -10,6 +10,7 @@ MENDS = (
     (r'<aside class="sidebar-drawer', '<aside aria-label="Pages" class="sidebar-drawer'),
     (r'<aside class="toc-drawer', '<aside aria-label="On this page" class="toc-drawer'),
     (r'<th class="head[^"]*"><p></p></th>', "<td></td>"),  # the empty corner of a table heads nothing
+    (r"<iframe srcdoc=", '<iframe title="Replay of a flight" srcdoc='),
     (r' aria-label="Toggle hidden content"', ""),  # what is folded says so itself
     # A signature of several lines is a list of descriptions without terms.
     (r"<dl>\s*((?:<dd><em class=\"sig-param\">.*?</em>,?</dd>\s*)+)</dl>", r'<div class="sig-lines">\1</div>'),

@@ -35,12 +35,12 @@ export class Captions {
   show(stage, t, colours, words = true) {
     this.views.forEach((view, i) => {
       const picture = stage.views[i], { flight } = view;
-      view.root.hidden = !picture;
+      if (view.root.hidden === Boolean(picture)) view.root.hidden = !picture; // to write the same has styles computed anew
       if (!picture) return;
       place(view, picture);
       view.compass.draw(picture, flight.e3, colours);
       const { x, x_dot } = stage.flyers[i].pose;
-      const rise = (x[2] - stage.flyers[i].pivots[2]).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
+      const rise = (x[2] - stage.flyers[i].base).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
       write(view.name, this.several ? `${flight.title}: ` : "");
       write(view.phase, flight.phase(t));
       if (words) write(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);

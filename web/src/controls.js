@@ -1,6 +1,7 @@
 // The bar below the picture and the keys: play, time line, speed, cameras, layout, theme.
 
 import { SPEEDS } from "./clock.js";
+import { write } from "./drawing.js";
 
 const ICONS = {
   play: "M8 5.5v13l11-6.5z", pause: "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z", again: "M12 5V1.8L7 6l5 4.2V7a5 5 0 1 1-5 5H5a7 7 0 1 0 7-7z",
@@ -43,11 +44,13 @@ export class Player {
       this.button.title = `${this.button.getAttribute("aria-label")} (space)`;
     }
     const digits = clock.end >= 1 ? 2 : 4;
-    if (words) this.time.textContent = `${clock.time.toFixed(digits)} / ${clock.end.toFixed(digits)} s`;
-    Object.assign(this.line, { min: clock.start, max: clock.end, value: clock.time });
-    const share = (clock.time - clock.start) / (clock.end - clock.start || 1);
-    this.line.style.setProperty("--done", `${100 * share}%`);
+    if (words) write(this.time, `${clock.time.toFixed(digits)} / ${clock.end.toFixed(digits)} s`);
     this.#speeds();
+    const share = (clock.time - clock.start) / (clock.end - clock.start || 1);
+    if (!words && share === this.share) return; // such as at the end of a flight that goes on
+    this.share = share;
+    Object.assign(this.line, { min: clock.start, max: clock.end, value: clock.time });
+    this.line.style.setProperty("--done", `${100 * share}%`);
   }
 
   #speeds() {

@@ -1,6 +1,6 @@
 // Quantities over time on a canvas, with a cursor that follows the clock and that one can drag.
 
-import { clear, move } from "./drawing.js";
+import { clear, move, write } from "./drawing.js";
 import { drawMark, markIcon } from "./marks.js";
 import { clamp, indexBefore, mix, roundUp } from "./numbers.js";
 import { large, power, reading, scientific, tick } from "./words.js";
@@ -214,7 +214,7 @@ export class Plot {
     move(this.cursor, `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`);
     if (!words) return;
     for (const { line, output } of this.readings) {
-      output.textContent = (this.log ? scientific : reading)(valueAt(line, t));
+      write(output, (this.log ? scientific : reading)(valueAt(line, t)));
     }
   }
 }

@@ -78,7 +78,7 @@ export class Viewer {
   grown(span, time) {
     const [flight] = this.flights;
     Object.assign(this.clock, { start: flight.start, end: flight.end, time: flight.end });
-    this.stage?.grow(span);
+    this.stage?.grow(span, time);
     if (time) {
       this.#plot(plots(this.flights, flight.end - span));
       this.portrait.load(this.flights, flight.end - span);

@@ -2,6 +2,7 @@
 
 import { Raycaster, Vector2 } from "three";
 
+import { move } from "../drawing.js";
 import { dot, unit } from "../numbers.js";
 
 const TURN = Math.PI / 36; // by an arrow key
@@ -41,7 +42,7 @@ export class Handle {
     const [left, top] = viewer.stage.screen(0, viewer.stage.factor).bob;
     if (!this.held) this.y = flyer.pose.y;
     this.pivot = flyer.pose.x;
-    this.root.style.transform = `translate(${left}px, ${top}px)`;
+    move(this.root, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`);
   }
 
   #name(going) {

@@ -1,6 +1,7 @@
 // One run in the scene: its machine, the path of its bob and pivot, its reference. World with e3 up.
 
 import { Group, Mesh, MeshBasicMaterial, TorusGeometry } from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 import { indexBefore, norm } from "../numbers.js";
 import { upright } from "../flight.js";
@@ -18,25 +19,21 @@ export class Flyer extends Group {
     this.model = new Model(flight.vehicle, { ghost });
     const rod = flight.vehicle.rod_length;
     const { times, pivots, bobs, references } = path(flight);
-    Object.assign(this, { pivots, bobs });
+    Object.assign(this, { pivots, bobs, base: pivots[2] });
     const opacity = ghost ? 0.7 : 1;
     this.trail = new Ribbon(this.bobs, times, { width: 2.6, tail: 1.2, faint: 0.28, opacity });
     this.track = new Ribbon(this.pivots, times, { width: 1.4, tail: 1.2, faint: 0.3, opacity: 0.7 * opacity });
     this.planned = new Ribbon(references, times, { width: 1.6, opacity: 0.9, dash: 0.25 * rod });
-    this.marker = new Group();
-    const ring = new TorusGeometry(0.09 * rod, 0.008 * rod, 8, 40);
+    const ring = () => new TorusGeometry(0.09 * rod, 0.008 * rod, 8, 40);
     this.paint = new MeshBasicMaterial({ transparent: true, opacity: 0.9 });
-    for (const [x, y] of [[0, 0], [Math.PI / 2, 0], [0, Math.PI / 2]]) {
-      const mesh = new Mesh(ring, this.paint);
-      mesh.rotation.set(x, y, 0);
-      this.marker.add(mesh);
-    }
+    this.marker = new Mesh(mergeGeometries([ring(), ring().rotateX(Math.PI / 2), ring().rotateY(Math.PI / 2)]), this.paint);
     this.add(this.track, this.trail, this.planned, this.marker, this.model);
   }
 
-  /** Draw what a growing flight has flown of late: the last `span` seconds. */
-  grow(span) {
-    const { flight } = this, { x, y } = flight.columns, first = indexBefore(flight.t, flight.end - span);
+  /** Draw what a growing flight has flown since the last time, or if `anew` its last `span` seconds alone. */
+  grow(span, anew) {
+    const { flight } = this, { x, y } = flight.columns;
+    const first = anew || !this.until ? indexBefore(flight.t, flight.end - span) : indexBefore(flight.t, this.until) + 1;
     const times = flight.t.subarray(first), rod = flight.vehicle.rod_length, size = 3 * times.length;
     Object.assign(this, { pivots: new Float64Array(size), bobs: new Float64Array(size) });
     for (let i = 0, from = 3 * first; i < size; i++) {
@@ -44,8 +41,11 @@ export class Flyer extends Group {
       this.pivots[i] = sign * x[from + i];
       this.bobs[i] = sign * (x[from + i] + rod * y[from + i]);
     }
-    this.trail.put(this.bobs, times);
-    this.track.put(this.pivots, times);
+    for (const [ribbon, places] of [[this.trail, this.bobs], [this.track, this.pivots]]) {
+      if (anew || !this.until) ribbon.put(places, times);
+      else ribbon.add(places, times);
+    }
+    this.until = flight.end;
   }
 
   /** Take `pose`, in the frame of the run. */

@@ -4,8 +4,9 @@ import {
   Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, ShaderMaterial,
   SphereGeometry, TorusGeometry, Vector3,
 } from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-import { Rotor } from "./rotor.js";
+import { motor, Rotors } from "./rotor.js";
 
 const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
 const Z = new Vector3(0, 0, 1);
@@ -45,7 +46,7 @@ function outline(opacity) {
 function paints(ghost) {
   const roles = ["body", "front", "rear", "rod", "thrust"];
   return Object.fromEntries(roles.map((role) => {
-    const paint = new MeshStandardMaterial({ roughness: 0.55, metalness: 0.05 });
+    const paint = new MeshStandardMaterial({ roughness: 0.55, metalness: 0.05, side: DoubleSide });
     if (ghost) Object.assign(paint, { transparent: true, opacity: 0.38, depthWrite: false, forceSinglePass: true });
     return [role, paint];
   }));
@@ -57,21 +58,28 @@ function solid(geometry, paint, ghost) {
   return mesh;
 }
 
-/** A cylinder from `start` to `end`, thinner there where `taper` is less than 1. */
-function bar(start, end, radius, paint, ghost, taper = 1) {
-  const along = end.clone().sub(start), mesh = solid(new CylinderGeometry(taper * radius, radius, along.length(), 14), paint, ghost);
+/** A cylinder from `start` to `end`, thinner there where `taper` is less than 1, and where it goes. */
+function bar(start, end, radius, taper = 1) {
+  const along = end.clone().sub(start), mesh = new Mesh(new CylinderGeometry(taper * radius, radius, along.length(), 14));
   mesh.quaternion.setFromUnitVectors(UP, along.clone().normalize());
   mesh.position.copy(start).addScaledVector(along, 0.5);
   return mesh;
 }
 
-/** An arrow along +z of its group, of length 1 before `stretch`. */
+/** The shape of `mesh` where it is. */
+function placed(mesh) {
+  mesh.updateMatrix();
+  return mesh.geometry.applyMatrix4(mesh.matrix);
+}
+
+/** Shaft and head of an arrow, of length and width 1; `open` as an outline. */
+const arrow = (open) => [new CylinderGeometry(0.5, 0.5, 1, 24, 1, open), new ConeGeometry(open ? 1 : 1.5, 1, 32, 1, open)];
+
+/** An arrow along +z of its group, of length 1 before `stretch`; a force casts no shadow. */
 class Arrow extends Group {
-  constructor(width, paint, ghost, { heads = 4.5, open = false } = {}) {
+  constructor(width, [shaft, head], paint, heads = 4.5) {
     super();
-    Object.assign(this, { width, heads });
-    this.shaft = solid(new CylinderGeometry(0.5, 0.5, 1, 24, 1, open), paint, ghost);
-    this.head = solid(new ConeGeometry(open ? 1 : 1.5, 1, 32, 1, open), paint, ghost);
+    Object.assign(this, { width, heads, shaft: new Mesh(shaft, paint), head: new Mesh(head, paint) });
     this.add(this.shaft, this.head);
     for (const part of [this.shaft, this.head]) part.rotation.x = Math.PI / 2;
   }
@@ -102,7 +110,7 @@ export class Model extends Group {
     this.add(this.body, this.#rod(rod));
     this.#frame(span);
     this.rim = outline(ghost ? 0.4 : 0.85);
-    this.thrust = new Arrow(0.085 * rod, this.rim, true, { heads: 1.8, open: true }); // wide enough for the rod to stand inside
+    this.thrust = new Arrow(0.085 * rod, arrow(true), this.rim, 1.8); // wide enough for the rod to stand inside
     this.body.add(this.thrust);
   }
 
@@ -110,28 +118,35 @@ export class Model extends Group {
     const { vehicle, paint, ghost } = this;
     const open = vehicle.mount === "hub"; // the rod passes between the arms, and through the ring that carries them
     const { hub_radius: hub, arm_radius: arm } = open ? vehicle.body : { hub_radius: 0, arm_radius: 0.045 * span };
-    this.body.add(open ? solid(new TorusGeometry(hub, arm, 14, 48), paint.body, ghost) : this.#hub(span));
-    const front = Math.max(...vehicle.rotor_positions.map((position) => position[0])) - 1e-9;
     const lift = open ? 0 : 0.13 * span; // how high discs are drawn above the arms, where nothing can touch them
     if (vehicle.mount === "cup") this.#cup();
-    this.rotors = vehicle.rotor_positions.map((position, k) => {
-      const side = position[0] > front ? "front" : "rear";
-      const end = new Vector3(...position), rim = end.clone().setLength(hub);
-      const strut = bar(rim, end, arm, paint.body, ghost, open ? 1 : 2 / 3);
-      const rotor = new Rotor(vehicle.rotor_radius, 0.13 * span, vehicle.rotor_spins[k], { rim: paint[side], body: paint.body }, ghost);
-      Object.assign(this.parts, { [`disc ${k + 1}`]: rotor.touched, [`arm ${k + 1}`]: [strut] });
-      rotor.position.copy(end).add(new Vector3(0, 0, lift));
-      const arrow = new Arrow(0.02 * vehicle.rod_length, paint.thrust, ghost);
-      arrow.position.copy(rotor.position);
-      this.body.add(strut, rotor, arrow);
-      return { rotor, arrow, side };
+    const ends = vehicle.rotor_positions.map((position) => new Vector3(...position));
+    const places = ends.map((end) => end.clone().add(new Vector3(0, 0, lift)));
+    const still = [open ? new TorusGeometry(hub, arm, 14, 48) : new SphereGeometry(0.2 * span, 32, 20).scale(1, 1, 0.45)];
+    for (const place of places) still.push(...motor(vehicle.rotor_radius, 0.13 * span, place));
+    ends.forEach((end, k) => {
+      const strut = bar(end.clone().setLength(hub), end, arm, open ? 1 : 2 / 3);
+      if (open) this.#touchable(`arm ${k + 1}`, strut);
+      else still.push(placed(strut));
     });
+    this.body.add(solid(mergeGeometries(still), paint.body, ghost), this.#rotors(places));
   }
 
-  #hub(span) {
-    const hub = solid(new SphereGeometry(0.2 * span, 32, 20), this.paint.body, this.ghost);
-    hub.scale.z = 0.45;
-    return hub;
+  /** A part that a rod can touch is a mesh of its own. */
+  #touchable(name, mesh) {
+    Object.assign(mesh, { material: this.paint.body, castShadow: !this.ghost });
+    this.parts[name] = [mesh];
+    this.body.add(mesh);
+  }
+
+  #rotors(places) {
+    const { vehicle, paint, ghost } = this, front = Math.max(...places.map(({ x }) => x)) - 1e-9, shape = arrow(false);
+    const sides = places.map(({ x }) => (x > front ? "front" : "rear"));
+    this.rotors = new Rotors(vehicle.rotor_radius, places, vehicle.rotor_spins, sides, paint, ghost);
+    this.arrows = places.map((place) => new Arrow(0.02 * vehicle.rod_length, shape, paint.thrust));
+    this.arrows.forEach((one, k) => one.position.copy(places[k]));
+    this.body.add(...this.arrows);
+    return this.rotors;
   }
 
   /** The cup, as far as its cone goes: the rod is lost beyond it, or where the cup would have to pull. */
@@ -153,12 +168,9 @@ export class Model extends Group {
     const { paint, ghost } = this;
     this.pole = new Group();
     const thick = this.vehicle.mount === "gimbal" ? 0.016 * length : this.vehicle.body.rod_radius;
-    const stick = solid(new CylinderGeometry(thick, thick, this.vehicle.rod_end, 16), paint.rod, ghost);
-    stick.rotation.x = Math.PI / 2;
-    stick.position.z = this.vehicle.rod_end / 2; // the bob may sit below the far end
-    const bob = solid(new SphereGeometry(0.08 * length, 36, 24), paint.rod, ghost);
-    bob.position.z = length;
-    this.pole.add(stick, bob, solid(new SphereGeometry(0.032 * length, 20, 14), paint.rod, ghost));
+    const stick = new CylinderGeometry(thick, thick, this.vehicle.rod_end, 16).rotateX(Math.PI / 2).translate(0, 0, this.vehicle.rod_end / 2);
+    const bob = new SphereGeometry(0.08 * length, 36, 24).translate(0, 0, length); // may sit below the far end of the stick
+    this.pole.add(solid(mergeGeometries([stick, bob, new SphereGeometry(0.032 * length, 20, 14)]), paint.rod, ghost));
     return this.pole;
   }
 
@@ -173,6 +185,7 @@ export class Model extends Group {
       Object.assign(mesh, { userData: { paint: mesh.material }, material: this.alarm });
       if (part.startsWith("arm")) mesh.scale.set(SWOLLEN, 1, SWOLLEN);
     }
+    this.rotors.touch(/^disc/.test(part) ? Number(part.slice(5)) - 1 : -1);
     this.touched = part;
   }
 
@@ -187,22 +200,20 @@ export class Model extends Group {
     this.body.quaternion.set(...pose.quat_xyzw);
     this.pole.quaternion.setFromUnitVectors(Z, new Vector3(...pose.y));
     this.thrust.stretch(length(pose.thrust, hover, HOVER_ARROW));
-    const share = hover / this.rotors.length;
-    this.rotors.forEach(({ rotor, arrow }, k) => {
-      rotor.show(pose.turned[k], pose.rotor_forces[k] / share);
-      arrow.stretch(length(pose.rotor_forces[k], share, ROTOR_ARROW));
+    const share = hover / this.arrows.length;
+    this.arrows.forEach((one, k) => {
+      this.rotors.show(k, pose.turned[k], pose.rotor_forces[k] / share);
+      one.stretch(length(pose.rotor_forces[k], share, ROTOR_ARROW));
     });
   }
 
   /** Take the colours of a theme: an object from roles (body, front, rear, rod, thrust, ghost) to CSS colours. */
   colour(colours) {
-    for (const [role, paint] of Object.entries(this.paint)) {
-      paint.color.set(this.ghost ? colours.ghost : colours[role]);
-      paint.side = DoubleSide;
-    }
-    this.rim.uniforms.color.value.set(this.ghost ? colours.ghost : colours.thrust);
-    this.glass?.color.set(this.ghost ? colours.ghost : colours.body);
-    for (const { rotor, side } of this.rotors) rotor.colour(this.ghost ? colours.ghost : colours[side]);
+    const tone = (role) => (this.ghost ? colours.ghost : colours[role]);
+    for (const [role, paint] of Object.entries(this.paint)) paint.color.set(tone(role));
+    this.rim.uniforms.color.value.set(tone("thrust"));
+    this.glass?.color.set(tone("body"));
+    this.rotors.colour(tone, colours.alarm);
     this.alarm.color.set(colours.alarm);
   }
 }

@@ -65,16 +65,25 @@ export class Ribbon extends Mesh {
 
   /** Take another path, through `points` (x, y, z of each, one after the other; m) at `times` (s). */
   put(points, times) {
-    const count = times.length, into = this.#room(count).array;
-    for (let i = 0, along = 0; i < count; i++) {
-      const [x, y, z] = [3 * i, 3 * i + 1, 3 * i + 2];
-      if (i) along += Math.hypot(points[x] - points[x - 3], points[y] - points[y - 3], points[z] - points[z - 3]);
-      into[POINT * i] = points[x];
-      into[POINT * i + 1] = points[y];
-      into[POINT * i + 2] = points[z];
-      into[POINT * i + 3] = times[i];
-      into[POINT * i + 4] = along;
+    this.count = 0;
+    this.add(points, times);
+  }
+
+  /** Go on along the path, through `points` at `times` as for `put`. */
+  add(points, times) {
+    const begun = this.count, count = begun + times.length, into = this.#room(count).array;
+    for (let i = begun, from = 0, to = POINT * begun; i < count; i++, from += 3, to += POINT) {
+      const [x, y, z] = [points[from], points[from + 1], points[from + 2]];
+      const step = i ? Math.sqrt((x - into[to - 5]) ** 2 + (y - into[to - 4]) ** 2 + (z - into[to - 3]) ** 2) : 0;
+      into[to] = x;
+      into[to + 1] = y;
+      into[to + 2] = z;
+      into[to + 3] = times[i - begun];
+      into[to + 4] = (i ? into[to - 1] : 0) + step;
     }
+    this.points.addUpdateRange(POINT * begun, POINT * times.length);
+    this.points.needsUpdate = true;
+    this.count = count;
     this.geometry.instanceCount = Math.max(count - 1, 0);
     this.visible = count > 1;
   }
@@ -82,17 +91,16 @@ export class Ribbon extends Mesh {
   /** A buffer for `count` points: that which there is, if it is large enough, so that the graphics card's is written over. */
   #room(count) {
     if (!this.points || this.points.count < count) {
+      const old = this.points?.array.subarray(0, POINT * this.count) ?? [];
       if (this.points) this.geometry.dispose();
       this.points = new InstancedInterleavedBuffer(new Float32Array(POINT * (this.points ? 2 * count : Math.max(count, 2))), POINT);
+      this.points.array.set(old);
       const attribute = (name, size, offset) => this.geometry.setAttribute(name, new InterleavedBufferAttribute(this.points, size, offset));
       attribute("from", 3, 0);
       attribute("to", 3, POINT); // of the next point
       attribute("begun", 2, 3);
       attribute("ended", 2, POINT + 3);
     }
-    this.points.clearUpdateRanges();
-    this.points.addUpdateRange(0, POINT * count);
-    this.points.needsUpdate = true;
     return this.points;
   }
 

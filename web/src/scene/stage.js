@@ -52,10 +52,11 @@ export class Stage {
     this.renderer.compile(this.scene, this.camera);
   }
 
-  /** Show what the first flight, one that grows, has flown of late: its last `span` seconds. */
-  grow(span) {
+  /** Show what the first flight, one that grows, has flown since, or if `anew` its last `span` seconds alone. */
+  grow(span, anew) {
     const [flyer] = this.flyers;
-    flyer.grow(span);
+    flyer.grow(span, anew);
+    if (!flyer.pivots.length) return;
     const { centre, half } = bounds([flyer.pivots, flyer.bobs]), reach = flyer.flight.vehicle.reach;
     this.world.ground = Math.min(this.world.ground, centre[2] - half[2] - 0.35 * reach);
     const low = centre.map((value, k) => Math.min(value - half[k], this.box.centre[k] - this.box.half[k]));

@@ -34,18 +34,18 @@ def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None, exact=EXACT):
     return np.array(flown), ends
 
 
-def ended_by_page(loop, starts, tmp_path, exact=EXACT):
+def ended_by_page(loop, starts, tmp_path, exact=EXACT, **given):
     """Status codes, end times (s) and reductions of flights that share the lanes of the module."""
-    facts, code = machine(loop, exact, tmp_path)
+    facts, code = machine(loop, exact, tmp_path, **given)
     own, ticks = seen_packed(starts.packed(), loop.law.e3).tolist(), round(DURATION / facts["period"])
     told = by_node({"facts": facts, "starts": own, "seed": SEED, "ticks": ticks}, code)
     reductions = [[np.inf if value is None else value for value in end["reductions"]] for end in told]  # as JSON has it
     return [end["status"] for end in told], [end["end"] for end in told], np.array(reductions)
 
 
-def machine(loop, exact, tmp_path):
+def machine(loop, exact, tmp_path, **given):
     """What a page knows of its machine code, which is written to the path that is returned with it."""
-    facts, code = engine_facts(loop, exact), tmp_path / "kernel.wasm"
+    facts, code = engine_facts(loop, exact, **given), tmp_path / "kernel.wasm"
     code.write_bytes(base64.b64decode(facts.pop("code")))
     return facts, code
 

@@ -85,12 +85,14 @@ def test_noise_gusts_delay_and_observer_are_those_of_the_package(tmp_path):
     assert error.shape == (4, KEPT + 1)
 
 
-@pytest.mark.parametrize(("mount", "through"), [("gimbal", REAL), ("hub", plant("rotors"))])
-def test_flights_that_share_lanes_end_as_in_the_package(mount, through, tmp_path):
+@pytest.mark.parametrize(
+    ("mount", "through", "lanes"), [("gimbal", REAL, 2), ("gimbal", REAL, 1), ("hub", plant("rotors"), 2)]
+)
+def test_flights_that_share_lanes_end_as_in_the_package(mount, through, lanes, tmp_path):
     """Seven of them, so that one flies alone; lanes keep their own seeds, and on a hub some flights touch early."""
     vehicle, starts = fp.vehicle("hehn2011").replace(mount=mount), fp.random_starts(7, 5)
     loop = Loop(vehicle, fp.laws.inverted().bind(vehicle), through)
-    codes, ends, reductions = ended_by_page(loop, starts, tmp_path)
+    codes, ends, reductions = ended_by_page(loop, starts, tmp_path, lanes=lanes)
     rate = loop.sampled.rate
     judged = np.arange(0, round(DURATION * rate) + 1, round(rate / 100))
     here = sampled_kernel(loop, fp.Criterion()).fly(starts.packed(), DURATION, judge_at=judged, first_seed=SEED)

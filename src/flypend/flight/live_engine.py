@@ -29,15 +29,15 @@ PERIOD = 0.002  # s between two rows of a flight through the ideal plant
 MOST_STEPS = 100_000  # of such a flight, some seconds of a page's worker, unless its tolerances say otherwise
 
 
-def engine_facts(loop: Loop, exact: Tolerances) -> dict[str, Any]:
-    """Return the machine code of `loop` for pages; in the ideal plant, with the tolerances `exact`."""
+def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str, Any]:
+    """Return machine code that flies `loop` in pages, `lanes` flights at a time; in the ideal plant, by `exact`."""
     law, true = loop.symbolic, flown_vehicle(loop)
     criterion = goal(law.e3)
     facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
     return {
-        "code": base64.b64encode(web_kernel(loop, criterion, exact)).decode("ascii"),
+        "code": base64.b64encode(web_kernel(loop, criterion, exact, lanes)).decode("ascii"),
         **facts,
-        "lanes": LANES, "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
+        "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
         "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],
         "judge": max(1, round(SAMPLE_PERIOD / facts["period"])), "e3": law.e3, "rod": true.rod_length,
         "masses": {"bob": true.bob_mass, "vehicle": true.mass},

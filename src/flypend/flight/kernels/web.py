@@ -27,11 +27,11 @@ from flypend.plants.equations import struck
 from flypend.plants.knobs import turned
 from flypend.plants.loop import Loop
 
-LANES = 2  # of a kernel: two flights take the time of one, and the module is no larger
+LANES = 2  # of a kernel: two flights take the time of one, and the module is no larger (benchmarks/web.py)
 
 
-def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
-    """Return a module that flies `loop`, `LANES` flights at a time, and judges by `criterion`: compiled or cached.
+def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int = LANES) -> bytes:
+    """Return a module that flies `loop`, `lanes` flights at a time, and judges by `criterion`: compiled or cached.
 
     Its functions are "kernel" and `shown`, and
 
@@ -47,14 +47,14 @@ def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
         If the law has operations that cannot be compiled, or another engine simulates the plant.
     """
     if isinstance(loop.plant, Ideal):
-        return _ideal(loop, criterion, exact)
-    key, kernel = sampled.written(pieces_problem(loop, criterion), LANES, wasm32())
+        return _ideal(loop, criterion, exact, lanes)
+    key, kernel = sampled.written(pieces_problem(loop, criterion), lanes, wasm32())
     return _linked(key, kernel, ["kernel", "context_size"], [turned(loop.sampled), shown(loop)])
 
 
-def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances) -> bytes:
+def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int) -> bytes:
     problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
-    key, kernel = ideal.written(ideal.key_of(problem, *chosen), problem, LANES, *chosen, wasm32())
+    key, kernel = ideal.written(ideal.key_of(problem, *chosen), problem, lanes, *chosen, wasm32())
     centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
     return _linked(key, kernel, ["kernel"], [own(loop), row(loop), struck(centred), shown(loop)])
 

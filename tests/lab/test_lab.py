@@ -23,6 +23,7 @@ import flypend as fp
 from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.kernels.pieces import pieces_kernel
+from flypend.flight.kernels.web import WebModule
 from flypend.flight.metrics import metrics
 from flypend.flight.signals import Signals
 from flypend.flight.simulate import fly as fly_request
@@ -220,6 +221,26 @@ def test_machine_code_takes_the_gains_that_are_inputs(plant):
     balanced = engine_of(setting_of(asked("lqr", plant=plant)))
     assert balanced["gains"] == []
     assert balanced["fixed"] == sorted(sliders_of(fp.laws.lqr()))
+
+
+def test_flights_do_not_wait_while_machine_code_is_compiled(monkeypatch):
+    begun, go_on, real = threading.Event(), threading.Event(), WebModule.code
+
+    def slow(module):
+        begun.set()
+        assert go_on.wait(60)
+        return real(module)
+
+    monkeypatch.setattr(WebModule, "code", slow)
+    fly(setting_of(asked()))  # its own kernel is compiled before
+    with ThreadPoolExecutor(2) as pool:
+        engine = pool.submit(engine_of, setting_of(asked()))
+        assert begun.wait(60)
+        flown = pool.submit(lambda: fly(setting_of(asked(duration=2.0))))
+        assert flown.result(60).t[-1] == 2.0
+        assert not engine.done()
+        go_on.set()
+        assert engine.result(60)["kind"] == "ideal"
 
 
 def test_no_machine_code_is_sent_for_what_cannot_be_flown():

@@ -13,7 +13,7 @@ from flypend.flight.criterion import PARTS, REDUCTIONS
 from flypend.flight.kernels.flown import STATUS
 from flypend.flight.kernels.pieces import pieces_problem
 from flypend.flight.kernels.single import REASONS
-from flypend.flight.kernels.web import LANES, flown_vehicle, web_kernel
+from flypend.flight.kernels.web import LANES, WebModule, flown_vehicle, web_module
 from flypend.flight.request import SAMPLE_PERIOD, Tolerances
 from flypend.flight.sampled import LEFT, NOT_FINITE
 from flypend.flight.touch import touched
@@ -30,12 +30,24 @@ MOST_STEPS = 100_000  # of such a flight, some seconds of a page's worker, unles
 
 
 def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str, Any]:
-    """Return machine code that flies `loop` in pages, `lanes` flights at a time; in the ideal plant, by `exact`."""
+    """Return machine code that flies `loop` in pages, `lanes` flights at a time, and what it takes and gives.
+
+    The ideal plant is flown with the tolerances `exact`.
+    """
+    return compiled(*engine(loop, exact, lanes))
+
+
+def compiled(module: WebModule, facts: dict[str, Any]) -> dict[str, Any]:
+    """Return the `facts` of an `engine` with the machine code of its `module`."""
+    return {"code": base64.b64encode(module.code()).decode("ascii"), **facts}
+
+
+def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule, dict[str, Any]]:
+    """Return what `engine_facts` compiles, and the rest of what it returns."""
     law, true = loop.symbolic, flown_vehicle(loop)
     criterion = goal(law.e3)
     facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
-    return {
-        "code": base64.b64encode(web_kernel(loop, criterion, exact, lanes)).decode("ascii"),
+    return web_module(loop, criterion, exact, lanes), {
         **facts,
         "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
         "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from flypend.flight.live import live_loop, tunable
-from flypend.flight.live_engine import engine_facts
+from flypend.flight.live_engine import compiled, engine
 from flypend.lab.budget import MOST_STEPS
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw
@@ -25,4 +25,5 @@ def engine_of(setting: Setting) -> dict[str, Any] | None:
             return None
         exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
         fixed = set(sliders_of(law)) - set(tunable(law))
-        return engine_facts(live_loop(setting.flight), exact) | {"fixed": sorted(fixed)}
+        module, facts = engine(live_loop(setting.flight), exact)
+    return compiled(module, facts) | {"fixed": sorted(fixed)}

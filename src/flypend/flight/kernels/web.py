@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -12,7 +13,7 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import define
 from flypend.compile.llvm.target import wasm32
 from flypend.compile.llvm.vector import Lanes
-from flypend.compile.program import lower
+from flypend.compile.program import Program, lower
 from flypend.compile.wasm import module
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal, sampled
@@ -30,8 +31,30 @@ from flypend.plants.loop import Loop
 LANES = 2  # of a kernel: two flights take the time of one, and the module is no larger (benchmarks/web.py)
 
 
-def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int = LANES) -> bytes:
-    """Return a module that flies `loop`, `lanes` flights at a time, and judges by `criterion`: compiled or cached.
+@dataclass(frozen=True)
+class WebModule:
+    """A module of WebAssembly to be: `kernel` writes the functions `names`; `programs` are functions beside them."""
+
+    key: str
+    kernel: Callable[[], ir.Module]
+    names: tuple[str, ...]
+    programs: tuple[Program, ...]
+
+    def code(self) -> bytes:
+        """Return its bytes, compiled or from the cache. No expression of CasADi is touched any more."""
+
+        def whole() -> ir.Module:
+            made = self.kernel()
+            for program in self.programs:
+                define(Lanes(made, 1, target=wasm32()), program).linkage = "external"
+            return made
+
+        exported = [*self.names, *(program.name for program in self.programs)]
+        return module(jit.build_object(f"{self.key} {self.programs!r}", whole, wasm32()), exported)
+
+
+def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int = LANES) -> WebModule:
+    """Return the module that flies `loop`, `lanes` flights at a time, and judges by `criterion`.
 
     Its functions are "kernel" and `shown`, and
 
@@ -48,29 +71,16 @@ def web_kernel(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int =
     """
     if isinstance(loop.plant, Ideal):
         return _ideal(loop, criterion, exact, lanes)
-    key, kernel = sampled.written(pieces_problem(loop, criterion), lanes, wasm32())
-    return _linked(key, kernel, ["kernel", "context_size"], [turned(loop.sampled), shown(loop)])
+    written = sampled.written(pieces_problem(loop, criterion), lanes, wasm32())
+    return WebModule(*written, ("kernel", "context_size"), (lower(turned(loop.sampled)), lower(shown(loop))))
 
 
-def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int) -> bytes:
+def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int) -> WebModule:
     problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
-    key, kernel = ideal.written(ideal.key_of(problem, *chosen), problem, lanes, *chosen, wasm32())
+    written = ideal.written(ideal.key_of(problem, *chosen), problem, lanes, *chosen, wasm32())
     centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
-    return _linked(key, kernel, ["kernel"], [own(loop), row(loop), struck(centred), shown(loop)])
-
-
-def _linked(key: str, kernel: Callable[[], ir.Module], names: list[str], functions: Sequence[ca.Function]) -> bytes:
-    """Return the module of `kernel`, whose functions are `names`, and of the CasADi `functions` beside them."""
-    programs = [lower(function) for function in functions]
-
-    def whole() -> ir.Module:
-        made = kernel()
-        for program in programs:
-            define(Lanes(made, 1, target=wasm32()), program).linkage = "external"
-        return made
-
-    exported = [*names, *(program.name for program in programs)]
-    return module(jit.build_object(f"{key} {programs!r}", whole, wasm32()), exported)
+    beside = (own(loop), row(loop), struck(centred), shown(loop))
+    return WebModule(*written, ("kernel",), tuple(lower(function) for function in beside))
 
 
 def own(loop: Loop) -> ca.Function:

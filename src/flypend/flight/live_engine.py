@@ -26,7 +26,6 @@ from flypend.plants.knobs import LONGEST_DELAY, knob_values
 from flypend.plants.loop import Loop
 
 PERIOD = 0.002  # s between two rows of a flight through the ideal plant
-MOST_STEPS = 100_000  # of such a flight, some seconds of a page's worker, unless its tolerances say otherwise
 
 
 def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str, Any]:
@@ -77,7 +76,7 @@ def _ideal(loop: Loop, exact: Tolerances) -> dict[str, Any]:
     return {
         "kind": "ideal", "arguments": list(runge_kutta.ARGUMENTS), "knobs": {"origin": [0.0, 0.0, 0.0]}, "noise": [],
         "delay": 0.0, "period": PERIOD,
-        "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps or MOST_STEPS},
+        "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps},
     }  # fmt: skip
 
 

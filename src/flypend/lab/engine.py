@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from flypend.flight.live import live_loop, tunable
 from flypend.flight.live_engine import compiled, engine
-from flypend.lab.budget import MOST_STEPS
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw
 from flypend.pages.sliders import sliders_of
@@ -23,7 +21,6 @@ def engine_of(setting: Setting) -> dict[str, Any] | None:
     with SYMBOLS:
         if setting.where or not isinstance(law, BoundLaw):
             return None
-        exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
         fixed = set(sliders_of(law)) - set(tunable(law))
-        module, facts = engine(live_loop(setting.flight), exact)
+        module, facts = engine(live_loop(setting.flight), setting.flight.tolerances)
     return compiled(module, facts) | {"fixed": sorted(fixed)}

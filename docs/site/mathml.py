@@ -10,7 +10,7 @@ from sphinx.application import Sphinx
 
 FORMULA = re.compile(r"<math.*?</math>", flags=re.DOTALL)
 # Where browsers draw what pandoc writes in another way than TeX: accents that combine with
-# nothing hang beside their letter, an arrow is wider than its, fractions in tables are small.
+# nothing hang beside their letter, arrows are too wide, fractions in tables are small.
 MENDS = {
     '<mo accent="true">\u0307': '<mo accent="true" stretchy="false">\u02d9',
     '<mo accent="true">\u0308': '<mo accent="true" stretchy="false">\u00a8',

@@ -78,7 +78,9 @@ def _site(app: Any) -> None:
 def _paper(app: Any, failed: Exception | None) -> None:
     """Write the paper beside the pages; the first of them leads to it."""
     if failed is None and app.builder.format == "html":
-        build = runpy.run_path(str(Path(__file__).parents[1] / "paper" / "build.py"))["build"]
+        build = runpy.run_path(str(Path(__file__).parents[1] / "paper" / "build.py"))[
+            "build"
+        ]
         build(Path(app.outdir) / "paper.html")
 
 
@@ -97,5 +99,7 @@ def setup(app: Any) -> None:
     app.connect("builder-inited", _site)
     app.connect("build-finished", _paper)
     app.connect("doctree-read", _commands)
-    app.connect("autodoc-process-docstring", lambda *given: _escaped(given[-1]), priority=400)
+    app.connect(
+        "autodoc-process-docstring", lambda *given: _escaped(given[-1]), priority=400
+    )
     app.connect("sphinx-click-process-description", lambda *given: _escaped(given[-1]))

@@ -1,4 +1,4 @@
-"""What axe-core misses on pages as the theme, Sphinx and MyST-NB make them, put in once they are made."""
+"""What axe-core misses on pages, put in after the theme, Sphinx and MyST-NB."""
 
 import re
 from typing import Any
@@ -9,11 +9,17 @@ MENDS = (
     (r'role="heading"', 'role="heading" aria-level="2"'),  # captions of the navigation
     (r'<aside class="sidebar-drawer', '<aside aria-label="Pages" class="sidebar-drawer'),
     (r'<aside class="toc-drawer', '<aside aria-label="On this page" class="toc-drawer'),
-    (r'<th class="head[^"]*"><p></p></th>', "<td></td>"),  # the empty corner of a table heads nothing
+    (
+        r'<th class="head[^"]*"><p></p></th>',
+        "<td></td>",
+    ),  # the empty corner of a table heads nothing
     (r"<iframe srcdoc=", '<iframe title="Replay of a flight" srcdoc='),
     (r' aria-label="Toggle hidden content"', ""),  # what is folded says so itself
     # A signature of several lines is a list of descriptions without terms.
-    (r"<dl>\s*((?:<dd><em class=\"sig-param\">.*?</em>,?</dd>\s*)+)</dl>", r'<div class="sig-lines">\1</div>'),
+    (
+        r"<dl>\s*((?:<dd><em class=\"sig-param\">.*?</em>,?</dd>\s*)+)</dl>",
+        r'<div class="sig-lines">\1</div>',
+    ),
     (r"<dd>(<em class=\"sig-param\">.*?</em>,?)</dd>", r"<div>\1</div>"),
 )
 

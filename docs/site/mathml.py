@@ -1,4 +1,4 @@
-"""Formulas as MathML, which browsers draw by themselves: nothing to load, nothing to run."""
+"""Formulas as MathML, which browsers draw by themselves: nothing to load or to run."""
 
 import re
 from functools import reduce
@@ -9,8 +9,8 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 FORMULA = re.compile(r"<math.*?</math>", flags=re.DOTALL)
-# Where browsers draw what pandoc writes in another way than TeX: accents that combine with nothing hang beside their
-# letter, an arrow is as wide as a letter and a half, fractions in a table are small.
+# Where browsers draw what pandoc writes in another way than TeX: accents that combine with
+# nothing hang beside their letter, arrows are too wide, fractions in tables are small.
 MENDS = {
     '<mo accent="true">\u0307': '<mo accent="true" stretchy="false">\u02d9',
     '<mo accent="true">\u0308': '<mo accent="true" stretchy="false">\u00a8',
@@ -23,20 +23,34 @@ Writer = Any  # of HTML, with `body`, a list of strings
 
 
 def mathml(formulas: list[str]) -> list[str]:
-    """Return each of `formulas`, LaTeX between its dollars, as an element; raises RuntimeError for what is no LaTeX."""
+    """Return the element of each of `formulas`, LaTeX between its dollars.
+
+    Raises RuntimeError for what is no LaTeX.
+    """
     paragraphs = "\n\n".join(formulas)
-    page = pypandoc.convert_text(paragraphs, "html", "markdown", ["--mathml", "--wrap=none", "--fail-if-warnings"])
+    page = pypandoc.convert_text(
+        paragraphs, "html", "markdown", ["--mathml", "--wrap=none", "--fail-if-warnings"]
+    )
     found = FORMULA.findall(page)
     if len(found) != len(formulas):
         raise RuntimeError(f"{len(formulas)} formulas became {len(found)}: {formulas}")
-    return [reduce(lambda text, mend: text.replace(*mend), MENDS.items(), one) for one in found]
+    return [
+        reduce(lambda text, mend: text.replace(*mend), MENDS.items(), one) for one in found
+    ]
 
 
 def _translate(app: Sphinx, doctree: nodes.document, name: str) -> None:
     """Give every formula of a page its element, by one call of pandoc."""
-    found = [node for node in doctree.findall() if isinstance(node, nodes.math | nodes.math_block)]
+    found = [
+        node
+        for node in doctree.findall()
+        if isinstance(node, nodes.math | nodes.math_block)
+    ]
     around = ["$$" if isinstance(node, nodes.math_block) else "$" for node in found]
-    texts = [f"{mark}{node.astext().strip()}{mark}" for mark, node in zip(around, found, strict=True)]
+    texts = [
+        f"{mark}{node.astext().strip()}{mark}"
+        for mark, node in zip(around, found, strict=True)
+    ]
     for node, element in zip(found, mathml(texts) if texts else [], strict=True):
         node["mathml"] = element
 

@@ -57,10 +57,11 @@ export class Viewer {
     this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
     this.#plot(plots(this.flights));
     this.portrait.load(this.flights);
+    this.layouts.root.hidden = this.flights.length < 2; // this and the player change the size of the scene, which is read next
+    this.player.show();
     this.#stage();
     if (first) this.#begin();
     if (first) this.stage?.compile();
-    this.layouts.root.hidden = this.flights.length < 2;
     if (this.flights.length < 2) this.layout("overlay");
     this.#redraw();
     this.wake();

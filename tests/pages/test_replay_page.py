@@ -139,6 +139,14 @@ def test_the_pose_at_a_time_is_that_of_the_run(visit, name, request):
             np.testing.assert_allclose(shown[key], getattr(run, key)[i], atol=2e-4, err_msg=key)
 
 
+def test_it_opens_with_one_drawing(visit, up):
+    """The first picture costs a start the most; none is drawn that is gone before anyone sees it."""
+    page = visit(up)
+    until(page, "flypend.frames().count > 0")
+    page.wait_for_timeout(500)
+    assert page.evaluate("flypend.frames().count") == 1
+
+
 def test_between_samples_it_shows_the_dense_output(visit, down):
     page = visit(down)
     times = np.random.default_rng(5).uniform(0, 2, 40)

@@ -10,7 +10,6 @@ import { axes, leaps, place, rings, way } from "./sphere.js";
 const AHEAD = 0.2; // s, the time that the hand of the rod shows
 const MARGIN = 24; // CSS pixels, for the words at the rim
 const NEAR = 20; // CSS pixels between a touch and the path that is meant
-const LOW = 380; // CSS pixels, the height of a picture below which the sphere is put away at first
 const CLEAR = 0.85; // opacity of the disc, behind which the picture goes on
 const HTML = `<div class="globe"><canvas role="img"></canvas><i class="hand"></i></div>
   <figcaption><button type="button" class="fold" aria-label="S², the rod on the sphere of its directions" title="The rod on the sphere of its directions (s)">S²</button>
@@ -64,17 +63,11 @@ export class Portrait {
     this.kind = kind;
     for (const dot of this.dots.splice(flights.length)) dot.remove();
     while (this.dots.length < flights.length) this.dots.push(this.#dot());
-    if (this.root.hidden) this.#begin();
+    this.root.hidden = false;
     if (this.folded) return;
     this.paths = flights.map((flight, i) => path(flight, i ? -Infinity : since, this.pole));
     this.times = first.t.slice(indexBefore(first.t, since)); // a copy: a flight that goes on moves its own
     this.#tell();
-  }
-
-  /** At first a picture that is small has room for itself alone. */
-  #begin() {
-    this.root.hidden = false;
-    if (this.root.closest("section").clientHeight < LOW) this.fold(true);
   }
 
   /** A dot for a rod; that of the first flight is over the others. */

@@ -21,6 +21,7 @@ import { LAYOUTS, Stage } from "./scene/stage.js";
 import { Theme } from "./theme.js";
 
 const STEP = 1 / 30; // s, of the arrow keys
+const LOW = 380; // CSS pixels, the height of a picture below which the phase portrait is put away at first
 const WORDS = 80; // ms between two changes of the numbers while time runs: faster, nobody reads them
 
 export class Viewer {
@@ -42,7 +43,6 @@ export class Viewer {
     this.layout(layout);
     this.#keys();
     new ResizeObserver(() => this.#resize()).observe(this.parts.scene);
-    this.#resize();
     this.last = null;
   }
 
@@ -57,10 +57,11 @@ export class Viewer {
     this.parts.canvas.setAttribute("aria-label", `The flight in three dimensions: ${this.flights.map(({ title, verdict }) => `${title}, ${verdict.words}`).join("; ")}`);
     this.#plot(plots(this.flights));
     this.portrait.load(this.flights);
+    this.layouts.root.hidden = this.flights.length < 2; // this and the player change the size of the scene, which is read next
+    this.player.show();
     this.#stage();
     if (first) this.#begin();
     if (first) this.stage?.compile();
-    this.layouts.root.hidden = this.flights.length < 2;
     if (this.flights.length < 2) this.layout("overlay");
     this.#redraw();
     this.wake();
@@ -107,6 +108,7 @@ export class Viewer {
     this.cameras.show(this.stage?.rig.preset);
     this.stage?.colour(this.theme.colours);
     this.#size();
+    if (this.parts.scene.clientHeight < LOW) this.portrait.fold(true);
   }
 
   #choices() {
@@ -183,10 +185,12 @@ export class Viewer {
     if (this.#size()) this.#frame(0);
   }
 
+  /** Give the stage the size of the scene; true if it had another. */
   #size() {
-    const { clientWidth, clientHeight } = this.parts.scene;
-    if (!clientWidth || !clientHeight) return false;
-    this.stage?.resize(clientWidth, clientHeight, Math.min(window.devicePixelRatio || 1, 2));
+    const { stage, parts: { scene: { clientWidth, clientHeight } } } = this, ratio = Math.min(window.devicePixelRatio || 1, 2);
+    if (!stage || !clientWidth || !clientHeight) return false;
+    if (stage.width === clientWidth && stage.height === clientHeight && stage.ratio === ratio) return false;
+    stage.resize(clientWidth, clientHeight, ratio);
     return true;
   }
 

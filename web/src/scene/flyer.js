@@ -12,11 +12,12 @@ const FINEST = 0.06; // rad that the rod may turn between two points of a drawn 
 const MOST = 12000; // points of a path
 
 export class Flyer extends Group {
-  /** A `flight` (flight.js), drawn as a ghost or not. */
-  constructor(flight, ghost) {
+  /** A `flight` (flight.js), drawn as a ghost or not. It takes over the machine of `last`, a flyer that goes, if it is of one build. */
+  constructor(flight, ghost, last) {
     super();
     this.flight = flight;
-    this.model = new Model(flight.vehicle, { ghost });
+    this.model = last?.model.built(flight.vehicle) ? last.model : new Model(flight.vehicle, { ghost });
+    this.model.vehicle = flight.vehicle;
     const rod = flight.vehicle.rod_length;
     const { times, pivots, bobs, references } = path(flight);
     Object.assign(this, { pivots, bobs, base: pivots[2] });

@@ -15,6 +15,8 @@ const ROTOR_ARROW = 0.32; // the same for one rotor that carries its share
 const CUP = 0.24; // slant height of a cup over the rod
 const SWOLLEN = 2; // how much thicker an arm that was touched is drawn, to be seen
 
+const BUILD = ["rod_length", "rod_end", "rotor_positions", "rotor_spins", "rotor_radius", "mount", "body"];
+
 const RIM_VERTEX = `
 varying vec3 normalSeen, seen;
 void main() {
@@ -112,6 +114,12 @@ export class Model extends Group {
     this.rim = outline(ghost ? 0.4 : 0.85);
     this.thrust = new Arrow(0.085 * rod, arrow(true), this.rim, 1.8); // wide enough for the rod to stand inside
     this.body.add(this.thrust);
+    this.traverse((part) => (part.frustumCulled = false)); // it is in the picture, and cheaper drawn than looked for
+  }
+
+  /** Whether this is what `vehicle` looks like, whatever it weighs and its rotors can. */
+  built(vehicle) {
+    return BUILD.every((name) => JSON.stringify(vehicle[name]) === JSON.stringify(this.vehicle[name]));
   }
 
   #frame(span) {

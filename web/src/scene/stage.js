@@ -31,8 +31,8 @@ export class Stage {
     this.left.push(...this.#things());
     this.scene.remove(...this.left);
     // A flight that can be a ghost has two machines, one of each kind; only one of them is seen at a time.
-    this.flyers = flights.map((flight) => new Flyer(flight, false));
-    this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true) : null));
+    this.flyers = flights.map((flight, i) => new Flyer(flight, false, this.flyers[i]));
+    this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true, this.ghosts[i]) : null));
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
     const box = bounds(this.flyers.flatMap((flyer) => [flyer.pivots, flyer.bobs]));
     this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);

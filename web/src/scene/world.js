@@ -125,7 +125,7 @@ export class World extends Group {
 }
 
 function lattice() {
-  const steps = Array.from({ length: 2 * LATTICE + 1 }, (_, i) => i - LATTICE);
-  const points = steps.flatMap((i) => steps.flatMap((j) => steps.map((k) => [i, j, k])));
-  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points.flat(), 3));
+  const points = [];
+  for (let i = -LATTICE; i <= LATTICE; i++) for (let j = -LATTICE; j <= LATTICE; j++) for (let k = -LATTICE; k <= LATTICE; k++) points.push(i, j, k);
+  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
 }

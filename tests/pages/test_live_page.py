@@ -657,6 +657,16 @@ def test_an_address_that_is_broken_while_the_page_is_open_changes_nothing(visit,
     assert page.evaluate("flypend.setting()") == setting
 
 
+def test_an_address_is_taken_though_the_page_writes_its_own_at_that_moment(visit, run):
+    page = visit(run)
+    wanted = page.evaluate("flypend.setting()") | {"duration": 3.5}
+    page.evaluate(
+        """([hash, old]) => { location.hash = hash; history.replaceState(null, "", `#${old}`); }""",
+        [quote(json.dumps(wanted)), quote(json.dumps(page.evaluate("flypend.setting()")))],
+    )
+    until(page, "() => flypend.setting().duration === 3.5")
+
+
 @pytest.mark.parametrize("size", [(200, 150), (320, 240)])
 def test_a_tiny_window_shows_what_it_can(visit, run, size):
     page = visit(run, viewport=dict(zip(("width", "height"), size, strict=True)))

@@ -12,8 +12,8 @@ export class Setting {
     Object.assign(this, { first, changed, value: read() ?? structuredClone(first), past: [], future: [] });
     this.unreadable = location.hash.length > 1 && !read();
     addEventListener("pagehide", () => this.keep());
-    addEventListener("hashchange", () => {
-      const value = read();
+    addEventListener("hashchange", ({ newURL }) => {
+      const value = read(new URL(newURL).hash); // the address itself may have been written again meanwhile
       if (value && JSON.stringify(value) !== JSON.stringify(this.value)) this.replace(value);
     });
   }
@@ -98,9 +98,9 @@ function filled(put, value) {
 /** What machine code is for: vehicle, law and plant, whatever their numbers. An address may lack them. */
 export const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base, plant?.sensors]);
 
-function read() {
+function read(hash = location.hash) {
   try {
-    const value = JSON.parse(decodeURIComponent(location.hash.slice(1)));
+    const value = JSON.parse(decodeURIComponent(hash.slice(1)));
     return readable(value) ? value : null;
   } catch {
     return null;

@@ -11,6 +11,7 @@ from PIL import Image
 import flypend as fp
 from flypend.cli import terminal
 from flypend.files import whole as files
+from flypend.lab import alone
 from flypend.paper import experiment
 from flypend.pictures import animate
 from flypend.pictures.style import STYLES
@@ -66,6 +67,18 @@ def test_a_run_writes_a_page_that_flies(call, tmp_path):
     assert code == 0
     assert "the live page is live.html" in " ".join(told.split())
     assert len(embedded(tmp_path / "live.html")["engine"]["code"]) > 1000
+
+
+def test_the_laboratory_is_written_as_one_page(call, tmp_path, monkeypatch):
+    monkeypatch.setattr(alone.page_alone, "__defaults__", (("hehn2011",), ("lqr",)))
+    code, told, _ = call("lab", "--html", "lab.html")
+    assert (code, told) == (0, "The laboratory is in lab.html.\n")
+    assert list(embedded(tmp_path / "lab.html")["engines"]) == [
+        "hehn2011/gimbal/lqr/rotors",
+        "hehn2011/gimbal/lqr/ideal",
+    ]
+    code, _, told = call("lab", "--html", "mine.html", "--law", "my_law.py:balance")
+    assert (code, "--law" in told, left(tmp_path)) == (2, True, ["lab.html"])
 
 
 def test_movie(call, runs, tmp_path, monkeypatch):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flypend.flight.live_engine import engine_facts
+from flypend.flight.live_engine import engine_facts, inflated
 from flypend.flight.request import Tolerances
 from flypend.model.state import seen_packed
 
@@ -46,7 +46,7 @@ def ended_by_page(loop, starts, tmp_path, exact=EXACT, **given):
 def machine(loop, exact, tmp_path, **given):
     """What a page knows of its machine code, which is written to the path that is returned with it."""
     facts, code = engine_facts(loop, exact, **given), tmp_path / "kernel.wasm"
-    code.write_bytes(base64.b64decode(facts.pop("code")))
+    code.write_bytes(inflated(facts.pop("code")))
     return facts, code
 
 

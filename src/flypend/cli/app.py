@@ -300,10 +300,19 @@ def circles(law: tuple[str, ...], seed: int) -> None:
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port; 0 picks a free one.")
 @click.option("--browser/--no-browser", default=True, help="Open the page in a browser.")
 @click.option("--law", multiple=True, help="Custom law to offer, file.py:function or module:function; repeatable.")
-def lab(host: str, port: int, browser: bool, law: tuple[str, ...]) -> None:
+@click.option(
+    "--html",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Write it as one page without a server, and stop.",
+)
+def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | None) -> None:
     """Open the laboratory in a browser: move sliders, drag the rod, poke it, and watch the flight. Ctrl-C stops it."""
     from flypend.lab import serve
     from flypend.settings.laws import law_named
+
+    if html is not None:
+        write_laboratory(html, law)
+        return
 
     def announce(url: str) -> None:
         console.print(f"The laboratory is at {url}", soft_wrap=True)
@@ -311,6 +320,18 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...]) -> None:
     for name in law:
         tell_how(law_named(name))
     serve(host, port, browser=browser, laws=law, announce=announce)
+
+
+def write_laboratory(html: Path, law: tuple[str, ...]) -> None:
+    """Write the laboratory as the page `html`. Raises InputError if laws of one's own are to be offered."""
+    from flypend.files.whole import whole_file
+    from flypend.lab.alone import page_alone
+
+    if law:
+        raise InputError("--law", "no law of your own beside --html, whose page offers those of the package", law[0])
+    with whole_file(html, (".html",)) as partial, counter() as tell:
+        partial.write_text(page_alone(tell=tell), encoding="utf-8")
+    console.print(f"The laboratory is in {bold(html)}.")
 
 
 @app.command("export-c")

@@ -70,14 +70,18 @@ def offered(flight: Flight) -> dict[str, Any]:
     }  # fmt: skip
     low, high = min(DURATIONS[0], flight.duration), max(DURATIONS[1], flight.duration)
     lasting = slider("duration", "flight", "duration", "s", flight.duration, low, high)
-    drawn = [State.random(np.random.default_rng(seed)) for seed in range(RANDOM)]
     return {
         "first": first, "sliders": [*gains, *turned, *_places(law, plant), lasting],
         "starts": {"as flown": first["start"], **starts()},
-        "randoms": [plain(state) for state in drawn],
-        "directions": in_base64(directions(MAPPED)),
+        **drawn_starts(),
         "seed": flight.seed or 0,
     }  # fmt: skip
+
+
+def drawn_starts() -> dict[str, Any]:
+    """Return the starts that a page draws from: `randoms`, and the `directions` of a map, in base64."""
+    drawn = [State.random(np.random.default_rng(seed)) for seed in range(RANDOM)]
+    return {"randoms": [plain(state) for state in drawn], "directions": in_base64(directions(MAPPED))}
 
 
 def _places(law: BoundLaw, plant: AnyPlant) -> list[dict[str, Any]]:

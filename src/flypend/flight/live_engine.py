@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import zlib
 from dataclasses import fields
 from typing import Any
 
@@ -25,6 +26,7 @@ from flypend.plants import Ideal, Noise
 from flypend.plants.knobs import LONGEST_DELAY, knob_values
 from flypend.plants.loop import Loop
 
+RAW = -15  # deflate without a header, which browsers call "deflate-raw"
 PERIOD = 0.002  # s between two rows of a flight through the ideal plant
 
 
@@ -37,8 +39,14 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
 
 
 def compiled(module: WebModule, facts: dict[str, Any]) -> dict[str, Any]:
-    """Return the `facts` of an `engine` with the machine code of its `module`."""
-    return {"code": base64.b64encode(module.code()).decode("ascii"), **facts}
+    """Return the `facts` of an `engine` with the machine code of its `module`: deflated, in base64."""
+    deflated = zlib.compress(module.code(), 9, wbits=RAW)
+    return {"code": base64.b64encode(deflated).decode("ascii"), **facts}
+
+
+def inflated(code: str) -> bytes:
+    """Return the module of WebAssembly that `compiled` has put into `code`."""
+    return zlib.decompress(base64.b64decode(code), wbits=RAW)
 
 
 def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule, dict[str, Any]]:

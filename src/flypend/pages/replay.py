@@ -152,21 +152,26 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "completed": run.outcome.status == "completed",
         "verdict": verdict,
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
-        "vehicle": {
-            "name": vehicle.name,
-            "rod_length": vehicle.rod_length,
-            "rod_end": vehicle.reach,
-            "weight": vehicle.weight,
-            "gravity": vehicle.gravity,
-            "rotor_limits": _finite(vehicle.rotor_limits),
-            "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),
-            "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
-            "rotor_radius": sketch.disc_radius(vehicle),
-            "mount": vehicle.mount,
-            "body": None if vehicle.body is None else vehicle.body.to_dict(),
-            "reach": sketch.reach(vehicle),
-        },
+        "vehicle": drawn(vehicle),
         "columns": {name: in_base64(values) for name, values in columns.items()},
+    }
+
+
+def drawn(vehicle: Vehicle) -> dict[str, Any]:
+    """Return what a page draws of `vehicle`."""
+    return {
+        "name": vehicle.name,
+        "rod_length": vehicle.rod_length,
+        "rod_end": vehicle.reach,
+        "weight": vehicle.weight,
+        "gravity": vehicle.gravity,
+        "rotor_limits": _finite(vehicle.rotor_limits),
+        "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),
+        "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
+        "rotor_radius": sketch.disc_radius(vehicle),
+        "mount": vehicle.mount,
+        "body": None if vehicle.body is None else vehicle.body.to_dict(),
+        "reach": sketch.reach(vehicle),
     }
 
 

@@ -37,7 +37,7 @@ export class Laboratory {
     this.#header();
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
-    if (this.offer.story) this.story = new Story(this.panel.root, this.offer.story, (setting) => this.tell(setting));
+    if (this.offer.story?.length) this.story = new Story(this.panel.root, this.offer.story, (setting) => this.tell(setting));
     this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => this.running.pull(place));
     this.disc = new Disc(this.main, (y) => {
       this.rod(y);

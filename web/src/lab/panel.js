@@ -6,10 +6,10 @@ const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
 const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
 
 /** The sections; what only a server can do is left out of a page that has none. */
-const html = (served) => `
+const html = (chosen, served) => `
   <section><h2>Flight <button type="button" class="small undo" title="Take back the last change (Ctrl+Z)" disabled>undo</button>
     <button type="button" class="small redo" title="Do it again (Ctrl+Shift+Z)" disabled>redo</button></h2>
-    ${served ? `<label class="row">Vehicle <select data-path="vehicle.base"></select></label>
+    ${chosen ? `<label class="row">Vehicle <select data-path="vehicle.base"></select></label>
     <label class="row">Mount <select data-path="vehicle.mount"></select></label>
     <label class="row">Law <select data-path="law.name"></select></label>
     <label class="row">Plant <select data-path="plant.base"></select></label>
@@ -19,7 +19,7 @@ const html = (served) => `
     <div class="flight"></div></section>
   <section><h2>Start</h2>
     <div class="chips starts"></div>
-    ${served ? `<div class="chips papers"><span>paper</span></div>` : ""}
+    ${chosen ? `<div class="chips papers"><span>paper</span></div>` : ""}
     <div class="rod"></div><p class="hint">or drag the rod in the picture at 0 s; in a live flight, pull it</p></section>
   <section class="poke"><h2>Poke <small></small></h2>
     <div class="row two"><button type="button" data-on="bob">Poke bob</button><button type="button" data-on="vehicle">Poke vehicle</button></div>
@@ -39,13 +39,14 @@ export class Panel {
   constructor(parent, lab) {
     this.lab = lab;
     this.root = document.createElement("section");
-    this.served = Boolean(lab.offer.vehicles);
-    Object.assign(this.root, { className: "panel", innerHTML: html(this.served), ariaLabel: "Controls" });
+    const chosen = Boolean(lab.offer.vehicles);
+    this.served = chosen && !lab.offer.alone;
+    Object.assign(this.root, { className: "panel", innerHTML: html(chosen, this.served), ariaLabel: "Controls" });
     parent.querySelector("header").after(this.root); // before the picture, for those who go by keys
     this.groups = Object.fromEntries(["gains", "plant", "flight", "place"].map((name) =>
       [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
     this.selects = [];
-    if (this.served) this.#choices();
+    if (chosen) this.#choices();
     this.#buttons();
     this.#starts();
     this.#pokes();
@@ -67,6 +68,7 @@ export class Panel {
       const select = this.#find(`select[data-path="${path}"]`);
       select.append(...entries.map(([name, words]) => new Option(words, name)));
       select.addEventListener("change", () => this.lab.choose(path, select.value));
+      select.closest("label").hidden = entries.length < 2;
       return select;
     });
   }

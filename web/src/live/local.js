@@ -64,6 +64,11 @@ export class Local {
     this.worker.postMessage({ kind: "advance", number: this.begun, ...content });
   }
 
+  /** Fly no more. */
+  end() {
+    this.worker.terminate();
+  }
+
   /** A start that is a number becomes one of those that the package has drawn. */
   whole(setting) {
     const { random, ...given } = setting.start, { randoms } = this.offer;

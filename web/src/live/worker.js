@@ -8,7 +8,9 @@ let still, running, ready;
 
 const actions = {
   load({ code, facts }) {
-    ready = WebAssembly.compile(code)
+    const inflated = new Blob([code]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+    ready = new Response(inflated).arrayBuffer()
+      .then((module) => WebAssembly.compile(module))
       .then((module) => Promise.all([made(module, facts), made(module, facts)]))
       .then((both) => ([still, running] = both));
   },

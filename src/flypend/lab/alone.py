@@ -1,0 +1,92 @@
+"""The laboratory as one file: machine code for each vehicle, law and plant that it offers, and no server."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Sequence
+from itertools import product
+from types import SimpleNamespace
+from typing import Any
+
+from flypend import errors, palette
+from flypend.flight.live import drawn_starts, live_loop
+from flypend.flight.live_engine import engine_facts
+from flypend.lab.controls import offer, sliders
+from flypend.lab.setting import Setting, setting_of
+from flypend.laws import law_names
+from flypend.pages import replay
+
+VEHICLES, PLANTS = ("hehn2011", "nayak2018"), ("rotors", "ideal")
+LAWS = tuple(name for name in law_names() if name != "learned")  # its network would double the file
+TITLE = "flypend laboratory"
+Tell = Callable[[str, int, int], Any]
+
+
+def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *, tell: Tell = lambda *_: None) -> str:
+    """Return the laboratory as HTML that flies by itself, offline.
+
+    Parameters
+    ----------
+    vehicles, laws : sequence of str
+        Vehicles and laws of the package that it offers, each through the plants `PLANTS`, on a gimbal.
+    tell : callable
+        Called with (name, done, all) before each vehicle, law and plant, whose machine code takes a second or two.
+
+    Raises
+    ------
+    InputError
+        If the package has no such vehicle or law.
+    """
+    every, engines = offer(), {}
+    for name, chosen in (("vehicle", vehicles), ("law", laws)):
+        for one in chosen:
+            errors.one_of(name, one, every[f"{name}s"])
+    settings = [_setting(every["first"], *choice) for choice in product(vehicles, laws, PLANTS)]
+    for number, setting in enumerate(settings):
+        tell(_kind(setting), number, len(settings))
+        engines[_kind(setting)] = _engine(setting_of(setting))
+    data = {
+        "title": TITLE, "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], "engines": engines,
+        "offer": {**_offered(every, settings, engines), **drawn_starts()},
+    }  # fmt: skip
+    return replay.PAGE.format(
+        policy=html.escape(replay.LIVE_POLICY), title=TITLE, data=replay.embedded(data), program=replay.program("live")
+    )
+
+
+def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[str, Any]:
+    machine = {"base": vehicle, "mount": "gimbal"}
+    return {**first, "vehicle": machine, "law": {"name": law, "gains": {}}, "plant": {"base": plant}}
+
+
+def _kind(setting: dict[str, Any]) -> str:
+    """What machine code is for: the key that web/src/live/shelf.js makes of a setting."""
+    vehicle = setting["vehicle"]
+    return "/".join((vehicle["base"], vehicle["mount"], setting["law"]["name"], setting["plant"]["base"]))
+
+
+def _engine(setting: Setting) -> dict[str, Any]:
+    """Return machine code, sliders, and the record of a flight without its columns."""
+    flight, law = setting.flight, setting.law
+    told = SimpleNamespace(law=law.name, gains=setting.gains, vehicle=flight.vehicle)
+    record = {
+        **replay.names([told])[0], "law": law.name, "e3": law.e3, "direction": [1.0, 0.0, 0.0],
+        "vehicle": replay.drawn(flight.vehicle),
+    }  # fmt: skip
+    fixed = {f"law.gains.{name}" for name in setting.gains} - {f"law.gains.{n}" for n in live_loop(flight).parameters}
+    offered = [entry for entry in sliders(setting) if entry["path"] not in fixed]
+    return {"engine": engine_facts(live_loop(flight), flight.tolerances), "sliders": offered, "record": record}
+
+
+def _offered(every: dict[str, Any], settings: Sequence[dict[str, Any]], engines: dict[str, Any]) -> dict[str, Any]:
+    """Return of `every` choice those that there is machine code for."""
+    story = [step for step in every["story"] if _kind(step["setting"]) in engines]
+    papers = {name: setting for name, setting in every["experiments"].items() if _kind(setting) in engines}
+    first = every["first"] if _kind(every["first"]) in engines else settings[0]
+    return {
+        "vehicles": list(dict.fromkeys(setting["vehicle"]["base"] for setting in settings)),
+        "mounts": {"gimbal": every["mounts"]["gimbal"]},
+        "laws": list(dict.fromkeys(setting["law"]["name"] for setting in settings)),
+        "plants": {name: every["plants"][name] for name in PLANTS}, "sensors": {"perfect": every["sensors"]["perfect"]},
+        "first": first, "starts": every["starts"], "story": story, "experiments": papers, "alone": True,
+    }  # fmt: skip

@@ -1,0 +1,123 @@
+"""The laboratory as one file, in a real browser without a network, beside the package."""
+
+import json
+
+import numpy as np
+import pytest
+from test_lab_page import expect_flight, setting, shown, slider, until
+
+import flypend as fp
+from flypend.lab.alone import page_alone
+from flypend.lab.controls import offer
+
+WIDE = {"width": 1280, "height": 800}
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("alone") / "lab.html"
+    path.write_text(page_alone(("hehn2011", "nayak2018"), ("inverted", "lqr", "corrected")), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def visit(chromium, file):
+    contexts, asked, complaints = [], [], []
+
+    def open_(hash_=""):
+        context = chromium.new_context(offline=True, viewport=WIDE, color_scheme="light")
+        contexts.append(context)
+        page = context.new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.goto(file.as_uri() + hash_)
+        shown(page)
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert complaints == []
+    assert [url for url in asked if not url.startswith(("file://", "data:,", "blob:"))] == []
+
+
+def choose(page, **paths):
+    for path, name in paths.items():
+        page.locator(f"select[data-path='{path.replace('_', '.')}']").select_option(name)
+        shown(page)
+
+
+def test_every_choice_flies_as_in_the_package(visit):
+    page = visit()
+    assert expect_flight(page).law == "inverted"
+    for vehicle in ("nayak2018", "hehn2011"):
+        for law in ("corrected", "lqr", "inverted"):
+            for plant in ("ideal", "rotors"):
+                choose(page, vehicle_base=vehicle, law_name=law, plant_base=plant)
+                run = expect_flight(page)
+                assert (run.vehicle.name, run.law) == (vehicle, law)
+                assert page.locator(".has-gains").is_visible() == (law != "lqr")  # of LQR only the server has others
+
+
+def test_gains_pokes_maps_and_live_flights_need_no_server(visit):
+    page = visit()
+    slider(page, "law.gains.rod_bandwidth").fill("220")
+    shown(page)
+    page.evaluate("flypend.seek(1.2)")
+    page.locator("[data-on=bob]").click()
+    shown(page)
+    page.evaluate("flypend.pause()")
+    expect_flight(page)
+    page.get_by_role("button", name="Region of attraction").click()
+    until(page, "() => flypend.map().done > 100")
+    page.get_by_role("button", name="Flight", exact=True).click()
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 700")
+    choose(page, law_name="corrected")
+    assert not page.evaluate("flypend.live().on")
+    page.get_by_role("button", name="random").click()
+    shown(page)
+    expect_flight(page)
+
+
+def test_the_story_has_the_steps_that_can_be_flown(visit):
+    page = visit()
+    said = {step["setting"]["law"]["name"]: i for i, step in enumerate(offer()["story"], 1)}
+    names = page.locator(".story button").all_inner_texts()
+    assert len([name for name in names if name.isdigit()]) == 3  # of five: two laws are not in this file
+    page.get_by_role("button", name="Step 1").click()
+    shown(page)
+    assert setting(page)["law"]["name"] == min(set(said) & {"inverted", "lqr", "corrected"}, key=said.get)
+    page.evaluate("flypend.pause()")
+    expect_flight(page)
+
+
+def test_what_is_not_in_the_file_is_told(visit):
+    other = offer()["first"] | {"law": {"name": "repaired", "gains": {}}}
+    page = visit("#" + json.dumps(other))
+    until(page, "() => flypend.setting().law.name === 'inverted'")  # the usual start, and why
+    assert "repaired" in page.locator(".notice").inner_text()
+    assert page.locator(".export").count() == 0
+
+
+def test_axe_finds_nothing(visit, axe):
+    assert axe(visit()) == []
+
+
+def test_unknown_choices_are_told():
+    with pytest.raises(fp.InputError, match="vehicle"):
+        page_alone(("balloon",))
+    with pytest.raises(fp.InputError, match="law"):
+        page_alone(laws=("mine",))
+
+
+def test_the_first_flight_is_one_that_can_be_flown(chromium, tmp_path):
+    path = tmp_path / "one.html"
+    path.write_text(page_alone(("nayak2018",), ("corrected",)), encoding="utf-8")
+    page = chromium.new_page()
+    page.goto(path.as_uri())
+    shown(page)
+    assert expect_flight(page).law == "corrected"
+    assert np.isfinite(page.evaluate("flypend.verdict().excursion"))
+    page.close()

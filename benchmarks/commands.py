@@ -28,19 +28,18 @@ LINES = (
     "flypend vehicles",
     "flypend lab --no-browser",
     "flypend paper --quick",
-    "flypend paper",
     "flypend theorem",
-    "flypend compare --law inverted --law lqr --runs 2000",
-    "flypend ladder --law inverted --runs 50",
+    "flypend compare --law inverted --law lqr --runs 500",
+    "flypend ladder --law inverted --runs 20",
     "flypend circles",
     "flypend check hehn2011",
     "flypend plan",
     "flypend plan --fly mujoco --figure plan.png",
-    "flypend map --law lqr",
+    "flypend map --law lqr --runs 20000",
     "flypend sweep examples/studies/hanging.toml --out hanging.zarr",
     "flypend tune examples/studies/hanging.toml",
     "flypend export-c --precision float",
-    "flypend learn --updates 100",
+    "flypend learn --updates 20",
 )
 FOR_OTHERS = LINES[:2]
 

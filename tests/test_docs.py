@@ -160,6 +160,16 @@ def test_every_page_is_for_everyone_and_fits(site, looking, axe):
     assert {name: found for name, found in faults.items() if found} == {}
 
 
+@pytest.mark.parametrize(("wish", "seen"), [("no-preference", "moving"), ("reduce", "still")])
+def test_who_wants_nothing_to_move_sees_the_flight_in_still_pictures(site, chromium, wish, seen):
+    context = chromium.new_context(offline=True, reduced_motion=wish)
+    page = context.new_page()
+    page.goto((site / "index.html").as_uri())
+    shown = [one.get_attribute("class") for one in page.locator("article img").all() if one.is_visible()]
+    assert shown == [seen]
+    context.close()
+
+
 def table(page):
     """The first column of the tables of a page, without its heads."""
     text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")

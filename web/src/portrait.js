@@ -5,7 +5,7 @@ import { clear, move, write } from "./drawing.js";
 import { rise } from "./flight.js";
 import { indexBefore } from "./numbers.js";
 import { DASHES } from "./series.js";
-import { axes, leaps, place, rings, way } from "./sphere.js";
+import { axes, place, rings, way } from "./sphere.js";
 
 const AHEAD = 0.2; // s, the time that the hand of the rod shows
 const MARGIN = 24; // CSS pixels, for the words at the rim
@@ -170,7 +170,7 @@ export class Portrait {
     const next = y.map((value, k) => value + AHEAD * rate[k]), size = Math.hypot(...next);
     const from = place(y, this.pole), to = place(next.map((value) => value / size), this.pole);
     const [x, z] = this.#pixels(y), across = this.radius * (to[0] - from[0]), down = this.radius * (to[1] - from[1]);
-    const long = leaps(...from, ...to) ? 0 : Math.hypot(across, down);
+    const far = Math.hypot(across, down), long = far > this.radius ? 0 : far; // that far only through the rim
     move(this.hand, `translate(${x.toFixed(1)}px, ${z.toFixed(1)}px) rotate(${Math.atan2(down, across).toFixed(3)}rad) scaleX(${long.toFixed(1)})`);
   }
 

@@ -17,7 +17,7 @@ export function direction([x, y]) {
 }
 
 /** Whether something goes from place to place through the rim, where it comes in again on the other side. */
-export const leaps = (x, y, a, b) => Math.hypot(a - x, b - y) > 0.5;
+const leaps = (x, y, a, b) => Math.hypot(a - x, b - y) > 0.5;
 
 /** Stroke the way through `places` (x, y of each, one after the other), from the point `first` on. */
 export function way(context, places, radius, first = 0) {

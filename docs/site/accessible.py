@@ -13,7 +13,6 @@ MENDS = (
         r'<th class="head[^"]*"><p></p></th>',
         "<td></td>",
     ),  # the empty corner of a table heads nothing
-    (r"<iframe srcdoc=", '<iframe title="Replay of a flight" srcdoc='),
     (r' aria-label="Toggle hidden content"', ""),  # what is folded says so itself
     # A signature of several lines is a list of descriptions without terms.
     (

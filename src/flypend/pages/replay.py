@@ -122,7 +122,8 @@ def _opening(window: Opening) -> dict[str, Any]:
 def frame(text: str, height: int = 640) -> str:
     """Wrap the page `text` in a sandboxed iframe for notebooks, `height` CSS pixels high."""
     style = f"width:100%;height:{height}px;border:0"
-    return f'<iframe srcdoc="{html.escape(text)}" sandbox="allow-scripts" style="{style}"></iframe>'
+    told = 'title="Replay of a flight" sandbox="allow-scripts"'
+    return f'<iframe srcdoc="{html.escape(text)}" {told} style="{style}"></iframe>'
 
 
 def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:

@@ -61,8 +61,9 @@ def test_a_run_writes_its_replay_as_well(call, tmp_path):
     assert embedded(tmp_path / "flight.html")["runs"][0]["law"] == "corrected"
 
 
-def test_a_run_writes_a_page_that_flies(call, tmp_path):
-    short = ("--set", "duration=0.1", "--set", "plant=rotors", "--no-figures", "--out", "out")
+@pytest.mark.parametrize("plant", ["rotors", "ideal"])
+def test_a_run_writes_a_page_that_flies(call, tmp_path, plant):
+    short = ("--set", "duration=0.1", "--set", f"plant={plant}", "--no-figures", "--out", "out")
     code, told, _ = call("run", "4", *short, "--html", "live.html", "--live")
     assert code == 0
     assert "the live page is live.html" in " ".join(told.split())
@@ -155,8 +156,8 @@ def test_a_run_draws_in_the_style_asked_for(call, tmp_path, monkeypatch):
         (["run", "4", "--html", "none/a.html"], "none/a.html: expected a file that can be written"),
         (["run", "4", "--live"], "--live: expected --html FILE, the page that flies, got none"),
         (
-            ["run", "4", "--html", "a.html", "--live"],  # the paper flies the ideal plant
-            "live: expected a sampled plant of the built-in equations, such as rotors, got the plant ideal",
+            ["run", "4", "--set", "plant=mujoco", "--html", "a.html", "--live"],
+            "live: expected a plant of the built-in equations, got the plant mujoco",
         ),
     ],
 )

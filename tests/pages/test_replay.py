@@ -262,7 +262,9 @@ def test_four_runs_are_shown_and_no_more(dense):
 
 def test_a_notebook_shows_the_page_in_a_frame_of_its_own(dense):
     frame = dense._repr_html_()
-    inner = re.fullmatch(r'<iframe srcdoc="([^"]*)" sandbox="allow-scripts" style="[^"<>]*"></iframe>', frame)
+    inner = re.fullmatch(
+        r'<iframe srcdoc="([^"]*)" title="[^"]+" sandbox="allow-scripts" style="[^"<>]*"></iframe>', frame
+    )
     assert html.unescape(inner[1]) == dense.to_html()
 
 

@@ -157,7 +157,7 @@ def test_a_run_draws_in_the_style_asked_for(call, tmp_path, monkeypatch):
         (["run", "4", "--live"], "--live: expected --html FILE, the page that flies, got none"),
         (
             ["run", "4", "--set", "plant=mujoco", "--html", "a.html", "--live"],
-            "live: expected a plant of the built-in equations, got the plant mujoco",
+            "live: expected a plant of the built-in equations, such as rotors, got the plant mujoco",
         ),
     ],
 )

@@ -75,11 +75,12 @@ def test_the_laboratory_is_written_as_one_page(call, tmp_path, monkeypatch):
     code, told, _ = call("lab", "--html", "lab.html")
     assert (code, told) == (0, "The laboratory is in lab.html.\n")
     assert list(embedded(tmp_path / "lab.html")["engines"]) == [
-        "hehn2011/gimbal/lqr/rotors",
-        "hehn2011/gimbal/lqr/ideal",
+        "hehn2011/gimbal/lqr/rotors/perfect",
+        "hehn2011/gimbal/lqr/ideal/perfect",
     ]
-    code, _, told = call("lab", "--html", "mine.html", "--law", "my_law.py:balance")
-    assert (code, "--law" in told, left(tmp_path)) == (2, True, ["lab.html"])
+    for option in (("--law", "my_law.py:balance"), ("--port", "80"), ("--no-browser",)):
+        code, _, told = call("lab", "--html", "mine.html", *option)
+        assert (code, option[0] in told, left(tmp_path)) == (2, True, ["lab.html"])
 
 
 def test_movie(call, runs, tmp_path, monkeypatch):

@@ -93,12 +93,37 @@ def test_the_story_has_the_steps_that_can_be_flown(visit):
     expect_flight(page)
 
 
-def test_what_is_not_in_the_file_is_told(visit):
-    other = offer()["first"] | {"law": {"name": "repaired", "gains": {}}}
-    page = visit("#" + json.dumps(other))
-    until(page, "() => flypend.setting().law.name === 'inverted'")  # the usual start, and why
-    assert "repaired" in page.locator(".notice").inner_text()
-    assert page.locator(".export").count() == 0
+@pytest.mark.parametrize(
+    ("field", "lacking"),
+    [
+        ({"law": {"name": "repaired", "gains": {}}}, "repaired"),
+        ({"law": {"name": "lqr", "gains": {"weight_position": 5}}}, "weight_position"),
+        ({"vehicle": {"base": "hehn2011", "mount": "hub"}}, "hub"),
+        ({"vehicle": {"base": "hehn2011", "mount": "gimbal", "rotor_limits": [0.08, 2.5]}}, "rotor_limits"),
+        ({"plant": {"base": "rotors", "sensors": "mocap"}}, "mocap"),
+        ({"plant": {"base": "rotors", "rate": 100}}, "rate"),
+    ],
+)
+def test_what_is_not_in_the_file_is_told(visit, field, lacking):
+    page = visit("#" + json.dumps(offer()["first"] | field))
+    until(page, "() => !flypend.setting().vehicle.rotor_limits && flypend.setting().law.name === 'inverted'")
+    until(page, "() => flypend.shown() === flypend.number()")  # the usual start, and why
+    assert lacking in page.locator(".notice").inner_text()
+    assert expect_flight(page).law == "inverted"
+    assert page.locator(".export, [data-path='vehicle.rotor_limits']").count() == 0
+
+
+def test_a_live_flight_ends_where_its_machine_code_does(visit):
+    page = visit()
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    choose(page, law_name="corrected")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.locator(".undo").click()  # back to the other law
+    until(page, "() => !flypend.live().on")
+    shown(page)
+    assert expect_flight(page).law == "inverted"
 
 
 def test_axe_finds_nothing(visit, axe):
@@ -110,6 +135,8 @@ def test_unknown_choices_are_told():
         page_alone(("balloon",))
     with pytest.raises(fp.InputError, match="law"):
         page_alone(laws=("mine",))
+    with pytest.raises(fp.InputError, match="vehicles"):
+        page_alone(())
 
 
 def test_the_first_flight_is_one_that_can_be_flown(chromium, tmp_path):

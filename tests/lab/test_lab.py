@@ -281,10 +281,28 @@ def test_a_poke_keeps_what_was_before_and_changes_what_comes_after(plant):
     place = int(np.argmin(np.abs(run.t - 1.0)))
     assert run.t[place] == pytest.approx(1.0)
     np.testing.assert_allclose(run.y[place], before.y[100], atol=1e-7)  # poses do not jump, rates do
-    struck = place + (plant == "rotors")  # a sampled flight is struck after the sample of its tick
+    struck = place + 1  # a flight is struck after the sample of its tick
     assert np.abs(run.y_dot[struck] - before.y_dot[100]).max() > 0.5
     assert run.t[-1] == pytest.approx(3.0)  # it goes on for its duration
     assert np.all(np.diff(run.t) > 0)
+
+
+@pytest.mark.parametrize("plant", ["ideal", "rotors"])
+def test_pokes_that_fall_on_one_row_strike_together(plant):
+    blow = {"on": "bob", "velocity": [0.3, 0, 0]}
+    several = [blow | {"time": time} for time in (0.016, 0.150, 0.1504)]
+    both = [blow | {"time": 0.016}, {"time": 0.15, "on": "bob", "velocity": [0.6, 0, 0]}]
+    run, other = (fly(setting_of(asked(plant=plant, pokes=pokes))) for pokes in (several, both))
+    assert run.t[-1] == pytest.approx(2.15)
+    np.testing.assert_allclose(run.y[-1], other.y[-1], atol=1e-6)
+    assert np.all(np.diff(run.t) > 0)
+
+
+def test_a_poke_between_two_rows_strikes_at_the_later_as_in_pages():
+    first, second = (
+        fly(setting_of(asked(pokes=[{"time": time, "on": "bob", "velocity": [1, 0, 0]}]))) for time in (0.001, 0.002)
+    )
+    np.testing.assert_array_equal(first.y[-1], second.y[-1])
 
 
 def test_a_poke_of_nothing_changes_nothing():

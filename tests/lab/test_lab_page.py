@@ -153,8 +153,11 @@ def test_gains_from_which_a_law_computes_others_are_for_the_server(visit):
     until(page, "() => flypend.timings().at(-1).here")
     shown(page)
     expect_flight(page)
-    page.locator(".has-gains input").first.fill("600")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.locator(".has-gains input").first.fill("600")  # what goes on cannot follow
     shown(page)
+    assert not page.evaluate("flypend.live().on")
     until(page, "() => document.querySelector('.live').hidden")
     expect_flight(page)
     page.locator(".has-gains .reset").click()

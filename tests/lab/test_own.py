@@ -139,7 +139,7 @@ def test_a_page_runs_no_file_that_was_not_offered(own, tmp_path, monkeypatch, la
 
 
 def test_a_law_that_is_none_is_told_before_anything_is_served(tmp_path):
-    from flypend.lab import serve
+    from flypend.lab.server import serve
 
     with pytest.raises(InputError, match="a file that is there"):
         serve(laws=[str(tmp_path / "none.py:f")], browser=False, announce=lambda _: pytest.fail("served"))

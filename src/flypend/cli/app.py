@@ -29,7 +29,7 @@ from flypend.cli.options import (
 )
 from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
 from flypend.compile.aside import left_behind
-from flypend.errors import InputError
+from flypend.errors import InputError, require
 
 if TYPE_CHECKING:
     from flypend.flight.request import Flight
@@ -295,8 +295,11 @@ def circles(law: tuple[str, ...], seed: int) -> None:
     console.print(tracking_table(hehn2011(law or ("inverted", "lqr"), seed)))
 
 
+LOCAL = "127.0.0.1"
+
+
 @app.command()
-@click.option("--host", default="127.0.0.1", help="Address to listen on; the default admits this machine only.")
+@click.option("--host", default=LOCAL, help="Address to listen on; the default admits this machine only.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port; 0 picks a free one.")
 @click.option("--browser/--no-browser", default=True, help="Open the page in a browser.")
 @click.option("--law", multiple=True, help="Custom law to offer, file.py:function or module:function; repeatable.")
@@ -307,12 +310,13 @@ def circles(law: tuple[str, ...], seed: int) -> None:
 )
 def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | None) -> None:
     """Open the laboratory in a browser: move sliders, drag the rod, poke it, and watch the flight. Ctrl-C stops it."""
-    from flypend.lab import serve
-    from flypend.settings.laws import law_named
-
     if html is not None:
-        write_laboratory(html, law)
+        served = {"--law": law, "--host": host != LOCAL, "--port": port, "--no-browser": not browser}
+        write_laboratory(html, [name for name, given in served.items() if given])
         return
+    require("tornado", extra="lab", for_="lab")
+    from flypend.lab.server import serve
+    from flypend.settings.laws import law_named
 
     def announce(url: str) -> None:
         console.print(f"The laboratory is at {url}", soft_wrap=True)
@@ -322,13 +326,13 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | 
     serve(host, port, browser=browser, laws=law, announce=announce)
 
 
-def write_laboratory(html: Path, law: tuple[str, ...]) -> None:
-    """Write the laboratory as the page `html`. Raises InputError if laws of one's own are to be offered."""
+def write_laboratory(html: Path, served: list[str]) -> None:
+    """Write the laboratory as the page `html`. Raises InputError if options are given that only a server has."""
     from flypend.files.whole import whole_file
     from flypend.lab.alone import page_alone
 
-    if law:
-        raise InputError("--law", "no law of your own beside --html, whose page offers those of the package", law[0])
+    if served:
+        raise InputError(served[0], "nothing beside --html, whose page has no server", "it")
     with whole_file(html, (".html",)) as partial, counter() as tell:
         partial.write_text(page_alone(tell=tell), encoding="utf-8")
     console.print(f"The laboratory is in {bold(html)}.")

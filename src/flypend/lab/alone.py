@@ -35,10 +35,12 @@ def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *
     Raises
     ------
     InputError
-        If the package has no such vehicle or law.
+        If there is none, or the package has no such vehicle or law.
     """
     every, engines = offer(), {}
     for name, chosen in (("vehicle", vehicles), ("law", laws)):
+        if not chosen:
+            raise errors.InputError(f"{name}s", "one at least", "none")
         for one in chosen:
             errors.one_of(name, one, every[f"{name}s"])
     settings = [_setting(every["first"], *choice) for choice in product(vehicles, laws, PLANTS)]
@@ -60,9 +62,9 @@ def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[
 
 
 def _kind(setting: dict[str, Any]) -> str:
-    """What machine code is for: the key that web/src/live/shelf.js makes of a setting."""
+    """What machine code is for: the `kind` of web/src/lab/setting.js."""
     vehicle = setting["vehicle"]
-    return "/".join((vehicle["base"], vehicle["mount"], setting["law"]["name"], setting["plant"]["base"]))
+    return "/".join((vehicle["base"], vehicle["mount"], setting["law"]["name"], setting["plant"]["base"], "perfect"))
 
 
 def _engine(setting: Setting) -> dict[str, Any]:
@@ -73,9 +75,10 @@ def _engine(setting: Setting) -> dict[str, Any]:
         **replay.names([told])[0], "law": law.name, "e3": law.e3, "direction": [1.0, 0.0, 0.0],
         "vehicle": replay.drawn(flight.vehicle),
     }  # fmt: skip
-    fixed = {f"law.gains.{name}" for name in setting.gains} - {f"law.gains.{n}" for n in live_loop(flight).parameters}
+    loop = live_loop(flight)
+    fixed = {f"law.gains.{name}" for name in setting.gains if name not in loop.parameters} | {"vehicle.rotor_limits"}
     offered = [entry for entry in sliders(setting) if entry["path"] not in fixed]
-    return {"engine": engine_facts(live_loop(flight), flight.tolerances), "sliders": offered, "record": record}
+    return {"engine": engine_facts(loop, flight.tolerances), "sliders": offered, "record": record}
 
 
 def _offered(every: dict[str, Any], settings: Sequence[dict[str, Any]], engines: dict[str, Any]) -> dict[str, Any]:

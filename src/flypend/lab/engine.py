@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from flypend.flight.live import live_loop, tunable
 from flypend.flight.live_engine import compiled, engine
+from flypend.lab.budget import MOST_STEPS
 from flypend.lab.setting import SYMBOLS, Setting
 from flypend.laws import BoundLaw
 from flypend.pages.sliders import sliders_of
@@ -22,5 +24,6 @@ def engine_of(setting: Setting) -> dict[str, Any] | None:
         if setting.where or not isinstance(law, BoundLaw):
             return None
         fixed = set(sliders_of(law)) - set(tunable(law))
-        module, facts = engine(live_loop(setting.flight), setting.flight.tolerances)
+        exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
+        module, facts = engine(live_loop(setting.flight), exact)
     return compiled(module, facts) | {"fixed": sorted(fixed)}

@@ -62,19 +62,20 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
         while_ = flight.duration if poke is None else _struck_at(poke, flight) - begin
         budget.check(begin)
         part = _after(machine, gains, flight, state, rotors, while_, number, budget)
-        parts.append(_moved(part, begin, last=poke is None))
+        parts.append(_moved(part, begin, first=not parts))
         if poke is None or part.outcome.status != "completed":
             break
         end = State(**split(part.packed[-1]))
         state = poked(end, flight.vehicle, machine.law.e3, poke)
-        begin, rotors, number = begin + float(part.t[-1]), part.rotors[-1], number + 1
+        begin = begin + float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
+        rotors, number = part.rotors[-1], number + 1
     return _trajectory(setting, machine, gains, parts)
 
 
 def _poked_on(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any, budget: Budget) -> Part:
     """Fly a sampled plant through all pokes: board, noise and commands in transit go on as if nothing had happened."""
     flight, plant = setting.flight, machine.kernel.loop.sampled
-    ticks = [round(poke.time * plant.rate) for poke in setting.pokes]
+    ticks = [_tick(poke, 1 / plant.rate) for poke in setting.pokes]
     with SYMBOLS:
         flown = pieces.begin(flight.starts, seed=flight.seed or 0, gains=dict(zip(machine.names, gains, strict=True)))
     last = ticks[-1] + number_of_ticks(flight.duration, plant)
@@ -103,7 +104,12 @@ def _impulses(poke: Poke, vehicle: Vehicle) -> Any:
 
 def _struck_at(poke: Poke, flight: Flight) -> float:
     """Return the time of `poke`, s; in the ideal plant, at the row of a page that is nearest."""
-    return poke.time if isinstance(flight.plant, Sampled) else PERIOD * round(poke.time / PERIOD)
+    return poke.time if isinstance(flight.plant, Sampled) else PERIOD * _tick(poke, PERIOD)
+
+
+def _tick(poke: Poke, period: float) -> int:
+    """Return the tick of `period` (s) that is nearest to `poke`, of two the later, as pages round."""
+    return int(np.floor(poke.time / period + 0.5))
 
 
 def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
@@ -184,9 +190,9 @@ def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
 
 
-def _moved(part: Part, begin: float, *, last: bool) -> Part:
-    """Shift `part` to flight time; unless the flight ends, drop its last sample, which the next part repeats."""
-    keep = slice(None) if last or part.outcome.status != "completed" else slice(0, -1)
+def _moved(part: Part, begin: float, *, first: bool) -> Part:
+    """Shift `part` to flight time; unless it is the `first`, without its first sample, which the blow has changed."""
+    keep = slice(None) if first else slice(1, None)
     outcome = Outcome(part.outcome.status, begin + part.outcome.time, part.outcome.reason)
     return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)
 

@@ -3,7 +3,7 @@
 // The server alone flies own laws, rotor limits (from which laws take gains), gains from which a law computes others in advance, a
 // delay that an estimator has to be told, and what a law may refuse.
 
-import { Local } from "../live/local.js";
+import { keep, Local } from "../live/local.js";
 import { isWhole, refused } from "../live/request.js";
 import { Link } from "./link.js";
 import { kind } from "./setting.js";
@@ -62,7 +62,7 @@ export class Hybrid {
 
   #reply(reply) {
     if (reply.kind === "engine") {
-      this.engines.set(reply.key, reply.engine && this.#made(reply.engine));
+      keep(this.engines, reply.key, reply.engine && this.#made(reply));
       this.#name();
       this.told({ kind: "able" });
       return;
@@ -71,8 +71,14 @@ export class Hybrid {
     this.told(reply);
   }
 
-  #made(engine) {
-    return new Local({ engine, offer: { sliders: [], seed: 0 }, runs: [{}] }, (reply) => this.told({ ...reply, kind: "preview" }));
+  #made({ engine, key }) {
+    return new Local({ engine, offer: { sliders: [], seed: 0 }, runs: [{}] }, (reply) => {
+      if (reply.kind === "flight") this.told({ ...reply, kind: "preview" });
+      else { // the server flies it
+        this.engines.set(key, null);
+        this.told({ kind: "able" });
+      }
+    });
   }
 
   /** What the server said of a setting: its sliders, the record of its flight. */
@@ -81,7 +87,8 @@ export class Hybrid {
     if (number !== last) return; // the answer to an earlier question
     const key = kind(setting), { columns, ...record } = run;
     this.known = { key, sliders, gains: setting.law.gains, record };
-    if (!this.engines.has(key)) {
+    if (this.engines.has(key)) keep(this.engines, key, this.engines.get(key)); // it is in use
+    else {
       this.engines.set(key, null);
       const { vehicle, law, plant } = setting;
       const plain = { vehicle: { base: vehicle.base, mount: vehicle.mount }, law: { name: law.name, gains: {} }, plant: { base: plant.base, sensors: plant.sensors } };
@@ -102,6 +109,11 @@ export class Hybrid {
 
   get facts() {
     return this.local?.facts;
+  }
+
+  /** Whether `setting` has numbers that its machine code does not take. */
+  rebuilds(setting) {
+    return rebuilt(setting, this.facts);
   }
 
   begin(setting, tick, flown) {

@@ -216,7 +216,8 @@ export class Laboratory {
     this.panel.setting(this.setting.value);
     this.story?.changed(this.setting.value);
     if (this.running.on) {
-      this.running.change();
+      if (this.running.follows(this.setting.value)) this.running.change();
+      else this.running.go(false); // and ask
       return;
     }
     this.asked = this.link.ask("fly", { setting: this.setting.value });

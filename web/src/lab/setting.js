@@ -95,8 +95,9 @@ function filled(put, value) {
   return Object.fromEntries(Object.entries(put).map(([key, entry]) => [key, filled(entry, value)]));
 }
 
-/** What machine code is for: vehicle, law and plant, whatever their numbers. An address may lack them. */
-export const kind = ({ vehicle, law, plant }) => JSON.stringify([vehicle?.base, vehicle?.mount, law.name, plant?.base, plant?.sensors]);
+/** What machine code is for: vehicle, law and plant, whatever their numbers, as flypend.lab.alone names it. An address may lack them. */
+export const kind = ({ vehicle, law, plant }) =>
+  [vehicle?.base, vehicle?.mount ?? "gimbal", law.name, plant?.base, (plant?.base !== "ideal" && plant?.sensors) || "perfect"].join("/");
 
 function read(hash = location.hash) {
   try {

@@ -5,14 +5,15 @@ import { rooms, Simulation } from "./simulation.js";
 const TOGETHER = 16; // flights of which the lanes take one after the other
 // Steps that ticks may take, unless the run has said how many: usual flights take a tenth. A step takes some 50 µs.
 const STEPS = { once: 2000, tick: 2 };
-const ROUNDING = 5e-7; // share by which single precision may move the place of a time in a table
+const SHORT = 200; // ticks of a piece of a live flight, which must not keep the page waiting whatever the run has said
+const ROUNDING = 5e-7; // as flypend.flight.kernels.ideal has it, of whose `Moments.of` the table below is
 
 export class Ideal extends Simulation {
   constructor(engine, facts) {
     super(engine, facts, TOGETHER);
     const { doubles, integers } = rooms(engine);
     Object.assign(this.at, { starts: doubles(TOGETHER * facts.state), queue: integers(1), steps: integers(TOGETHER) });
-    Object.assign(this, { state: doubles(facts.state), impulses: doubles(6), first: doubles(1), most: 0 });
+    Object.assign(this, { state: doubles(facts.state), impulses: doubles(6), first: doubles(1), most: 0, mostRows: 0 });
     this.turn({});
   }
 
@@ -30,6 +31,9 @@ export class Ideal extends Simulation {
     if (this.ended) return new Float64Array(0);
     const { at, facts, row } = this, { period } = facts, begun = this.tick;
     this.#fit(ticks);
+    this.#fitRows(ticks);
+    this.engine.call("own", this.state, this.asked.origin, at.starts);
+    if (begun === 0) this.#row(this.first, at.starts, 0); // as it is before a blow
     if (impulses) this.#strike(impulses);
     this.engine.call("own", this.state, this.asked.origin, at.starts);
     const times = at.times.view();
@@ -39,7 +43,6 @@ export class Ideal extends Simulation {
     this.tick = begun + ticks;
     this.#reduce(begun * period);
     const count = this.lived(begun + 1, ticks), before = begun === 0 ? 1 : 0;
-    if (before) this.#row(this.first, at.starts, 0);
     for (let i = 0; i < count; i++) this.#row(entry(at.times, i), entry(at.samples, facts.state * i), before + i);
     if (!this.ended) this.state.view().set(this.rows.view().subarray((before + count - 1) * row, (before + count - 1) * row + facts.state));
     return this.rows.view().slice(0, (before + count) * row);
@@ -64,7 +67,8 @@ export class Ideal extends Simulation {
 
   /** Fly so many `runs` from tick `begun` on, keeping the states at the first `kept` of the times. */
   #integrate(runs, begun, ticks, kept) {
-    const { period, exact: { rtol, atol, max_steps } } = this.facts, most = max_steps ?? STEPS.once + STEPS.tick * ticks;
+    const { period, exact: { rtol, atol, max_steps } } = this.facts, usual = STEPS.once + STEPS.tick * ticks;
+    const most = ticks < SHORT ? Math.min(usual, max_steps ?? usual) : max_steps ?? usual;
     this.at.queue.view()[0] = 0n;
     this.fly(runs, {
       begin: begun * period, until: (begun + ticks) * period, rtol, atol, max_steps: BigInt(most), time_count: BigInt(kept),
@@ -77,13 +81,21 @@ export class Ideal extends Simulation {
     this.engine.call("row", t, own, this.at.parameters, this.asked.origin, entry(this.rows, this.row * place));
   }
 
-  /** Have room for so many ticks. */
+  /** Have room for the times of so many ticks. */
   #fit(ticks) {
     if (ticks <= this.most) return;
     this.most = Math.max(ticks, 2 * this.most);
     const { doubles } = rooms(this.engine), { most } = this;
-    Object.assign(this.at, { times: doubles(most + 1), judge_times: doubles(most + 2), bins: doubles(2 * (most + 1)), samples: doubles(most * this.facts.state) });
-    this.rows = doubles((most + 1) * this.row);
+    Object.assign(this.at, { times: doubles(most + 1), judge_times: doubles(most + 2), bins: doubles(2 * (most + 1)) });
+  }
+
+  /** Have room for so many rows, and for the states that they are made of. */
+  #fitRows(ticks) {
+    if (ticks <= this.mostRows) return;
+    this.mostRows = Math.max(ticks, 2 * this.mostRows);
+    const { doubles } = rooms(this.engine);
+    this.at.samples = doubles(this.mostRows * this.facts.state);
+    this.rows = doubles((this.mostRows + 1) * this.row);
   }
 
   #strike(impulses) {

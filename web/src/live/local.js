@@ -2,10 +2,24 @@
 
 import source from "worker:./worker.js";
 import { floats } from "../flight.js";
+import { clamp } from "../numbers.js";
 import { packed, refused, request } from "./request.js";
 import { judged } from "./verdict.js";
 
-const CHUNK = 32; // directions of a map that are flown at a time
+const CHUNK = { least: 2, first: 8, most: 64, time: 50 }; // directions of a map that are flown at a time, ms that they may take
+const MOST = 6; // workers that stay
+let address; // of the worker's text
+
+/** Put `local` last into the map `opened` under `name`, and end those that were used longest ago. */
+export function keep(opened, name, local) {
+  opened.delete(name);
+  opened.set(name, local);
+  for (const [old, other] of opened) {
+    if (opened.size <= MOST) break;
+    other?.end();
+    opened.delete(old);
+  }
+}
 
 export class Local {
   /** `told` is called with every reply to a question that is still asked. */
@@ -13,38 +27,40 @@ export class Local {
     const { code, ...facts } = engine;
     const { columns, ...record } = runs[0];
     Object.assign(this, { facts, offer, told, record, number: 0, waiting: null, busy: false });
-    this.worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+    address ??= URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+    this.worker = new Worker(address);
     this.worker.addEventListener("message", ({ data }) => this.#answer(data));
     this.worker.postMessage({ kind: "load", code: Uint8Array.from(atob(code), (character) => character.charCodeAt(0)), facts });
   }
 
   /** Ask for a flight ("fly") or a map, or for no more of a map ("stop"); returns the number of the question. */
   ask(kind, content = {}, number = ++this.number) {
-    if (kind !== "fly") this.mapping = null;
+    this.mapping = null; // a map is of the setting that was
     if (kind === "stop") return number;
     const setting = this.whole(content.setting), message = refused(setting, this.facts);
     if (message) queueMicrotask(() => this.told({ kind: "error", number, field: "", message }));
     else if (kind === "fly") {
       this.waiting = { number, setting };
       this.#next();
-    } else this.#chunk({ number, setting: { ...setting, pokes: [] }, done: 0 });
+    } else this.#chunk({ number, setting: { ...setting, pokes: [] }, done: 0, size: CHUNK.first });
     return number;
   }
 
   /** Fly the next directions of a map: the rod at rest there, the rest of the start as it is. */
   #chunk(mapping) {
-    const { number, setting, done } = mapping, rods = this.directions.slice(done, done + CHUNK);
+    const { number, setting, done, size } = mapping, rods = this.directions.slice(done, done + size);
     this.mapping = { ...mapping, rods, done: done + rods.length };
     const starts = rods.map((y) => packed({ ...setting.start, y, y_dot: [0, 0, 0] }));
     this.worker.postMessage({ kind: "several", number, asked: request(setting, this.facts, this.offer.seed), starts, first: done });
   }
 
-  #mapped({ number, endings }) {
+  #mapped({ number, endings, milliseconds }) {
     const { mapping } = this, total = this.directions.length;
     if (number !== mapping?.number) return; // another has been asked for
     const verdicts = endings.map((ending) => judged(ending, this.facts)), told = (name) => verdicts.map((verdict) => verdict[name]);
     this.told({ kind: "map", number, total, done: mapping.done, y: mapping.rods, settling: told("settling"), cause: told("cause") });
-    if (this.mapping === mapping && mapping.done < total) this.#chunk(mapping);
+    const wanted = Math.round((endings.length * CHUNK.time) / Math.max(milliseconds, 1)), size = clamp(wanted, CHUNK.least, CHUNK.most);
+    if (this.mapping === mapping && mapping.done < total) this.#chunk({ ...mapping, size });
   }
 
   /** The directions of a map's points, e3 up. */
@@ -57,6 +73,11 @@ export class Local {
     this.flown = flown;
     this.begun = ++this.number;
     this.worker.postMessage({ kind: "begin", number: this.begun, asked: request(this.whole(setting), this.facts, this.offer.seed), until: tick });
+  }
+
+  /** Whether `setting` has numbers that its machine code does not take: none that the page offers. */
+  rebuilds() {
+    return false;
   }
 
   /** Fly it on: `ticks`, gains, knobs, pokes and pull as the worker takes them. */
@@ -83,6 +104,11 @@ export class Local {
   }
 
   #answer(reply) {
+    if (reply.kind === "error") {
+      this.busy = false;
+      this.told({ ...reply, field: "" });
+      return;
+    }
     if (reply.kind === "several") {
       this.#mapped(reply);
       return;

@@ -44,14 +44,14 @@ export function request(setting, facts, seed) {
 }
 
 /** Why a page cannot fly `setting`, which is a readable one (readable.js) with a start in numbers; "" if it can. */
-export function refused({ start, duration, pokes = [] }, { masses }) {
+export function refused({ start, duration, pokes = [] }, { masses, period }) {
   const lacking = ORDER.find((name) => !start[name]);
   if (lacking) return `start.${lacking}: expected numbers, got nothing`;
   if (norm(start.y) < LEAST) return `start.y: expected a direction, got one of length ${norm(start.y)}`;
   if (!rotation(start.R)) return "start.R: expected a rotation matrix";
-  if (!(duration > 0)) return "duration: expected a number > 0";
+  if (!(duration >= period)) return `duration: expected at least ${period} s`;
   if (pokes.some(({ on }) => !Object.hasOwn(masses, on))) return `pokes: expected one of ${Object.keys(masses).join(", ")}`;
-  if (pokes.some(({ time }, i) => time < (pokes[i - 1]?.time ?? 0))) return "pokes: expected increasing times";
+  if (pokes.some(({ time }, i) => (i ? time <= pokes[i - 1].time : time < 0))) return "pokes: expected increasing times";
   return duration + (pokes.at(-1)?.time ?? 0) > LONGEST ? `duration: expected at most ${LONGEST} s of flight, pokes included` : "";
 }
 

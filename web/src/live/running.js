@@ -1,5 +1,6 @@
 // A flight that goes on, at the pace of the wall: gains and plant change under way, a hand pokes and pulls.
 
+import { kind } from "../lab/setting.js";
 import { judge } from "../layout.js";
 import { Growing } from "./growing.js";
 import { blow, turned } from "./request.js";
@@ -21,6 +22,12 @@ export class Running {
     return Boolean(this.lab.link.facts);
   }
 
+  /** Whether the flight can go on with `setting`. */
+  follows(setting) {
+    const { link } = this.lab;
+    return kind(setting) === this.kind && !link.rebuilds(setting);
+  }
+
   toggle() {
     this.go(!this.on);
   }
@@ -32,6 +39,7 @@ export class Running {
     const { viewer, main } = this.lab;
     main.classList.toggle("running", on);
     this.lab.panel.live(on);
+    if (on) this.lab.show("flight");
     if (on) this.#begin(Math.round(viewer.clock.time / this.lab.link.facts.period));
     else {
       viewer.clock.follow(null);
@@ -47,7 +55,7 @@ export class Running {
   #begin(tick) {
     const { lab } = this, { clock } = lab.viewer;
     lab.adopt(lab.link.whole(lab.setting.value).start);
-    Object.assign(this, { pokes: [], poked: 0, pulling: null, due: 0, asked: true, flight: null });
+    Object.assign(this, { kind: kind(lab.setting.value), pokes: [], poked: 0, pulling: null, due: 0, asked: true, flight: null });
     this.change();
     clock.follow((elapsed, speed) => this.#drive(elapsed * speed));
     lab.link.begin(lab.setting.value, Math.max(tick, 1), (piece) => this.#flown(piece));

@@ -1,8 +1,9 @@
 // The engine of a laboratory without a server: machine code for each vehicle, law and plant that its page offers.
 
-import { Local } from "./local.js";
+import { kind } from "../lab/setting.js";
+import { keep, Local } from "./local.js";
 
-const MOST = 6; // workers that stay
+const PLANT = ["base", "lag", "delay", "noise", "wind", "sensors", "seed"]; // what machine code takes of a plant
 
 export class Shelf {
   /** `told` is called with every reply to a question that is still asked. */
@@ -12,34 +13,36 @@ export class Shelf {
 
   /** Ask for something of a `kind`; returns the number of the question. */
   ask(kind, content = {}) {
-    const number = ++this.number;
-    if (kind === "stop") this.local?.ask(kind, content, number);
-    else if (this.#open(content.setting)) this.local.ask(kind, content, number);
-    else queueMicrotask(() => this.told({ kind: "error", number, field: "", message: `no machine code in this page for ${key(content.setting)}` }));
+    const number = ++this.number, lacking = kind === "stop" ? "" : this.#open(content.setting);
+    if (lacking) queueMicrotask(() => this.told({ kind: "error", number, field: "", message: `this page cannot fly ${lacking}; flypend lab can` }));
+    else this.local?.ask(kind, content, number);
     return number;
   }
 
-  /** Take up the machine code for `setting`; whether there is any. */
+  /** Take up the machine code for `setting`; returns what it lacks, or "". */
   #open(setting) {
-    const name = key(setting), stored = Object.hasOwn(this.engines, name) && this.engines[name];
-    if (!stored) return false;
-    const local = this.opened.get(name) ?? new Local({ engine: stored.engine, offer: { ...this.offer, sliders: stored.sliders, seed: 0 }, runs: [stored.record] }, this.told);
+    const name = kind(setting), stored = Object.hasOwn(this.engines, name) && this.engines[name];
+    const lacking = stored ? unknown(setting, stored.engine) : name;
+    const local = lacking ? null : this.opened.get(name) ?? this.#made(stored);
     if (this.local && this.local !== local) this.local.ask("stop");
-    this.opened.delete(name); // the last that was used comes last
-    this.opened.set(name, local);
-    for (const [old, other] of this.opened) {
-      if (this.opened.size <= MOST) break;
-      other.end();
-      this.opened.delete(old);
-    }
+    if (local) keep(this.opened, name, local);
     this.local = local;
-    return true;
+    return lacking;
+  }
+
+  #made({ engine, sliders, record }) {
+    return new Local({ engine, offer: { ...this.offer, sliders, seed: 0 }, runs: [record] }, this.told);
   }
 
   // A flight that goes on ------------------------------------------------------------------------------------------
 
   get facts() {
     return this.local?.facts;
+  }
+
+  /** Whether `setting` has numbers that its machine code does not take. */
+  rebuilds(setting) {
+    return Boolean(unknown(setting, this.facts));
   }
 
   begin(setting, tick, flown) {
@@ -59,5 +62,11 @@ export class Shelf {
   }
 }
 
-/** What machine code is for, as flypend.lab.alone names it. */
-const key = ({ vehicle, law, plant }) => [vehicle?.base, vehicle?.mount ?? "gimbal", law.name, plant?.base].join("/");
+/** The first number of `setting` that machine code with `facts` does not take; "" if it takes all. */
+function unknown({ vehicle, law, plant }, { gains }) {
+  if (vehicle?.rotor_limits) return "vehicle.rotor_limits"; // from which laws take gains
+  const gain = Object.keys(law.gains ?? {}).find((name) => !gains.includes(name));
+  if (gain) return `law.gains.${gain}`;
+  const other = plant?.base !== "ideal" && Object.keys(plant ?? {}).find((name) => !PLANT.includes(name));
+  return other ? `plant.${other}` : "";
+}

@@ -24,9 +24,10 @@ const actions = {
 
   /** How flights from several `starts`, the first of which is number `first`, end. */
   several({ number, asked: { gains, knobs, seed, ticks }, starts, first }) {
+    const begun = performance.now();
     still.tune(gains);
     still.turn(knobs);
-    return { kind: "several", number, endings: still.several(starts, ticks, seed + first) };
+    return { kind: "several", number, endings: still.several(starts, ticks, seed + first), milliseconds: performance.now() - begun };
   },
 
   /** Begin a flight that goes on, and fly it up to a tick at once. */
@@ -69,7 +70,11 @@ function piece(number, rows, first) {
 }
 
 addEventListener("message", async ({ data }) => {
-  if (data.kind !== "load") await ready;
-  const reply = actions[data.kind](data);
-  if (reply) postMessage(reply);
+  try {
+    if (data.kind !== "load") await ready;
+    const reply = actions[data.kind](data);
+    if (reply) postMessage(reply);
+  } catch (error) {
+    postMessage({ kind: "error", number: data.number, message: `this browser cannot fly it: ${error.message}` });
+  }
 });

@@ -14,14 +14,17 @@ from flypend.flight.request import Tolerances
 from flypend.flight.verdict import goal
 from flypend.lab.flying import poked
 from flypend.lab.setting import Poke
+from flypend.laws import law_names
 from flypend.laws.references import circle
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import seen_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
 
 EVERY = 50  # rows
+SOME = ("hehn2011", "nayak2018", "crazyflie")
 CHANGES = np.random.default_rng(1).standard_normal((4, 24))
-TIGHT = Tolerances(rtol=1e-12)
+TIGHT = Tolerances(rtol=1e-12, max_steps=1_000_000)  # more steps than pages take by themselves
 
 
 def start():
@@ -44,10 +47,21 @@ def flown_here(loop, packed, exact=EXACT):
     return np.concatenate([packed[None], flown.samples[0]]), flown
 
 
-@pytest.mark.parametrize("vehicle", ["hehn2011", "nayak2018", "crazyflie"])
+@pytest.mark.parametrize("vehicle", SOME)
 @pytest.mark.parametrize("law", ["inverted", "corrected", "printed", "repaired", "almost_global", "lqr"])
 def test_a_page_flies_the_ideal_plant(law, vehicle, tmp_path):
-    """Closer than 1e-9, or than what changes of the start by 1e-12 make of it.
+    assert_equal(law, vehicle, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("vehicle", [name for name in vehicle_names() if name not in SOME])
+@pytest.mark.parametrize("law", law_names())
+def test_a_page_flies_all_that_ships(law, vehicle, tmp_path):
+    assert_equal(law, vehicle, tmp_path)
+
+
+def assert_equal(law, vehicle, tmp_path):
+    """Closer than 1e-9, or than three times what changes of the start by 1e-12 make of it.
 
     The tolerance is tight: near the corners of a law, the steps depend on rounding.
     """
@@ -61,7 +75,8 @@ def test_a_page_flies_the_ideal_plant(law, vehicle, tmp_path):
     moved = [flown_here(loop, packed + 1e-12 * change, TIGHT)[0] for change in CHANGES]
     apart = np.maximum.accumulate(np.max(np.abs(moved - here), axis=(0, 2)))
     scale = 1 + np.max(np.abs(here), axis=1)
-    assert np.all((error < 1e-9 * scale)[lived] | (error < apart)[lived])
+    # A change of the start comes once, rounding at every step.
+    assert np.all((error < 1e-9 * scale)[lived] | (error < 3 * apart)[lived])
     if told["status"] == 0:
         judged = [np.inf if value is None else value for value in told["reductions"]]  # JSON has no infinity
         np.testing.assert_allclose(judged[:6], flown.reductions[0, :6], rtol=1e-5, atol=1e-6)

@@ -16,13 +16,16 @@ from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_module
 from flypend.flight.live import tunable
 from flypend.flight.signals import Signals
+from flypend.laws import law_names
 from flypend.laws.references import circle
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import seen_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Noise, Wind
 
 KEPT = 60
+SOME = ("hehn2011", "nayak2018", "crazyflie")
 LAWS = ("inverted", "corrected", "printed", "repaired", "almost_global", "lqr")
 CHANGE = np.random.default_rng(1).standard_normal(24)
 
@@ -71,12 +74,19 @@ REAL = plant("rotors").replace(
 )
 
 
-@pytest.mark.parametrize("vehicle", ["hehn2011", "nayak2018", "crazyflie"])
+@pytest.mark.parametrize("vehicle", SOME)
 @pytest.mark.parametrize("law", LAWS)
 def test_a_page_flies_what_the_package_flies(law, vehicle, tmp_path):
     error = assert_equal(loop_of(law, vehicle), start(), tmp_path)
     if law in ("inverted", "corrected", "repaired"):  # these settle
         assert error.max() < 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("vehicle", [name for name in vehicle_names() if name not in SOME])
+@pytest.mark.parametrize("law", law_names())
+def test_a_page_flies_all_that_ships(law, vehicle, tmp_path):
+    assert_equal(loop_of(law, vehicle), start(), tmp_path)
 
 
 def test_noise_gusts_delay_and_observer_are_those_of_the_package(tmp_path):

@@ -3,9 +3,10 @@
 import { rooms, Simulation } from "./simulation.js";
 
 const TOGETHER = 16; // flights of which the lanes take one after the other
-// Steps that ticks may take, unless the run has said how many: usual flights take a tenth. A step takes some 50 µs.
-const STEPS = { once: 2000, tick: 2 };
-const SHORT = 200; // ticks of a piece of a live flight, which must not keep the page waiting whatever the run has said
+// Steps that a flight may take, unless the run has said how many, and a piece of a live one, which must not keep the page
+// waiting. A step takes some 50 µs; usual flights of 10 s take less than 1,000, one by a network on a large machine 8,000.
+const STEPS = { whole: 20_000, tick: 2, piece: 2000 };
+const PIECE = 200; // ticks that are fewer are a piece
 const ROUNDING = 5e-7; // as flypend.flight.kernels.ideal has it, of whose `Moments.of` the table below is
 
 export class Ideal extends Simulation {
@@ -67,8 +68,8 @@ export class Ideal extends Simulation {
 
   /** Fly so many `runs` from tick `begun` on, keeping the states at the first `kept` of the times. */
   #integrate(runs, begun, ticks, kept) {
-    const { period, exact: { rtol, atol, max_steps } } = this.facts, usual = STEPS.once + STEPS.tick * ticks;
-    const most = ticks < SHORT ? Math.min(usual, max_steps ?? usual) : max_steps ?? usual;
+    const { period, exact: { rtol, atol, max_steps } } = this.facts, usual = STEPS.whole + STEPS.tick * ticks;
+    const most = ticks < PIECE ? Math.min(STEPS.piece, max_steps ?? usual) : max_steps ?? usual;
     this.at.queue.view()[0] = 0n;
     this.fly(runs, {
       begin: begun * period, until: (begun + ticks) * period, rtol, atol, max_steps: BigInt(most), time_count: BigInt(kept),

@@ -22,7 +22,7 @@ export class Hybrid {
     if (kind !== "fly") return this.link.ask(kind, content);
     const number = this.link.reserve();
     clearTimeout(this.resting);
-    this.asked = content.setting;
+    this.asked = structuredClone(content.setting); // which the page goes on to change
     const confirm = () => this.link.ask("fly", content, number);
     if (this.#preview(number, content.setting)) this.resting = setTimeout(confirm, REST);
     else confirm();

@@ -34,7 +34,7 @@ export class Running {
 
   /** Let the flight go on from where the clock stands, or stop and show the flight of the setting. */
   go(on) {
-    if (!this.able || on === this.on) return;
+    if (on === this.on || (on && !this.able)) return;
     this.on = on;
     const { viewer, main } = this.lab;
     main.classList.toggle("running", on);

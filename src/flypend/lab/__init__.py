@@ -1,4 +1,4 @@
-"""The laboratory: a page in the browser whose sliders change a flight while it plays. `flypend.lab.server` serves it."""
+"""The laboratory: a page in the browser whose sliders change a flight while it plays; `lab.server` serves it."""
 
 from flypend.lab.alone import page_alone
 

@@ -25,6 +25,31 @@ def chromium():
         browser.close()
 
 
+@pytest.fixture
+def offline(chromium):
+    """Return a function that opens a file in a context of its own, without a network; arguments are the context's.
+
+    At the end no page has asked for anything, and none has complained.
+    """
+    contexts, asked, complaints = [], [], []
+
+    def open_(address, **setting):
+        context = chromium.new_context(offline=True, **setting)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.goto(address)
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert complaints == []
+    assert [url for url in asked if not url.startswith(("file://", "data:,", "blob:"))] == []
+
+
 @pytest.fixture(scope="session")
 def axe(tmp_path_factory):
     """Return a function from an open page to what axe-core finds wrong with it: (rule, elements)."""

@@ -33,10 +33,13 @@ export class Ideal extends Simulation {
     const { at, facts, row } = this, { period } = facts, begun = this.tick;
     this.#fit(ticks);
     this.#fitRows(ticks);
-    this.engine.call("own", this.state, this.asked.origin, at.starts);
+    const own = () => this.engine.call("own", this.state, this.asked.origin, at.starts);
+    own();
     if (begun === 0) this.#row(this.first, at.starts, 0); // as it is before a blow
-    if (impulses) this.#strike(impulses);
-    this.engine.call("own", this.state, this.asked.origin, at.starts);
+    if (impulses) {
+      this.#strike(impulses);
+      own();
+    }
     const times = at.times.view();
     for (let i = 0; i < ticks; i++) times[i] = (begun + 1 + i) * period;
     times[ticks] = Infinity;

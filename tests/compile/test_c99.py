@@ -40,6 +40,7 @@ def test_every_operation_means_what_casadi_means(tmp_path, precision):
         a + b, a - b, a * b, a / b, -a, ca.sqrt(a * a + 1), ca.fabs(a), ca.fmin(a, b), ca.fmax(a, b), ca.sign(a),
         a < b, a <= b, ca.eq(a, b), ca.ne(a, b), ca.logic_not(a), ca.logic_and(a, b), ca.logic_or(a, b),
         ca.if_else(a < b, a, 2), a**3, b**-2, 3 * (-2.5 - a),
+        2 * (a < b) + ca.ne(a, b), ca.logic_and(a < b, b), ca.logic_not(ca.eq(a, b)), ca.if_else(b, a, -1),
     )  # fmt: skip
     function = ca.Function("f", [x], [ca.densify(values)])
     program = lower(function)
@@ -59,9 +60,20 @@ def test_every_operation_means_what_casadi_means(tmp_path, precision):
     } <= program.counts().keys()
     call = _compiled(program, tmp_path, precision)
     tolerance = 1e-15 if precision == "double" else 5e-7
-    for pair in [(1.0, 1.0), (0.0, 2.0), (-1.5, 0.5), (2.0, -3.0), (0.0, -0.25), (-2.0, -2.0)]:
+    for pair in [(1.0, 1.0), (0.0, 2.0), (-1.5, 0.5), (2.0, -3.0), (0.0, -0.25), (-2.0, -2.0), (-0.0, 0.0)]:
         wanted = np.array(function(pair)).ravel()
-        assert np.allclose(call(pair), wanted, rtol=tolerance, atol=tolerance), pair
+        np.testing.assert_allclose(call(pair), wanted, rtol=tolerance, atol=tolerance, err_msg=str(pair))
+
+
+def test_what_is_not_a_number_equals_nothing(tmp_path):
+    a, b = ca.SX.sym("a"), ca.SX.sym("b")
+    values = ca.vertcat(a < b, a <= b, ca.eq(a, b), ca.ne(a, b), ca.logic_not(a), ca.if_else(a, b, 0), a < ca.inf)
+    call = _compiled(lower(ca.Function("f", [ca.vertcat(a, b)], [values])), tmp_path)
+    for a_, b_ in [(np.nan, 2.0), (2.0, np.nan), (np.nan, np.nan), (np.inf, np.inf), (np.inf, -np.inf)]:
+        given = np.array([a_, b_])
+        with np.errstate(invalid="ignore"):
+            wanted = [a_ < b_, a_ <= b_, a_ == b_, a_ != b_, not a_, b_ if a_ != 0 else 0.0, a_ < np.inf]
+        np.testing.assert_array_equal(call(given), np.array(wanted, dtype=float))
 
 
 def test_other_functions_of_the_library_are_refused():

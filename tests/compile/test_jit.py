@@ -1,7 +1,8 @@
-"""The cache of compiled kernels: kept, checked, rebuilt, never in the way."""
+"""Machine code: compiled once, and again whenever anything that it depends on has changed."""
 
 import ctypes
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,12 @@ import numpy as np
 import pytest
 from llvmlite import ir
 
+import flypend
+from flypend.compile.cache import VARIABLE
 from flypend.compile.llvm import jit
+from flypend.compile.llvm.target import native
+
+SOURCE = Path(flypend.__file__).parent
 
 
 def adder(number, calls):
@@ -38,7 +44,7 @@ def result(key, number, calls):
 
 @pytest.fixture
 def cache(tmp_path, monkeypatch):
-    monkeypatch.setenv(jit.CACHE_VARIABLE, str(tmp_path / "kernels"))
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "kernels"))
     return tmp_path / "kernels"
 
 
@@ -80,23 +86,6 @@ def test_another_program_has_another_entry(cache):
     assert len(list(cache.iterdir())) == 2
 
 
-def test_other_generators_have_other_entries(cache, monkeypatch):
-    calls = []
-    result("key", 2.0, calls)
-    monkeypatch.setattr(jit, "source_digest", lambda: "of another version")
-    result("key", 2.0, calls)
-    assert calls == [2.0, 2.0]
-
-
-def test_without_a_folder_that_can_be_written_it_works(tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("in the way")
-    monkeypatch.setenv(jit.CACHE_VARIABLE, str(tmp_path / "file" / "kernels"))
-    calls = []
-    assert result("key", 2.0, calls) == 3.0
-    assert result("key", 2.0, calls) == 3.0
-    assert calls == [2.0, 2.0]
-
-
 def test_an_entry_of_another_kernel_under_this_name_is_refused(cache):
     calls = []
     result("key", 2.0, calls)
@@ -108,33 +97,146 @@ def test_an_entry_of_another_kernel_under_this_name_is_refused(cache):
     assert calls == [2.0, 4.0, 2.0]
 
 
-PLACE = "import sys; from flypend.compile.llvm import jit; print(jit.cache_folder(), jit.cache_folder())"
-NOBODY = "import pwd\ndef getpwuid(uid): raise KeyError(uid)\npwd.getpwuid = getpwuid\n"
+def test_without_a_folder_that_can_be_written_it_works(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "file" / "kernels"))
+    calls = []
+    assert result("key", 2.0, calls) == 3.0
+    assert result("key", 2.0, calls) == 3.0
+    assert calls == [2.0, 2.0]
 
 
-def where(folder, code, **changed):
-    """The cache folder of a process in `folder` with other variables, and what it says on stderr."""
-    kept = {name: value for name, value in os.environ.items() if name not in (jit.CACHE_VARIABLE, "XDG_CACHE_HOME")}
-    environment = {name: value for name, value in (kept | changed).items() if value is not None}
-    command = [sys.executable, "-c", code]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=True)
-    first, second = done.stdout.split()
-    assert first == second
-    return Path(first), done.stderr
+# What the key covers --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("empty", ["", " ", "relative"])
-def test_an_empty_cache_variable_is_not_the_current_folder(empty, tmp_path):
-    path, told = where(tmp_path, PLACE, XDG_CACHE_HOME=empty, HOME=str(tmp_path / "home"))
-    assert path == tmp_path / "home" / ".cache" / "flypend"
-    assert told == ""
+@pytest.mark.parametrize(("library", "name"), [("casadi", "__version__"), ("numpy", "__version__")])
+def test_another_library_has_another_entry(cache, library, name, monkeypatch):
+    calls = []
+    result("key", 2.0, calls)
+    monkeypatch.setattr(getattr(jit, library), name, "0.0.1")
+    result("key", 2.0, calls)
+    assert calls == [2.0, 2.0]
 
 
-def test_without_a_home_the_cache_is_temporary_and_one_line_says_so(tmp_path):
-    """As in a container under a number that nobody has: neither HOME nor an entry in the list of users."""
-    path, told = where(tmp_path, NOBODY + PLACE, HOME=None)
-    assert path.is_absolute()
-    assert not path.is_relative_to(tmp_path)
-    assert not path.exists()  # it went with the process
-    assert told.count("\n") == 1
-    assert jit.CACHE_VARIABLE in told
+@pytest.mark.parametrize("part", ["llvmlite ", " llvm ", native().cpu])
+def test_another_compiler_or_processor_has_another_entry(cache, part, monkeypatch):
+    calls = []
+    result("key", 2.0, calls)
+    assert part in native().name
+    monkeypatch.setitem(native().__dict__, "name", native().name.replace(part, f"{part}0"))
+    result("key", 2.0, calls)
+    assert calls == [2.0, 2.0]
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A copy of the source, which stands for the one that this process runs."""
+    folder = tmp_path / "flypend"
+    shutil.copytree(SOURCE, folder, ignore=shutil.ignore_patterns("__pycache__", "web", "policies"))
+    monkeypatch.setattr(jit, "_ROOT", folder)
+    monkeypatch.setattr(jit, "__file__", str(folder / "compile" / "llvm" / "jit.py"))
+    monkeypatch.setattr(jit, "_files", jit.source_files())
+    monkeypatch.setattr(jit, "_source", jit.source_digest(jit.source_files()))
+    return folder
+
+
+def changed(path):
+    """Exchange two bytes of the text at `path` that differ: its length stays."""
+    text = bytearray(path.read_bytes())
+    other = next(i for i, byte in enumerate(text) if byte != text[-2])
+    text[other], text[-2] = text[-2], text[other]
+    path.write_bytes(text)
+
+
+WRITERS = (
+    "__init__.py", "compile/tableaus.toml", "compile/methods.py", "compile/problem.py", "compile/routine.py",
+    "compile/llvm/stages.py", "flight/kernels/ideal.py", "flight/kernels/pieces.py", "envs/kernel.py",
+    "planning/single.py", "plants/equations.py", "learning/world.py", "model/state.py",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_every_source_that_writes_code_is_in_the_key(copy, name):
+    changed(copy / name)
+    assert jit.source_digest(jit.source_files()) != jit._source
+
+
+def test_a_renamed_an_added_and_a_lost_source_are_in_the_key(copy):
+    (copy / "compile" / "c99.py").rename(copy / "compile" / "c98.py")
+    renamed = jit.source_digest(jit.source_files())
+    (copy / "compile" / "new.py").touch()
+    added = jit.source_digest(jit.source_files())
+    (copy / "compile" / "c98.py").unlink()
+    lost = jit.source_digest(jit.source_files())
+    assert len({jit._source, renamed, added, lost}) == 4
+
+
+def test_a_source_that_is_gone_or_cannot_be_read_is_no_error(copy, cache, monkeypatch):
+    (copy / "compile" / ".#c99.py").symlink_to("somebody@somewhere")  # as Emacs locks a file
+    assert jit.source_digest(jit.source_files()) == jit._source
+    assert jit.source_digest(["/none.py"]) == ""
+    monkeypatch.setattr(jit, "_source", "")
+    assert result("key", 2.0, []) == 3.0
+    assert not cache.exists()
+
+
+def test_the_command_line_is_not_in_the_key(copy):
+    """Whoever works on it need not compile again."""
+    changed(copy / "cli" / "app.py")
+    assert jit.source_digest(jit.source_files()) == jit._source
+
+
+def test_a_process_whose_source_changes_leaves_the_cache_alone(copy, cache):
+    calls = []
+    result("key", 2.0, calls)
+    result("key", 2.0, calls)
+    assert calls == [2.0]
+    changed(copy / "planning" / "single.py")  # which this process may have imported, or may import now
+    result("key", 2.0, calls)
+    result("another key", 2.0, calls)
+    assert calls == [2.0, 2.0, 2.0]
+    assert len(list(cache.iterdir())) == 1
+
+
+def test_source_that_changes_while_it_is_compiled_is_not_kept(copy, cache):
+    def module():
+        changed(copy / "compile" / "methods.py")
+        return adder(2.0, [])()
+
+    jit.build("key", module, "add", (ctypes.c_void_p,))
+    assert not cache.exists()
+
+
+def test_source_that_cannot_be_read_is_not_cached(cache, monkeypatch):
+    """As in an archive, where all versions would have one key."""
+    monkeypatch.setattr(jit, "_ROOT", Path("archive.zip/flypend"))
+    monkeypatch.setattr(jit, "_files", jit.source_files())
+    calls = []
+    result("key", 2.0, calls)
+    result("key", 2.0, calls)
+    assert calls == [2.0, 2.0]
+    assert not cache.exists()
+
+
+FLIGHT = """
+import flypend as fp
+start = fp.State(y=(0.6, 0, 0.8), y_dot=(0, 1, 0))
+run = fp.simulate(fp.vehicle("nayak2018"), fp.laws.corrected(), start, 0.5, plant="ideal")
+print(repr(run.y[-1].tolist()))
+"""
+
+
+def test_a_changed_tableau_flies(tmp_path):
+    """In one cache, as a developer has it."""
+    shutil.copytree(SOURCE, tmp_path / "flypend", ignore=shutil.ignore_patterns("__pycache__"))
+    tableaus = tmp_path / "flypend" / "compile" / "tableaus.toml"
+    environment = os.environ | {"PYTHONPATH": str(tmp_path), VARIABLE: str(tmp_path / "kernels")}
+
+    def flown():
+        command = [sys.executable, "-c", FLIGHT]
+        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True).stdout
+
+    first = flown()
+    text = tableaus.read_text(encoding="utf-8")
+    tableaus.write_text(text.replace("[0.05260015195876773,", "[0.05270015195876773,"), encoding="utf-8")
+    assert flown() != first

@@ -137,3 +137,15 @@ def test_a_queue_slides_through_memory_instead_of_being_copied(length):
         expected = [np.array(v).ravel() for v in queue(length).call([ca.DM(expected[0]), ca.DM(given[:, 0])])]
     np.testing.assert_allclose(kept[0][:size, 0], expected[0], rtol=1e-14)
     np.testing.assert_allclose(last[:, 0], expected[1], rtol=1e-14)
+
+
+def test_a_routine_with_a_sparse_output_is_a_mistake():
+    """A call whose value is always 0 has no entries to copy: the flight would go on with the last ones."""
+    x, none = ca.SX.sym("x", 3), ca.SX.sym("none", 0)
+    zero = ca.Function("zero", [x, none], [ca.SX.zeros(4)])
+    given, empty = ca.MX.sym("given", 3), ca.MX.sym("empty", 0)
+    for outputs in ([zero(given, empty)], [ca.vertcat(zero(given, empty), given)]):
+        with pytest.raises(ValueError, match="sparse"):
+            lower_calls(ca.Function("whole", [given, empty], outputs))
+    full = lower_calls(ca.Function("whole", [given, empty], [ca.densify(zero(given, empty))]))
+    assert [cell[:2] + cell[3:] for cell in full.outputs[0]] == [("constant", 0, 0.0)] * 4

@@ -1,1 +1,1 @@
-"""Code generation from scalar programs: LLVM kernels, C99 and JAX."""
+"""Code generation from scalar programs: LLVM kernels and C99."""

@@ -18,14 +18,18 @@ REAL = "flypend_real"
 
 _FORMS = {
     "add": "{0} + {1}", "sub": "{0} - {1}", "mul": "{0} * {1}", "div": "{0} / {1}", "neg": "-{0}",
+    "sqrt": "{root}({0})",
     "fabs": "({0} < {zero}) ? -{0} : {0}", "fmin": "({0} < {1}) ? {0} : {1}", "fmax": "({0} > {1}) ? {0} : {1}",
-    "lt": "({0} < {1}) ? {one} : {zero}", "le": "({0} <= {1}) ? {one} : {zero}",
-    "eq": "({0} == {1}) ? {one} : {zero}", "ne": "({0} != {1}) ? {one} : {zero}",
-    "not": "({0} == {zero}) ? {one} : {zero}", "select": "({0} != {zero}) ? {1} : {zero}",
-    "and": "(({0} != {zero}) && ({1} != {zero})) ? {one} : {zero}",
-    "or": "(({0} != {zero}) || ({1} != {zero})) ? {one} : {zero}",
-    "sign": "({0} > {zero}) ? {one} : (({0} < {zero}) ? -{one} : {zero})",
+    "select": "{0} ? {1} : {zero}", "sign": "({0} > {zero}) ? {one} : (({0} < {zero}) ? -{one} : {zero})",
 }  # fmt: skip
+# Those whose value is true or false: an int in C. Equality is a pair of inequalities, which is the same for every pair
+# of numbers, NaN included, and shows a reader, and -Wfloat-equal, that no rounded number is compared by accident.
+_TRUTHS = {
+    "lt": "{0} < {1}", "le": "{0} <= {1}", "eq": "({0} <= {1}) && ({0} >= {1})",
+    "ne": "!(({0} <= {1}) && ({0} >= {1}))", "not": "!{0}", "and": "{0} && {1}", "or": "{0} || {1}",
+}  # fmt: skip
+# The arguments of which an operation asks whether they are true: a number is, unless it is 0.
+_ASKS = {"not": (0,), "and": (0, 1), "or": (0, 1), "select": (0,)}
 
 
 def literal(value: float, precision: Precision) -> str:
@@ -51,8 +55,14 @@ def statements(
     Raises InputError for an operation that needs more of the C library than the square root.
     """
     words = {"zero": literal(0.0, precision), "one": literal(1.0, precision)}
-    root = "sqrt" if precision == "double" else "sqrtf"
-    names: dict[int, str] = {}
+    words["root"] = "sqrt" if precision == "double" else "sqrtf"
+    names: dict[int, str] = {}  # C expressions of numbers
+    truths: dict[int, str] = {}  # and of truths
+
+    def truth(number: int) -> str:
+        """Whether a value is not 0, in C."""
+        return truths.get(number) or f"({_TRUTHS['ne'].format(names[number], words['zero'])})"
+
     lines: list[str] = []
     tables = matrices(program)
     first = {matrix.rows[0]: place for place, matrix in enumerate(tables)}
@@ -73,10 +83,14 @@ def statements(
             text = _constant(operation.value, precision)
             names[number] = f"({text})" if text.startswith("-") else text
         else:
-            names[number] = f"v{len(lines)}"
-            form = f"{root}({{0}})" if operation.name == "sqrt" else _form(operation)
-            value = form.format(*(names[a] for a in operation.arguments), **words)
-            lines.append(f"const {REAL} {names[number]} = {value};")
+            result, form = f"v{len(lines)}", _form(operation)
+            kind, taken = REAL, [names[a] for a in operation.arguments]
+            names[number] = result
+            if operation.name in _TRUTHS:
+                kind, truths[number], names[number] = "int", result, f"({result} ? {words['one']} : {words['zero']})"
+            for i in _ASKS.get(operation.name, ()):
+                taken[i] = truth(operation.arguments[i])
+            lines.append(f"const {kind} {result} = {form.format(*taken, **words)};")
     for wanted, numbers in zip(outputs, program.outputs, strict=True):
         lines += [f"{place} = {names[number]};" for place, number in zip(wanted, numbers, strict=True)]
     return lines
@@ -105,17 +119,18 @@ def _layer(matrix: Matrix, name: str, precision: Precision) -> str:
 
 
 def _form(operation: Operation) -> str:
-    if operation.name not in _FORMS:
+    form = _FORMS.get(operation.name) or _TRUTHS.get(operation.name)
+    if form is None:
         raise InputError("law", "no function of the C library but the square root", operation.name)
-    return _FORMS[operation.name]
+    return form
 
 
 def _constant(value: float, precision: Precision) -> str:
     """The C text of a constant of a program: a literal, or the name that <math.h> has for one without."""
     if np.isnan(value):
-        return "NAN"
+        return f"({REAL})NAN"  # a float in <math.h>
     if np.isinf(value):
-        return "INFINITY" if value > 0 else "-INFINITY"
+        return f"({REAL})INFINITY" if value > 0 else f"-({REAL})INFINITY"
     return literal(value, precision)
 
 

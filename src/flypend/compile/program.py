@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
+from flypend import signals
 from flypend.errors import InputError
 
 
@@ -61,6 +62,7 @@ def interpret(
     Entry i of input vector j is `inputs[j](i)`. `operations` maps each operation name to a function; `constant`
     converts a number to a value.
     """
+    signals.poll()
     values: list[Any] = []
     for name, arguments, number in program.operations:
         if name == "input":
@@ -109,6 +111,7 @@ def lower(function: ca.Function) -> Program:
     Eliminates common subexpressions and dead code, folds constants, and shares reciprocals between divisions by the
     same value. Raises InputError for an unsupported CasADi operation and ValueError for a sparse output.
     """
+    signals.poll()
     expanded = function.expand() if not function.is_a("SXFunction") else function
     for i in range(expanded.n_out()):
         if expanded.nnz_out(i) != expanded.numel_out(i):

@@ -91,7 +91,7 @@ def lower_calls(function: ca.Function) -> Routine:
     """Lower an MX `function` with dense vector inputs and outputs to a routine.
 
     The function may call SX functions, which become programs, and other such MX functions. Otherwise it may only split
-    and concatenate vectors. Raises ValueError for arithmetic outside the called functions.
+    and concatenate vectors. Raises ValueError for arithmetic outside the called functions, and for sparse outputs.
     """
     builder = _Builder()
     inputs = [[Cell("input", i, k) for k in range(function.nnz_in(i))] for i in range(function.n_in())]
@@ -109,6 +109,9 @@ class _Builder:
 
     def walk(self, function: ca.Function, inputs: list[list[Cell]]) -> list[list[Cell]]:
         """Return the output cells of `function` for the cells of its `inputs`, and record its calls."""
+        for i in range(function.n_out()):  # whose cells would be fewer than its entries
+            if function.nnz_out(i) < function.numel_out(i):
+                raise ValueError(f"output {i} of {function.name()} is sparse; densify it")
         work: dict[int, list[Cell]] = {}
         outputs: list[list[Cell]] = [[] for _ in range(function.n_out())]
         for i in range(function.n_instructions()):

@@ -1,66 +1,68 @@
-"""Compilation of LLVM modules to machine code, with a disk cache whose entries are verified by checksum."""
+"""Compilation of LLVM modules to machine code, or its equal from the cache."""
 
 from __future__ import annotations
 
-import atexit
 import ctypes
 import hashlib
 import os
-import shutil
-import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
-from logging import getLogger
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
+import casadi
 import llvmlite.binding as llvm
-from platformdirs import user_cache_path
+import numpy
 
+from flypend.compile import cache
 from flypend.compile.aside import aside
 from flypend.compile.llvm.target import Target, native
 
-CACHE_VARIABLE = "FLYPEND_CACHE"
-_ENTRY = b"flypend object 2\n"
+# Rooms that stand after those that write machine code, and can change it by no more than what is in its key.
+ABOVE = frozenset(("export", "paper", "settings", "studies", "pictures", "report", "lab", "cli"))
+_ROOT = Path(__file__).parents[2]
 _names = iter(range(1 << 62))
 _lock = Lock()
 
 
-def cache_folder() -> Path:
-    """Folder of compiled kernels: $FLYPEND_CACHE, or `flypend` in the user's cache folder.
+def source_files() -> dict[str, tuple[int, int, int]]:
+    """Return size, time of writing and time of change of each source file up to the rooms `ABOVE`, by its path."""
+    root, found = str(_ROOT), {}
+    for folder, inside, names in os.walk(root, followlinks=True):
+        inside[:] = [name for name in inside if name != "__pycache__" and (folder != root or name not in ABOVE)]
+        for path in (f"{folder}{os.sep}{name}" for name in names if name.endswith((".py", ".toml"))):
+            with suppress(FileNotFoundError):  # an editor's, such as a link that leads nowhere
+                status = os.stat(path)  # noqa: PTH116 (300 of them, at every kernel)
+                found[path] = status.st_size, status.st_mtime_ns, status.st_ctime_ns
+    return found
 
-    A user without a home gets a folder that lasts as long as the process, and a warning.
+
+def source_digest(files: Iterable[str]) -> str:
+    """Return the digest of flypend's source `files`: code generators and what they call, tableaus, the version.
+
+    It is empty if one of them cannot be read.
     """
-    given = os.environ.get(CACHE_VARIABLE)
-    if given:
-        return Path(given)
-    try:
-        found = user_cache_path("flypend", appauthor=False)
-    except RuntimeError:  # no HOME, and no entry in the list of users
-        return _temporary()
-    return found if found.is_absolute() else _temporary()
-
-
-@lru_cache(maxsize=1)
-def _temporary() -> Path:
-    """A folder that is removed when the process ends."""
-    folder = Path(tempfile.mkdtemp(prefix="flypend-"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    getLogger("flypend").warning(
-        "flypend: no home folder; compiled code is kept in %s until the end (set %s)", folder, CACHE_VARIABLE
-    )
-    return folder
-
-
-@lru_cache(maxsize=1)
-def source_digest() -> str:
-    """Digest of the source of the code generators, which invalidates cache entries when they change."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(path.read_bytes())
+    try:
+        for path in sorted(files):
+            with open(path, "rb", buffering=0) as file:  # noqa: PTH123 (half the time of Path.read_bytes)
+                content = file.read()
+            digest.update(f"{path[len(str(_ROOT)) :]} {len(content)}\n".encode() + content)
+    except OSError:
+        return ""
     return digest.hexdigest()
+
+
+# The source as this process has imported it.
+_files = source_files()
+_source = source_digest(_files)
+
+
+def may_cache() -> bool:
+    """Whether `_source` is the source that this process runs: not if it has changed, or lies in an archive."""
+    return bool(_source) and str(Path(__file__)) in _files and source_files() == _files
 
 
 class Native:
@@ -93,20 +95,24 @@ def _jit() -> Any:
 def build(key: str, module: Callable[[], Any], name: str, arguments: Sequence[Any]) -> Native:
     """Return the function `name` of the LLVM module built by `module()`, or of a valid cache entry for `key`.
 
-    `key` must determine the module. Processor, versions and the generators' source are added to the key here.
+    `key` must determine the module. Processor, versions and flypend's source are added to the key here.
     `arguments` are the ctypes types of the function's arguments.
     """
     return Native(build_object(key, module, native()), name, tuple(arguments))
 
 
 def build_object(key: str, module: Callable[[], Any], target: Target) -> bytes:
-    """Return the object file of the LLVM module built by `module()`, or of a valid cache entry; `key` as in `build`."""
-    entry = hashlib.sha256("\n".join([key, target.name, source_digest()]).encode()).hexdigest()
-    path = cache_folder() / f"{entry}.o"
-    code = _read(path, entry)
+    """Return the object file of the LLVM module built by `module()`, or of a valid cache entry; `key` as in `build`.
+
+    Raises InputError if others may write to the cache.
+    """
+    versions = f"casadi {casadi.__version__} numpy {numpy.__version__}"
+    entry = hashlib.sha256("\n".join([key, target.name, versions, _source]).encode()).hexdigest()
+    code = cache.load(entry) if may_cache() else None
     if code is None:
         code = aside(partial(compiled, module(), target))
-        _write(path, entry, code)
+        if may_cache():
+            cache.store(entry, code)
     return code
 
 
@@ -124,32 +130,3 @@ def compiled(module: Any, target: Target | None = None) -> bytes:
     )
     code: bytes = machine.emit_object(parsed)
     return code
-
-
-def _read(path: Path, entry: str) -> bytes | None:
-    """Read the cached object of `entry` at `path`; None if it is missing, corrupt, or another's under this name."""
-    try:
-        content = path.read_bytes()
-    except OSError:
-        return None
-    begin = len(_ENTRY) + 32
-    code = content[begin:]
-    return code if content[:begin] == _head(entry, code) else None
-
-
-def _head(entry: str, code: bytes) -> bytes:
-    """The first bytes of a cache file: the kind of file, and a digest that binds `code` to `entry`."""
-    return _ENTRY + hashlib.sha256(entry.encode() + code).digest()
-
-
-def _write(path: Path, entry: str, code: bytes) -> None:
-    """Write `code` to `path` atomically; do nothing if the folder is not writable."""
-    with suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, partial = tempfile.mkstemp(dir=path.parent, suffix=".partial")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(_head(entry, code) + code)
-            Path(partial).replace(path)
-        finally:
-            Path(partial).unlink(missing_ok=True)

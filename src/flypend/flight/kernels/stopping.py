@@ -1,4 +1,4 @@
-"""Kernel calls that hear an interrupt: they run in threads of their own, and poll a word that ends them.
+"""Kernel calls that can be stopped: they run in threads of their own, and poll a word that ends them.
 
 Python runs signal handlers in the main thread, and only between its instructions: a call into machine code would hold
 Ctrl-C back until it returns.
@@ -15,8 +15,10 @@ from threading import current_thread, main_thread
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import signals
+
 Word = NDArray[np.int64]
-PERIOD = 0.1  # s between looks at signals and progress
+SIGNAL: Word = np.frombuffer(signals.word, dtype=np.int64)  # stops every call that has no word of its own
 _word: ContextVar[Word | None] = ContextVar("stop word", default=None)
 
 
@@ -35,7 +37,7 @@ def interruptible() -> Iterator[Word]:
         yield outer
         return
     word: Word = np.zeros(1, dtype=np.int64)
-    with joined(word):
+    with joined(word), signals.deferred():
         try:
             yield word
         except BaseException:
@@ -53,27 +55,43 @@ def joined(word: Word | None) -> Iterator[None]:
         _word.reset(token)
 
 
+def raise_if_stopped() -> None:
+    """Raise StoppedError if the stop word of the block is set: for loops in Python."""
+    word = _word.get()
+    if word is not None and word[0]:
+        raise StoppedError("stopped")
+
+
 def heard(calls: Sequence[Callable[[Word], None]], tell: Callable[[], None] = lambda: None) -> None:
     """Make each of `calls`, with the stop word as argument, in a thread of its own, and wait for all.
 
-    An interrupt sets the word and is raised once the calls have returned. `tell` is called ten times a second.
+    A signal sets the word and is raised once the calls have returned. `tell` is called ten times a second.
 
     Raises StoppedError if the word was set elsewhere.
     """
+    if len(calls) == 1 and current_thread() is not main_thread():
+        word = _word.get()
+        word = SIGNAL if word is None else word
+        calls[0](word)
+        _check(word)
+        return
     with interruptible() as word:
-        if len(calls) == 1 and current_thread() is not main_thread():
-            calls[0](word)  # no signal is handled here
-        else:
-            _wait(calls, word, tell)
-        if word[0]:
-            raise StoppedError("stopped")
+        _wait(calls, word, tell)
+        _check(word)
+
+
+def _check(word: Word) -> None:
+    signals.poll()
+    if word[0]:
+        raise StoppedError("stopped")
 
 
 def _wait(calls: Sequence[Callable[[Word], None]], word: Word, tell: Callable[[], None]) -> None:
     with ThreadPoolExecutor(len(calls)) as pool:
         tasks = [pool.submit(call, word) for call in calls]
         try:
-            while wait(tasks, timeout=PERIOD).not_done:
+            while wait(tasks, timeout=signals.PERIOD).not_done:
+                signals.poll()
                 tell()
         except BaseException:
             word[0] = 1

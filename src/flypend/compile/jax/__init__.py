@@ -1,1 +1,0 @@
-"""Scalar programs as functions on JAX arrays, for GPUs."""

@@ -6,27 +6,35 @@ counts of docs/reliability.md.
 
 import contextlib
 import io
+import json
 import random
+import resource
+import shutil
 import signal
 import sys
 import time
 from collections import Counter
-from copy import deepcopy
+from pathlib import Path
+from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
+from mutations import mutated_bytes, mutated_netcdf, mutated_npz, mutated_settings
 
 import flypend as fp
 from flypend.cli import app as cli
 from flypend.files.toml import toml_text
 from flypend.flight import simulate
+from flypend.laws.policy import load as load_policy
+from flypend.laws.policy import save as save_policy
+from flypend.learning import training
+from flypend.learning.flights import Course
+from flypend.learning.training import Learner, Training
+from flypend.paper import experiment
 from flypend.studies.sweep import run
 
 LONGEST = 10.0  # s of processor time of any command: other tests run beside it
 PATIENCE = 60.0  # s of wall time after which a command that computes nothing is ended
-NUMBERS = [
-    0, -1, 1, 1e-9, 1e9, 1e30, 1e308, float("nan"), float("inf"), float("-inf"), 0.5, 1e-30, True, "x", "", [], [1.0],
-    {}, 10, 100, 1e5, 1e-4, 3, 0.05, 2**62, "../../etc/passwd", "a\u0000b", "\U0001f681", [1.0, 2.0], {"x": 1.0},
-]  # fmt: skip
 RUN = {
     "vehicle": {
         "base": "hehn2011", "mass": 0.5, "bob_mass": 0.05, "rod_length": 0.5, "gravity": 9.81, "rotor_lag": 0.02,
@@ -112,42 +120,6 @@ def check(arguments, what):
 # Settings -------------------------------------------------------------------------------------------------------------
 
 
-def places(table, path=()):
-    """Every place of a nested table, as a tuple of keys."""
-    for key, value in table.items():
-        yield (*path, key)
-        if isinstance(value, dict):
-            yield from places(value, (*path, key))
-
-
-def mutated_settings(base, rng):
-    """A copy of `base` with one to three entries replaced, removed, renamed or doubled in the text, as text."""
-    table = deepcopy(base)
-    for _ in range(rng.choice([1, 1, 2, 3])):
-        *outer, last = rng.choice(list(places(table)))
-        inner = table
-        for key in outer:
-            inner = inner[key]
-        kind = rng.choice(["replace"] * 6 + ["remove", "rename"])
-        if kind == "replace":
-            inner[last] = deepcopy(rng.choice(NUMBERS))
-        elif kind == "remove":
-            del inner[last]
-        else:
-            inner[last + rng.choice("sx_")] = inner.pop(last)
-        if not table:
-            break
-    text = toml_text(table)
-    return mutated_text(text, rng) if rng.random() < 0.15 else text
-
-
-def mutated_text(text, rng):
-    """`text` with a stretch removed, doubled or replaced by characters that TOML minds."""
-    a = rng.randrange(len(text) + 1)
-    b = min(len(text), a + rng.randrange(1, 20))
-    return text[:a] + rng.choice(["", text[a:b] * 2, rng.choice('{}[]"=#.,\x00é\n')]) + text[b:]
-
-
 class AcceptedError(Exception):
     """The settings have passed every check, and the flight would begin."""
 
@@ -189,65 +161,208 @@ def test_10_000_mutated_settings(tmp_path, monkeypatch):
     print("10,000 mutated settings, by exit code:", dict(attack_settings(10_000, 2, tmp_path, monkeypatch, 50)))
 
 
-# Saved runs -----------------------------------------------------------------------------------------------------------
+# Files of results -----------------------------------------------------------------------------------------------------
+# Runs, plans, policies and checkpoints: in front of their digests (bytes), and behind them (a value, a shape, a name,
+# and the digest computed again, or left out).
+
+ROOM = 2**29  # bytes that reading a file of some kilobytes may take beyond what the process has
 
 
-def mutated_bytes(content, rng):
-    """`content` with bytes changed, a stretch removed, doubled or zeroed, or cut."""
-    content = bytearray(content)
-    for _ in range(rng.choice([1, 1, 2, 8])):
-        if not content:
-            break
-        a = rng.randrange(min(len(content), rng.choice([64, 2048, len(content)])))
-        b = min(len(content), a + rng.choice([1, 4, 64, 1024]))
-        kind = rng.choice(["flip", "flip", "random", "zero", "remove", "double", "cut"])
-        if kind == "flip":
-            content[a] ^= 1 << rng.randrange(8)
-        elif kind == "random":
-            content[a:b] = rng.randbytes(b - a)
-        elif kind == "zero":
-            content[a:b] = bytes(b - a)
-        elif kind == "remove":
-            del content[a:b]
-        elif kind == "double":
-            content[a:a] = content[a:b]
-        else:
-            del content[a:]
-    return bytes(content)
+@contextlib.contextmanager
+def little_memory():
+    """Let this process take `ROOM` bytes more than it has."""
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + ROOM, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+def save_checkpoint(path):
+    learner = Learner(little(fp.vehicle("hehn2011")))
+    learner.done = learner.adam.count = learner.training.updates
+    learner.save(path)
+
+
+def little(vehicle, seed=0, updates=None):
+    """A training of seconds."""
+    course = Course(vehicle, duration=0.3)
+    return Training(course, seed=seed, rounds=1, steps=1, updates=updates or 1, batch=16, hidden=(8, 8))
+
+
+def resumed(path):
+    learner = Learner(little(fp.vehicle("hehn2011")))
+    assert learner.resume(path)
+    return learner
+
+
+def is_run(run):
+    """Whether a loaded run is what its docstring says, by other means than the schema's."""
+    n, k = len(run.t), len(run.vehicle.rotor_spins)
+    shapes = {
+        "x": (3,),
+        "x_dot": (3,),
+        "R": (3, 3),
+        "omega": (3,),
+        "y": (3,),
+        "y_dot": (3,),
+        "moment": (3,),
+        "x_ref": (3,),
+    }
+    assert all(getattr(run, name).shape == (n, *shape) for name, shape in shapes.items())
+    assert (run.thrust.shape, run.rotor_forces.shape, run.drift.shape[1:]) == ((n,), (n, k), (3,))
+    assert all(signal.shape == (n,) for signal in run.signals.values())
+    assert np.isfinite(run.packed).all()
+    assert n > 0
+    assert run.t[0] >= 0
+    assert (run.t[1:] > run.t[:-1]).all()
+    # State accepts numbers that are rounded to four decimals.
+    np.testing.assert_allclose(run.R @ run.R.transpose(0, 2, 1), np.tile(np.eye(3), (n, 1, 1)), atol=1e-3)
+    assert (np.linalg.det(run.R) > 0).all()
+    np.testing.assert_allclose((run.y**2).sum(axis=1), 1, atol=1e-3)
+    assert (np.abs((run.y * run.y_dot).sum(axis=1)) <= 2e-4 * (1 + np.abs(run.y_dot).sum(axis=1))).all()
+    assert isinstance(run.law, str)
+    assert isinstance(run.outcome.reason, str)
+    assert 0 <= run.outcome.time < np.inf
+    assert run.vehicle == fp.Vehicle.from_dict(run.vehicle.to_dict())
+    json.dumps(dict(run.gains), allow_nan=False)
+
+
+def is_plan(plan):
+    is_run(plan.trajectory)
+    assert plan.commands.shape[1:] == (len(plan.vehicle.rotor_spins),)
+    assert (len(plan.t) - 1) % len(plan.commands) == 0
+    assert plan.duration == pytest.approx(plan.stage * len(plan.commands))
+    assert plan.status in ("optimal", "feasible", "failed")
+    assert np.isfinite([*plan.commands.ravel(), *plan.target, *plan.objective.values(), plan.solve_time]).all()
+
+
+def is_policy(found):
+    assert all(np.isfinite(array).all() for array in found.arrays.values())
+    assert found.D.shape == (len(found.W_3), 18)
+
+
+def is_learner(learner):
+    assert 0 <= learner.done <= learner.training.updates
+    is_policy(learner.policy)
+    assert all(np.isfinite(array).all() for array in learner.adam.moments.values())
+
+
+class Kind(NamedTuple):
+    """A kind of file: how one is made and mutated, read as what, and the commands that read it."""
+
+    suffix: str
+    make: Any
+    mutated: Any
+    load: Any
+    check: Any
+    commands: Any
+
+
+def make_run(path):
+    case = experiment("1")
+    fp.simulate(case.vehicle, case.law(), case.start, 0.1, plant="ideal").save(path)
+
+
+def make_sampled(path):
+    fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0, 0, 1.0)), 0.05).save(path)
+
+
+def make_plan(path):
+    window = fp.Window((-0.4, 0.1, 0.2), 0.9, 1.4)
+    start = fp.State(x=(-1.0, 0.0, 0.0), y=(0, 0, 1))
+    fp.plan(fp.vehicle("hehn2011"), start, "effort", window=window, target=(0.5, 0, 0), time_limit=120.0).save(path)
+
+
+def make_policy(path):
+    save_policy(Learner(little(fp.vehicle("hehn2011"))).policy, path)
+
+
+VIEWS = (
+    ["replay", "{}", "-o", "out/page.html"],
+    ["figures", "{}", "-o", "out/figures"],
+    ["movie", "{}", "-o", "out/movie.gif", "--fps", "5", "--speed", "1", "--size", "160", "160"],
+)
+RUN_POLICY = (["run", "fly.toml", "--set", "law.gains.policy={}", "--no-figures", "-o", "out/run"],)
+LEARN = (["learn", "--out", "{}", "--runs", "1"],)
+KINDS = {
+    "run": Kind(".nc", make_run, mutated_netcdf, fp.load, is_run, VIEWS),
+    "sampled run": Kind(".nc", make_sampled, mutated_netcdf, fp.load, is_run, VIEWS),
+    "plan": Kind(".nc", make_plan, mutated_netcdf, fp.load_plan, is_plan, VIEWS),
+    "policy": Kind(".npz", make_policy, mutated_npz, load_policy, is_policy, RUN_POLICY),
+    "checkpoint": Kind(".npz", save_checkpoint, mutated_npz, resumed, is_learner, LEARN),
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
-def saved(tmp_path_factory):
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.lqr(), fp.State(y=(0, 0, 1.0)), 0.05)
-    path = tmp_path_factory.mktemp("saved") / "run.nc"
-    run.save(path)
-    return path.read_bytes(), run.packed
+def sound(tmp_path_factory):
+    """A sound file of each kind, as bytes."""
+    folder, found = tmp_path_factory.mktemp("sound"), {}
+    for name, kind in KINDS.items():
+        kind.make(folder / f"sound{kind.suffix}")
+        found[name] = (folder / f"sound{kind.suffix}").read_bytes()
+    return found
 
 
-def attack_saved(number, seed, content, folder, monkeypatch):
-    """Load mutated files: what loads has every number of the run."""
+def attack_files(number, seed, sound, folder, monkeypatch, commands):
+    """Load `number` mutated files: each is what its kind says, or refused in one line; one in `commands` is used."""
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(training, "usual", little)
+    (folder / "fly.toml").write_text(toml_text(RUN | {"law": {"name": "learned"}}), encoding="utf-8")
     rng, ends = random.Random(seed), Counter()
-    content, packed = content
-    path = folder / "run.nc"
     for k in range(number):
-        path.write_bytes(mutated_bytes(content, rng))
-        begin = time.process_time()
-        with contextlib.suppress(fp.InputError):
-            assert fp.load(path).packed.tobytes() == packed.tobytes(), (seed, k)
-            ends["loaded, every number right"] += 1
-            continue
-        ends["refused"] += 1
-        assert time.process_time() - begin < LONGEST
-        if k % 50 == 0:
-            check(["replay", str(path), "-o", str(folder / "page.html")], f"the file {k} of seed {seed}")
+        name = list(KINDS)[k % len(KINDS)]
+        kind, behind, what = KINDS[name], rng.random() < 0.6, f"file {k} of seed {seed}, a {name}"
+        with np.errstate(all="ignore"):
+            content = (
+                kind.mutated(sound[name], rng, folder) if behind else mutated_bytes(sound[name], rng, sound["plan"])
+            )
+        path = folder / f"file{kind.suffix}"
+        path.write_bytes(content)
+        begin, where = time.process_time(), "behind" if behind else "in front"
+        try:
+            with little_memory():
+                found = kind.load(path)
+        except fp.InputError as error:
+            ends[name, where, "in lines" if "\n" in str(error) else "refused"] += 1
+        except BaseException as error:
+            raise AssertionError(f"{error!r} on {what}") from error
+        else:
+            kind.check(found)
+            ends[name, where, "loaded"] += 1
+        assert time.process_time() - begin < LONGEST, what
+        if rng.randrange(commands) == 0:
+            use(kind, path, folder, what, rng)
     return ends
 
 
-def test_mutated_runs_are_loaded_or_refused(saved, tmp_path, monkeypatch):
-    ends = attack_saved(200, 1, saved, tmp_path, monkeypatch)
-    assert ends["refused"] > 50
+def use(kind, path, folder, what, rng):
+    """Call a command on a file: what it refuses leaves nothing behind."""
+    out = folder / "out"
+    out.mkdir()
+    if kind.load is resumed:
+        (out / "learn").mkdir()
+        shutil.copy(path, out / "learn" / "checkpoint.npz")
+        path = out / "learn"
+    before = set(out.rglob("*"))
+    command = [word.format(path) if "{}" in word else word for word in rng.choice(kind.commands)]
+    if check(command, what) == 2:
+        assert set(out.rglob("*")) == before, what
+    shutil.rmtree(out)
+
+
+def test_mutated_files_are_what_they_say_or_refused(sound, tmp_path, monkeypatch):
+    ends = attack_files(400, 1, sound, tmp_path, monkeypatch, 40)
+    for name in KINDS:
+        assert ends[name, "behind", "refused"] > 10, ends
+        assert ends[name, "in front", "refused"] > 5, ends
+    assert sum(count for (_, _, end), count in ends.items() if end == "loaded") > 20, ends
+    assert {end for _, _, end in ends} == {"loaded", "refused"}
 
 
 @pytest.mark.slow
-def test_3000_mutated_runs(saved, tmp_path, monkeypatch):
-    print("3,000 mutated .nc files:", dict(attack_saved(3000, 2, saved, tmp_path, monkeypatch)))
+def test_5000_mutated_files(sound, tmp_path, monkeypatch):
+    ends = attack_files(5000, 2, sound, tmp_path, monkeypatch, 25)
+    print("5,000 mutated files:", *(f"{' '.join(key)}: {count}" for key, count in sorted(ends.items())), sep="\n  ")

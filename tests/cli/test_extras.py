@@ -1,10 +1,12 @@
 """What is not installed is told in one line, before anything is flown; and the lists of what installs are complete."""
 
 import ast
+import json
 import re
 import sys
 import tomllib
 from pathlib import Path
+from urllib.parse import quote
 
 import pytest
 from packaging.requirements import Requirement
@@ -49,18 +51,16 @@ def call(tmp_path, monkeypatch, capsys):
             cli.main()
         return ended.value.code, capsys.readouterr().err.splitlines()
 
+    run.complaints = lambda: capsys.readouterr().err.splitlines()
     return run
 
 
 @pytest.mark.parametrize(
     ("line", "module", "extra", "field"),
     [
-        ("paper", "imageio_ffmpeg", "movies", "movies (--quick leaves them out)"),
-        ("run 4", "imageio_ffmpeg", "movies", "movies (--quick leaves them out)"),
-        ("movie run.nc", "imageio_ffmpeg", "movies", "movie"),
         ("run 4 --quick --set plant=mujoco", "mujoco", "mujoco", "plant"),
         ("compare --plant mujoco", "mujoco", "mujoco", "plant"),
-        ("ladder", "mujoco", "mujoco", "plant"),
+        ("plan --fly mujoco", "mujoco", "mujoco", "plant"),
         ("ladder --rung MuJoCo", "mujoco", "mujoco", "plant"),
         ("sweep study.toml -o s.zarr", "zarr", "studies", "sweep"),
         ("sweep study.toml -o s.zarr", "xarray", "studies", "sweep"),
@@ -82,7 +82,7 @@ def test_a_command_names_the_extra_that_it_needs(call, tmp_path, monkeypatch, li
     for name in [name for name in sys.modules if name.startswith("flypend.lab")]:
         monkeypatch.delitem(sys.modules, name)
     code, told = call(*line.split())
-    wanted = f"the extra flypend[{extra}] (pip install 'flypend[{extra}]')"
+    wanted = f"the extra {extra} (pip install -e '{ROOT}[{extra}]')"  # as these tests have it installed
     assert (code, told) == (2, [f"flypend: {field}: expected {wanted}, got no module {module}"])
     assert sorted(path.name for path in tmp_path.iterdir()) == before
 
@@ -98,12 +98,108 @@ def test_functions_name_the_extra_that_they_need(monkeypatch):
     run = fp.simulate(vehicle, law, start, 0.1, plant="ideal")
     for module in ("xarray", "scipy", "mujoco"):
         monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(fp.InputError, match=r"^to_xarray: expected the extra flypend\[studies\]"):
+    with pytest.raises(fp.InputError, match=r"^to_xarray: expected the extra studies "):
         run.to_xarray()
-    with pytest.raises(fp.InputError, match=r"^engine: expected the extra flypend\[studies\]"):
+    with pytest.raises(fp.InputError, match=r"^engine: expected the extra studies "):
         fp.simulate(vehicle, law, start, 0.1, plant="ideal", engine="scipy")
-    with pytest.raises(fp.InputError, match=r"^plant: expected the extra flypend\[mujoco\]"):
+    with pytest.raises(fp.InputError, match=r"^plant: expected the extra mujoco "):
         fp.simulate(vehicle, law, start, 0.1, plant="mujoco")
+
+
+@pytest.fixture
+def installed_from(tmp_path, monkeypatch):
+    """Return a function that lets flypend look as if it were installed from a direct URL, or None: from an index."""
+
+    def put(origin):
+        info = tmp_path / "site" / "flypend-0.3.0.dist-info"
+        info.mkdir(parents=True)
+        needs = "".join(
+            f"Requires-Dist: {text}\n"
+            for text in (
+                "numpy>=1.26; extra == 'studies'",  # one that is there
+                'nowhere>=3; extra == "studies"',
+                "not-there>=1,<2 ; python_version >= '3.9' and extra == 'studies'",
+                "absent>=1; extra == 'studies-more'",
+            )
+        )
+        text = f"Metadata-Version: 2.4\nName: flypend\nVersion: 0.3.0\n{needs}\n"
+        (info / "METADATA").write_text(text, encoding="utf-8")
+        if origin is not None:
+            (info / "direct_url.json").write_text(json.dumps(origin), encoding="utf-8")
+        monkeypatch.syspath_prepend(str(tmp_path / "site"))
+
+    return put
+
+
+MISSING = "pip install 'nowhere>=3' 'not-there>=1,<2'"
+
+
+@pytest.mark.parametrize(
+    ("origin", "command"),
+    [
+        ({"url": "HERE", "dir_info": {}}, "pip install '.[studies]'"),
+        ({"url": "HERE", "dir_info": {"editable": True}}, "pip install -e '.[studies]'"),
+        ({"url": "HERE/a clone", "dir_info": {}}, "pip install 'HERE/a clone[studies]'"),
+        ({"url": "HERE/flypend-0.3.0.whl", "archive_info": {}}, "pip install 'HERE/flypend-0.3.0.whl[studies]'"),
+        ({"url": "HERE/gone.whl", "archive_info": {}}, MISSING),
+        ({"url": "https://a.b/flypend.whl", "archive_info": {}}, MISSING),
+        (
+            {"url": "https://a.b/flypend", "vcs_info": {"vcs": "git", "commit_id": "c0ffee"}},
+            "pip install 'flypend[studies] @ git+https://a.b/flypend@c0ffee'",
+        ),
+        ({}, MISSING),
+        (None, MISSING),
+    ],
+)
+def test_the_command_that_adds_an_extra_fits_the_installation(installed_from, tmp_path, monkeypatch, origin, command):
+    (tmp_path / "a clone").mkdir()
+    (tmp_path / "flypend-0.3.0.whl").touch()
+    monkeypatch.chdir(tmp_path)
+    if origin and origin["url"].startswith("HERE"):
+        origin = {**origin, "url": tmp_path.as_uri() + quote(origin["url"].removeprefix("HERE"))}
+    installed_from(origin)
+    assert errors.install_command("studies") == command.replace("HERE", str(tmp_path))
+
+
+def test_a_run_leaves_the_movies_out_and_says_so(call, monkeypatch):
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    wanted = [f"flypend: without movies: needs the extra movies (pip install -e '{ROOT}[movies]')"]
+    for line in ("run 4", "paper"):
+        with pytest.raises(pytest.fail.Exception, match="flown first"):  # it goes on
+            call(*line.split())
+        assert call.complaints() == wanted
+    for line in ("run 4 --quick", "run 4 --no-figures", "paper --quick"):
+        with pytest.raises(pytest.fail.Exception, match="flown first"):
+            call(*line.split())
+        assert call.complaints() == []
+    code, told = call("run", "missing.toml")  # the mistake that is there, not the extra
+    assert (code, len(told)) == (2, 1)
+    assert "missing.toml" in told[0]
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory):
+    """A run in a file."""
+    path = tmp_path_factory.mktemp("saved") / "run.nc"
+    fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.05, plant="ideal").save(path)
+    return path
+
+
+def test_a_movie_names_its_extra_and_a_file_that_is_missing_first(saved, call, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    code, (line,) = call("movie", "nowhere.nc")
+    assert (code, line.startswith("flypend: nowhere.nc: ")) == (2, True)
+    code, (line,) = call("movie", str(saved))
+    assert (code, line.startswith("flypend: movie: expected the extra movies (")) == (2, True)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_ladder_leaves_a_rung_out_and_says_so(call, monkeypatch):
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    with pytest.raises(pytest.fail.Exception, match="flown first"):
+        call("ladder", "--runs", "1")
+    wanted = f"flypend: without the rung MuJoCo: needs the extra mujoco (pip install -e '{ROOT}[mujoco]')"
+    assert call.complaints() == [wanted]
 
 
 def test_what_is_installed_is_not_complained_about_and_not_imported(monkeypatch):
@@ -130,13 +226,15 @@ def _imports(text):
         yield from ((name.split(".")[0], id(node) in inside) for name in names)
 
 
+# What comes with another package of an extra: dask with distributed, pandas with xarray.
+BROUGHT = {"dask", "pandas"}
 # What an example shows beside flypend.
 THEIRS = {"examples/train.py": "stable_baselines3"}
 
 
 def _missing(sources):
     """What the sources import and the lists of pyproject.toml lack; an extra may be imported inside a function only."""
-    extras = set().union(*EXTRAS.values()) | {"dask"}  # dask comes with distributed
+    extras = set().union(*EXTRAS.values(), BROUGHT)
     late_rooms = (
         "lab/",
         "envs/",
@@ -162,7 +260,7 @@ def test_everything_that_is_imported_is_listed():
 
 
 @pytest.mark.parametrize(
-    "text", ["import pandas", "def f():\n    import pandas", "from scipy.integrate import DOP853", "import xarray"]
+    "text", ["import polars", "def f():\n    import polars", "from scipy.integrate import DOP853", "import xarray"]
 )
 def test_what_is_not_listed_is_found(text):
     assert len(list(_missing({"flight/new.py": text}))) == 1
@@ -178,7 +276,7 @@ def test_the_extras_that_are_named_bring_the_modules():
                     asked.setdefault(extra, set()).add(node.args[0].value)
     assert set(asked) == set(EXTRAS)
     for extra, modules in asked.items():
-        assert modules <= EXTRAS[extra]
+        assert modules <= EXTRAS[extra] | BROUGHT
 
 
 def test_the_extra_all_is_all_of_them():
@@ -208,7 +306,7 @@ def test_the_oldest_versions_that_are_flown_are_the_bounds():
     extras = PROJECT["optional-dependencies"]
     listed = [
         *PROJECT["dependencies"],
-        *(text for name in extras if name not in ("all", "gpu") for text in extras[name]),
+        *(text for name in extras if name != "all" for text in extras[name]),
     ]
     bounds = {}
     for name, version in _bounds(listed):

@@ -29,7 +29,7 @@ def late(t, state, vehicle):
 """
 STUDY = """
 vehicle = "hehn2011"
-duration = 0.1
+duration = 1.0
 runs = 4
 law = "mine.py:balance"
 [vary.start]
@@ -49,9 +49,9 @@ start = { y = [0.0, 0.0, 1.0] }
 """
 LINES = {
     "run": "run run.toml --no-figures --out out --law",
-    "compare": "compare --runs 2 --duration 0.1 --out out --law",
-    "ladder": "ladder --rung noise --runs 2 --duration 0.1 --out out --law",
-    "map": "map --runs 4 --duration 0.1 --out map.png --law",
+    "compare": "compare --runs 2 --duration 1 --out out --law",
+    "ladder": "ladder --rung noise --runs 2 --duration 1 --out out --law",
+    "map": "map --runs 4 --duration 1 --out map.png --law",
     "sweep": "sweep study.toml --out out.zarr --workers 1 --law",
     "tune": "tune study.toml --out out --workers 1 --law",
 }
@@ -109,7 +109,7 @@ def test_a_file_stands_where_the_run_file_stands(call, tmp_path, monkeypatch):
     [
         (
             "mine.py:misspelt",
-            "mine.py:16: AttributeError: 'State' object has no attribute 'omga' (in the law misspelt)",
+            "mine.py:16: AttributeError: 'State' object has no attribute 'omga' (did you mean 'omega'?)",
         ),
         ("mine.py:balanse", "got 'balanse' (did you mean 'balance'?)"),
         ("bad.py:f", "bad.py:1: SyntaxError: invalid syntax"),

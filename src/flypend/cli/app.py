@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import io
-import os
 import signal
 import sys
 import traceback
 import warnings
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from flypend import __version__
-from flypend.cli import check, examples, learning, listing, planning, studies, theorem, viewing
+from flypend import __version__, signals
+from flypend.cli import cache, check, examples, learning, listing, planning, studies, theorem, viewing
 from flypend.cli.ahead import ahead, pictures_of_studies
 from flypend.cli.options import (
     LAW_HELP,
@@ -23,12 +22,12 @@ from flypend.cli.options import (
     out_option,
     path,
     plant_asked,
+    refuse_idle,
     sensors_option,
     style_option,
     vehicle_option,
 )
-from flypend.cli.terminal import bold, console, counter, draw, say, tell_how
-from flypend.compile.aside import left_behind
+from flypend.cli.terminal import bold, console, counter, draw, lacking, say, tell_how
 from flypend.errors import InputError, require
 
 if TYPE_CHECKING:
@@ -66,16 +65,18 @@ def paper(out: Path, quick: bool, style: str) -> None:
 
     Writes figures, stop-motion, movies, every run as NetCDF, report.md and report.json.
     """
+    from flypend.report.flight import check_movies
     from flypend.report.paper import reproduce
     from flypend.report.text import findings_table, judgement, summary_table
 
+    movies = not (quick or lacking("movies", check_movies))
     with counter() as tell:
-        result = reproduce(out, quick=quick, style=style, progress=tell)
+        result = reproduce(out, quick=not movies, style=style, progress=tell)
     console.print(summary_table(result.verdicts))
     console.print(summary_table(result.repaired, title="Theorem 1 repaired: which claim holds after 30 s"))
     console.print(findings_table(result.findings))
     console.print(f"One swing-up by the inverted law, from hanging at rest: {judgement(result.swing_up)}.")
-    console.print(f"Report, figures{'' if quick else ', movies'} and runs are in {bold(out)}; start with report.md.")
+    console.print(f"Report, figures{', movies' if movies else ''} and runs are in {bold(out)}; start with report.md.")
 
 
 @app.command()
@@ -123,14 +124,14 @@ def run(
     from flypend.model.shipped import told as vehicle_told
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
-    from flypend.report.flight import check_movies
+    from flypend.report.flight import THEOREMS, check_movies, write_flight
+    from flypend.report.text import judgement, summary_table
     from flypend.settings.laws import told
     from flypend.settings.runfile import run_file
 
-    if figures and not quick:
-        check_movies()
-    changes = [*override, *([f"controller={controller}"] if controller is not None else [])]
-    chosen = run_file(what, changes, law)
+    if not figures:
+        refuse_idle("style", why="beside --no-figures")
+    chosen = run_file(what, _changes(override, law, controller), law)
     flight = chosen.flight
     tell_how(flight.law)
     for doubt in forewarned(flight):
@@ -141,20 +142,18 @@ def run(
         check_file(html, (".html",))
     if live:
         check_live(flight, html)
+    movies = figures and not (quick or lacking("movies", check_movies))
     trajectory = fly(flight)
     # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
     settled = fly(longer) if trajectory.law in ("corrected", "repaired", "almost_global") else None
-    from flypend.report.flight import THEOREMS, write_flight
-    from flypend.report.text import judgement, summary_table
-
     verdicts = write_flight(
         trajectory,
         chosen.settings,
         out,
         settled=settled,
         with_figures=figures,
-        with_movies=figures and not quick,
+        with_movies=movies,
         style=style,
         progress=draw,
     )
@@ -163,7 +162,7 @@ def run(
     console.print(
         f"{told(flight.law, flight.vehicle)} on {vehicle_told(flight.vehicle)}: {trajectory.outcome}", markup=False
     )
-    console.print(f"inverted: {judgement(trajectory)}")
+    console.print(f"Goal: {judgement(trajectory)}.")
     if verdicts:
         title = f"{THEOREMS.get(trajectory.law, 'Theorem 1')}: which claim holds"
         console.print(summary_table({(trajectory.law, what): verdicts}, title=title))
@@ -171,6 +170,15 @@ def run(
     console.print(f"Results are in {bold(out)}{page}.")
     if trajectory.outcome.status != "completed":
         sys.exit(1)
+
+
+def _changes(override: Sequence[str], law: str | None, controller: str | None) -> list[str]:
+    """Return the overrides of a run file. Raises InputError for a --set that says what --law or --controller says."""
+    for option, given, key in (("--law", law, "law"), ("--controller", controller, "controller")):
+        for one in override if given is not None else ():
+            if one.partition("=")[0].strip() in (key, f"{key}.name", f"{key}.function"):
+                raise InputError(option, f"nothing beside --set {one}", repr(given))
+    return [*override, *([f"controller={controller}"] if controller is not None else [])]
 
 
 def check_live(flight: Flight, html: Path | None) -> None:
@@ -268,13 +276,18 @@ def ladder(
 ) -> None:
     """Find what breaks each law: limits, lag, motors, air, sampling, delay, noise, a wrong model, several at once."""
     from flypend.files.staging import check_writable
+    from flypend.plants import plant
     from flypend.report.studies import ladder_table, write_ladder
     from flypend.studies import ladder as climb
     from flypend.studies.rungs import rung_named, rungs_for
 
     laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
     rungs = rungs_for(machine)
-    chosen = {name: rung_named(name, rungs) for name in rung or rungs}
+    chosen = {
+        name: rung_named(name, rungs)
+        for name in rung or rungs
+        if rung or not lacking(f"the rung {name}", partial(plant, rungs[name]))
+    }
     check_writable(out)
     ahead(pictures_of_studies)
     with counter() as tell:
@@ -306,6 +319,7 @@ LOCAL = "127.0.0.1"
 @click.option(
     "--html",
     type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
     help="Write it as one page without a server, and stop.",
 )
 def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | None) -> None:
@@ -354,10 +368,12 @@ def export_c(
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
+    from flypend.files.staging import check_writable
     from flypend.laws import Law, inverted
     from flypend.plants import SUITES
     from flypend.studies import law_named
 
+    check_writable(out)
     if light:
         errors.one_of("--law", law, ("inverted",))
     chosen = inverted(form="light") if light else law_named(law)
@@ -384,6 +400,7 @@ for _command in (
     *viewing.COMMANDS,
     *listing.COMMANDS,
     *examples.COMMANDS,
+    *cache.COMMANDS,
 ):
     app.add_command(_command)
 
@@ -401,26 +418,16 @@ def _study(
     machine = model.vehicle(vehicle)
     errors.number("--duration", duration, above=0, unit="s")
     kind = errors.one_of("--starts", starts, ("random", "paper"))
+    if kind == "paper":
+        refuse_idle("runs", "seed", why="beside --starts paper, which are five")
     batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
     settings = {"laws": list(names), "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
     return laws, batch, machine, settings | ({"seed": seed} if kind == "random" else {})
 
 
 def main() -> None:
-    """Run the command line; bad input prints one line and exits with code 2."""
-    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # clean up, as on Ctrl-C
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # the terminal's encoding may lack ✓ or ẍ
-    try:
-        code: object = _called()
-    except SystemExit as end:
-        code = end.code
-    if left_behind():  # interrupted in a compiler, for which the end of the interpreter would wait
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(code if isinstance(code, int) else 1)
-    sys.exit(code)  # type: ignore[arg-type]
+    """Call the command of the arguments and exit; bad input prints one line and exits with code 2."""
+    sys.exit(_called())
 
 
 def _called() -> int:
@@ -431,6 +438,7 @@ def _called() -> int:
         error.show()
         return 2
     except (InputError, click.ClickException) as error:
+        signals.poll()  # what the signal has ended is no bad input
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, click.ClickException) else str(error)

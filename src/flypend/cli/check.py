@@ -32,9 +32,10 @@ def check(
     trial: bool,
     figures: bool,
 ) -> None:
-    """Find out whether VEHICLE, a name or a TOML file, can be flown: hover, lean, swing-up, random starts, margins.
+    """Report the envelope of VEHICLE, a name or a TOML file: hover, lean, swing-up, level and random starts, margins.
 
-    Exit code 1, with the reason, if it cannot be flown by one of the laws; the default law is inverted.
+    Each task has a grade: from all, most (at least 90 %), some or none of its starts flights succeed. Exit code 1, with
+    the reason, if one of the laws cannot even hover; the default law is inverted.
     """
     from flypend import errors, model
     from flypend.files.staging import check_writable

@@ -11,7 +11,7 @@ import click
 from flypend.cli.options import out_option
 from flypend.cli.terminal import bold, console
 from flypend.errors import InputError
-from flypend.files.staging import staged
+from flypend.files.staging import check_writable, staged
 
 SUFFIXES = (".toml", ".py")
 
@@ -22,6 +22,7 @@ SUFFIXES = (".toml", ".py")
 def examples(out: Path, force: bool) -> None:
     """Write the examples: a run file, a study, a custom law. Without --force, no changed file is overwritten."""
     contents = {name: source.read_bytes() for name, source in shipped().items()}
+    check_writable(out)
     if not force:
         _check_free(out, contents)
     with staged(out) as folder:

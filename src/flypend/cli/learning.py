@@ -36,10 +36,12 @@ def learn(vehicle: str, out: Path, seed: int, mount: str | None, updates: int | 
     from flypend.report.learning import write_learned
     from flypend.report.studies import comparison_table
     from flypend.studies import compare, random_starts
+    from flypend.studies.starts import check_starts
 
     machine = model.vehicle(vehicle)
     if mount is not None:
         machine = machine.replace(mount=mount)
+    check_starts(runs, HELD_OUT + seed)
     learner = Learner(usual(machine, seed, updates))
     check_writable(out)
     out.mkdir(parents=True, exist_ok=True)

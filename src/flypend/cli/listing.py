@@ -7,8 +7,10 @@ from typing import Any
 
 import click
 
-from flypend.cli.options import vehicle_option
+from flypend.cli.options import path, vehicle_option
 from flypend.cli.terminal import bold, console
+
+WIDTH = 100  # of a table of gains, in which the meanings wrap
 
 
 @click.command()
@@ -18,18 +20,21 @@ def laws(name: str | None, vehicle: str) -> None:
     """List the laws with their gains: default for a vehicle, unit and meaning. NAME: this law only, or your own."""
     from flypend import model
     from flypend.laws import law_names
-    from flypend.settings.laws import law_named
+    from flypend.settings.laws import OTHERS, law_named
 
     machine = model.vehicle(vehicle)
+    width = min(WIDTH, console.width)
     for each in [name] if name else law_names():
         law = law_named(each, key="law")
         console.print(f"{law.name} (e3 {law.e3}), defaults for {machine.name}", markup=False)
-        console.print(_gains(law, machine) if law.table else "  no gains")
+        console.print(_gains(law, machine) if law.table else "  no gains", width=width)
+    for each, meaning in () if name else OTHERS.items():
+        console.print(f"{each}: {meaning}", markup=False, width=width)
 
 
 @click.command()
 @click.argument("vehicle", required=False)
-@click.option("-o", "--out", type=click.Path(path_type=Path), help="Draw VEHICLE into this file, .png, .pdf or .svg.")
+@click.option("-o", "--out", type=path, metavar="FILE", help="Draw VEHICLE into this file, .png, .pdf or .svg.")
 def vehicles(vehicle: str | None, out: Path | None) -> None:
     """List the vehicles. VEHICLE, a name or a TOML file: its TOML, or with -o a drawing with mounts and gaps."""
     from flypend import model
@@ -55,7 +60,7 @@ def vehicles(vehicle: str | None, out: Path | None) -> None:
 def _vehicles() -> Any:
     """The table of the package's vehicles."""
     from flypend import model
-    from flypend.model.shipped import vehicle_names
+    from flypend.model.table import vehicle_names
 
     found = _table("vehicle", "mass kg", "bob kg", "rod m", "thrust/weight", "lag s", "rotors", "gravity m/s²")
     for name in vehicle_names():

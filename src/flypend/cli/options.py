@@ -8,11 +8,10 @@ from typing import Any, TypeVar
 
 import click
 
+from flypend.errors import InputError
+
 _Command = TypeVar("_Command", bound=Callable[..., Any])
-LAW_HELP = (
-    "a name (inverted, almost_global, repaired, lqr, learned, corrected, printed, detuned, plan, nmpc), "
-    "file.py:function or module:function"
-)
+LAW_HELP = "a name that flypend laws lists, file.py:function or module:function"
 
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
@@ -26,8 +25,19 @@ style_option = click.option(
 
 
 def out_option(default: str, describe: str = "Output folder.") -> Callable[[_Command], _Command]:
-    """Return the option --out, with this default."""
-    return click.option("--out", "-o", type=path, default=default, help=describe)
+    """Return the option --out with this default: a folder, or a file if the default has an ending."""
+    kind = "FILE" if Path(default).suffix else "DIR"
+    return click.option("--out", "-o", type=path, default=default, metavar=kind, help=describe)
+
+
+def refuse_idle(*names: str, why: str) -> None:
+    """Raise InputError for the first of the options `names` that was given; `why` it would have no effect."""
+    context = click.get_current_context()
+    for parameter in context.command.params:
+        given = context.get_parameter_source(str(parameter.name)) is click.core.ParameterSource.COMMANDLINE
+        if parameter.name in names and given:
+            option = max((*parameter.opts, *parameter.secondary_opts), key=len)
+            raise InputError(option, f"nothing {why}", repr(context.params[parameter.name]))
 
 
 def plant_asked(plant: str, sensors: str) -> Any:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from flypend.cli.options import out_option, path, vehicle_option
+from flypend.cli.options import out_option, path, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("what", required=False)
 @vehicle_option
-@out_option("plan.nc", "Output file (.nc): the planned run.")
+@out_option("plan.nc", "Output file (.nc): the plan.")
 @click.option("--objective", default="excursion", help="What to make small: excursion, effort or time.")
 @click.option("--duration", type=float, help="Time until hover, s; default long enough.")
 @click.option("--floor", type=float, metavar="M", help="Lowest height of pivot and rod.")
@@ -79,18 +79,20 @@ def plan(
     """
     import numpy as np
 
-    from flypend.files.whole import FIGURES, check_file
+    from flypend import errors
+    from flypend.files.whole import FIGURES
     from flypend.flight.metrics import metrics
     from flypend.flight.simulate import simulate
     from flypend.planning import Window, track
     from flypend.planning import plan as planned
 
-    files = ((out, (".nc",)), (html, (".html",)), *((file, FIGURES) for file in (figure, front, sphere)))
-    for file, endings in files:
-        if file is not None:
-            check_file(file, endings)
+    figures = {"--figure": figure, "--front": front, "--map": sphere}
+    pages = {"--out": (out, (".nc",)), "--html": (html, (".html",))}
+    _check_files(pages | {option: (file, FIGURES) for option, file in figures.items()})
+    _check_options(what, fly, in_c)
     machine, start = _from(what, vehicle)
-    box = None if cube is None else ((-cube / 2,) * 3, (cube / 2,) * 3)
+    half = None if cube is None else errors.number("--cube", cube, above=0, unit="m") / 2
+    box = None if half is None else ((-half,) * 3, (half,) * 3)
     windows = [Window(place[:3], *place[3:]) for place in window]
     wishes: dict[str, Any] = {
         "target": target, "floor": floor, "ceiling": ceiling, "speed": speed, "window": windows,
@@ -99,7 +101,7 @@ def plan(
     }  # fmt: skip
     found = planned(machine, start, objective, duration=duration, **wishes)
     console.print(f"{machine.name}: {found.told}", markup=False)
-    found.trajectory.save(out)
+    found.save(out)
     console.print(f"The plan is {bold(out)}.")
     if not found:
         sys.exit(1)
@@ -124,6 +126,34 @@ def plan(
             _drawn("draw_front", front, found, start, wishes, tell)
         if sphere is not None:
             _drawn("draw_strays", sphere, found, tell)
+
+
+def _check_options(what: str | None, fly: str | None, in_c: Path | None) -> None:
+    """Raise InputError for a vehicle beside a run file, another plant, or a folder that cannot be written."""
+    from flypend import errors
+    from flypend.files.staging import check_writable
+    from flypend.plants import plant
+
+    if what is not None:
+        refuse_idle("vehicle", why=f"beside {what}, which names its own")
+    if fly is not None:
+        plant(errors.one_of("--fly", fly, ("rotors", "mujoco")))
+    if in_c is not None:
+        check_writable(in_c)
+
+
+def _check_files(files: dict[str, tuple[Path | None, tuple[str, ...]]]) -> None:
+    """Raise InputError unless all `files`, option → (file, endings), can be written, and none is named twice."""
+    from flypend.errors import InputError
+    from flypend.files.whole import check_file
+
+    taken: dict[Path, str] = {}
+    for option, (file, endings) in files.items():
+        if file is None:
+            continue
+        check_file(file, endings)
+        if (other := taken.setdefault(file.absolute(), option)) != option:
+            raise InputError(option, f"another file than {other}", str(file))
 
 
 def _drawn(what: str, path: Path, *drawn: Any) -> None:

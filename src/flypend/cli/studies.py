@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 from flypend.cli.ahead import ahead, maps
-from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, sensors_option
+from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, refuse_idle, sensors_option
 from flypend.cli.terminal import bold, complaints, console, lines, resumable, stepped, tell_how
 
 workers_option = click.option(
@@ -23,7 +23,14 @@ force_option = click.option("--force", is_flag=True, help="Start over: discard t
 
 @click.command()
 @click.argument("study", type=path)
-@click.option("--out", "-o", type=path, required=True, help="Zarr store for the runs; its name ends in .zarr.")
+@click.option(
+    "--out",
+    "-o",
+    type=path,
+    required=True,
+    metavar="STORE",
+    help="Zarr store for the runs, a folder; its name ends in .zarr.",
+)
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786.")
 @workers_option
 @click.option("--processes", is_flag=True, help="Use worker processes instead of threads.")
@@ -41,7 +48,7 @@ def sweep(
 
     made = study_from(study, law)
     tell_how(made.law)
-    processes = processes or stepped(made.law)
+    processes = processes or (scheduler is None and stepped(made.law))
     with resumable(), run_counter(made.law.name) as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
@@ -82,8 +89,9 @@ def draw_map(
     saved to a store next to the map, and an interrupted command resumes.
     """
     from flypend.errors import InputError, require
-    from flypend.files.whole import FIGURES, save_figure
+    from flypend.files.whole import FIGURES, check_file, save_figure
     from flypend.studies.sweep import study as study_from
+    from flypend.studies.sweep.bins import check_plane
     from flypend.studies.sweep.study import standard
 
     for module in ("zarr", "xarray", "scipy"):
@@ -92,12 +100,19 @@ def draw_map(
         raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
     if out.suffix.lower() not in FIGURES:
         raise InputError("--out", "a file name ending in " + " or ".join(FIGURES), str(out))
+    check_file(out, FIGURES)
+    if what is not None:
+        why = "beside a study or a store, which has its own"
+        refuse_idle("vehicle", "plant", "sensors", "runs", "seed", "duration", why=why)
+    content = None
     if law is not None:
         content = standard(law, vehicle, plant_asked(plant, sensors), runs, seed, duration)
     elif what is not None and what.suffix == ".toml":
         content = study_from(what).settings
     else:
-        content = None
+        refuse_idle("workers", "force", why="beside a store, whose runs are flown")
+    if content is not None:
+        check_plane(study_from(content), x, y)
     store = what
     if content is not None:
         store = out.with_suffix(".zarr")

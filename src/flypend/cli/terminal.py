@@ -14,6 +14,9 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
+from flypend import signals
+from flypend.errors import InputError
+
 # Off a terminal, lines are as long as they are: whoever reads a file or a pipe wraps them.
 _free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
 console = Console(width=1000 if _free else None)
@@ -47,20 +50,21 @@ def counter() -> Iterator[Callable[[str, int, int], None]]:
 
 def lines(on: Console) -> Callable[[str, int, int], None]:
     """Return a callback `(name, done, total)` that prints a line now and then, with the time left."""
-    begin, due = time.monotonic(), EVERY
-    first: list[int] = []
+    due = time.monotonic() + EVERY
+    begin, first, last, whole = 0.0, 0, 0, -1  # of the count that is running
 
     def tell(what: str, done: int, total: int) -> None:
-        nonlocal due
-        if not first:
-            first.append(done)  # what an earlier command has done costs no time
-        took = time.monotonic() - begin
-        if took < due or done >= total:
+        nonlocal due, begin, first, last, whole
+        now = time.monotonic()
+        if total != whole or done < last:  # another count, at a pace of its own
+            begin, first, whole = now, done, total  # what an earlier command has done costs no time
+        last = done
+        if now < due or done >= total:
             return
-        due = took + EVERY
-        fresh = done - first[0]
-        left = f", about {_span(took * (total - done) / fresh)} left" if fresh > 0 else ""
-        on.print(f"{what}: {done} of {total}{left}", markup=False)
+        due = now + EVERY
+        fresh = done - first
+        left = f", about {_span((now - begin) * (total - done) / fresh)} left" if fresh > 0 else ""
+        on.print(f"{what}: {done} of {total} done{left}", markup=False)
 
     return tell
 
@@ -77,8 +81,19 @@ def draw(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
     listed = list(tasks)
     with counter() as tell:
         for done, (name, task) in enumerate(listed):
+            signals.poll()
             tell(f"drawing {name}", done, len(listed))
             task()
+
+
+def lacking(what: str, check: Callable[[], Any]) -> bool:
+    """Whether `check` raises InputError. If so, one line on stderr says that `what` is left out, and what it needs."""
+    try:
+        check()
+    except InputError as missing:
+        say(f"flypend: without {what}: needs {missing.expected}")
+        return True
+    return False
 
 
 @contextmanager
@@ -86,9 +101,10 @@ def resumable() -> Iterator[None]:
     """Tell on stderr, if the block is interrupted, which command resumes it: this one, without --force."""
     try:
         yield
-    except (KeyboardInterrupt, SystemExit):
-        again = shlex.join(["flypend", *(word for word in sys.argv[1:] if word != "--force")])
-        say(f"Stopped; what is finished is kept. To go on:\n  {again}")
+    except BaseException as error:
+        if signals.word[0] or isinstance(error, KeyboardInterrupt):
+            again = shlex.join(["flypend", *(word for word in sys.argv[1:] if word != "--force")])
+            say(f"What is finished is kept. To go on: {again}")
         raise
 
 

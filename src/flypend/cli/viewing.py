@@ -46,8 +46,8 @@ def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tup
     from flypend.pictures.drawing import VIEWS
 
     view = errors.one_of("--camera", camera, VIEWS)
-    check_encoder(out)
     flight = load(run)
+    check_encoder(out)
     with counter() as tell:
         film(flight, out, view=view, speed=speed, fps=fps, size=size, progress=lambda *n: tell("filming", *n))
     console.print(f"The movie is {bold(out)}.")

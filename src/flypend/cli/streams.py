@@ -1,0 +1,51 @@
+"""Standard streams that may be closed or full: what cannot be written is dropped, and the first error kept."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from typing import Any, TextIO
+
+
+class Stream(io.FileIO):
+    """Writes to a file descriptor; after an `error` it takes whatever comes, so that nothing fails at the end."""
+
+    error: OSError | None = None
+
+    def write(self, data: Any) -> Any:
+        """Write `data`; drop it after an error."""
+        if self.error is None:
+            try:
+                return super().write(data)
+            except OSError as error:
+                self.error = error
+        return len(data)
+
+
+def take_over() -> Stream:
+    """Make stdout and stderr streams of this kind, and return that of stdout.
+
+    Where the terminal's encoding lacks ✓ or ẍ, they print something else. Descriptors that are closed are opened, so
+    that no file takes their number: stdin reads nothing, stderr drops what it is given, stdout fails.
+    """
+    for number, mode in enumerate((os.O_RDONLY, os.O_RDONLY, os.O_WRONLY)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, mode)
+    if sys.stdin is None:
+        sys.stdin = open(0, closefd=False)  # noqa: SIM115 (a descriptor, for good)
+    output = Stream(1, "w", closefd=False)
+    sys.stdout, sys.stderr = _text(output, sys.stdout), _text(Stream(2, "w", closefd=False), sys.stderr)
+    return output
+
+
+def _text(stream: Stream, like: TextIO | None) -> io.TextIOWrapper:
+    """Return a text stream on top of `stream` that encodes and buffers as the one it replaces."""
+    encoding = getattr(like, "encoding", None)
+    lines = stream.isatty() or stream.fileno() == 2
+    unbuffered = getattr(like, "write_through", False)
+    return io.TextIOWrapper(
+        io.BufferedWriter(stream), encoding, "replace", line_buffering=lines, write_through=unbuffered
+    )

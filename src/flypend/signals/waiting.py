@@ -1,0 +1,109 @@
+"""Waiting that polls: for threads, for worker processes, and for other programs."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from flypend.signals import PERIOD, commanded, poll
+
+if TYPE_CHECKING:
+    from subprocess import CompletedProcess
+
+T = TypeVar("T")
+Submit = Callable[..., "Future[Any]"]
+IDLE = 30.0  # s after which a worker process that has nothing to do ends
+# Workers share the cores; their matrices are small.
+ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+
+
+def result_of(call: Future[T]) -> T:
+    """Return the result of a `call`; raise what it raises, or what `poll` does."""
+    while wait([call], PERIOD).not_done:
+        poll()
+    poll()
+    return call.result()
+
+
+def as_they_come(calls: Sequence[Future[T]]) -> Iterator[Future[T]]:
+    """Yield `calls` as they are done; raise what `poll` does."""
+    left = set(calls)
+    del calls  # with what they return
+    while left:
+        done, left = wait(left, PERIOD, FIRST_COMPLETED)
+        poll()
+        yield from done
+
+
+@contextmanager
+def threads(number: int, *, last: bool = True) -> Iterator[ThreadPoolExecutor]:
+    """Yield a pool of `number` threads; calls that have not begun at the end of the block are dropped.
+
+    Those that have are waited for if the `last` results count, and never in a command that is about to end: one may be
+    in a compiler.
+    """
+    pool = ThreadPoolExecutor(number)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(wait=last and not commanded(), cancel_futures=True)
+
+
+@contextmanager
+def processes(number: int) -> Iterator[Submit]:
+    """Yield `submit(function, *arguments)`, which calls a function in one of `number` processes.
+
+    They hear no Ctrl-C, which a terminal sends to all of its processes. If the block raises they are killed, and if
+    this process is, they end.
+    """
+    from multiprocessing import resource_tracker
+
+    from joblib.externals.loky import get_reusable_executor
+
+    pool = get_reusable_executor(number, timeout=IDLE, env=ENVIRONMENT)
+
+    def submit(function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        # What is started here, threads that start others included, inherits the mask; this process hears by others.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        try:
+            call: Future[Any] = pool.submit(function, *arguments)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        return call
+
+    if os.name == "posix":
+        resource_tracker.ensure_running()  # it would lift the mask
+    else:
+        submit = pool.submit
+    try:
+        yield submit
+    except BaseException:
+        # `shutdown(kill_workers=True)` trips over calls that are queued; of dead workers the pool gathers the rest.
+        for worker in list(pool._processes or ()):
+            with suppress(ProcessLookupError):
+                os.kill(worker, getattr(signal, "SIGKILL", signal.SIGTERM))
+        pool.shutdown()
+        raise
+
+
+def run(command: Sequence[str], **options: Any) -> CompletedProcess[Any]:
+    """Run another program as `subprocess.run` does, its output captured; kill it if `poll` raises."""
+    import subprocess
+
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options) as process:  # noqa: S603
+        try:
+            while True:
+                try:
+                    out, err = process.communicate(timeout=PERIOD)
+                    break
+                except subprocess.TimeoutExpired:
+                    poll()
+        except BaseException:
+            process.kill()
+            raise
+    poll()
+    return subprocess.CompletedProcess(command, process.returncode, out, err)

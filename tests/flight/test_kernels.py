@@ -353,6 +353,36 @@ def test_the_sampled_kernel_flies_as_python_does(name, law):
         np.testing.assert_allclose(flown.samples[i, :, 24:], samples.rotors, rtol=0, atol=1e-9)
 
 
+@pytest.mark.parametrize("mount", ["gimbal", "hub", "cup"])
+@pytest.mark.parametrize("lag", [0.0, 0.05])
+@pytest.mark.parametrize("limits", [True, False])
+@pytest.mark.parametrize("thrust", [0.0, 1e-6])
+def test_no_thrust_is_no_thrust(thrust, limits, lag, mount):
+    """A command that is a constant, 0 above all; within limits the rotors keep their minimum force."""
+    vehicle = HEHN.replace(mount=mount)
+    law = fp.Law(name="idle", e3="up", control=lambda t, s, v, k: fp.Wrench(ca.SX(thrust), ca.SX.zeros(3)))
+    start = fp.State(x_dot=(0.3, 0.1, 0.2), y=(0.0, 0.28, 0.96), omega=(0.5, -0.3, 0.2), y_dot=(0.4, 0, 0))
+    plant = Plant(limits=limits, lag=lag)
+    least = vehicle.rotor_limits[0]
+    wanted = least if limits else thrust / 4
+    kernel = fp.simulate(vehicle, law, start, 0.05, plant=plant)
+    mujoco = fp.simulate(vehicle, law, start, 0.05, plant=plant.replace(engine="mujoco"))
+    python = fly_stepwise(Flight(vehicle=vehicle, law=law.bind(vehicle), starts=start, duration=0.05, plant=plant))
+    assert kernel.outcome.status == mujoco.outcome.status == python.outcome.status
+    if mount == "cup" and not limits and lag == 0:  # it would have to pull
+        assert kernel.outcome.status == "collided"
+        assert kernel.outcome.time == pytest.approx(python.outcome.time, abs=1e-12)
+        return
+    assert kernel.outcome.status == "completed"
+    end = wanted + (least - wanted) * (np.exp(-0.05 / lag) if lag else 0.0)
+    np.testing.assert_allclose(kernel.rotor_forces[-1], end, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(mujoco.rotor_forces[-1], end, rtol=0, atol=1e-8)  # its filter has steps
+    here = python.at(kernel.t * plant.rate)
+    np.testing.assert_allclose(kernel.x, here.packed[:, :3], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(kernel.rotor_forces, here.rotors, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(kernel.x, mujoco.x, rtol=0, atol=1e-9)  # whose steps are its own
+
+
 def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
     """Each has its effect, and none is in the code, whose result is that of the flight in Python (above)."""
     noisy = Plant(noise=NOISY, wind=GUSTY, rate=200.0)

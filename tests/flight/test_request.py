@@ -56,7 +56,7 @@ def settings(**more):
 def test_the_rotors_turn_unless_somebody_asks_for_the_ideal_plant():
     assert run_of(settings()).flight.plant == ROTORS
     assert run_of({"experiment": 4}).flight.plant == Ideal()  # the paper's data say so
-    table = {key: value for key, value in settings().items() if key != "start"}
+    table = {key: value for key, value in settings(duration=1.0).items() if key != "start"}
     assert fp.study({**table, "vary": {"start": {"y": "uniform"}}}).flight.plant == ROTORS
     run = fp.simulate(VEHICLE, fp.laws.inverted(), HANGING, 0.5)
     np.testing.assert_array_equal(
@@ -106,9 +106,9 @@ def test_a_copy_is_checked_again_and_a_member_has_its_own_seed():
 @pytest.mark.parametrize(
     ("changes", "line"),
     [
-        ({"vehicle": "hehn2011"}, "vehicle: expected a Vehicle, got 'hehn2011'"),
-        ({"law": "inverted"}, "law: expected a Law or Controller, got 'inverted'"),
-        ({"starts": np.zeros(24)}, "start: expected a State, got array"),
+        ({"vehicle": "hehn2011"}, "vehicle: expected a Vehicle, "),
+        ({"law": "inverted"}, "law: expected a Law or "),
+        ({"starts": np.zeros(24)}, "starts: expected a State, "),
         ({"plant": "rotor"}, "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean"),
         ({"plant": 3}, "plant: expected a Plant, Ideal() or one of ideal"),
         ({"duration": 1e7}, "duration: expected at most 20000 s"),
@@ -290,10 +290,10 @@ def test_without_gravity_there_is_no_inverted_pose(law):
     ("make", "line"),
     [
         (lambda: fp.Plant(dely=1), r"^Sampled.dely: expected one of .*, got 'dely' \(did you mean 'delay'\?\)$"),
-        (lambda: fp.State(x=(0, 0, 0)), r"^State.y: expected a value, got nothing$"),
+        (lambda: fp.State(x=(0, 0, 0)), r"^State.y: expected .*unit vector from .*, got nothing$"),
         (lambda: fp.State((0, 0, 0)), r"^State: expected arguments by name, such as x=, got 1 without$"),
         (lambda: fp.Criterion(rodd=1), r"^Criterion.rodd: .* \(did you mean 'rod'\?\)$"),
-        (lambda: fp.Vehicle(mass=1.0), r"^Vehicle.bob_mass: expected a value, got nothing$"),
+        (lambda: fp.Vehicle(mass=1.0), r"^Vehicle.bob_mass: .*mass of the rod with its bob, kg, got nothing$"),
         (
             lambda: fp.Law(name="a", e3="up", control=lambda t, s: None),
             r"^law.control: expected a function \(t, state, vehicle, gains\[, forces\]\), got one \(t, s\)$",
@@ -323,7 +323,7 @@ def test_a_start_in_degrees_is_asked_about():
     own(starts=fp.State(y=(0, 0, 1.0), omega=(0, 199, 0)))
 
 
-@pytest.mark.parametrize("change", [{"bob_mass": 1.0}, {"mass": 500.0}])
+@pytest.mark.parametrize("change", [{"bob_mass": 1.0}, {"mass": 5.0}])
 def test_a_vehicle_that_cannot_lift_itself_is_told_so_at_once(change):
     vehicle = fp.vehicle("hehn2011").replace(**change)
     with pytest.raises(fp.InputError, match=rf"rotors that lift it: more than its weight, {vehicle.weight:.4g} N"):

@@ -183,7 +183,7 @@ def test_the_fingerprint_of_a_controller_changes_with_text_and_gains(here):
 @pytest.mark.parametrize("name", ["late", "steers"])
 def test_a_mistake_in_a_ready_law_is_located_too(here, name):
     law = law_named(f"laws/mine.py:{name}")
-    with pytest.raises(LawError, match=r"^laws/mine\.py:\d+: AttributeError: .*omga' \(in the law "):
+    with pytest.raises(LawError, match=r"^laws/mine\.py:\d+: AttributeError: .*omga' \(did you mean 'omega'\?\) \(in "):
         fp.simulate(VEHICLE, law, START, 0.05, plant="rotors")
 
 

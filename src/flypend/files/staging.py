@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from flypend import signals
 from flypend.errors import InputError
 
 
@@ -30,6 +31,7 @@ def staged(out: str | Path) -> Iterator[Path]:
         moves = [(path, out / path.relative_to(folder)) for path in sorted(folder.rglob("*")) if path.is_file()]
         for _, target in moves:  # check all targets before moving the first file
             _check_free(target, out)
+        signals.poll()
         for source, target in moves:
             target.parent.mkdir(parents=True, exist_ok=True)
             source.replace(target)

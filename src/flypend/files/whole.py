@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from uuid import uuid4
 
-from flypend import errors
+from flypend import errors, signals
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -61,8 +61,10 @@ def whole_file(path: str | Path, suffixes: Sequence[str]) -> Iterator[Path]:
     try:
         if path.is_dir():
             raise errors.InputError(str(path), "a file that can be written", "a folder")
+        signals.poll()
         partial.touch(exist_ok=False)
         yield partial
+        signals.poll()
         partial.replace(path)
     except OSError as error:
         raise errors.InputError(str(path), "a file that can be written", error.strerror or error) from None

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from flypend import errors, plants
+from flypend import errors, plants, signals
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import Flown, fly_all, has_kernel
-from flypend.flight.kernels.gpu import fly_on_jax
 from flypend.flight.labelled import dataset, described, state_variables, variable
 from flypend.flight.members import fly_members
 from flypend.flight.metrics import Metrics, judged, wilson
-from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, some_times
+from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, check_batch, some_times
 from flypend.flight.sampled import nearest_ticks
 from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
@@ -26,10 +25,11 @@ from flypend.plants import AnyPlant, Sampled
 if TYPE_CHECKING:
     import xarray
 
-ENGINES = ("kernel", "scipy", "jax")
+ENGINES = ("kernel", "scipy")
 Progress = Callable[[int, int], Any]
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ensemble:
     """Results of n runs; the first axis of every array runs over them.
@@ -118,6 +118,8 @@ class Ensemble:
         return dataset(variables, described(self.vehicle, self.law, own, self.e3))
 
 
+@errors.named_arguments
+@signals.deferred()
 def simulate_ensemble(
     vehicle: Vehicle,
     law: AnyLaw,
@@ -158,9 +160,8 @@ def simulate_ensemble(
         Runge-Kutta method of the ideal plant; default chosen by tolerance.
     precision : "double" or "float"
         Floating-point precision of the ideal plant; "float" suits tolerances of 1e-4 and looser.
-    engine : "kernel", "scipy" or "jax"
-        As in `simulate`. "jax" (extra gpu) runs the ideal plant on JAX's default device, in double precision, without
-        `times`.
+    engine : "kernel" or "scipy"
+        As in `simulate`.
     workers : int, optional
         Threads, or processes for the engine "scipy"; default one per core. A law that cannot be pickled is flown in
         this process.
@@ -172,8 +173,7 @@ def simulate_ensemble(
     InputError
         If the starts are not a batch, the law lacks a gain, the engine lacks an option, or `simulate` would raise it.
     """
-    if not isinstance(starts, State) or len(starts.batch_shape) != 1:
-        raise errors.InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
+    check_batch(starts)
     exact = Tolerances(rtol=rtol, atol=atol, method=method, precision=precision)
     flight = Flight(
         vehicle=vehicle, law=bound_to(vehicle, law), starts=starts, duration=duration, plant=plants.plant(plant),
@@ -191,7 +191,7 @@ def fly_many(
     Raises InputError if the engine lacks what the flight requires.
     """
     errors.one_of("engine", engine, ENGINES)
-    if engine == "scipy" or (engine == "kernel" and not has_kernel(flight)):
+    if engine == "scipy" or not has_kernel(flight):
         steered = isinstance(flight.law, Controller)
         exact = flight.tolerances
         asked = {
@@ -203,11 +203,7 @@ def fly_many(
             if value:
                 raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")
         return _one_by_one(flight, engine, workers, progress)
-    if engine == "kernel":
-        return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
-    flown = fly_on_jax(flight)
-    progress(flight.runs, flight.runs)
-    return _gathered(flight, flown)
+    return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
 
 
 def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:

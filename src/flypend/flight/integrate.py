@@ -10,6 +10,7 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
+from flypend import signals
 from flypend.flight.outcome import Outcome
 from flypend.model.state import MAX_STATE, project
 
@@ -75,6 +76,7 @@ def integrate(
     outcome: Outcome | None = None
     with np.errstate(all="ignore"):
         while outcome is None:
+            signals.poll()
             message = solver.step()
             outcome = _lost(solver, message, len(interpolants))
             if outcome is not None:

@@ -14,6 +14,7 @@ from flypend.model import State, Vehicle
 from flypend.model.state import SHAPES, E3Direction
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
 UNITS = {
@@ -48,6 +49,43 @@ def described(vehicle: Vehicle, law: str, gains: Mapping[str, Any], e3: E3Direct
         "vehicle": json.dumps(vehicle.to_dict()),
         "frame": f"world with third axis {e3}; omega and moment in the body frame",
     }
+
+
+def column_names(name: str, shape: tuple[int, ...]) -> list[str]:
+    """Return the names of the components of a quantity of this `shape`: thrust; x_1, x_2, x_3; R_11, R_12, …, R_33."""
+    stem = {"rotor_forces": "rotor_force"}.get(name, name)
+    return [f"{stem}_{''.join(str(i + 1) for i in place)}" if place else stem for place in np.ndindex(shape)]
+
+
+def with_unit(name: str, unit: str) -> str:
+    """Return the header of a column in a table: `x_1 [m]`; the name alone if no unit is known."""
+    return f"{name} [{unit}]" if unit else name
+
+
+def dataframe(
+    variables: Mapping[str, Variable], attributes: Mapping[str, Any], index: str, *, units: bool
+) -> pandas.DataFrame:
+    """Return `variables`, all over the dimension `index`, as a table with a row per entry of it.
+
+    A component is a column. `attrs` holds `attributes` and, as "units", the unit of each column and of the index; with
+    `units` the headers carry it as well. Raises InputError if pandas is missing, or two columns have one name.
+    """
+    errors.require("pandas", extra="studies", for_="to_dataframe")
+    import pandas
+
+    columns: dict[str, Any] = {}
+    unit: dict[str, str] = {}
+    for name, entry in variables.items():
+        values = np.asarray(entry.values)
+        names = column_names(name, values.shape[1:])
+        if taken := columns.keys() & set(names):
+            raise errors.InputError("signals", "names that no column has", min(taken))
+        columns |= dict(zip(names, values.reshape(len(values), len(names)).T, strict=True))
+        unit |= dict.fromkeys(names, entry.attributes["units"])
+    heads = {name: with_unit(name, unit[name]) if units else name for name in columns}
+    found = pandas.DataFrame(columns).rename(columns=heads).set_index(heads[index])
+    found.attrs = {**attributes, "units": {heads[name]: unit[name] for name in columns}}
+    return found
 
 
 def dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xarray.Dataset:

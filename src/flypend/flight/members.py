@@ -17,6 +17,7 @@ from flypend.flight.simulate import fly
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw
 from flypend.plants import Sampled
+from flypend.signals import waiting
 
 # Runs per task. A task compiles the law once, at a fraction of the cost of a run.
 CHUNK = 8
@@ -42,7 +43,6 @@ def fly_members(flight: Flight, engine: str, workers: int | None, progress: Call
 
 def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member]]:
     """Yield chunks of members, in the order of the starts."""
-    from joblib import Parallel, delayed  # slow to import, and not needed by kernels
 
     def chunk(indices: range) -> list[Member]:
         return [_member(flight.member(i), engine) for i in indices]
@@ -51,7 +51,9 @@ def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member
     if processes == 1 or len(chunks) == 1 or not _can_be_sent(flight.law):
         yield from (chunk(indices) for indices in chunks)
     else:
-        yield from Parallel(n_jobs=processes, return_as="generator")(delayed(chunk)(indices) for indices in chunks)
+        with waiting.processes(processes) as submit:
+            for call in [submit(chunk, indices) for indices in chunks]:
+                yield waiting.result_of(call)
 
 
 def _member(flight: Flight, engine: str) -> Member:

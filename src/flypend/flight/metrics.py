@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from flypend import errors
 from flypend.flight.criterion import PARTS, Criterion, lean
 from flypend.geometry import norm
 from flypend.model import Vehicle
@@ -18,6 +19,7 @@ Trajectory = Any  # flypend.Trajectory, not imported: its module judges runs for
 SAME = 1e-9
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Metrics:
     """Metrics of one flight against its criterion, by default standing inverted at the reference.
@@ -59,8 +61,10 @@ class Metrics:
     cause: str
 
 
+@errors.named_arguments
 def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     """Return the metrics of `run` by `criterion` (default `Criterion()`: inverted)."""
+    errors.check_kind("run", run, "Trajectory")
     criterion = criterion or Criterion()
     distance = norm(run.x - run.x_ref)
     excess = criterion.excess(run.y, run.z, distance, _lean(run), run.e3)

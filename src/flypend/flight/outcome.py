@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
+
+from flypend import errors
+
+Status = Literal["completed", "diverged", "singular", "collided"]
+STATUSES: tuple[Status, ...] = get_args(Status)
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Outcome:
     """How a run ended.
@@ -21,7 +27,7 @@ class Outcome:
         Cause and remedy; empty for a completed run.
     """
 
-    status: Literal["completed", "diverged", "singular", "collided"]
+    status: Status
     time: float
     reason: str = ""
 

@@ -38,7 +38,7 @@ PRECISIONS = ("double", "float")
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Tolerances:
-    """Integration tolerances of the ideal plant; a sampled flight uses fixed steps of 1 ms or less.
+    """Integration tolerances of the ideal plant; a sampled flight has fixed steps, see `plants.schedule.PLANT_STEP`.
 
     Parameters
     ----------
@@ -137,20 +137,18 @@ class Flight:
     seed: int | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.starts, State):
-            raise InputError("start", "a State", repr(self.starts)[:80])
         if len(self.starts.batch_shape) > 1:
             raise InputError("starts", "a State with one leading batch axis", f"shape {self.starts.batch_shape}")
         put = _setter(self)
         put("law", bound_to(self.vehicle, self.law))
         put("duration", errors.number("duration", self.duration, above=0, at_most=LONGEST, unit="s"))
-        for name, kind in (("criterion", Criterion), ("tolerances", Tolerances), ("gains", Mapping)):
-            if not isinstance(getattr(self, name), kind):
-                raise InputError(name, f"a {kind.__name__}", repr(getattr(self, name))[:80])
+        errors.check_kind("gains", self.gains, Mapping)
         put("judge_period", errors.number("judge_period", self.judge_period, above=0, unit="s"))
         if (judged := self.duration / self.judge_period) > MOST_JUDGED:
             told = f"{self.judge_period:g} s, which takes {judged:g}"
             raise InputError("judge_period", f"at most {MOST_JUDGED:g} of them in a run", told)
+        if self.judge_period > max(self.duration, SAMPLE_PERIOD):
+            raise InputError("judge_period", f"at most the duration, {self.duration:g} s", f"{self.judge_period:g}")
         if self.seed is not None:
             check_seed("seed", self.seed)
         put("plant", _plant_for(self.law, plants.plant(self.plant)))
@@ -278,13 +276,24 @@ def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
 
 def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:
     """Return `law` bound to `vehicle`. Raises InputError if either has the wrong type."""
-    for name, value, kind, kinds in (
-        ("vehicle", vehicle, Vehicle, "Vehicle"),
-        ("law", law, AnyLaw, "Law or Controller"),
-    ):
-        if not isinstance(value, kind):
-            raise InputError(name, f"a {kinds}", repr(value)[:80])
+    errors.check_kind("vehicle", vehicle, Vehicle)
+    errors.check_kind("law", law, AnyLaw)
     return law.bind(vehicle)
+
+
+def check_batch(starts: State) -> None:
+    """Raise InputError unless `starts` is a batch of states with one leading axis."""
+    errors.check_kind("starts", starts, State)
+    if len(starts.batch_shape) != 1:
+        told = f"a batch of shape {starts.batch_shape}" if starts.batch_shape else "a single state"
+        raise InputError("starts", "a State with one leading batch axis", told)
+
+
+def check_judged(flight: Flight, field: str = "duration") -> None:
+    """Raise InputError in `field` unless the duration of `flight` is as long as its criterion has to hold."""
+    if flight.duration < flight.criterion.hold:
+        wanted = f"at least {flight.criterion.hold:g} s, for which the criterion has to hold"
+        raise InputError(field, wanted, f"{flight.duration:g}")
 
 
 def some_times(times: ArrayLike | None) -> NDArray[np.float64] | None:

@@ -13,6 +13,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend import signals
 from flypend.board.command import idle_command
 from flypend.board.computer import Estimating, FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import PER_TICK, normals
@@ -76,6 +77,7 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
         outcome, ticks = Outcome("collided", 0.0, touch.reason), 0
     with np.errstate(all="ignore"):
         for k in range(ticks):
+            signals.poll()
             measured = measure(k, engine.packed)
             command = computer.command(k * period, measured)
             if not np.isfinite(np.sum(command)):

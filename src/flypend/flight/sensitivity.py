@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.errors import InputError
 from flypend.flight.kernels.tangent import fly_tangents
 from flypend.flight.labelled import dataset, described, state_variables, variable
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import xarray
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sensitivity:
     """Derivatives of the final state of a flight.
@@ -81,6 +82,8 @@ class Sensitivity:
         return dataset(variables, described(self.vehicle, self.law, self.gains, self.e3) | vars(self.outcome))
 
 
+@errors.named_arguments
+@signals.deferred()
 def sensitivity(
     vehicle: Vehicle,
     law: Law | BoundLaw,

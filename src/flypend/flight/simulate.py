@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from flypend import errors, plants
+from flypend import errors, plants, signals
 from flypend.compile.llvm.step_touching import LONGEST
 from flypend.compile.numeric import as_numpy
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 ENGINES = ("kernel", "scipy")
 
 
+@errors.named_arguments
+@signals.deferred()
 def simulate(
     vehicle: Vehicle,
     law: AnyLaw,
@@ -63,8 +65,8 @@ def simulate(
         (thrust and body rates at 50 Hz), or a `Plant`.
     rtol, atol : float
         Tolerances of the adaptive step in the ideal plant (DOP853; at 1e-6 and looser DP5, which is faster there). atol
-        defaults to rtol, since state entries are of order one in SI units. A sampled flight uses fixed steps of 1 ms or
-        less.
+        defaults to rtol, since state entries are of order one in SI units. A sampled flight has fixed steps of at
+        most `plants.schedule.PLANT_STEP`.
     times : (n,) increasing, optional
         Sample times, s; default every 0.01 s. In a sampled flight, the nearest control ticks. A run that ends early is
         sampled up to its end.

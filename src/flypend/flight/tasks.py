@@ -22,6 +22,7 @@ TASKS: Mapping[str, str] = {
     "hover": "rod upright, half its length from the reference",
     "lean": "level hover at rest, the rod leaning by up to 60°",
     "hanging": "rod hanging at rest, at any heading",
+    "level": "level vehicle at rest, at any heading, the rod in any direction",
     "random": "any attitude and rod, rates up to 3 rad/s, speeds up to 2 m/s",
 }
 LEANS = np.radians(np.arange(5.0, 61.0, 5.0))
@@ -37,7 +38,7 @@ def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) ->
     or if none is, of half its angle.
 
     In a cup nothing swings up: the tasks are hover and lean, and random starts are level with the rod inside the cone.
-    On a hub, random starts do not touch.
+    On a hub, level and random starts do not touch. Of level starts there are `runs`, too.
     """
     rng = np.random.default_rng(seed)
     most = vehicle.body.cup_angle if vehicle.mount == "cup" else np.pi
@@ -50,7 +51,10 @@ def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) ->
     }
     if vehicle.mount == "cup":
         return {"hover": starts["hover"], "lean": starts["lean"], "random": _in_cup(vehicle, rng, runs)}
-    return starts | {"random": _free(vehicle, rng, runs)}
+    return starts | {
+        "level": _free(vehicle, _level, np.random.default_rng((seed, 1)), runs),
+        "random": _free(vehicle, State.random, rng, runs),
+    }
 
 
 def fly_tasks(
@@ -95,14 +99,22 @@ def _in_cup(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
     return State(y=np.stack([sine * np.cos(angle), sine * np.sin(angle), cosine], axis=-1))
 
 
-def _free(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
-    """Random states whose rod touches nothing: `runs` of them, in the order in which they are drawn.
+def _level(rng: np.random.Generator, runs: int) -> State:
+    """Level vehicles at rest with the rod in any direction."""
+    y = rng.standard_normal((runs, 3))
+    return State(y=y / np.linalg.norm(y, axis=-1, keepdims=True), R=_headings(rng.uniform(0, 2 * np.pi, runs)))
+
+
+def _free(
+    vehicle: Vehicle, draw: Callable[[np.random.Generator, int], State], rng: np.random.Generator, runs: int
+) -> State:
+    """States from `draw` whose rod touches nothing: `runs` of them, in the order in which they are drawn.
 
     Raises InputError if there are hardly any.
     """
     packed = np.empty((0, SIZE))
     for _ in range(MOST_DRAWS):
-        drawn = State.random(rng, runs)
+        drawn = draw(rng, runs)
         packed = np.concatenate([packed, drawn.packed()[~touching(vehicle, drawn)]])
         if len(packed) >= runs:
             return State.trusted(packed[:runs])

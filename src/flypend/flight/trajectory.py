@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -12,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from flypend import errors
-from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
+from flypend.files.netcdf import Variable
 from flypend.files.whole import whole_file
-from flypend.flight.labelled import AXES, dataset, described, variable
+from flypend.flight import saved
+from flypend.flight.labelled import dataframe, dataset, described, variable
 from flypend.flight.outcome import Outcome
 from flypend.geometry import cross, dot, norm
 from flypend.model import State, Vehicle, Wrench, rod_tension
@@ -22,15 +22,15 @@ from flypend.model.mount import margins
 from flypend.model.state import FLIP, SHAPES, E3Direction
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
     from flypend.flight.request import Flight
 
-_DRIFT_OF = ("length of y", "tangency of y_dot", "orthogonality of R")
 _STATE = tuple(SHAPES)
-_ARRAYS = (*_STATE, "thrust", "moment", "rotor_forces", "x_ref")
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Trajectory:
     """One run, sampled at `t`; SI units, world frame with third axis `e3`, omega and moment in the body frame.
@@ -183,37 +183,38 @@ class Trajectory:
         """
         return dataset(self._variables(), self._attributes())
 
+    def to_dataframe(self, *, units: bool = False) -> pandas.DataFrame:
+        """Return a `pandas.DataFrame` with one row per sample, indexed by `t`, and one column per component.
+
+        Columns are x_1, x_2, x_3, x_dot_1, …, R_11, R_12, …, R_33 by rows, omega_1, …, y_1, …, y_dot_1, …, thrust,
+        moment_1, …, rotor_force_1, …, x_ref_1, …, and the signals of the law by their names. `attrs["units"]` maps a
+        column to its unit: "1" if it has none, "" for a signal of which none is known. The other `attrs` are vehicle,
+        law and outcome.
+
+        Parameters
+        ----------
+        units : bool
+            Whether the names carry the unit, as in `x_1 [m]`, for a table to be saved.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed; the extra studies brings it.
+        """
+        return dataframe(self._variables(), self._attributes(), "t", units=units)
+
     def save(self, path: str | Path) -> None:
         """Save the run to the NetCDF file `path` (.nc), for xarray, MATLAB (ncread) and, through xarray, pandas.
 
-        The file is written atomically. Raises InputError if it is not writable.
+        `fp.load` reads it. The file is written atomically. Raises InputError if it is not writable, or the run is none
+        that could be loaded: with arrays of different length, or states that are no states.
         """
-        with whole_file(path, [".nc"]) as partial:
-            labels = {name: Variable((name,), np.array(values)) for name, values in AXES.items()}
-            digest = {"digest": self._digest()}
-            write_netcdf(partial, {**labels, **self._variables(), **self._drift()}, {**self._attributes(), **digest})
-
-    def _drift(self) -> dict[str, Variable]:
-        """Return the drift, if there is any: an array without rows would leave a data frame of the file none."""
-        if not len(self.drift):
-            return {}
-        labels = Variable(("drift_of",), np.array(_DRIFT_OF))
-        about = {"long_name": "before projection, per step"}
-        return {"drift_of": labels, "drift": Variable(("step", "drift_of"), np.array(self.drift), about)}
-
-    def _digest(self) -> str:
-        """Return a digest of all numbers and attributes, by which `load` knows a file that was damaged or changed."""
-        digest = hashlib.sha256(json.dumps(self._attributes(), sort_keys=True).encode())
-        for name, entry in sorted({**self._variables(), "drift": Variable((), self.drift)}.items()):
-            values = np.ascontiguousarray(entry.values, dtype="<f8")
-            digest.update(f"{name} {values.shape}".encode())
-            digest.update(values.data)
-        return digest.hexdigest()
+        saved.write(path, *saved.content(self._variables(), self._attributes(), self.drift))
 
     def _variables(self) -> dict[str, Variable]:
         """Return the sampled arrays with their dimensions and units."""
         over = ("t",)
-        arrays = {name: getattr(self, name) for name in ("t", *_ARRAYS)} | dict(self.signals)
+        arrays = {name: getattr(self, name) for name in saved.ARRAYS} | dict(self.signals)
         return {name: variable(name, over, value) for name, value in arrays.items()}
 
     def _attributes(self) -> dict[str, Any]:
@@ -297,38 +298,10 @@ def _live(run: Trajectory) -> dict[str, Any]:
     return live_data(run.flight)
 
 
+@errors.named_arguments
 def load(path: str | Path) -> Trajectory:
-    """Load the run that `Trajectory.save` wrote to `path`. Raises InputError if the file is not one."""
-    try:
-        return _from_file(*read_netcdf(Path(path)))
-    except OSError as error:
-        raise errors.InputError(str(path), "a run saved by flypend", error.strerror or error) from None
-    except errors.InputError as error:
-        raise errors.InputError(str(path), "a run saved by flypend", f"a damaged one ({error})") from None
-    except ValueError as error:  # what the reader and the checks below tell
-        raise errors.InputError(str(path), "a run saved by flypend", error) from None
-    except Exception as error:  # a header whose numbers make no sense
-        told = f"a damaged one ({type(error).__name__}: {error})"
-        raise errors.InputError(str(path), "a run saved by flypend", told) from None
+    """Load the run that `Trajectory.save` wrote to `path`, or the flight of a plan that `Plan.save` wrote.
 
-
-def _from_file(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Trajectory:
-    missing = [name for name in ("vehicle", "law", "gains", "signals", "outcome", "e3") if name not in attributes]
-    if missing:
-        raise ValueError(f"NetCDF that flypend has not written: no {', '.join(missing)}")
-    arrays: dict[str, Any] = {name: variables[name].values for name in ("t", *_ARRAYS)}
-    arrays["drift"] = variables["drift"].values if "drift" in variables else np.zeros((0, 3))
-    run = Trajectory(
-        **arrays,
-        signals={name: variables[name].values for name in json.loads(attributes["signals"])},
-        outcome=Outcome(attributes["outcome"], float(attributes["outcome_time"]), attributes["outcome_reason"]),
-        e3=attributes["e3"],
-        vehicle=Vehicle.from_dict(json.loads(attributes["vehicle"])),
-        law=attributes["law"],
-        gains=json.loads(attributes["gains"]),
-    )
-    if attributes.get("digest", found := run._digest()) != found:
-        raise ValueError(
-            "one that was damaged or changed since (without its attribute digest it is loaded all the same)"
-        )
-    return run
+    Raises InputError if the file holds none: every number and name is checked, whether or not it has a digest.
+    """
+    return Trajectory(**saved.run_from(*saved.read(path, saved.KIND), str(path))[0])

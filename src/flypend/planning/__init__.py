@@ -4,8 +4,8 @@ from flypend.planning.autopilot import plan_and_track
 from flypend.planning.ensemble import PlanEnsemble, plan_ensemble
 from flypend.planning.planner import plan
 from flypend.planning.receding import nmpc
-from flypend.planning.result import Plan
+from flypend.planning.result import Plan, load_plan
 from flypend.planning.tracking import track
 from flypend.planning.window import Window
 
-__all__ = ["Plan", "PlanEnsemble", "Window", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"]
+__all__ = ["Plan", "PlanEnsemble", "Window", "load_plan", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"]

@@ -25,6 +25,7 @@ WISHES = ("box", "floor", "ceiling", "speed", "lean", "window", "waypoints", "du
 PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
 
 
+@errors.named_arguments
 def plan_and_track(
     objective: str | Mapping[str, float] = "excursion",
     *,

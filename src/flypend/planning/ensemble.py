@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.errors import InputError
 from flypend.flight.metrics import wilson
+from flypend.flight.request import check_batch
 from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
 from flypend.planning.planner import horizons_of
@@ -23,6 +23,7 @@ from flypend.planning.result import Plan
 from flypend.planning.search import Job, one_by_one, prepared
 from flypend.planning.telling import told
 from flypend.planning.window import Window
+from flypend.signals.waiting import result_of, threads
 
 # Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
 # not.
@@ -32,6 +33,7 @@ CHUNK = 8 * WIDTH  # most starts that a thread takes at a time
 Progress = Callable[[int, int], Any]
 
 
+@errors.named_arguments
 @dataclass(frozen=True, eq=False)
 class PlanEnsemble:
     """Plans of one vehicle from n starts.
@@ -98,6 +100,8 @@ class PlanEnsemble:
         return float(np.percentile(values, q)) if len(values) else float("nan")
 
 
+@errors.named_arguments
+@signals.deferred()
 def plan_ensemble(
     vehicle: Vehicle,
     starts: State,
@@ -144,22 +148,22 @@ def plan_ensemble(
     InputError
         If an argument is out of range, or a start breaks a wish.
     """
-    if not isinstance(starts, State) or len(starts.batch_shape) != 1:
-        raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
+    check_batch(starts)
     if objective == "time":
         raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
     first = errors.integer("guesses", guesses, 1, WIDTH)
-    threads = errors.integer("workers", os.cpu_count() or 1 if workers is None else workers, 1)
+    cores = errors.integer("workers", os.cpu_count() or 1 if workers is None else workers, 1)
     walls, goal = walls_of(box, floor, ceiling), end_of(path, duration, target)
     wishes = (objective, goal, rotors, walls, speed, lean, clearance, window, waypoints, path)
     asked = [request(vehicle, starts[i], *wishes) for i in range(len(starts))]
     horizons = horizons_of(asked[0], duration)
     prepared(asked[0])  # compiling takes seconds, once
-    share = min(CHUNK, WIDTH * -(-len(asked) // (WIDTH * threads)))
+    share = min(CHUNK, WIDTH * -(-len(asked) // (WIDTH * cores)))
     parts = [asked[i : i + share] for i in range(0, len(asked), share)]
     plans: list[Plan] = []
-    with ThreadPoolExecutor(threads) as pool:
-        for some in pool.map(lambda part: _planned(part, horizons, first), parts):
+    with threads(cores) as pool:
+        for call in [pool.submit(_planned, part, horizons, first) for part in parts]:
+            some = result_of(call)
             plans += some
             progress(len(plans), len(asked))
     return PlanEnsemble(tuple(plans))

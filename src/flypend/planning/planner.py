@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from numpy.typing import ArrayLike
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
 from flypend.planning.request import STAGES_PER_UNIT, Request, end_of, request, walls_of
@@ -22,6 +22,8 @@ HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
 LONGEST = 60.0  # √(l/g)
 
 
+@errors.named_arguments
+@signals.deferred()
 def plan(
     vehicle: Vehicle,
     start: State,

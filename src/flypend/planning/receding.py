@@ -16,6 +16,7 @@ from flypend.planning.tracking import fallback, rotors_only
 COMPUTING = 0.001  # s
 
 
+@errors.named_arguments
 def nmpc(
     vehicle: Vehicle | None = None,
     *,

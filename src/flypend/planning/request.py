@@ -189,8 +189,15 @@ def walls_of(box: Any, floor: Any, ceiling: Any) -> Any:
         walls[0, 2] = max(walls[0, 2], errors.number("floor", floor, unit="m"))
     if ceiling is not None:
         walls[1, 2] = min(walls[1, 2], errors.number("ceiling", ceiling, unit="m"))
+    if floor is not None and ceiling is not None and floor >= ceiling:
+        raise InputError("floor", f"a height below the ceiling, {ceiling:g} m", f"{floor:g}")
     if np.any(walls[0] >= walls[1]):
-        raise InputError("box", "a lowest corner below the highest", walls.tolist())
+        field = (
+            "box"
+            if box is not None and np.any(np.diff(np.asarray(box, dtype=float), axis=0) <= 0)
+            else "floor, ceiling"
+        )
+        raise InputError(field, "a lowest corner below the highest", walls.tolist())
     return None if np.all(np.isinf(walls)) else walls
 
 
@@ -205,7 +212,8 @@ def windows_of(window: Any) -> tuple[Window, ...]:
 def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> None:
     points = np.stack([x, x + vehicle.reach * y])
     if np.any(points <= walls[0]) or np.any(points >= walls[1]):
-        raise InputError("box", f"one that holds pivot and rod at the {where}", walls.tolist())
+        field = "floor, ceiling" if np.all(np.isinf(walls[:, :2])) else "box"
+        raise InputError(field, f"room for pivot and rod at the {where}, from corner to corner", walls.tolist())
 
 
 def _speed(speed: Any, start: State) -> float:
@@ -217,11 +225,18 @@ def _speed(speed: Any, start: State) -> float:
 
 
 def _lean(lean: Any, start: State) -> float:
-    most = errors.number("lean", lean, above=0, at_most=np.pi, unit="rad")
-    begin = float(np.arccos(start.y[2]))
+    most = errors.number("lean", lean, above=0, unit="rad")
+    if most > np.pi:
+        raise InputError("lean", f"at most {_angle(np.pi)}", _angle(most))
+    begin = float(np.arccos(np.clip(start.y[2], -1, 1)))
     if begin >= most:
-        raise InputError("lean", f"more than the {begin:.3g} rad of the start", f"{most:g}")
+        raise InputError("lean", f"more than the {_angle(begin)} of the start", _angle(most))
     return most
+
+
+def _angle(radians: float) -> str:
+    """Return an angle in both units: the command takes degrees."""
+    return f"{radians:.3g} rad ({np.degrees(radians):.4g}°)"
 
 
 def _forces(rotors: Any, low: float, high: float, n: int) -> Any:

@@ -5,29 +5,33 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import errors
 from flypend.compile.numeric import as_numpy
 from flypend.flight.outcome import Outcome
+from flypend.flight.saved import write
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.laws.references import Reference, hover, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, split
+from flypend.planning import saved
+from flypend.planning.saved import Status
 from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, held, step_timing
 
 Array = NDArray[np.float64]
-Status = Literal["optimal", "feasible", "failed"]
 
 INDEPENDENT_STEP = 1e-3  # s
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
     """A planned flight to inverted hover; SI units, world frame with e₃ up.
@@ -139,7 +143,7 @@ class Plan:
 
     @cached_property
     def trajectory(self) -> Trajectory:
-        """The plan as a run, for replays (also as a ghost), files and metrics."""
+        """The plan as a run, for replays (also as a ghost) and metrics."""
         wrench = self.rotor_forces @ self.vehicle.mixing().T
         return Trajectory(
             t=self.t, **split(self.packed), thrust=wrench[:, 0], moment=wrench[:, 1:], rotor_forces=self.rotor_forces,
@@ -150,6 +154,14 @@ class Plan:
     def to_html(self, path: str | Path | None = None) -> str:
         """Render a replay of the plan, as `Trajectory.to_html` does, and write it to `path` if given."""
         return self.trajectory.to_html(path, windows=self.windows)
+
+    def save(self, path: str | Path) -> None:
+        """Save the plan to the NetCDF file `path` (.nc), which `fp.load_plan` reads; `fp.load` reads its flight.
+
+        The file is written atomically. Raises InputError if it is not writable, or the plan is none that could be
+        loaded: with arrays of different length, or numbers that are not finite.
+        """
+        write(path, *saved.content(self))
 
     @cached_property
     def end_error(self) -> float:
@@ -179,3 +191,14 @@ def _independent_step(vehicle: Vehicle) -> Any:
     moved = runge_kutta_step(packed, forces, None, timing[0], vehicle)
     outputs = [ca.densify(moved), ca.densify(after)]
     return as_numpy(ca.Function("independent", [packed, rotors, command, timing], outputs))
+
+
+@errors.named_arguments
+def load_plan(path: str | Path) -> Plan:
+    """Load the plan that `Plan.save` wrote to `path`, every number that of the plan.
+
+    A path that it follows is made of straight lines between its samples.
+
+    Raises InputError if the file holds none: every number and name is checked, whether or not it has a digest.
+    """
+    return Plan(**saved.fields_of(path))

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
 from flypend.planning.guesses import pumping, styles
@@ -175,6 +176,7 @@ def together(
     solver = Race(single(asked.rotors, asked.wishes), *guessed(jobs, horizon), given_up)
     watch = Watch(jobs, range(WIDTH), most, first)
     while not watch.done and time.monotonic() < deadline:
+        signals.poll()
         begin = time.thread_time()
         watch.before(solver)
         solver.improve()
@@ -196,6 +198,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
     following = WIDTH
     guesses: list[tuple[Problem, Array, Array]] = []
     while watches:
+        signals.poll()
         begin = time.thread_time()
         for _, watch in watches.values():
             watch.before(solver)

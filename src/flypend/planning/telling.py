@@ -13,7 +13,8 @@ from flypend.compile.llvm.stagewise import Stagewise
 from flypend.model.state import SIZE
 from flypend.planning.check import begins_touching, broken
 from flypend.planning.request import Request
-from flypend.planning.result import Plan, Status
+from flypend.planning.result import Plan
+from flypend.planning.saved import Status
 from flypend.planning.search import Found, stages_of
 from flypend.planning.stage import Stage
 from flypend.plants.lag import step_timing

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from flypend import errors
 from flypend.errors import InputError
 from flypend.laws import Computer, Controller, Law, inverted
 from flypend.laws.references import Reference, hover
@@ -23,6 +24,7 @@ from flypend.plants.loop import Loop
 FAR_ROD, FAR_PIVOT = 0.8, 1.5
 
 
+@errors.named_arguments
 def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> Controller:
     """Return a controller that flies `plan` from time 0 and then hovers at its target.
 

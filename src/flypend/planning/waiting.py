@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import signals
 from flypend.board.computer import SteppedBoard
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.errors import InputError
@@ -117,6 +118,7 @@ class Waits:
         path, passed, period = [begin], 0.0, 1 / self._loop.sampled.rate
         board, step = SteppedBoard(self._loop, begin[SIZE:]), stepping(self._vehicle)
         while passed < duration - 1e-9:
+            signals.poll()
             h, here = min(period, duration - passed), path[-1]
             command = board.command(t + passed, here[:SIZE])
             path.append(step(here[:SIZE], here[SIZE:], command, h))

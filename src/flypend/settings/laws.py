@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 import traceback
 from collections.abc import Mapping
@@ -14,13 +15,20 @@ from typing import Any
 
 from flypend.errors import InputError, one_of, only_known
 from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_names
+from flypend.laws.located import LawError, Located, shown
 from flypend.laws.own import EXPECTED as FUNCTION
-from flypend.laws.own import LawError, Located, from_function, is_factory, shown
+from flypend.laws.own import from_function, is_factory
 from flypend.model import Vehicle
 from flypend.planning import nmpc, plan_and_track
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
+# What `law_named` takes beside the laws of the package and custom ones.
+OTHERS = {
+    "detuned": "the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail",
+    "plan": "an optimal plan from the start, tracked with feedback (planning.plan_and_track)",
+    "nmpc": "a plan that is made again and again in flight (planning.nmpc)",
+}
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
@@ -71,9 +79,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
 
 
 def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law | Controller:
-    """Return the law called `name`: of the package, "detuned" (a negative control), "plan", "nmpc", or a custom law.
-
-    "plan" is `planning.plan_and_track`.
+    """Return the law called `name`: of the package, one of `OTHERS`, or a custom law.
 
     A custom law is `file.py:function`, with the path relative to `folder` (default the current one), or
     `module:function`; modules are also searched for in the current folder. The name must lead to a Law, a Controller,
@@ -84,7 +90,7 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     """
     if ":" in name:
         return _own(name, folder, key, None)
-    return law_from({"name": one_of(key, name, (*law_names(), "detuned", "plan", "nmpc"))}, folder, key)
+    return law_from({"name": one_of(key, name, (*law_names(), *OTHERS))}, folder, key)
 
 
 def _nmpc(value: Mapping[str, Any], key: str) -> Controller:
@@ -99,6 +105,22 @@ def absolute(value: Any, folder: Path) -> Any:
         return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
     file, colon, attribute = value.rpartition(":") if isinstance(value, str) else ("", "", "")
     return f"{(folder / file).resolve()}:{attribute}" if colon and file.endswith(".py") else value
+
+
+def relative(value: Any, folder: Path) -> Any:
+    """Return `value` with its file path relative to `folder`: the inverse of `absolute`, for a file to be moved along.
+
+    A path on another drive stays absolute.
+    """
+    if isinstance(value, Mapping):
+        return {**value, "function": relative(value["function"], folder)} if "function" in value else value
+    file, colon, attribute = value.rpartition(":")
+    if not (colon and file.endswith(".py")):
+        return value
+    try:
+        return f"{Path(os.path.relpath(file, folder.resolve())).as_posix()}:{attribute}"
+    except ValueError:
+        return value
 
 
 def note(law: AnyLaw) -> str:
@@ -159,11 +181,8 @@ def _as_law(found: Any, name: str, key: str, e3: Any) -> Law | Controller:
         found = Located(found, name.rpartition(":")[2])()
     if e3 is not None:
         raise InputError("law.e3", f"nothing: {name} states its own", e3)
-    if isinstance(found, Law):
-        return replace(found, control=Located(found.control, found.name))
-    if isinstance(found, Controller):
-        steering = found.steering and Located(found.steering, found.name, inner=True)
-        return replace(found, function=Located(found.function, found.name), steering=steering)
+    if isinstance(found, Law | Controller):
+        return found
     raise InputError(key, EXPECTED, f"{name!r}, which is none of these")
 
 

@@ -14,20 +14,21 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.files.toml import read_toml, toml_text
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import Controller, Law
 from flypend.laws.named import THEOREM_1
-from flypend.model import State, Vehicle, vehicle
+from flypend.model import State, Vehicle
+from flypend.model.shipped import vehicle_table
 from flypend.model.state import SHAPES
-from flypend.model.vehicle import read_toml
 from flypend.paper import experiment, experiment_names
 from flypend.plants import AnyPlant, Ideal, Noise, Wind, plant
-from flypend.settings.laws import absolute, law_from, law_table, table_of
+from flypend.settings.laws import absolute, law_from, law_table, relative, table_of
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 # Keys that only a study has; a file with none of them is a run file.
 STUDY_KEYS = frozenset(
-    ("runs", "vary", "sampling", "seed", "chunk", "final", "criterion", "tune", "judge_period", "max_steps", "engine",
+    ("runs", "vary", "sampling", "seed", "chunk", "final", "criterion", "tune", "judge_period", "max_steps",
      "precision")
 )  # fmt: skip
 # Settings that are lists of words; all other lists are of numbers.
@@ -72,6 +73,11 @@ def run_of(settings: dict[str, Any]) -> RunFile:
         raise _TOO_DEEP from None
 
 
+def run_text(settings: dict[str, Any], folder: str | Path) -> str:
+    """Return `settings` as the text of a run file in `folder`, to which the file of its law is relative."""
+    return toml_text({**settings, "law": relative(settings["law"], Path(folder))})
+
+
 def _read(what: str) -> dict[str, Any]:
     if what in experiment_names():
         return {"experiment": what}
@@ -108,8 +114,6 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
     """Fill in the values of `experiment`, and expand the vehicle to a full table."""
     errors.only_known("", settings, KEYS)
     out = deepcopy(settings)
-    if isinstance(out.get("vehicle"), str):
-        out["vehicle"] = {"base": out["vehicle"]}
     if "law" in out:
         out["law"] = absolute(law_table(out["law"]), Path.cwd())
     if "experiment" in out:
@@ -121,7 +125,8 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
         if law.get("name") in THEOREM_1:
             law["gains"] = dict(row.gains) | table_at(law, "gains", "law.gains")
         out["law"] = law
-        out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")
+        if not isinstance(out.get("vehicle"), str):
+            out["vehicle"] = {"base": row.vehicle.name} | table_at(out, "vehicle")
         out["duration"] = out.get("duration", row.duration)
         out["plant"] = out.get("plant", row.plant)
     for key in ("vehicle", "law", "start", "duration"):
@@ -129,18 +134,6 @@ def _complete(settings: dict[str, Any]) -> dict[str, Any]:
             raise InputError(key, "a value (or `experiment`, which brings one)", "nothing")
     out["vehicle"] = vehicle_table(out["vehicle"])
     return out
-
-
-def vehicle_table(value: Any) -> dict[str, Any]:
-    """Return all fields of a vehicle, given by name or as a table on top of `base`. Raises InputError."""
-    chosen = table_at({"vehicle": {"base": value} if isinstance(value, str) else value}, "vehicle")
-    if "base" in chosen:
-        base = vehicle(chosen.pop("base"))
-        for key, own in (("body", base.body), ("air", base.air)):
-            if key in chosen and own is not None:
-                chosen[key] = own.to_dict() | table_at(chosen, key, f"vehicle.{key}")
-        chosen = base.to_dict() | chosen
-    return chosen
 
 
 def start_of(table: dict[str, Any]) -> State:
@@ -180,14 +173,19 @@ def plant_of(value: Any) -> AnyPlant:
     return base.replace(**given)
 
 
-def _controller(law: Law | Controller, vehicle: Vehicle, kind: Any) -> Law | Controller:
-    """Return the law itself (`kind` "python"), or its exported and compiled C ("c" in double, "c-float" in float)."""
+def _controller(law: Law | Controller, vehicle: Vehicle, world: AnyPlant, kind: Any) -> Law | Controller:
+    """Return the law itself (`kind` "python"), or its exported and compiled C ("c" in double, "c-float" in float).
+
+    Raises InputError unless the C can command the plant `world`.
+    """
     if errors.one_of("controller", kind, ("python", "c", "c-float")) == "python":
         return law
     if isinstance(law, Controller):
         raise InputError("controller", "python, for a law that is not written in symbols", repr(kind))
     from flypend.export import compiled  # slow to import, and seldom needed
+    from flypend.export.library import check_plant
 
+    check_plant(world)
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 
@@ -225,13 +223,14 @@ def _override(settings: dict[str, Any], text: str) -> None:
 
 def _build(settings: dict[str, Any]) -> RunFile:
     errors.only_known("", settings, KEYS)
-    vehicle = Vehicle.from_dict(table_at(settings, "vehicle"))
+    vehicle, plant = Vehicle.from_dict(table_at(settings, "vehicle")), plant_of(settings.get("plant", "rotors"))
+    law = _controller(law_from(settings["law"]), vehicle, plant, settings.get("controller", "python"))
     flight = Flight(
         vehicle=vehicle,
-        law=_controller(law_from(settings["law"]), vehicle, settings.get("controller", "python")).bind(vehicle),
+        law=law.bind(vehicle),
         starts=start_of(table_at(settings, "start")),
         duration=settings["duration"],
-        plant=plant_of(settings.get("plant", "rotors")),
+        plant=plant,
         tolerances=Tolerances(rtol=settings.get("rtol", 1e-9)),
     )
     return RunFile(flight, settings)

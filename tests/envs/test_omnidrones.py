@@ -11,6 +11,7 @@ from flypend.envs.task import Moment
 
 PERIOD = 0.016
 MASS = 0.716
+GOALS = {"inv_pendulum_hover": 1, "inv_pendulum_track": 7, "inv_pendulum_fly_through": 2}  # numbers
 
 
 def flown(task, count, steps, seed=0):
@@ -20,8 +21,7 @@ def flown(task, count, steps, seed=0):
     hover = 2 * worlds.worlds.env.vehicle.weight / (4 * worlds.worlds.env.vehicle.rotor_limits[1]) - 1
     rng, rows = np.random.default_rng(seed), []
     for _ in range(steps):
-        goals = worlds.worlds._memories[:, 2 + worlds.worlds._places["goal"] :].transpose(0, 2, 1)
-        goals = goals.reshape(-1, goals.shape[2])[:count].copy()
+        goals = worlds.worlds.part("goal", GOALS[task])
         actions = hover + rng.uniform(-0.1, 0.1, (count, 4))
         seen, rewards, terminated, _, infos = worlds.step(actions)
         rows.append((worlds.worlds.states, rewards, terminated, goals, infos, seen))
@@ -143,7 +143,7 @@ def test_worlds_begin_where_their_source_says(task, least, most, tilt, reach):
 def test_payloads_weigh_what_their_source_says():
     worlds = Worlds(environment("inv_pendulum_hover"), 3000)
     worlds.begin(np.arange(3000))
-    ratio = worlds._memories[:, 2 + worlds._places["numbers"] + 1].ravel()[:3000]
+    ratio = worlds.part("numbers", 2)[:, 1]
     bob = ratio * worlds.env.vehicle.bob_mass
     assert bob.min() == pytest.approx(0.2 * MASS + 0.01, rel=0.005)
     assert bob.max() == pytest.approx(0.3 * MASS + 0.04, rel=0.005)
@@ -240,7 +240,7 @@ def test_a_gate_that_is_touched_ends_a_world_without_reward():
     touched = 0
     for _ in range(120):
         actions = np.tile(2 * vehicle.weight / (4 * 6.003) - 1, (300, 4)) + 0.02
-        goals = worlds.worlds._memories[:, 2 + worlds.worlds._places["goal"] + 1].ravel()[:300].copy()
+        goals = worlds.worlds.part("goal", 2)[:, 1]
         _, rewards, terminated, *_ = worlds.step(actions)
         s = fp.State.trusted(worlds.worlds.states[:, :24])
         near = np.flatnonzero(~terminated & (np.abs(s.x[:, 0]) < 0.5))[:3]

@@ -18,14 +18,9 @@ VEHICLE = fp.vehicle("hehn2011")
 SEED = 2**62  # of the flight whose sensors are those of the world with seed 0
 
 
-def memory(worlds, name, length):
-    place = 2 + worlds._places[name]
-    return worlds._memories[:, place : place + length].transpose(0, 2, 1).reshape(-1, length)[: worlds.count].copy()
-
-
 def estimates(worlds):
     """Estimated state and rotor forces (count, 28)."""
-    return memory(worlds, "estimate", 28)
+    return worlds.part("estimate", 28)
 
 
 def some_actions(steps, size=0.1):

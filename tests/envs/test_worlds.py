@@ -250,7 +250,8 @@ def test_without_copies_arrays_stay_where_they_are():
 @pytest.mark.parametrize("history", [0, 2])
 def test_jax_shares_the_memory_of_the_worlds(history):
     """It copies what does not begin at a multiple of 64 bytes, which an array of NumPy does one time in four."""
-    jax = pytest.importorskip("jax")
+    import jax  # here: it takes a second
+
     several = [VectorWorlds("balance", count, copy=False, history=history) for count in (3, 8, 40, 1000)]
     for worlds in several:
         arrays = worlds.reset(seed=0)[0], *worlds.step(np.zeros((worlds.num_envs, 4)))[:4]
@@ -494,8 +495,7 @@ def flown_between_guards(steps, count, task, **arguments):
         guards.append((raw, first, first + array.nbytes))
         return inside
 
-    worlds._memories, worlds._seeds, worlds._actions = map(guarded, (worlds._memories, worlds._seeds, worlds._actions))
-    worlds._arrays = {name: guarded(array) for name, array in worlds._arrays.items()}
+    worlds.arrays = {name: guarded(array) for name, array in worlds.arrays.items()}
     worlds.begin(np.arange(count))
     actions = rng.uniform(-1.5, 1.5, (50, count, 4)).astype(np.float32)
     actions[7, ::11], actions[13, ::13], actions[29, ::17] = np.nan, np.inf, 1e30
@@ -504,7 +504,7 @@ def flown_between_guards(steps, count, task, **arguments):
     for raw, first, end in guards:
         assert np.all(raw[:first] == mark)
         assert np.all(raw[end:] == mark)
-    assert all(np.isfinite(worlds._arrays[name]).all() for name in ("observations", "rewards"))
+    assert all(np.isfinite(worlds.arrays[name]).all() for name in ("observations", "rewards"))
     return worlds
 
 

@@ -32,6 +32,7 @@ from flypend.envs.omnidrones import inv_pendulum_fly_through, inv_pendulum_hover
 from flypend.envs.problem import Environment  # noqa: E402
 from flypend.envs.randomise import Randomisation  # noqa: E402
 from flypend.envs.single import World  # noqa: E402
+from flypend.envs.state import SavedState  # noqa: E402
 from flypend.envs.task import Moment, Task, balance, catch_in_cup, swing_up, track  # noqa: E402
 from flypend.envs.vector import VectorWorlds  # noqa: E402
 
@@ -40,6 +41,7 @@ __all__ = [
     "Gate",
     "Moment",
     "Randomisation",
+    "SavedState",
     "Task",
     "VectorWorlds",
     "World",

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
 import os
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor, wait
-from functools import lru_cache
+from dataclasses import fields
+from functools import cache, lru_cache
+from importlib import metadata
 from typing import Any
 
 import numpy as np
@@ -23,6 +27,7 @@ from flypend.flight.kernels.flown import aligned
 WIDTH = 8
 # Fewest groups of worlds worth a thread: a hundred microseconds of work.
 LEAST_GROUPS = 16
+MOST_THREADS = 1024  # a bound that no machine reaches; they start one by one
 # Of the kernel's arguments.
 KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
 
@@ -40,11 +45,26 @@ def module(made: WorldsProblem) -> ir.Module:
     return lanes.module
 
 
-def zeros(shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
-    """Return an array of zeros at the start of a cache line: JAX copies any other."""
-    array: NDArray[Any] = aligned(shape, kind)
-    array[...] = 0
-    return array
+@cache
+def _pool() -> ThreadPoolExecutor:
+    """The threads that all worlds of this process share; as many are started as ever work at once."""
+    return ThreadPoolExecutor(MOST_THREADS, "flypend-worlds")
+
+
+if hasattr(os, "register_at_fork"):  # a forked process has none of the threads
+    os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
+def _own(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a copy of `array` at the start of a cache line: JAX copies any other."""
+    own: NDArray[Any] = aligned(array.shape, array.dtype)
+    own[...] = array
+    return own
+
+
+def _rows(name: str) -> Any:
+    """Return the property that is the array of this name, without the worlds that fill the last group."""
+    return property(lambda worlds: worlds.arrays[name][: worlds.count])
 
 
 class Worlds:
@@ -52,42 +72,87 @@ class Worlds:
 
     `observations` (count, k) and `rewards` (count,) are float32, `terminated` and `truncated` (count,) bool. A world
     that ends begins anew in the same step: its row of `observations` is that of its new beginning, and its row of
-    `last` (count, k) is what would have been observed at the end.
+    `last` (count, k) is what would have been observed at the end. With a `history` of n > 0, `seen` (count, (n + 1) k)
+    has room for earlier observations behind the present; else it is `observations`.
+
+    All that changes is in `arrays`, a table of plain arrays that nothing else owns. A pickle holds them and what the
+    worlds are made of; the rest is made again where it is loaded.
     """
 
-    observations: NDArray[np.float32]
-    last: NDArray[np.float32]
-    rewards: NDArray[np.float32]
-    terminated: NDArray[np.bool_]
-    truncated: NDArray[np.bool_]
+    observations, last, rewards = _rows("observations"), _rows("last"), _rows("rewards")
+    terminated, truncated = _rows("terminated"), _rows("truncated")
 
-    def __init__(self, env: Environment, count: int, workers: int | None = None) -> None:
+    def __init__(self, env: Environment, count: int, workers: int | None = None, history: int = 0) -> None:
         made = problem(env)
-        self.env, self.count, self._step = env, count, compiled(made)
-        self._places = made.places
-        self.groups = -(-count // WIDTH)
-        padded, seen = self.groups * WIDTH, len(made.observe.outputs[0])
-        self._memories = aligned((self.groups, 2 + self._places["end"], WIDTH))
-        self._seeds = np.zeros(padded, dtype=np.int64)
-        self._actions = np.zeros((padded, env.actions), dtype=np.float32)
-        self._arrays: dict[str, NDArray[Any]] = {
-            "observations": zeros((padded, seen), np.float32),
-            "rewards": zeros((padded,), np.float32),
-            "terminated": zeros((padded,), np.bool_),
-            "truncated": zeros((padded,), np.bool_),
-            "last": zeros((padded, seen), np.float32),
+        self.env, self.count, self.workers, self.history = env, count, workers, history
+        self._step, self._places = compiled(made), made.places
+        groups = -(-count // WIDTH)
+        padded, seen = groups * WIDTH, len(made.observe.outputs[0])
+        shapes: dict[str, tuple[Any, ...]] = {
+            "memories": (groups, 2 + self._places["end"], WIDTH, np.float64),
+            "seeds": (padded, np.int64),
+            "actions": (padded, env.actions, np.float32),
+            "observations": (padded, seen, np.float32),
+            "rewards": (padded, np.float32),
+            "terminated": (padded, np.bool_),
+            "truncated": (padded, np.bool_),
+            "last": (padded, seen, np.float32),
+            "seen": (padded if history else 0, (1 + history) * seen, np.float32),
         }
-        for name, array in self._arrays.items():
-            setattr(self, name, array[:count])
-        threads = max(1, min(workers or os.cpu_count() or 1, self.groups // LEAST_GROUPS))
-        self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
-        bounds = np.linspace(0, self.groups, threads + 1).astype(int)
+        self.arrays = {name: _own(np.zeros(shape, kind)) for name, (*shape, kind) in shapes.items()}
+        threads = max(1, min(workers or os.cpu_count() or 1, groups // LEAST_GROUPS))
+        bounds = np.linspace(0, groups, threads + 1).astype(int)
         self._shares = list(zip(bounds[:-1].tolist(), np.diff(bounds).tolist(), strict=True))
+        parts = {entry.name: repr(getattr(env, entry.name)) for entry in fields(env)}
+        self.about = {"version": metadata.version("flypend")} | parts | {
+            "task": env.task.name, "vehicle": env.vehicle.name, "worlds": str(count), "history": str(history),
+            "programs": hashlib.sha256(repr((made, env.limit)).encode()).hexdigest(),
+        }  # fmt: skip
+
+    def __deepcopy__(self, memo: Any) -> Worlds:
+        twin = object.__new__(Worlds)
+        arrays = {name: _own(array) for name, array in self.arrays.items()}
+        vars(twin).update(vars(self) | {"arrays": arrays})
+        return twin
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        made = self.env, self.count, self.workers, self.history
+        return _unpickled, (self.about, self.save(), *made)
+
+    def save(self) -> bytes:
+        """Return the contents of `arrays`, one after the other."""
+        return b"".join(array.tobytes() for array in self.arrays.values())
+
+    def restore(self, about: Mapping[str, str], saved: bytes) -> None:
+        """Fill `arrays`, where they are, with what `save` returned of worlds `about` which the same is to be said.
+
+        Raises InputError if `about` or the length differs.
+        """
+        for name, mine in self.about.items():
+            if about.get(name) != mine:
+                raise InputError(f"state.{name}", mine, about.get(name, "nothing"))
+        length = sum(array.nbytes for array in self.arrays.values())
+        if len(saved) != length:
+            raise InputError("state.worlds", f"{length} bytes", f"{len(saved)}")
+        begin = 0
+        for array in self.arrays.values():
+            array.reshape(-1)[:] = np.frombuffer(saved, array.dtype, array.size, begin)
+            begin += array.nbytes
+
+    @property
+    def begun(self) -> bool:
+        """Whether they have begun: the number of the first world's episode is above 0."""
+        return bool(self.arrays["memories"][0, 1, 0] > 0)
+
+    @property
+    def seen(self) -> NDArray[np.float32]:
+        """What is observed, with the history (count, (history + 1) k)."""
+        return self.arrays["seen" if self.history else "observations"][: self.count]
 
     def begin(self, seeds: NDArray[np.int64]) -> None:
         """Begin all worlds, with a seed (count,) each; world i draws the same numbers whatever surrounds it."""
-        self._seeds[: self.count] = seeds
-        self._seeds[self.count :] = seeds[-1]
+        self.arrays["seeds"][: self.count] = seeds
+        self.arrays["seeds"][self.count :] = seeds[-1]
         self._call(fresh=1)
 
     def step(self, actions: Any) -> None:
@@ -95,7 +160,7 @@ class Worlds:
 
         Raises InputError for another shape, or anything but real numbers.
         """
-        mine, given = self._actions[: self.count], np.asarray(actions)
+        mine, given = self.arrays["actions"][: self.count], np.asarray(actions)
         if given.shape != mine.shape or not np.can_cast(given.dtype, np.float32, "same_kind"):
             raise InputError("actions", f"real numbers of shape {mine.shape}", f"{given.dtype} of shape {given.shape}")
         with np.errstate(over="ignore"):  # a number beyond single precision is infinite
@@ -103,23 +168,31 @@ class Worlds:
         self._call(fresh=0)
 
     def _call(self, fresh: int) -> None:
-        given: dict[str, Any] = {
-            "memories": self._memories, "seeds": self._seeds, "actions": self._actions, **self._arrays,
-            "limit": self.env.limit, "fresh": fresh,
-        }  # fmt: skip
+        addresses = {name: array.ctypes.data for name, array in self.arrays.items()}
+        given = addresses | {"limit": self.env.limit, "fresh": fresh}
 
         def work(first: int, count: int) -> None:
             values = given | {"first": first, "count": count}
-            self._step(*(values[name] if name in INTEGERS else values[name].ctypes.data for name in ARGUMENTS))
+            self._step(*(values[name] for name in ARGUMENTS))
 
         *others, mine = self._shares
-        waiting = [self._pool.submit(work, *share) for share in others] if self._pool is not None else []
+        waiting = [_pool().submit(work, *share) for share in others]
         work(*mine)
         wait(waiting)
+
+    def part(self, name: str, length: int) -> NDArray[np.float64]:
+        """Return a copy of a part of the worlds' memories (count, `length`); see `WorldsProblem.places`."""
+        begin = 2 + self._places[name]
+        part = self.arrays["memories"][:, begin : begin + length]
+        return part.transpose(0, 2, 1).reshape(-1, length)[: self.count].copy()
 
     @property
     def states(self) -> NDArray[np.float64]:
         """States and rotor forces (count, 24 + n), a copy, e₃ up."""
-        length = 24 + self.env.rotors
-        rows: NDArray[np.float64] = self._memories[:, 2 : 2 + length].transpose(0, 2, 1).reshape(-1, length)
-        return rows[: self.count].copy()
+        return self.part("state", 24 + self.env.rotors)
+
+
+def _unpickled(about: Mapping[str, str], saved: bytes, *made: Any) -> Worlds:
+    worlds = Worlds(*made)
+    worlds.restore(about, saved)
+    return worlds

@@ -108,6 +108,12 @@ def _ranges(given: Any) -> Randomisation:
     return Randomisation(**given)
 
 
+def check_render_mode(mode: Any) -> None:
+    """Refuse anything but None: environments draw no pictures."""
+    if mode is not None:
+        raise InputError("render_mode", "None (trajectory() of a single environment can be drawn)", repr(mode))
+
+
 def spaces(env: Environment, seen: int) -> tuple[Box, Box]:
     """Spaces of the observations, `seen` numbers each, and of the actions of one world."""
     observed = Box(-BOUND, BOUND, (seen,), np.float32)

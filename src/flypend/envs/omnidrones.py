@@ -23,7 +23,8 @@ share of the time that has passed comes once, not four times.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import casadi as ca
@@ -63,9 +64,9 @@ def _at_rest(x: Any, R: Any) -> State:
     return State(x=x, x_dot=ca.SX(3, 1), R=R, omega=ca.SX(3, 1), y=R[:, 2], y_dot=ca.SX(3, 1))
 
 
-def _held(target: Any) -> Callable[[Any, Any], tuple[Any, Any]]:
+def _held(t: Any, numbers: Any, target: Any) -> tuple[Any, Any]:
     """The payload at `target`; the first of the goal's numbers is the reach of the bar."""
-    return lambda t, numbers: (ca.DM(target) - numbers[0] * ca.DM(E3), ca.SX(3, 1))
+    return ca.DM(target) - numbers[0] * ca.DM(E3), ca.SX(3, 1)
 
 
 def _missing(now: Moment, target: Any) -> Any:
@@ -90,62 +91,77 @@ def _any(*conditions: Any) -> Any:
     return found
 
 
-def _passed(steps: int) -> Callable[[Moment], Any]:
-    return lambda now: now.time / (steps * PERIOD)
+def _passed(now: Moment, steps: int) -> Any:
+    return now.time / (steps * PERIOD)
+
+
+def _begin_hover(draws: Draws, vehicle: Vehicle) -> Begin:
+    x = ca.vertcat(draws.between(-1.5, 1.5), draws.between(-1.5, 1.5), draws.between(1.0, 2.0))
+    return Begin(_at_rest(x, draws.tilted(0.15 * np.pi)), ca.SX(vehicle.reach))
+
+
+def _hover_reward(now: Moment) -> Any:
+    up = now.state.y[2]
+    return up + ca.exp(-1.2 * _missing(now, HOVERED)) + up * _calm(now) + _effort(now)
+
+
+def _hover_ended(now: Moment) -> Any:
+    return _any(now.state.x[2] < LOWEST, now.state.y[2] < 0.2, _missing(now, HOVERED) > 3.3)
 
 
 def inv_pendulum_hover() -> Task:
     """Hold the payload at (0, 0, 2.5) m, on a bar of 1 m."""
-
-    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
-        x = ca.vertcat(draws.between(-1.5, 1.5), draws.between(-1.5, 1.5), draws.between(1.0, 2.0))
-        return Begin(_at_rest(x, draws.tilted(0.15 * np.pi)), ca.SX(vehicle.reach))
-
-    def reward(now: Moment) -> Any:
-        up = now.state.y[2]
-        return up + ca.exp(-1.2 * _missing(now, HOVERED)) + up * _calm(now) + _effort(now)
-
-    def ended(now: Moment) -> Any:
-        return _any(now.state.x[2] < LOWEST, now.state.y[2] < 0.2, _missing(now, HOVERED) > 3.3)
-
     return Task(
-        "InvPendulumHover", begin, _held(HOVERED), reward, ended, STEPS * PERIOD,
-        shown=_passed(STEPS), defaults=_defaults(1.0),
+        "InvPendulumHover", _begin_hover, partial(_held, target=HOVERED), _hover_reward, _hover_ended, STEPS * PERIOD,
+        shown=partial(_passed, steps=STEPS), defaults=_defaults(1.0),
     )  # fmt: skip
+
+
+def _eight(t: Any, numbers: Any) -> tuple[Any, Any]:
+    """Position and velocity of the payload's target on the figure eight that the goal's `numbers` describe."""
+    _, height, heading, *size, pace = ca.vertsplit(numbers)
+    passed = pace * t
+    slow = ca.fabs(passed) / (1 + ca.fabs(passed))  # it sets off from rest
+    phase, rate = np.pi / 2 + slow * passed, pace * slow * (2 + ca.fabs(passed)) / (1 + ca.fabs(passed))
+    p = ca.SX.sym("p")
+    turned = ca.mtimes(_heading(heading), lemniscate(p, height)) * ca.vertcat(*size)
+    x, x_dot = (ca.substitute(value, p, phase) for value in (turned, ca.jacobian(turned, p) * rate))
+    return ca.DM(CENTRE) + x, x_dot
+
+
+def _track_goal(t: Any, numbers: Any) -> tuple[Any, Any]:
+    x, x_dot = _eight(t, numbers)
+    return x - numbers[0] * ca.DM(E3), x_dot
+
+
+def _begin_track(draws: Draws, vehicle: Vehicle) -> Begin:
+    height, heading = draws.between(-0.6, 0.6), draws.between(0.0, 2 * np.pi)
+    size = [draws.between(1.8, 3.2), draws.between(1.8, 3.2), draws.between(1.0, 1.5)]
+    pace = ca.if_else(draws.share() < 0.5, -1, 1) * draws.between(0.7, 1.0)
+    numbers = ca.vertcat(vehicle.reach, height, heading, *size, pace)
+    x = ca.DM(CENTRE) + lemniscate(ca.SX(np.pi / 2), height) - vehicle.reach * ca.DM(E3)
+    return Begin(_at_rest(x, draws.tilted(0.1 * np.pi)), numbers)
+
+
+def _off_track(now: Moment) -> Any:
+    """Distance of the payload from its target on the eight, m."""
+    return ca.norm_2(_eight(now.time, now.goal)[0] - now.end)
+
+
+def _track_reward(now: Moment) -> Any:
+    return ca.exp(-1.6 * _off_track(now)) + _effort(now)
+
+
+def _track_ended(now: Moment) -> Any:
+    return _any(now.state.x[2] < LOWEST, now.state.y[2] < 0.2, _off_track(now) > 0.8)
 
 
 def inv_pendulum_track() -> Task:
     """Lead the payload, on a bar of 1 m, along a figure eight that rises and falls and differs from world to world."""
-
-    def target(t: Any, numbers: Any) -> tuple[Any, Any]:
-        _, height, heading, *size, pace = ca.vertsplit(numbers)
-        passed = pace * t
-        slow = ca.fabs(passed) / (1 + ca.fabs(passed))  # it sets off from rest
-        phase, rate = np.pi / 2 + slow * passed, pace * slow * (2 + ca.fabs(passed)) / (1 + ca.fabs(passed))
-        p = ca.SX.sym("p")
-        turned = ca.mtimes(_heading(heading), lemniscate(p, height)) * ca.vertcat(*size)
-        x, x_dot = (ca.substitute(value, p, phase) for value in (turned, ca.jacobian(turned, p) * rate))
-        return ca.DM(CENTRE) + x, x_dot
-
-    def goal(t: Any, numbers: Any) -> tuple[Any, Any]:
-        x, x_dot = target(t, numbers)
-        return x - numbers[0] * ca.DM(E3), x_dot
-
-    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
-        height, heading = draws.between(-0.6, 0.6), draws.between(0.0, 2 * np.pi)
-        size = [draws.between(1.8, 3.2), draws.between(1.8, 3.2), draws.between(1.0, 1.5)]
-        pace = ca.if_else(draws.share() < 0.5, -1, 1) * draws.between(0.7, 1.0)
-        numbers = ca.vertcat(vehicle.reach, height, heading, *size, pace)
-        x = ca.DM(CENTRE) + lemniscate(ca.SX(np.pi / 2), height) - vehicle.reach * ca.DM(E3)
-        return Begin(_at_rest(x, draws.tilted(0.1 * np.pi)), numbers)
-
-    def missing(now: Moment) -> Any:
-        return ca.norm_2(target(now.time, now.goal)[0] - now.end)
-
     return Task(
-        "InvPendulumTrack", begin, goal, lambda now: ca.exp(-1.6 * missing(now)) + _effort(now),
-        lambda now: _any(now.state.x[2] < LOWEST, now.state.y[2] < 0.2, missing(now) > 0.8), EIGHT_STEPS * PERIOD,
-        ahead=tuple(5 * k * PERIOD for k in range(1, 6)), shown=_passed(EIGHT_STEPS), defaults=_defaults(1.0),
+        "InvPendulumTrack", _begin_track, _track_goal, _track_reward, _track_ended, EIGHT_STEPS * PERIOD,
+        ahead=tuple(5 * k * PERIOD for k in range(1, 6)), shown=partial(_passed, steps=EIGHT_STEPS),
+        defaults=_defaults(1.0),
     )  # fmt: skip
 
 
@@ -160,6 +176,35 @@ def _heading(angle: Any) -> Any:
     return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
 
 
+@dataclass(frozen=True)
+class _FlyThrough:
+    """Starts, reward, end and what is shown of a flight through `gate`."""
+
+    gate: Gate
+
+    def begin(self, draws: Draws, vehicle: Vehicle) -> Begin:
+        if vehicle.body is None:
+            raise InputError("vehicle.body", "the radii of the machine's parts, for a gate", "nothing")
+        x = ca.vertcat(draws.between(-2.2, -1.0), 0, draws.between(1.0, 2.0))
+        numbers = ca.vertcat(vehicle.reach, draws.between(*self.gate.spacing))
+        return Begin(_at_rest(x, draws.tilted(0.15 * np.pi)), numbers)
+
+    def touched(self, now: Moment) -> Any:
+        return self.gate.clearance(now, now.goal[1]) < 0
+
+    def reward(self, now: Moment) -> Any:
+        near = 1 / (1 + 1.2 * _missing(now, BEHIND))
+        return ca.if_else(self.touched(now), 0, near * (1 + now.state.y[2] + _calm(now)) + _effort(now))
+
+    def ended(self, now: Moment) -> Any:
+        x, up = now.state.x, now.state.y[2]
+        return _any(x[2] < LOWEST, ca.fabs(x[1]) > 2.0, up < 0.1, now.end[2] > 3.0, self.touched(now))
+
+    def shown(self, now: Moment) -> Any:
+        pivot = now.state.x[[0, 2]]
+        return ca.vertcat(*(bar - pivot for bar in self.gate.bars(now.goal[1])), _passed(now, STEPS))
+
+
 def inv_pendulum_fly_through(gate: Gate | None = None) -> Task:
     """Take the payload, on a bar of 0.85 m, between the bars of a gate and hold it at (1.5, 0, 2.3) m.
 
@@ -171,30 +216,8 @@ def inv_pendulum_fly_through(gate: Gate | None = None) -> Task:
     opening = Gate() if gate is None else gate
     if not isinstance(opening, Gate):
         raise InputError("gate", "a flypend.envs.Gate", repr(gate))
-
-    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
-        if vehicle.body is None:
-            raise InputError("vehicle.body", "the radii of the machine's parts, for a gate", "nothing")
-        x = ca.vertcat(draws.between(-2.2, -1.0), 0, draws.between(1.0, 2.0))
-        numbers = ca.vertcat(vehicle.reach, draws.between(*opening.spacing))
-        return Begin(_at_rest(x, draws.tilted(0.15 * np.pi)), numbers)
-
-    def touched(now: Moment) -> Any:
-        return opening.clearance(now, now.goal[1]) < 0
-
-    def reward(now: Moment) -> Any:
-        near = 1 / (1 + 1.2 * _missing(now, BEHIND))
-        return ca.if_else(touched(now), 0, near * (1 + now.state.y[2] + _calm(now)) + _effort(now))
-
-    def ended(now: Moment) -> Any:
-        x, up = now.state.x, now.state.y[2]
-        return _any(x[2] < LOWEST, ca.fabs(x[1]) > 2.0, up < 0.1, now.end[2] > 3.0, touched(now))
-
-    def shown(now: Moment) -> Any:
-        pivot = now.state.x[[0, 2]]
-        return ca.vertcat(*(bar - pivot for bar in opening.bars(now.goal[1])), _passed(STEPS)(now))
-
+    through = _FlyThrough(opening)
     return Task(
-        "InvPendulumFlyThrough", begin, _held(BEHIND), reward, ended, STEPS * PERIOD, shown=shown,
-        defaults=_defaults(0.85),
+        "InvPendulumFlyThrough", through.begin, partial(_held, target=BEHIND), through.reward, through.ended,
+        STEPS * PERIOD, shown=through.shown, defaults=_defaults(0.85),
     )  # fmt: skip

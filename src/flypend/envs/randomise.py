@@ -53,7 +53,8 @@ class Randomisation:
             errors.number(f"randomise.{entry.name}", low, at_least=0)
             if low == 0 and entry.name not in ("delay", "wind"):
                 raise InputError(f"randomise.{entry.name}", "ratios > 0", f"{low:g}")
-            errors.number(f"randomise.{entry.name}", high, at_least=low)
+            if high < low:
+                raise InputError(f"randomise.{entry.name}", "an interval (low, high)", f"({low:g}, {high:g})")
             object.__setattr__(self, entry.name, (low, high))
 
     @property

@@ -9,7 +9,8 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 
 from flypend.envs.kernel import Worlds
-from flypend.envs.make import environment, spaces
+from flypend.envs.make import check_render_mode, environment, spaces
+from flypend.envs.state import Stateful
 from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
 from flypend.model import State
@@ -17,13 +18,15 @@ from flypend.model.state import SIZE
 from flypend.plants.plant import check_seed
 
 
-class World(gymnasium.Env[Any, Any]):
+class World(Stateful, gymnasium.Env[Any, Any]):
     """One world, bit-identical to world 0 of the vector environment with the same seed and actions.
 
     Parameters
     ----------
     task, arguments
         See `flypend.envs.environment`.
+    render_mode : None
+        No other is known.
 
     Raises
     ------
@@ -35,8 +38,9 @@ class World(gymnasium.Env[Any, Any]):
 
     metadata = {"render_modes": []}  # noqa: RUF012
 
-    def __init__(self, task: Any = "balance", **arguments: Any) -> None:
-        self.worlds = Worlds(environment(task, **arguments), 1)
+    def __init__(self, task: Any = "balance", *, render_mode: None = None, **arguments: Any) -> None:
+        check_render_mode(render_mode)
+        super().__init__(Worlds(environment(task, **arguments), 1))
         self.observation_space, self.action_space = spaces(self.worlds.env, self.worlds.observations.shape[1])
         self._flown: list[Any] = []
 
@@ -63,8 +67,14 @@ class World(gymnasium.Env[Any, Any]):
         return seen, float(worlds.rewards[0]), terminated, truncated, {}
 
     def _check_begun(self) -> None:
-        if not self._flown:
+        if not self.worlds.begun:
             raise ResetNeeded("reset the world first")
+
+    def _save_flown(self) -> bytes:
+        return np.array(self._flown).tobytes()
+
+    def _restore_flown(self, flown: bytes) -> None:
+        self._flown = list(np.frombuffer(flown).reshape(-1, self.worlds.states.shape[1]))
 
     def trajectory(self) -> Trajectory:
         """Return what has been flown since the last `reset` as a run, a state per action: for pages and figures."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -55,9 +56,14 @@ class Moment(NamedTuple):
     vehicle: Vehicle
 
 
+def nothing(now: Moment) -> Any:
+    """Observe nothing else."""
+    return ca.SX(0, 1)
+
+
 @dataclass(frozen=True)
 class Task:
-    """What an environment asks for.
+    """What an environment asks for. With functions that have a name in a module, its environments can be pickled.
 
     Parameters
     ----------
@@ -88,7 +94,7 @@ class Task:
     ended: Callable[[Moment], Any]
     duration: float
     ahead: tuple[float, ...] = ()
-    shown: Callable[[Moment], Any] = lambda now: ca.SX(0, 1)
+    shown: Callable[[Moment], Any] = nothing
     defaults: Mapping[str, Any] = field(default_factory=dict)
 
 
@@ -119,34 +125,54 @@ def beyond(now: Moment, radius: float) -> Any:
     return ca.sumsqr(now.error.x) > radius**2
 
 
-def _almost_upright(draws: Draws, lean: float) -> State:
+def fallen_or_beyond(now: Moment, radius: float) -> Any:
+    """Whether the rod leans by more than 60°, or the pivot is farther than `radius` (m) from the goal."""
+    return ca.logic_or(now.state.y[2] < 0.5, beyond(now, radius))
+
+
+def _begin_almost_upright(draws: Draws, vehicle: Vehicle, lean: float = 0.2) -> Begin:
     y = draws.cap(lean)
-    return State(
+    state = State(
         x=draws.ball(0.5), x_dot=draws.ball(0.5), R=draws.level(0.2), omega=draws.ball(0.5), y=y,
         y_dot=draws.tangent(y, 0.5),
     )  # fmt: skip
+    return Begin(state, ca.SX(0, 1))
 
 
 def balance() -> Task:
     """Balance the rod, which leans by at most 0.2 rad at first; lost once it leans by 60° or the vehicle is 3 m off."""
-    return Task(
-        "Balance", lambda draws, _: Begin(_almost_upright(draws, 0.2), ca.SX(0, 1)), hovered, upright,
-        lambda now: ca.logic_or(now.state.y[2] < 0.5, beyond(now, 3.0)), 5.0,
+    return Task("Balance", _begin_almost_upright, hovered, upright, partial(fallen_or_beyond, radius=3.0), 5.0)
+
+
+def _begin_hanging(draws: Draws, vehicle: Vehicle) -> Begin:
+    hanging = -draws.cap(0.2)
+    state = State(
+        x=draws.ball(0.2), x_dot=draws.ball(0.2), R=draws.level(0.2), omega=draws.ball(0.5), y=hanging,
+        y_dot=draws.tangent(hanging, 0.5),
     )  # fmt: skip
+    return Begin(state, ca.SX(0, 1))
 
 
 def swing_up() -> Task:
     """Bring the rod up from hanging almost at rest, and balance it; lost once the vehicle is 5 m off."""
+    return Task("SwingUp", _begin_hanging, hovered, upright, partial(beyond, radius=5.0), 10.0)
 
-    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
-        hanging = -draws.cap(0.2)
-        state = State(
-            x=draws.ball(0.2), x_dot=draws.ball(0.2), R=draws.level(0.2), omega=draws.ball(0.5), y=hanging,
-            y_dot=draws.tangent(hanging, 0.5),
-        )  # fmt: skip
-        return Begin(state, ca.SX(0, 1))
 
-    return Task("SwingUp", begin, hovered, upright, lambda now: beyond(now, 5.0), 10.0)
+@dataclass(frozen=True)
+class _Path:
+    """A way of the goal: `curve` (phase, size, rate) → position and velocity, from a phase that is drawn."""
+
+    curve: Callable[[Any, float, float], tuple[Any, Any]]
+    size: float
+    rate: float
+
+    def goal(self, t: Any, phase: Any) -> tuple[Any, Any]:
+        return self.curve(self.rate * t + phase[0], self.size, self.rate)
+
+    def begin(self, draws: Draws, vehicle: Vehicle) -> Begin:
+        phase = draws.between(0.0, 2 * np.pi)
+        state, (x, x_dot) = _begin_almost_upright(draws, vehicle, lean=0.1).state, self.goal(0.0, phase)
+        return Begin(State(**(vars(state) | {"x": x + 0.2 * state.x, "x_dot": x_dot})), phase)
 
 
 def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> Task:
@@ -160,28 +186,12 @@ def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> T
     size, turn_rate : float
         Size, m, and angular rate, rad/s, of which a square takes four corners a turn.
     """
-    ways = {"circle": _circle, "lemniscate": _eight, "waypoints": _square}
-    errors.one_of("shape", shape, ways)
+    curves = {"circle": _circle, "lemniscate": _eight, "waypoints": _square}
+    errors.one_of("shape", shape, curves)
     errors.number("size", size, at_least=0, unit="m")
     errors.number("turn_rate", turn_rate, unit="rad/s")
-
-    def goal(t: Any, numbers: Any) -> tuple[Any, Any]:
-        return ways[shape](turn_rate * t + numbers[0], size, turn_rate)
-
-    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
-        phase = draws.between(0.0, 2 * np.pi)
-        state, (x, x_dot) = _almost_upright(draws, 0.1), goal(0.0, phase)
-        return Begin(State(**(vars(state) | {"x": x + 0.2 * state.x, "x_dot": x_dot})), phase)
-
-    return Task(
-        "Track",
-        begin,
-        goal,
-        upright,
-        lambda now: ca.logic_or(now.state.y[2] < 0.5, beyond(now, 3.0)),
-        10.0,
-        (0.1, 0.2, 0.4),
-    )
+    path, ended = _Path(curves[shape], size, turn_rate), partial(fallen_or_beyond, radius=3.0)
+    return Task("Track", path.begin, path.goal, upright, ended, 10.0, ahead=(0.1, 0.2, 0.4))
 
 
 def _circle(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
@@ -200,15 +210,15 @@ def _square(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
     return size * corner, ca.SX(3, 1)
 
 
+def _begin_in_cup(draws: Draws, vehicle: Vehicle) -> Begin:
+    y = draws.cap(0.5)
+    state = State(
+        x=ca.SX(3, 1), x_dot=draws.ball(0.5), R=draws.level(0.1), omega=draws.ball(0.2), y=y,
+        y_dot=draws.tangent(y, 1.0),
+    )  # fmt: skip
+    return Begin(state, ca.SX(0, 1))
+
+
 def catch_in_cup() -> Task:
     """Catch a rod that stands leaning in a cup and topples, without losing it; for a vehicle with a cup."""
-
-    def begin(draws: Draws, vehicle: Vehicle) -> Begin:
-        y = draws.cap(0.5)
-        state = State(
-            x=ca.SX(3, 1), x_dot=draws.ball(0.5), R=draws.level(0.1), omega=draws.ball(0.2), y=y,
-            y_dot=draws.tangent(y, 1.0),
-        )  # fmt: skip
-        return Begin(state, ca.SX(0, 1))
-
-    return Task("CatchInCup", begin, hovered, upright, lambda now: beyond(now, 5.0), 6.0)
+    return Task("CatchInCup", _begin_in_cup, hovered, upright, partial(beyond, radius=5.0), 6.0)

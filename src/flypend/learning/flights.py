@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.laws.policy import FEATURES, HOVER
 from flypend.learning.network import Weights, backward, forward
@@ -114,6 +115,7 @@ class Flights:
         self.kernels.see(self.groups, self.states[0], self._seen)
         self.phi[0, :, :-1] = flat(self._seen)
         for t in range(self.course.steps):
+            signals.poll()
             ask(t)
             self.kernels.forward(
                 self.groups, self.states[t], self.asked[t], self._numbers, self._shared, self.states[t + 1], self._seen,
@@ -145,6 +147,7 @@ class Flights:
         to_state, before = (lanes(self.groups, SIZE + self.rotors) for _ in range(2))
         to_phi, to_v = lanes(self.groups, FEATURES), lanes(self.groups, self.rotors)
         for t in reversed(range(self.course.steps)):
+            signals.poll()
             self.kernels.backward(
                 self.groups, self.states[t], self.asked[t], self._numbers, self._shared, to_state, to_phi, to_costs[t],
                 before, to_v,

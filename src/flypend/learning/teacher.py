@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import signals
 from flypend.compile.llvm.stagewise import lanes, stagewise
 from flypend.laws import inverted
 from flypend.laws.lqr import GAINS, gain_matrix
@@ -70,6 +71,7 @@ class Imitation:
         self._known = [*self._known[1 - RECENT :], self._teacher.labelled()]
         total = 0.0
         for _ in range(self._steps):
+            signals.poll()
             phi, wanted = self._known[rng.integers(len(self._known))]
             chosen = rng.integers(phi.shape[1], size=BATCH)
             total += self._step(weights, with_hover(phi[:, chosen]), wanted[:, chosen], rate)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,8 +13,8 @@ from threadpoolctl import threadpool_limits
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.files.arrays import read_arrays
-from flypend.files.whole import whole_file
+from flypend.files.arrays import read_arrays, save_arrays
+from flypend.files.schema import Field
 from flypend.laws.policy import MOST_WEIGHTS, Policy
 from flypend.learning.flights import Costs, Course, Flights
 from flypend.learning.network import Adam, Weights, first_weights
@@ -24,6 +23,7 @@ from flypend.learning.teacher import RATE, Imitation, direct
 from flypend.model import State, Vehicle
 from flypend.model.mount import clearances
 from flypend.planning.scaled import Units
+from flypend.signals.waiting import result_of, threads
 
 PARTS = 2  # of a batch, each flown by a thread; fixed, so that results do not depend on the machine's cores
 PHASES = ("imitation", "descent")
@@ -143,8 +143,9 @@ class Learner:
         training, i = self.training, self.done
         rng = np.random.default_rng([training.seed, 2, i])
         starts = self._chosen(rng, training.batch).reshape(PARTS, -1, 24 + self._parts[0].rotors)
-        with threadpool_limits(1, "blas"), ThreadPoolExecutor(PARTS) as pool:
-            flown = list(pool.map(self._flown, self._parts, starts))
+        with threadpool_limits(1, "blas"), threads(PARTS) as pool:
+            calls = [pool.submit(self._flown, *part) for part in zip(self._parts, starts, strict=True)]
+            flown = [result_of(call) for call in calls]
         gradient = {name: np.sum([part[1][name] for part in flown], axis=0) / training.batch for name in self.weights}
         warm = min(1.0, (i + 1) / 20)
         self.adam.move(self.weights, gradient, training.rate * warm * falling(i, training.updates))
@@ -181,20 +182,22 @@ class Learner:
     # Interruptions ----------------------------------------------------------------------------------------------------
 
     def save(self, path: Path) -> None:
-        """Write the state of the training to `path`, .npz."""
-        with whole_file(path, (".npz",)) as partial, partial.open("wb") as stream:
-            np.savez(
-                stream, told=_told(self.training), done=self.done, count=self.adam.count, curve=np.array(self.curve),
-                **self.weights, **self.adam.moments,  # type: ignore[arg-type]
-            )  # fmt: skip
+        """Write the state of the training to `path`, .npz. Raises InputError if it is no longer finite."""
+        counts = {
+            "done": self.done,
+            "count": self.adam.count,
+            "curve": np.reshape(self.curve, (-1, len(Entry._fields))),
+        }
+        told = {"told": _told(self.training)}
+        save_arrays(path, self._fields(), {**told, **counts, **self.weights, **self.adam.moments})
 
     def resume(self, path: Path) -> bool:
         """Take up the training saved in `path`; return whether there is one. Raises InputError if it is another."""
         if not path.exists():
             return False
         expected = "one of the same training (or another folder)"
-        stored = read_arrays("checkpoint", path, expected)
-        if str(stored.get("told")) != _told(self.training):
+        stored = read_arrays("checkpoint", path, expected, self._fields())
+        if str(stored["told"]) != _told(self.training):
             raise InputError("checkpoint", expected, str(path))
         for known in (self.weights, self.adam.moments):
             for name, array in known.items():
@@ -202,6 +205,20 @@ class Learner:
         self.done, self.adam.count = int(stored["done"]), int(stored["count"])
         self.curve = [Entry(*row) for row in stored["curve"].tolist()]
         return True
+
+    def _fields(self) -> dict[str, Field]:
+        """What a checkpoint of this training holds."""
+        updates = self.training.updates
+        weights = {name: Field(array.shape, "<f4") for name, array in self.weights.items()}
+        return {
+            "told": Field((), "U"),
+            "done": Field((), "<i8", low=0, high=updates),
+            "count": Field((), "<i8", low=0, high=updates),  # fewer: a gradient that is not finite moves nothing
+            "curve": Field(("entry", len(Entry._fields)), finite=False),
+            **weights,
+            **{f"m{name}": field for name, field in weights.items()},
+            **{f"v{name}": field._replace(low=0) for name, field in weights.items()},
+        }
 
 
 def _told(training: Training) -> str:

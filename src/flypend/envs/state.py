@@ -1,0 +1,109 @@
+"""What an environment is at a moment, as a record: kept, compared, sent elsewhere, and gone on from."""
+
+from __future__ import annotations
+
+import json
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from typing import Any, Self
+from zlib import crc32
+
+import numpy as np
+from gymnasium.utils import seeding
+
+from flypend.envs.kernel import Worlds
+from flypend.errors import InputError
+
+
+@dataclass(frozen=True)
+class SavedState:
+    """What an environment is at a moment; equal to another from which it goes on in the same way.
+
+    Parameters
+    ----------
+    about : tuple of (str, str)
+        What it is a state of: version, task, vehicle, number of worlds and whatever else must agree.
+    worlds : bytes
+        Arrays of the worlds; see `flypend.envs.kernel.Worlds`.
+    flown : bytes
+        States since the last reset, of a single world.
+    generator : str
+        State of `np_random`, which draws the seeds of resets without one, and its seed, as JSON.
+    checksum : int
+        CRC-32 of the rest.
+    """
+
+    about: tuple[tuple[str, str], ...]
+    worlds: bytes
+    flown: bytes
+    generator: str
+    checksum: int = 0
+
+    def sealed(self) -> SavedState:
+        """Return the same record with the checksum that it should have."""
+        text = repr((self.about, self.generator, len(self.flown)))
+        return replace(self, checksum=crc32(self.worlds, crc32(self.flown, crc32(text.encode()))))
+
+
+class Stateful:
+    """An environment of gymnasium whose state is that of `worlds`, its generator, and what it has flown.
+
+    Copies by `copy`, `pickle` and `cloudpickle`, and those in a forked process, share nothing with it.
+    """
+
+    worlds: Worlds
+    np_random: Any
+    np_random_seed: Any
+    _np_random: Any
+    _np_random_seed: Any
+
+    def __init__(self, worlds: Worlds) -> None:
+        self.worlds = worlds
+        # Else it is seeded when first used, by each copy differently.
+        self._np_random, self._np_random_seed = seeding.np_random()
+
+    def __copy__(self) -> Self:
+        return deepcopy(self)
+
+    def save_state(self) -> SavedState:
+        """Return what the environment is now, to be restored in it or in another with the same arguments.
+
+        Generators of the spaces, from which actions are sampled, and the counts of wrappers are not part of it: copy
+        a wrapped environment whole.
+        """
+        generator = json.dumps([self.np_random.bit_generator.state, self.np_random_seed], default=np.ndarray.tolist)
+        about = ("kind", type(self).__name__), *self.worlds.about.items()
+        return SavedState(about, self.worlds.save(), self._save_flown(), generator).sealed()
+
+    def restore_state(self, state: SavedState) -> None:
+        """Become what an environment with the same arguments was when `state` was saved, and go on as it did.
+
+        Arrays that steps overwrite (`copy=False`) stay where they are and get their contents of then.
+
+        Raises
+        ------
+        InputError
+            If it is no such state, damaged, or that of another kind, version, task, vehicle, plant, number of worlds,
+            or whatever else changes what worlds do. Nothing is restored then.
+        """
+        if not isinstance(state, SavedState):
+            raise InputError("state", "what save_state returned", type(state).__name__)
+        if state != state.sealed():
+            raise InputError("state", "what save_state returned", "one that is damaged")
+        about = dict(state.about)
+        kind = about.pop("kind", "nothing")
+        if kind != type(self).__name__:
+            raise InputError("state.kind", type(self).__name__, kind)
+        numbers, seed = json.loads(state.generator)
+        bits = self.np_random.bit_generator
+        if numbers["bit_generator"] != bits.state["bit_generator"]:
+            raise InputError("state.generator", bits.state["bit_generator"], numbers["bit_generator"])
+        self.worlds.restore(about, state.worlds)
+        self._restore_flown(state.flown)
+        bits.state, self._np_random_seed = numbers, seed
+
+    def _save_flown(self) -> bytes:
+        return b""
+
+    def _restore_flown(self, flown: bytes) -> None:
+        pass

@@ -7,10 +7,9 @@ import re
 import signal
 import subprocess
 import sys
-import threading
 import time
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,21 +22,24 @@ import flypend as fp
 from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.kernels.pieces import pieces_kernel
-from flypend.flight.kernels.web import WebModule
 from flypend.flight.metrics import metrics
 from flypend.flight.signals import Signals
 from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import goal, verdict
 from flypend.geometry import cross, dot
+from flypend.lab import answers
+from flypend.lab.answers import answer
 from flypend.lab.controls import offer, sliders
 from flypend.lab.engine import engine_of
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked
 from flypend.lab.map import region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
-from flypend.lab.session import Lanes, Slot, engines, flights, read
+from flypend.lab.session import Slot, read
 from flypend.lab.setting import Poke, setting_of
+from flypend.lab.shares import Shares
 from flypend.lab.tuning import tuned
+from flypend.lab.worker import END, encoded
 from flypend.laws import law_names
 from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import directions
@@ -223,28 +225,8 @@ def test_machine_code_takes_the_gains_that_are_inputs(plant):
     assert balanced["fixed"] == sorted(sliders_of(fp.laws.lqr()))
 
 
-def test_flights_do_not_wait_while_machine_code_is_compiled(monkeypatch):
-    begun, go_on, real = threading.Event(), threading.Event(), WebModule.code
-
-    def slow(module):
-        begun.set()
-        assert go_on.wait(60)
-        return real(module)
-
-    monkeypatch.setattr(WebModule, "code", slow)
-    fly(setting_of(asked()))  # its own kernel is compiled before
-    with ThreadPoolExecutor(2) as pool:
-        engine = pool.submit(engine_of, setting_of(asked()))
-        assert begun.wait(60)
-        flown = pool.submit(lambda: fly(setting_of(asked(duration=2.0))))
-        assert flown.result(60).t[-1] == 2.0
-        assert not engine.done()
-        go_on.set()
-        assert engine.result(60)["kind"] == "ideal"
-
-
 def test_no_machine_code_is_sent_for_what_cannot_be_flown():
-    [reply] = engines({"number": 3, "key": "k", "setting": asked(duration=-1)}, lambda: None)
+    [reply] = answer({"kind": "engine", "number": 3, "key": "k", "setting": asked(duration=-1)})
     assert (reply["number"], reply["key"], reply["engine"]) == (3, "k", None)
 
 
@@ -419,7 +401,7 @@ def test_a_wrong_setting_is_refused_in_one_line(wrong, field):
         setting_of(wrong)
     assert caught.value.field == field
     assert "\n" not in str(caught.value)
-    [reply] = flights({"number": 7, "setting": wrong}, lambda: None)
+    [reply] = answer({"kind": "fly", "number": 7, "setting": wrong})
     assert (reply["kind"], reply["number"], reply["field"]) == ("error", 7, field)
 
 
@@ -486,66 +468,151 @@ def test_a_map_is_made_of_the_flights():
 # The slot: the last question is the one that is answered ------------------------------------------------------------
 
 
-def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
-    begun, sent = [], []
+class Clerk:
+    """A worker without a process: it answers in two parts, 0.03 s each, and hears a stop after each."""
 
-    def work(message, _, wanted):
-        begun.append(message["number"])
-        time.sleep(0.03)
-        yield {"number": message["number"], "part": 1}
-        time.sleep(0.03)
-        yield {"number": message["number"], "part": 2}
+    def __init__(self, begun):
+        self.begun, self.lines, self.on, self.alive = begun, asyncio.Queue(), False, True
+
+    def ask(self, message):
+        self.begun.append(message["number"])
+        self.stopped = False
+        self.task = asyncio.create_task(self.work(message["number"]))
+
+    async def work(self, number):
+        for part in (1, 2):
+            await asyncio.sleep(0.03)
+            assert self.on
+            self.lines.put_nowait(encoded({"number": number, "part": part}))
+            if self.stopped:
+                break
+        self.lines.put_nowait(END)
+
+    def stop(self, grace=0.0):
+        assert not self.stopped  # told once
+        self.stopped = True
+
+    def switch(self, on):
+        self.on = on
+
+    async def reply(self):
+        return await self.lines.get()
+
+    def kill(self):
+        self.alive = False
+
+
+class Clerks:
+    def __init__(self):
+        self.begun, self.taken, self.given = [], [], []
+
+    async def take(self):
+        self.taken.append(Clerk(self.begun))
+        return self.taken[-1]
+
+    def give(self, clerk):
+        self.given.append(clerk)
+
+
+def slot_of(sent, clerks):
+    async def send(reply):
+        sent.append(json.loads(reply))
+
+    shares = Shares(1)
+    return Slot(shares.page(), 0, shares, clerks, send)
+
+
+def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
+    sent, clerks = [], Clerks()
 
     async def scenario():
-        with ThreadPoolExecutor(1) as pool:
-
-            async def send(reply):
-                sent.append(reply)
-
-            slot = Slot(Lanes(pool, pool), work, send)
-            for number in range(200):
-                slot.put({"number": number})
-                await asyncio.sleep(0.0005)
-            await slot.task
-            assert sent[-1] == {"number": 199, "part": 2}
-            slot.put({"number": 200})
-            await asyncio.sleep(0.045)
-            slot.drop()
-            await slot.task
+        slot = slot_of(sent, clerks)
+        for number in range(200):
+            slot.put({"number": number})
+            await asyncio.sleep(0.0005)
+        await slot._task
+        assert sent[-1] == {"number": 199, "part": 2}
+        slot.put({"number": 200})
+        await asyncio.sleep(0.045)
+        slot.drop()
+        await slot._task
+        assert sent[-1]["number"] == 200 or sent[-1] == {"number": 199, "part": 2}
+        assert sent[-1] != {"number": 200, "part": 2}
+        slot.put({"number": 201})
+        await slot._task
+        slot.close()
 
     asyncio.run(scenario())
-    assert len(begun) < 20
-    assert sent[-1] == {"number": 200, "part": 1}
-    assert threading.active_count() == 1 or not [t for t in threading.enumerate() if t.name.startswith("ThreadPool")]
+    assert len(clerks.begun) < 20
+    assert sent[-1] == {"number": 201, "part": 2}
+    assert [clerk.alive for clerk in clerks.taken] == [True]
+    assert clerks.given == clerks.taken  # for the next page
 
 
-def test_what_nobody_foresaw_is_answered_and_the_next_question_too(caplog):
-    sent = []
-
-    def work(message, _, wanted):
-        if message["number"] == 1:
-            raise ZeroDivisionError("so it is")
-        yield {"number": message["number"]}
+def test_a_page_that_closes_ends_its_work_and_no_other(monkeypatch):
+    sent, clerks = [], Clerks()
 
     async def scenario():
-        with ThreadPoolExecutor(1) as pool:
+        slot = slot_of(sent, clerks)
+        slot.put({"number": 1})
+        await asyncio.sleep(0.01)
+        slot.close()
+        await asyncio.wait([slot._task])
 
-            async def send(reply):
-                sent.append(reply)
+    asyncio.run(scenario())
+    assert (sent, clerks.given) == ([], [])
+    assert not clerks.taken[0].alive
 
-            slot = Slot(Lanes(pool, pool), work, send)
-            for number in (1, 2):
-                slot.put({"number": number})
-                await slot.task
+
+def test_a_page_without_a_process_is_told(monkeypatch):
+    sent, clerks = [], Clerks()
+
+    async def scenario():
+        slot = slot_of(sent, clerks)
+        monkeypatch.setattr(clerks, "take", lambda: (_ for _ in ()).throw(OSError("no more processes")))
+        slot.put({"number": 1})
+        await slot._task
+        monkeypatch.undo()
+        slot.put({"number": 2})
+        await slot._task
 
     asyncio.run(scenario())
     assert (sent[0]["kind"], sent[0]["number"]) == ("error", 1)
-    assert "ZeroDivisionError: so it is" in sent[0]["message"]
-    assert sent[1] == {"number": 2}
+    assert sent[-1]["number"] == 2
+
+
+def test_what_nobody_foresaw_is_answered(monkeypatch, caplog):
+    def wrong(message, own, tell):
+        raise ZeroDivisionError("so it is")
+
+    monkeypatch.setitem(answers.ANSWERS, "fly", wrong)
+    [reply] = answer({"kind": "fly", "number": 1})
+    assert (reply["kind"], reply["number"]) == ("error", 1)
+    assert "ZeroDivisionError: so it is" in reply["message"]
     assert "ZeroDivisionError" in caplog.text
 
 
 # The server ---------------------------------------------------------------------------------------------------------
+
+
+def family(process):
+    """The ids of `process` and of those below it."""
+    parents = {}
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            parents[int(path.parent.name)] = int(path.read_text().rsplit(")", 1)[1].split()[1])
+    found = [process]
+    for one in found:
+        found += [child for child, parent in parents.items() if parent == one]
+    return found
+
+
+def cpu(process):
+    """Seconds of processor time of `process`; 0 of one that has ended."""
+    with suppress(OSError):
+        fields = Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return 0.0
 
 
 class Lab:
@@ -554,16 +621,21 @@ class Lab:
     def __init__(self, *options):
         command = [sys.executable, "-m", "flypend", "lab", "--no-browser", *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        line = self.process.stdout.readline()
-        found = re.search(r"http://(\S+)/", line)
-        assert found, line + self.process.stdout.read()
+        found, said = None, ""
+        while not found and (line := self.process.stdout.readline()):  # of a law in Python there is a note before
+            found, said = re.search(r"http://(\S+)/", line), said + line
+        assert found, said
         self.host = found[1]
         self.url = f"http://{self.host}/"
 
+    @property
+    def family(self):
+        """The ids of its processes."""
+        return family(self.process.pid)
+
     def cpu(self):
-        """Seconds of processor time so far."""
-        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        """Seconds of processor time so far, of all its processes that are there."""
+        return sum(cpu(process) for process in self.family)
 
     def calm(self):
         """Whether it soon does nothing: within 2 s, where 200 flights or a map would take longer."""

@@ -7,12 +7,12 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.flight.simulate import fly as simulate_flight
 from flypend.flight.verdict import verdict
+from flypend.lab.answers import answer
 from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly
 from flypend.lab.map import region
 from flypend.lab.own import OwnLaws
-from flypend.lab.session import flights
 from flypend.lab.setting import setting_of
 from flypend.lab.tuning import Stepped, tuned
 from flypend.laws import LawError
@@ -111,7 +111,7 @@ def test_a_file_that_changes_is_flown_as_it_stands(own, tmp_path):
     path.write_text(TEXT.replace("return fp.Wrench(lift", "return fp.Wrench(lifted"), encoding="utf-8")
     with pytest.raises(LawError, match=r"mine\.py:6: NameError: name 'lifted' is not defined"):
         setting_of(asked("hold"), own)
-    (reply,) = flights({"kind": "fly", "number": 1, "setting": asked("hold")}, lambda: None, own)
+    (reply,) = answer({"kind": "fly", "number": 1, "setting": asked("hold")}, own)
     assert (reply["kind"], reply["number"]) == ("error", 1)
     assert "mine.py:6: NameError" in reply["message"]
 

@@ -6,7 +6,6 @@ import json
 import os
 import time
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,14 +14,9 @@ from test_lab import Lab, asked
 from tornado.httpclient import HTTPClientError
 from tornado.websocket import websocket_connect
 
-from flypend.errors import InputError
-from flypend.lab import flying
-from flypend.lab.budget import MOST_STEPS, Abandoned, Budget
-from flypend.lab.flying import fly
-from flypend.lab.own import OwnLaws
+from flypend.lab.flying import MOST_STEPS, fly
 from flypend.lab.server import MOST_PAGES
 from flypend.lab.setting import setting_of
-from flypend.lab.tuning import in_pieces
 
 # Within the bounds of a page, a hundred times the proposed gains: 37 s of processor without a budget.
 STIFF = {"attitude_bandwidth": 1700.0, "attitude_damping": 70.0}
@@ -53,23 +47,6 @@ def test_a_flight_of_too_many_steps_ends_within_seconds_and_says_so():
     np.testing.assert_allclose(run.y[:10], early.y[:10], atol=1e-9)
 
 
-def test_what_is_compiled_for_a_poke_is_not_of_its_budget(monkeypatch):
-    """A law with a network took three seconds, after which the flight was refused."""
-    poke = {"time": 0.5, "on": "bob", "velocity": [1, 0, 0]}
-    setting = setting_of(asked(plant="rotors", duration=1.0, pokes=[poke]))
-    fly(setting)
-
-    def slow(machine, tell):
-        begin = time.thread_time()
-        while time.thread_time() < begin + 0.4:
-            pass
-        return in_pieces(machine, tell)
-
-    monkeypatch.setattr(flying, "in_pieces", slow)
-    monkeypatch.setattr(flying, "Budget", partial(Budget, seconds=0.3))
-    assert fly(setting).t[-1] == 1.5
-
-
 def test_pokes_share_one_budget():
     """Twenty parts, each with as many steps as are allowed, would cost twenty times as much."""
     pokes = [{"time": 0.2 * i, "on": "bob", "velocity": [0.01, 0, 0]} for i in range(1, 20)]
@@ -77,41 +54,6 @@ def test_pokes_share_one_budget():
     run = fly(setting_of(stiff(pokes=pokes)))
     assert "integration steps" in run.outcome.reason
     assert time.thread_time() - begun < 5
-
-
-ENDLESS = """
-import time
-import numpy as np
-import flypend as fp
-
-def slow(t, state, vehicle):
-    end = time.thread_time() + 0.02
-    while time.thread_time() < end:
-        pass
-    if state.x[2] > 1e3:
-        return fp.Wrench(0.0, np.zeros(3))
-    return fp.Wrench(vehicle.weight, -0.02 * np.asarray(state.omega))
-"""
-
-
-@pytest.fixture
-def slow(tmp_path):
-    (tmp_path / "mine.py").write_text(ENDLESS, encoding="utf-8")
-    own = OwnLaws([f"{tmp_path / 'mine.py'}:slow"])
-    return setting_of(asked("slow", "rotors", duration=20.0), own)  # 200 s
-
-
-def test_a_law_in_python_has_a_budget_of_time(slow, monkeypatch):
-    monkeypatch.setattr(flying, "Budget", partial(Budget, seconds=0.3))
-    with pytest.raises(InputError, match="of processor time in the laboratory"):
-        fly(slow)
-
-
-def test_what_nobody_waits_for_is_not_flown_on(slow):
-    begun, until = time.monotonic(), time.monotonic() + 0.3
-    with pytest.raises(Abandoned):
-        fly(slow, wanted=lambda: time.monotonic() < until)
-    assert time.monotonic() - begun < 2
 
 
 # The attack ---------------------------------------------------------------------------------------------------------
@@ -151,7 +93,7 @@ class Attack:
             while json.loads(await asyncio.wait_for(socket.read_message(), 60))["kind"] != "flight":
                 pass
             self.waits.append(time.monotonic() - begun)
-            self.memory.append(resident(self.lab.process.pid))
+            self.memory.append(sum(resident(process) for process in self.lab.family))
             await asyncio.sleep(0.2)
         socket.close()
 
@@ -238,8 +180,11 @@ class Attack:
 
 
 def resident(process):
-    """Megabytes of memory that `process` holds."""
-    return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE") / 2**20
+    """Megabytes of memory that `process` holds, of shared ones its part; 0 of one that has ended."""
+    with suppress(OSError, StopIteration):
+        lines = Path(f"/proc/{process}/smaps_rollup").read_text().splitlines()
+        return next(int(line.split()[1]) for line in lines if line.startswith("Pss:")) / 1024
+    return 0.0
 
 
 @pytest.mark.parametrize("seconds", [8, pytest.param(600, marks=pytest.mark.slow)], ids=["short", "ten minutes"])

@@ -7,6 +7,7 @@ from dataclasses import replace
 from urllib.parse import quote
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import flypend as fp
@@ -689,10 +690,12 @@ def test_numbers_pictures_and_movies_are_saved(visit, run, tmp_path):
     with page.expect_download() as got:
         page.locator("[data-keep=csv]").click()
     got.value.save_as(tmp_path / "flight.csv")
-    table = np.genfromtxt(tmp_path / "flight.csv", delimiter=",", names=True)
-    kept = np.searchsorted(table["t"], run.t - 1e-9)
-    for name, column in (("x_1", run.x[:, 0]), ("y_3", run.y[:, 2]), ("rotor_2", run.rotor_forces[:, 1])):
-        np.testing.assert_allclose(table[name][kept], column, atol=1e-9)
+    table, frame = pd.read_csv(tmp_path / "flight.csv"), run.to_dataframe(units=True).reset_index()
+    assert set(table) - set(frame) == {"quat_x [1]", "quat_y [1]", "quat_z [1]", "quat_w [1]"}
+    assert {name for name in frame if name.startswith(("t ", "x_", "y_", "thrust", "rotor_"))} <= set(table)
+    kept = np.searchsorted(table["t [s]"], run.t - 1e-9)
+    for name in ("x_1 [m]", "y_3 [1]", "rotor_force_2 [N]"):
+        np.testing.assert_allclose(table[name].to_numpy()[kept], frame[name], atol=1e-9)
     with page.expect_download() as got:
         page.locator("[data-keep=png]").click()
     got.value.save_as(tmp_path / "flight.png")

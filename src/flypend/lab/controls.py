@@ -9,7 +9,7 @@ from flypend.lab.setting import LONGEST, Setting
 from flypend.lab.story import story
 from flypend.laws import law_names
 from flypend.model import State
-from flypend.model.shipped import vehicle_names
+from flypend.model.table import vehicle_names
 from flypend.pages.sliders import gain_sliders, plant_sliders, slider
 from flypend.pages.starts import plain, starts
 from flypend.paper import experiment, experiment_names

@@ -6,9 +6,9 @@ from dataclasses import replace
 from typing import Any
 
 from flypend.flight.live import live_loop, tunable
-from flypend.flight.live_engine import compiled, engine
-from flypend.lab.budget import MOST_STEPS
-from flypend.lab.setting import SYMBOLS, Setting
+from flypend.flight.live_engine import engine_facts
+from flypend.lab.flying import MOST_STEPS
+from flypend.lab.setting import Setting
 from flypend.laws import BoundLaw
 from flypend.pages.sliders import sliders_of
 
@@ -20,10 +20,8 @@ def engine_of(setting: Setting) -> dict[str, Any] | None:
     the package, computes others in advance.
     """
     law = setting.flight.law
-    with SYMBOLS:
-        if setting.where or not isinstance(law, BoundLaw):
-            return None
-        fixed = set(sliders_of(law)) - set(tunable(law))
-        exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
-        module, facts = engine(live_loop(setting.flight), exact)
-    return compiled(module, facts) | {"fixed": sorted(fixed)}
+    if setting.where or not isinstance(law, BoundLaw):
+        return None
+    fixed = set(sliders_of(law)) - set(tunable(law))
+    exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
+    return engine_facts(live_loop(setting.flight), exact) | {"fixed": sorted(fixed)}

@@ -6,7 +6,6 @@ Python function begins its flight computer anew.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -21,8 +20,7 @@ from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
 from flypend.flight.trajectory import Trajectory
-from flypend.lab.budget import SPENT, Budget
-from flypend.lab.setting import SYMBOLS, Poke, Setting, in_frame
+from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tuned, values
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle, Wrench, disturbed_motion
@@ -30,38 +28,42 @@ from flypend.model.state import SIZE, E3Direction, seen_packed, split
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
+MOST_STEPS = 20_000  # of the ideal plant, over all parts of a flight; usual gains need less than 1,000 for 30 s
+SPENT = f"the laboratory stops a flight after {MOST_STEPS:,} integration steps; flypend run does not"
 
 
 @dataclass(frozen=True)
 class Part:
-    """Samples between two pokes: time since the start of the part, packed states, rotor forces, wrench, outcome."""
+    """Samples between two pokes: time since the start of the part, packed states, rotor forces, wrench, outcome.
+
+    `steps` are the integration steps in the ideal plant.
+    """
 
     t: Any
     packed: Any
     rotors: Any
     wrench: Any
     outcome: Outcome
+    steps: int = 0
 
 
-def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] = lambda: True) -> Trajectory:
+def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
     """Fly `setting`, pokes included, and return the trajectory in the frame of its law.
 
     The flight continues for the duration of the setting after the last poke. `tell` is called before a compilation.
-    A flight that has spent the steps of its `Budget` ends there. Raises InputError if it has spent the time, and
-    Abandoned once it is no longer `wanted`.
+    A flight ends after MOST_STEPS.
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
     if setting.pokes and isinstance(machine, Tuned) and isinstance(machine.kernel, SampledKernel):
-        pieces = in_pieces(machine, tell)  # before the budget begins: it is one of flying
-        return _trajectory(setting, machine, gains, [_poked_on(setting, machine, pieces, gains, Budget(wanted))])
-    budget = Budget(wanted)
+        return _trajectory(setting, machine, gains, [_poked_on(setting, machine, in_pieces(machine, tell), gains)])
     begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
         while_ = flight.duration if poke is None else _struck_at(poke, flight) - begin
-        budget.check(begin)
-        part = _after(machine, gains, flight, state, rotors, while_, number, budget)
+        left = MOST_STEPS - sum(part.steps for part in parts)
+        request = flight.replace(tolerances=replace(flight.tolerances, max_steps=max(left, 1)))
+        part = _after(machine, gains, request, state, rotors, while_, number)
         parts.append(_moved(part, begin, first=not parts))
         if poke is None or part.outcome.status != "completed":
             break
@@ -72,17 +74,15 @@ def fly(setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] 
     return _trajectory(setting, machine, gains, parts)
 
 
-def _poked_on(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any, budget: Budget) -> Part:
+def _poked_on(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any) -> Part:
     """Fly a sampled plant through all pokes: board, noise and commands in transit go on as if nothing had happened."""
     flight, plant = setting.flight, machine.kernel.loop.sampled
     ticks = [_tick(poke, 1 / plant.rate) for poke in setting.pokes]
-    with SYMBOLS:
-        flown = pieces.begin(flight.starts, seed=flight.seed or 0, gains=dict(zip(machine.names, gains, strict=True)))
+    flown = pieces.begin(flight.starts, seed=flight.seed or 0, gains=dict(zip(machine.names, gains, strict=True)))
     last = ticks[-1] + number_of_ticks(flight.duration, plant)
     blows = [np.zeros(6), *(_impulses(poke, plant.true_vehicle(flight.vehicle)) for poke in setting.pokes)]
     rows, blow = [], np.zeros(6)
     for tick, struck in zip((*ticks, last), blows, strict=True):
-        budget.check(flown.ticks / plant.rate)
         blow = blow + struck  # of pokes within one tick, all at once
         if flown.flying and tick > flown.ticks:
             rows.append(flown.advance(tick - flown.ticks, blow))
@@ -128,14 +128,7 @@ def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
 
 
 def _after(
-    machine: Tuned | Stepped,
-    gains: Any,
-    flight: Flight,
-    state: State,
-    rotors: Any,
-    duration: float,
-    number: int,
-    budget: Budget,
+    machine: Tuned | Stepped, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int
 ) -> Part:
     """Fly part `number`: from `state` and the rotor forces `rotors` (N), for `duration` s, with its own noise."""
     if isinstance(flight.plant, Sampled):
@@ -143,27 +136,25 @@ def _after(
     elif duration == 0 and isinstance(machine, Tuned):
         return _part_of(machine, gains, np.zeros(1), state.packed()[None], Outcome("completed", 0.0))
     part = flight.replace(starts=state, duration=duration, seed=(flight.seed or 0) + number)
-    return _part(machine, gains, part, rotors, budget)
+    return _part(machine, gains, part, rotors)
 
 
-def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any, budget: Budget) -> Part:
+def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> Part:
     if isinstance(machine, Stepped):
-        return _stepped_part(flight.replace(law=budget.watch(machine.law)), rotors)
+        return _stepped_part(flight.replace(law=machine.law), rotors)
     if isinstance(machine.kernel, SampledKernel):
         return _sampled_part(machine.kernel, gains, flight, rotors)
-    return _ideal_part(machine, machine.kernel, gains, flight, budget)
+    return _ideal_part(machine, machine.kernel, gains, flight)
 
 
-def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight, budget: Budget) -> Part:
-    exact = replace(flight.tolerances, max_steps=max(budget.steps, 1))
-    solution = Solution(kernel, flight.replace(tolerances=exact), gains)
-    budget.steps -= len(solution.knots) - 1
+def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight) -> Part:
+    solution = Solution(kernel, flight, gains)
     outcome, t = solution.outcome, flight.grid
     if outcome.reason == REASONS[runge_kutta.TOO_MANY]:
         outcome = replace(outcome, reason=SPENT)
     if outcome.status != "completed":
         t = np.append(t[t < outcome.time], outcome.time)
-    return _part_of(machine, gains, t, solution(t), outcome)
+    return replace(_part_of(machine, gains, t, solution(t), outcome), steps=len(solution.knots) - 1)
 
 
 def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) -> Part:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from flypend.flight.ensemble import fly_many
-from flypend.lab.budget import MOST_STEPS
+from flypend.lab.flying import MOST_STEPS
 from flypend.lab.setting import Setting
 from flypend.lab.tuning import Stepped, Tell, tuned, values
 from flypend.model import State
@@ -20,16 +20,14 @@ from flypend.plants import Ideal
 
 RUNS = {"ideal": 3000, "sampled": 1200, "stepped": 96}
 FIRST, MOST = {"ideal": 16, "sampled": 16, "stepped": 2}, {"ideal": 256, "sampled": 64, "stepped": 8}  # of a chunk
-CHUNK_TIME = 0.1  # s of processor time that a chunk should take, so that other pages get their turn
+CHUNK_TIME = 0.1  # s of processor time that a chunk should take, to be seen as it comes
 
 
-def region(
-    setting: Setting, tell: Tell = lambda: None, wanted: Callable[[], bool] = lambda: True
-) -> Iterator[dict[str, Any]]:
+def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, Any]]:
     """Fly `setting` with the rod at rest in all directions, the rest of its start unchanged, and yield chunks.
 
     A chunk holds `total`, `done` and, for each of its flights, `y` (e₃ up), `settling` (s; None for a failure) and
-    `cause`. A flight of more steps than a `Budget` allows counts as diverged. Ends once it is no longer `wanted`.
+    `cause`. A flight of more than MOST_STEPS counts as diverged.
     """
     flight = setting.flight
     machine, gains = tuned(setting, tell), values(setting)
@@ -39,7 +37,7 @@ def region(
     rods = directions(count)
     tuning = {name: float(value) for name, value in zip(machine.names, gains, strict=True)}
     exact = replace(flight.tolerances, max_steps=MOST_STEPS)
-    while done < count and wanted():
+    while done < count:
         begun = time.thread_time()
         y = rods[done : done + size]
         own = _starts(setting.start, y).seen(machine.law.e3)

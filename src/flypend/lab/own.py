@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from flypend.errors import InputError
 from flypend.laws import Controller, Gain, Law, law_names
@@ -40,28 +41,33 @@ class OwnLaws:
     """
 
     def __init__(self, names: Iterable[str] = ()) -> None:
+        self._where: dict[str, str] = {}
         self._kept: dict[str, OwnLaw] = {}
         for name in names:
             own = _loaded(str(absolute(name, Path.cwd())))
-            taken = (*law_names(), *self._kept)
+            taken = (*law_names(), *self._where)
             title = own.law.name
             while title in taken:
                 title += " (own)"
-            self._kept[title] = own
+            self._where[title], self._kept[title] = own.where, own
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return names and places: laws are read again where they are flown."""
+        return {"_where": self._where, "_kept": {}}
 
     def __iter__(self) -> Iterator[str]:
         """Iterate over the names."""
-        return iter(self._kept)
+        return iter(self._where)
 
     def __contains__(self, name: object) -> bool:
         """Whether there is a law called `name`."""
-        return isinstance(name, str) and name in self._kept
+        return isinstance(name, str) and name in self._where
 
     def __getitem__(self, name: str) -> OwnLaw:
         """Return the law called `name`, from its file as it is now. Raises InputError if the file has an error."""
-        kept = self._kept[name]
-        if kept.stamp != _stamp(kept.where):
-            kept = self._kept[name] = _loaded(kept.where)
+        where, kept = self._where[name], self._kept.get(name)
+        if kept is None or kept.stamp != _stamp(where):
+            kept = self._kept[name] = _loaded(where)
         return kept
 
 

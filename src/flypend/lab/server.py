@@ -8,15 +8,11 @@ from __future__ import annotations
 
 import asyncio
 import ipaddress
-import json
-import signal
 import socket
 import threading
 import webbrowser
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from functools import partial
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -25,18 +21,20 @@ from tornado.iostream import IOStream
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.errors import InputError
+from flypend.lab.answers import ANSWERS, refusal
 from flypend.lab.own import OwnLaws
 from flypend.lab.page import page
-from flypend.lab.session import Lanes, Slot, engines, flights, maps, read, refusal
+from flypend.lab.session import Slot, read
+from flypend.lab.shares import Shares
+from flypend.lab.worker import Workers, encoded
 from flypend.pages import replay
 
 LARGEST_MESSAGE = 64 * 1024  # bytes; a setting needs one or two thousand
 MOST_PAGES = 32
 MOST_CONNECTIONS = 128  # of all kinds; a browser opens a few for a page
 SILENT = 30  # s until a connection without a request is closed
-THREADS = 2
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src blob:; "
     "style-src 'unsafe-inline'; img-src data:; connect-src 'self' ws://{host}; "
@@ -45,15 +43,12 @@ POLICY = (
 
 
 class Laboratory:
-    """State shared by all pages: threads for quick flights, for slow ones and for maps, and the set of open pages."""
+    """State shared by all pages: processes that answer them, their shares of the cores, and the set of open pages."""
 
     def __init__(self, host: str, own: OwnLaws | None = None) -> None:
         self.host, self.own = host, own or OwnLaws()
         self.pages: set[Socket] = set()
-        quick = ThreadPoolExecutor(THREADS, "flypend-flight")
-        slow, maps = (ThreadPoolExecutor(1, f"flypend-{name}") for name in ("slow", "map"))
-        self.flights, self.maps = Lanes(quick, slow), Lanes(maps, maps)
-        self.pools = (quick, slow, maps)
+        self.shares, self.workers = Shares(), Workers(self.own)
 
     def trusts(self, host: str) -> bool:
         """Whether the Host header `host` names this server, and not a foreign name that resolves to it."""
@@ -82,11 +77,10 @@ class Laboratory:
         )
 
     def close(self) -> None:
-        """Close every page and thread; work in progress stops after its current reply."""
+        """Close every page, and end every process."""
         for open_page in list(self.pages):
             open_page.leave()
-        for pool in self.pools:
-            pool.shutdown(wait=True, cancel_futures=True)
+        self.workers.close()
 
 
 class Server(HTTPServer):
@@ -137,12 +131,12 @@ class Socket(WebSocketHandler):
     """The connection to one open page."""
 
     def initialize(self, laboratory: Laboratory) -> None:
-        """Connect the page to `laboratory`, with a slot for flights, one for maps and one for machine code."""
+        """Connect the page to `laboratory`, with a slot for each kind of request."""
         self.laboratory = laboratory
+        share = laboratory.shares.page()
         self.slots = {
-            "fly": Slot(laboratory.flights, partial(flights, own=laboratory.own), self._send),
-            "map": Slot(laboratory.maps, partial(maps, own=laboratory.own), self._send),
-            "engine": Slot(laboratory.flights, partial(engines, own=laboratory.own), self._send),
+            kind: Slot(share, rank, laboratory.shares, laboratory.workers, self._send)
+            for rank, kind in enumerate(ANSWERS)
         }
 
     def prepare(self) -> None:
@@ -170,7 +164,7 @@ class Socket(WebSocketHandler):
         try:
             asked = read(message)
         except InputError as error:
-            await self._send(refusal(error))
+            await self._send(encoded(refusal(error)))
             return
         if asked["kind"] == "stop":
             self.slots["map"].drop()
@@ -182,17 +176,18 @@ class Socket(WebSocketHandler):
         self.leave()
 
     def leave(self) -> None:
-        """Unregister the page and drop its requests."""
+        """Unregister the page and end its work."""
         self.laboratory.pages.discard(self)
         for slot in self.slots.values():
-            slot.drop()
+            slot.close()
         self.close()
 
-    async def _send(self, reply: dict[str, Any]) -> None:
+    async def _send(self, reply: bytes) -> None:
         with suppress(WebSocketClosedError):
-            await self.write_message(json.dumps(reply, allow_nan=False, separators=(",", ":")))
+            await self.write_message(reply)
 
 
+@signals.deferred()
 def serve(
     host: str = "127.0.0.1",
     port: int = 0,
@@ -238,23 +233,21 @@ def _listen(host: str, port: int) -> socket.socket:
 async def _serve(
     listening: socket.socket, laboratory: Laboratory, browser: bool, announce: Callable[[str], Any]
 ) -> None:
-    stop = asyncio.Event()
     listening.setblocking(False)
     server = Server(
         laboratory.application(), max_body_size=LARGEST_MESSAGE, idle_connection_timeout=SILENT, body_timeout=SILENT
     )
     server.add_socket(listening)
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        with suppress(NotImplementedError, RuntimeError):  # no signals on this system or in this thread
-            loop.add_signal_handler(number, stop.set)
     url = address(laboratory.host, listening.getsockname()[1])
     announce(url)
     if browser:
         threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()  # some browsers block until closed
+    preparing = asyncio.create_task(laboratory.workers.prepare())
     try:
-        await stop.wait()
+        while not signals.accepted():
+            await asyncio.sleep(signals.PERIOD)
     finally:
+        preparing.cancel()
         server.stop()
         laboratory.close()
         await server.close_all_connections()

@@ -1,190 +1,101 @@
-"""The messages of one page: parsed, queued and answered. Only the latest request is answered."""
+"""The messages of one page: parsed, queued and answered. Only the latest request of a kind is answered."""
 
 from __future__ import annotations
 
 import asyncio
 import json
-import logging
-import math
-import time
-from collections.abc import Awaitable, Callable, Iterator
-from concurrent.futures import Executor
-from dataclasses import dataclass
-from functools import partial
-from threading import Lock
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 from flypend.errors import InputError
-from flypend.flight.verdict import verdict
-from flypend.lab.budget import Abandoned
-from flypend.lab.controls import sliders
-from flypend.lab.engine import engine_of
-from flypend.lab.export import python, toml
-from flypend.lab.flying import fly
-from flypend.lab.map import region
-from flypend.lab.own import NONE, OwnLaws
-from flypend.lab.setting import setting_of
-from flypend.lab.tuning import tuned
-from flypend.pages import replay
-from flypend.pages.starts import plain
+from flypend.lab.answers import ANSWERS, refusal
+from flypend.lab.shares import Page, Shares
+from flypend.lab.worker import COMPILING, END, GRACE, Worker, Workers, encoded
 
-log = logging.getLogger(__name__)
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands overflow the parser's stack
-KINDS = ("fly", "map", "engine", "stop")
-LATELY = 5.0  # s
-GREEDY = 0.5  # s of processor time within about LATELY; a usual flight takes 0.03 s
-Send = Callable[[dict[str, Any]], Awaitable[Any]]
-Tell = Callable[[], Any]
-Wanted = Callable[[], bool]
-Work = Callable[..., Iterator[dict[str, Any]]]  # (message, tell, wanted=)
-
-
-def _always() -> bool:
-    return True
-
-
-@dataclass
-class Lanes:
-    """Threads for answers: `quick`, and `slow` for pages that have lately taken much processor time.
-
-    Such pages wait for each other, and keep nobody else waiting.
-    """
-
-    quick: Executor
-    slow: Executor
+KINDS = (*ANSWERS, "stop")
+Send = Callable[[bytes], Awaitable[Any]]
 
 
 class Slot:
-    """A queue of length one: only the latest request is kept until a thread takes it up.
+    """Requests of one kind of a `page`: a queue of length one, in which the latest waits for a core.
 
-    `work(message, tell, wanted=)` returns an iterator of replies, which a thread of `lanes` advances one by one; a new
-    message abandons it. `wanted()` says whether anybody waits. `send` sends each reply.
+    A newer request stops the one in progress. Of requests that are stopped without a reply, each has twice as long as
+    the one before, so that something comes while a slider moves on. The page's job has the `rank` in `shares`. `send`
+    sends each reply.
     """
 
-    def __init__(self, lanes: Lanes, work: Work, send: Send) -> None:
-        self.lanes, self.work, self.send = lanes, work, send
-        self.load, self.noted = 0.0, time.monotonic()  # processor time taken lately, s, as of then
-        self.pending: Any = None
-        self.dropped = False
-        self.task: asyncio.Task[None] | None = None
-        self._message: Any = None  # in progress, with its replies
-        self._replies: Iterator[dict[str, Any]] | None = None
-        self._lock = Lock()
+    def __init__(self, page: Page, rank: int, shares: Shares, workers: Workers, send: Send) -> None:
+        self._page, self._rank, self._shares, self._workers, self._send = page, rank, shares, workers, send
+        self._pending: Any = None
+        self._worker: Worker | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._busy = self._stopped = self._dropped = False  # of the request in progress
+        self._grace = GRACE
 
     def put(self, message: Any) -> None:
         """Queue `message` in place of any that waits."""
-        with self._lock:
-            self.pending, self.dropped = message, False
-        if self.task is None or self.task.done():
-            self.task = asyncio.get_running_loop().create_task(self._run())
+        self._pending = message
+        self._stop(self._grace)
+        if self._task is None or self._task.done():
+            self._task = asyncio.get_running_loop().create_task(self._run())
 
     def drop(self) -> None:
-        """Discard the waiting request, and abandon the one in progress."""
-        with self._lock:
-            self.pending, self.dropped = None, True
+        """Discard the waiting request, and stop the one in progress."""
+        self._pending, self._dropped = None, True
+        self._stop()
+
+    def close(self) -> None:
+        """End all work at once."""
+        worker, self._worker, self._pending = self._worker, None, None
+        if self._task is not None and not self._task.done():
+            self._task.cancel()
+            if worker is not None:
+                worker.kill()
+        elif worker is not None:
+            self._workers.give(worker)
+
+    def _stop(self, grace: float = 0.0) -> None:
+        if self._worker is not None and self._busy and not self._stopped:
+            self._stopped, self._grace = True, 2 * self._grace
+            self._worker.stop(grace)
 
     async def _run(self) -> None:
-        while self.pending is not None:
-            self._replies = None
-            await self._answer()
-
-    async def _answer(self) -> None:
-        """Answer the request that is the latest when a thread is free: reply by reply, until another one comes."""
-        loop = asyncio.get_running_loop()
-        while self.pending is None or self._replies is None:
+        while self._pending is not None:
             try:
-                reply = await loop.run_in_executor(self._lane(), self._advance, loop)
-            except Abandoned:
+                self._worker = self._worker or await self._workers.take()
+            except (OSError, EOFError) as error:  # no process, memory or socket left
+                message, self._pending = self._pending, None
+                lacking = InputError("setting", "a process that computes it", str(error))
+                await self._send(encoded(refusal(lacking, message.get("number"))))
                 return
-            except Exception as error:  # the page needs a reply, and the server must survive for the others
-                log.exception("a setting could not be flown")
-                reason = f"{type(error).__name__}: {error}"
-                refused = InputError("setting", "one that can be computed", reason)
-                await self.send(refusal(refused, self._message.get("number")))
-                return
-            if reply is None or self.dropped:
-                return
-            await self.send(reply)
+            if not await self._answer(self._worker):
+                self._worker.kill()
+                self._worker = None
 
-    def _lane(self) -> Executor:
-        """Return the threads for the next reply; what the page took fades with LATELY."""
-        now = time.monotonic()
-        self.load, self.noted = self.load * math.exp((self.noted - now) / LATELY), now
-        return self.lanes.slow if self.load > GREEDY else self.lanes.quick
-
-    def _advance(self, loop: asyncio.AbstractEventLoop) -> dict[str, Any] | None:
-        """Take up the latest request, unless one is in progress, and return its next reply; None at the end."""
-        with self._lock:
-            if self.dropped:
-                return None
-            if self._replies is None:
-                self._message, self.pending = self.pending, None
-                self._replies = self.work(self._message, partial(self._tell, loop), wanted=lambda: not self.dropped)
-        begun = time.thread_time()
-        try:
-            return next(self._replies, None)
-        finally:
-            self.load += time.thread_time() - begun
-
-    def _tell(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Send "compiling", from a thread."""
-        told = {"kind": "compiling", "number": self._message.get("number")}
-        asyncio.run_coroutine_threadsafe(_ignore(self.send(told)), loop)
-
-
-async def _ignore(sent: Awaitable[Any]) -> None:
-    await sent
-
-
-def flights(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always) -> Iterator[dict[str, Any]]:
-    """Yield the reply to "fly": the packed run, its verdict, the sliders, the start in numbers, and the exports.
-
-    `own` are the custom laws. Raises Abandoned once the flight is no longer `wanted`.
-    """
-    begun = time.perf_counter()
-    number = message.get("number")
-    try:
-        setting = setting_of(message.get("setting"), own)
-        run = fly(setting, tell, wanted)
-        told = verdict(run, tuned(setting).criterion)
-        yield {
-            "kind": "flight",
-            "number": number,
-            "run": replay.pack(run, told),
-            "verdict": told,
-            "sliders": sliders(setting),
-            "start": plain(setting.start),
-            "toml": toml(setting),
-            "python": python(setting),
-            "milliseconds": 1e3 * (time.perf_counter() - begun),
-        }
-    except InputError as error:
-        yield refusal(error, number)
-
-
-def maps(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always) -> Iterator[dict[str, Any]]:
-    """Yield the replies to "map": chunks of the region of attraction, while it is `wanted`; `own` as in `flights`."""
-    number = message.get("number")
-    try:
-        for chunk in region(setting_of(message.get("setting"), own), tell, wanted):
-            yield {"kind": "map", "number": number, **chunk}
-    except InputError as error:
-        yield refusal(error, number)
-
-
-def engines(message: Any, tell: Tell, own: OwnLaws = NONE, wanted: Wanted = _always) -> Iterator[dict[str, Any]]:
-    """Yield the reply to "engine": machine code with which the page flies settings like this one; None if it cannot."""
-    number, key = message.get("number"), message.get("key")
-    try:
-        facts = engine_of(setting_of(message.get("setting"), own))
-    except InputError:
-        facts = None
-    yield {"kind": "engine", "number": number, "key": key, "engine": facts}
-
-
-def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
-    """Return the reply to a request that failed with `error`."""
-    return {"kind": "error", "number": number, "field": error.field, "message": str(error)}
+    async def _answer(self, worker: Worker) -> bool:
+        """Answer the request that is the latest when it has a core, and return whether `worker` lives."""
+        message: Any = None
+        while True:
+            with self._shares.job(self._page, self._rank, worker.switch) as job:
+                if message is None:
+                    await job.begun.wait()
+                    message, self._pending = self._pending, None
+                    if message is None:
+                        return True
+                    worker.ask(message)
+                    self._busy, self._stopped, self._dropped = True, False, False
+                line = await worker.reply()
+            self._busy = line not in (END, b"")
+            if line == END:
+                return True
+            if not line and not self._stopped:
+                line = encoded(refusal(await worker.failure(), message.get("number")))
+            if line and not self._dropped:
+                self._grace = self._grace if line.startswith(COMPILING) else GRACE
+                await self._send(line)
+            if not self._busy:
+                return False
 
 
 def read(text: Any) -> dict[str, Any]:

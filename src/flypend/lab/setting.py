@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from threading import RLock
 from typing import Any
 
 import numpy as np
@@ -19,13 +18,14 @@ from flypend.flight.request import Flight
 from flypend.lab.own import NONE, OwnLaws
 from flypend.laws import BoundLaw, Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
-from flypend.model.shipped import vehicle_names
+from flypend.model.shipped import vehicle_table
 from flypend.model.state import FLIP, SHAPES
+from flypend.model.table import vehicle_names
 from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import plain
 from flypend.plants import Ideal
 from flypend.plants.sensors import SUITES
-from flypend.settings.runfile import check_plain, run_of, table_at, vehicle_table
+from flypend.settings.runfile import check_plain, run_of, table_at
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
@@ -41,7 +41,6 @@ FURTHEST = 100.0  # largest ratio of a gain to its default, either way
 # Largest magnitude of an entry of the start, SI.
 LARGEST = {"x": 1e3, "x_dot": 1e3, "omega": 100.0, "y_dot": 100.0}
 BODIES = ("bob", "vehicle")
-SYMBOLS = RLock()  # CasADi expressions must not be used by two threads at once
 
 
 @dataclass(frozen=True)
@@ -190,8 +189,7 @@ def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
             expected = f"{usual / FURTHEST:.3g} to {usual * FURTHEST:.3g}, in the laboratory"
             raise InputError(f"law.gains.{name}", expected, f"{value:g}")
     try:
-        with SYMBOLS:  # the first binding of a law may linearise it
-            law.bind(vehicle)
+        law.bind(vehicle)
     except InputError as error:
         raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
 

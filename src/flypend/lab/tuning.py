@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import IdealKernel, SampledKernel, kernel_for, structure
 from flypend.flight.kernels.pieces import PiecesKernel, pieces_kernel
+from flypend.flight.kernels.stopping import raise_if_stopped
 from flypend.flight.verdict import goal
-from flypend.lab.setting import SYMBOLS, Setting
+from flypend.lab.setting import Setting
 from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.closed_loop import lyapunov_function, symbolic_loop
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
-from flypend.model import Vehicle
+from flypend.model import State, Vehicle, Wrench
 from flypend.pages.sliders import sliders_of
 from flypend.plants import Sampled
 
@@ -90,33 +91,41 @@ def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
     """Return the closed loop of `setting`; `tell` is called before a compilation, which takes about a second."""
     flight, law = setting.flight, setting.law
     if isinstance(law, Controller):
-        return Stepped(flight.vehicle, law.bind(flight.vehicle), goal(law.e3))
+        return Stepped(flight.vehicle, _stoppable(law.bind(flight.vehicle)), goal(law.e3))
     fixed = {name: value for name, value in law.given.items() if not law.gains[name].label}
     kept = repr(structure(flight.plant)) if isinstance(flight.plant, Sampled) else "ideal"
     key = json.dumps(
         [flight.vehicle.to_dict(), law.name, setting.where, setting.stamp, fixed, kept, flight.tolerances.rtol],
         sort_keys=True,
     )
-    with SYMBOLS:
-        if key not in _made:
-            tell()
-            _made[key] = _make(setting, law, fixed)
-        _made.move_to_end(key)
-        while len(_made) > MOST:
-            _made.popitem(last=False)
-        made = _made[key]
+    if key not in _made:
+        tell()
+        _made[key] = _make(setting, law, fixed)
+    _made.move_to_end(key)
+    while len(_made) > MOST:
+        _made.popitem(last=False)
+    made = _made[key]
     if isinstance(flight.plant, Sampled) and isinstance(made.kernel, SampledKernel):
         return replace(made, kernel=made.kernel.through(flight.plant.replace(seed=0)))
     return made
+
+
+def _stoppable(law: Controller) -> Controller:
+    """Return the bound `law`, whose calls raise StoppedError once the flight is stopped."""
+
+    def function(t: float, state: State) -> Wrench:
+        raise_if_stopped()
+        return law.function(t, state)
+
+    return replace(law, function=function, steering=None)
 
 
 def in_pieces(machine: Tuned, tell: Tell = lambda: None) -> PiecesKernel:
     """Return the flights in pieces of `machine`, a sampled one; `tell` is called before a compilation."""
     if machine.law not in _in_pieces:
         tell()
-    with SYMBOLS:
-        kernel = pieces_kernel(machine.kernel.loop, machine.criterion)
-        _in_pieces.add(machine.law)
+    kernel = pieces_kernel(machine.kernel.loop, machine.criterion)
+    _in_pieces.add(machine.law)
     return kernel
 
 
@@ -141,7 +150,6 @@ def values(setting: Setting) -> NDArray[np.float64]:
     if isinstance(law, Controller):
         return np.zeros(0)
     if law.name == "lqr" and not setting.where:
-        with SYMBOLS:  # the linearisation is symbolic
-            return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
+        return np.array(list(entries(gain_matrix(vehicle, law.values)).values()))
     gains = setting.gains
     return np.array([float(gains[name]) for name in sliders_of(law)])

@@ -1,14 +1,22 @@
-// A flight as a table: comma-separated values, SI units, in the frame of its law.
+// A flight as a table: comma-separated values, SI units, in the frame of its law. Heads are those of `run.to_dataframe(units=True)`,
+// with the attitude as a quaternion.
 
-const PARTS = {
-  x: ["x_1", "x_2", "x_3"], x_dot: ["x_dot_1", "x_dot_2", "x_dot_3"], quat_xyzw: ["quat_x", "quat_y", "quat_z", "quat_w"],
-  y: ["y_1", "y_2", "y_3"], y_dot: ["y_dot_1", "y_dot_2", "y_dot_3"], x_ref: ["x_ref_1", "x_ref_2", "x_ref_3"],
+const UNITS = {
+  t: "s", x: "m", x_dot: "m/s", quat_xyzw: "1", y: "1", y_dot: "1/s", thrust: "N", rotor_forces: "N", x_ref: "m", clearance: "m",
 };
+const STEMS = { quat_xyzw: "quat", rotor_forces: "rotor_force" };
+
+/** The heads of the column `name`, with `width` numbers to a sample: x_1 [m], x_2 [m], x_3 [m]. */
+function heads(name, width) {
+  const ends = width === 1 ? [""] : name === "quat_xyzw" ? ["_x", "_y", "_z", "_w"] : Array.from({ length: width }, (_, k) => `_${k + 1}`);
+  const unit = UNITS[name] ? ` [${UNITS[name]}]` : "";
+  return ends.map((end) => `${STEMS[name] ?? name}${end}${unit}`);
+}
 
 /** The samples of a `flight` (flight.js) as a file. */
 export function download(flight) {
   const names = Object.keys(flight.columns), count = flight.t.length, width = (name) => flight.columns[name].length / count;
-  const heads = names.flatMap((name) => PARTS[name] ?? (name === "rotor_forces" ? Array.from({ length: width(name) }, (_, k) => `rotor_${k + 1}`) : [name]));
+  const head = names.flatMap((name) => heads(name, width(name))).join(",");
   const lines = Array.from({ length: count }, (_, i) => names.flatMap((name) => flight.sample(name, i, width(name))).join(","));
-  return new Blob([`${[heads.join(","), ...lines].join("\n")}\n`], { type: "text/csv" });
+  return new Blob([`${[head, ...lines].join("\n")}\n`], { type: "text/csv" });
 }

@@ -1,0 +1,86 @@
+"""Replies to the requests of a page: flights, maps and machine code."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from flypend.errors import InputError
+from flypend.flight.kernels.stopping import StoppedError
+from flypend.flight.verdict import verdict
+from flypend.lab.controls import sliders
+from flypend.lab.engine import engine_of
+from flypend.lab.export import python, toml
+from flypend.lab.flying import fly
+from flypend.lab.map import region
+from flypend.lab.own import NONE, OwnLaws
+from flypend.lab.setting import setting_of
+from flypend.lab.tuning import Tell, tuned
+from flypend.pages import replay
+from flypend.pages.starts import plain
+
+log = logging.getLogger(__name__)
+Replies = Iterator[dict[str, Any]]
+
+
+def answer(message: Any, own: OwnLaws = NONE, tell: Tell = lambda: None) -> Replies:
+    """Yield the replies to `message`, the last a refusal if it cannot be answered.
+
+    `own` are the custom laws; `tell` is called before a compilation. Raises StoppedError if a kernel is stopped.
+    """
+    number = message.get("number")
+    try:
+        for reply in ANSWERS[message["kind"]](message, own, tell):
+            yield {"number": number, **reply}
+    except StoppedError:
+        raise
+    except InputError as error:
+        yield refusal(error, number)
+    except Exception as error:  # the page needs a reply
+        log.exception("a setting could not be flown")
+        reason = f"{type(error).__name__}: {error}"
+        yield refusal(InputError("setting", "one that can be computed", reason), number)
+
+
+def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
+    """Return the reply to a request that failed with `error`."""
+    return {"kind": "error", "number": number, "field": error.field, "message": str(error)}
+
+
+def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
+    """Yield the packed run, its verdict, the sliders, the start in numbers, and the exports."""
+    begun = time.perf_counter()
+    setting = setting_of(message.get("setting"), own)
+    run = fly(setting, tell)
+    told = verdict(run, tuned(setting).criterion)
+    yield {
+        "kind": "flight",
+        "run": replay.pack(run, told),
+        "verdict": told,
+        "sliders": sliders(setting),
+        "start": plain(setting.start),
+        "toml": toml(setting),
+        "python": python(setting),
+        "milliseconds": 1e3 * (time.perf_counter() - begun),
+    }
+
+
+def _map(message: Any, own: OwnLaws, tell: Tell) -> Replies:
+    """Yield the region of attraction, chunk by chunk."""
+    for chunk in region(setting_of(message.get("setting"), own), tell):
+        yield {"kind": "map", **chunk}
+
+
+def _engine(message: Any, own: OwnLaws, _: Tell) -> Replies:
+    """Yield machine code with which the page flies settings like this one; None if it cannot."""
+    try:
+        facts = engine_of(setting_of(message.get("setting"), own))
+    except InputError:
+        facts = None
+    yield {"kind": "engine", "key": message.get("key"), "engine": facts}
+
+
+# In the order in which a page needs them.
+ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {"fly": _flight, "engine": _engine, "map": _map}

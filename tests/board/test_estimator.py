@@ -17,6 +17,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.flight.kernels import sampled_kernel
 from flypend.flight.request import Flight
+from flypend.model.motion import disturbed_motion
 from flypend.plants import SUITES, Plant, Sensor, Wind
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
@@ -170,8 +171,16 @@ def moved_back(packed, age):
     return fp.State(x=x, x_dot=s.x_dot, R=s.R, omega=s.omega, y=y, y_dot=y_dot).packed()
 
 
-@pytest.mark.parametrize("age", [0.0, 0.004], ids=["now", "late"])
-def test_sensitivities_are_those_of_the_sensors(age):
+@pytest.mark.parametrize(
+    ("age", "at_rest", "tolerance"),
+    [
+        (0.0, False, 1e-3),  # the size of the error
+        (0.004, False, 0.05),  # of first order in the age: |ẏ| a is 1 %
+        (0.2, True, 1e-4),  # the size of the error: what the age multiplies stands out
+    ],
+    ids=["now", "late", "rod at rest, very late"],
+)
+def test_sensitivities_are_those_of_the_sensors(age, at_rest, tolerance):
     """The rows of every stream, against readings of a state that is wrong by a small error."""
     suite = fp.Sensors(**dict.fromkeys(("position", "attitude", "rod", "joints", "rod_gyro"), QUIET), gyro=QUIET)
     history = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE)).history
@@ -182,6 +191,8 @@ def test_sensitivities_are_those_of_the_sensors(age):
     sensitivities = ca.Function("f", [packed, tangent, readings], [ca.vertcat(*(row.row for row in rows))])
     sense = as_numpy(sensing(suite, VEHICLE, 0.002))
     (state, b), size = some_state(8), 1e-5
+    if at_rest:
+        state = np.append(state[:21], np.zeros(3))
 
     def read(truth):
         then = moved_back(truth, age)
@@ -190,12 +201,34 @@ def test_sensitivities_are_those_of_the_sensors(age):
         found[np.cumsum([WIDTH[name] + 1 for name in suite.streams]) - 1] = age
         return found
 
-    at_rest = np.asarray(differences(state, b, read(state))).ravel()
+    right = np.asarray(differences(state, b, read(state))).ravel()
     rows_found = np.asarray(sensitivities(state, b, read(state)))
     for i, unit in enumerate(np.eye(ERRORS)):
         moved = np.asarray(differences(state, b, read(wrong_by(state, b, size * unit)))).ravel()
-        # Of first order in the age: |ẏ| a is 1 %; and of the size of the error.
-        np.testing.assert_allclose((moved - at_rest) / size, rows_found[:, i], atol=0.05 if age else 1e-3)
+        np.testing.assert_allclose((moved - right) / size, rows_found[:, i], atol=tolerance)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_accelerometer_tells_the_force_that_accelerates_the_vehicle_so(seed):
+    """Against the motion with a force on the vehicle and without it."""
+    suite = fp.Sensors(position=QUIET, attitude=QUIET, rod=QUIET, gyro=QUIET, accelerometer=QUIET)
+    history = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE)).history
+    state, rng = fp.State.random(np.random.default_rng(seed)), np.random.default_rng(seed + 10)
+    wrench, force = fp.Wrench(rng.uniform(0, 10), np.zeros(3)), rng.standard_normal(3)  # body frame
+
+    def acceleration(on_vehicle):
+        motion = disturbed_motion(state, wrench, VEHICLE, "up", force_on_vehicle=on_vehicle, force_on_bob=np.zeros(3))
+        return motion.x_ddot
+
+    felt = state.R.T @ (acceleration(state.R @ force) - acceleration(np.zeros(3)))
+    given = []
+    for name in suite.streams:
+        given += [*(felt if name == "accelerometer" else np.zeros(WIDTH[name])), 0.0]
+    past = ca.DM.zeros(history.size)  # nothing was expected
+    estimate = fp.State.symbolic(ca.DM(state.packed()))
+    expected = Expected(suite, history, ca.DM(given), estimate, ca.DM.zeros(3), ca.DM.eye(3), past)
+    found = np.asarray(ca.DM(expected.force(ca.DM.zeros(3), 1.0, VEHICLE))).ravel()
+    np.testing.assert_allclose(found, force, atol=1e-10)
 
 
 # What it claims -----------------------------------------------------------------------------------------------------

@@ -5,7 +5,10 @@ import subprocess
 from pathlib import Path
 
 STANDINS = Path(__file__).parent / "standins"
-WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror")
+# As users compile: the last two see what a processor without doubles pays for.
+WARNINGS = (
+    "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Wshadow", "-Wfloat-equal", "-Wdouble-promotion", "-Werror",
+)  # fmt: skip
 
 
 def tool(name):

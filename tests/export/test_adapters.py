@@ -28,6 +28,19 @@ def single(tmp_path_factory):
     return fp.export_c(LAW, VEHICLE, tmp_path_factory.mktemp("single"), precision="float", check=False)
 
 
+NOT_BEGUN = 8
+
+
+def _struck(folder, adapter, board):
+    """The adapter with its `board` damaged before the first step, as a file beside it."""
+    source = (folder / "adapters" / adapter).read_text()
+    place = source.index("flypend_board_step(")
+    line = source.rindex("\n", 0, place) + 1
+    flip = f"        {{ static int struck = 0; if (struck++ == 0) {{ {board}.memory[3] += 1; }} }}\n"
+    (folder / "adapters" / f"struck_{adapter}").write_text(source[:line] + flip + source[line:])
+    return f"adapters/struck_{adapter}"
+
+
 @pytest.fixture(scope="module")
 def frames(folder):
     sources = ("adapters/flypend_frames.c",)
@@ -202,3 +215,41 @@ def test_the_ros_2_function_answers_in_newtons(folder):
     _, answer, *_ = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
     assert answer[4] != OK
     assert np.allclose(answer[:4], [4 * VEHICLE.rotor_limits[0], 0, 0, 0], atol=1e-12)
+
+
+def test_an_adapter_with_a_damaged_board_levels_out_once_and_begins_again(folder, single):
+    state, target = _states(12)[4], np.array([0.3, -0.2, 0.4])
+    bob, bob_dot = _bob(state)
+    least, largest = VEHICLE.rotor_limits
+    low, high = 4 * least, 4 * largest
+
+    fixed = ("flypend_law.c", "adapters/flypend_frames.c", _struck(single, "flypend_crazyflie.c", "board"))
+    flags = ("-I.", "-Iadapters", f"-I{STANDINS / 'crazyflie'}")
+    program = build(single, (*fixed, STANDINS / "fly_crazyflie.c"), "struck_crazyflie", flags=flags)
+    numbers = [*state.x, *state.x_dot, *_quat_xyzw(state.R), *np.degrees(state.omega), *bob, *bob_dot, *target]
+    said = run([str(program)], given=" ".join(map(repr, map(float, [*numbers, *[0.0] * 6]))))
+    _, first, _, second, _ = _lines(said)
+    assert (first[5], second[5]) == (NOT_BEGUN, OK)
+    assert low - 1e-3 <= first[0] <= high + 1e-3
+
+    for name, place in (("flypend_law.c", "law.o"), ("adapters/flypend_frames.c", "frames.o")):
+        build(folder, (name,), place, flags=("-c", "-I."))
+    ned = state.flipped()
+    x, y, z, w = _quat_xyzw(ned.R)
+    ned_bob, ned_bob_dot = _bob(ned)
+    numbers = [*ned.x, *ned.x_dot, w, x, y, z, *ned.omega, *ned_bob, *ned_bob_dot, *target]
+    flags = ("-I.", "-Iadapters", f"-I{STANDINS / 'px4'}")
+    sources = ("law.o", "frames.o", _struck(folder, "flypend_px4.cpp", "_board"), STANDINS / "fly_px4.cpp")
+    program = build(folder, sources, "struck_px4", "g++", flags)
+    _, _, first, _, second, _ = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    assert (first[4], second[4]) == (NOT_BEGUN, OK)
+    assert np.all((first[:4] >= least / largest - 1e-6) & (first[:4] <= 1))
+
+    flags = ("-I.", "-Iadapters", f"-I{STANDINS / 'ros2'}")
+    sources = ("law.o", "frames.o", _struck(folder, "flypend_ros2.cpp", "_board"), STANDINS / "fly_ros2.cpp")
+    program = build(folder, sources, "struck_ros2", "g++", flags)
+    twist = state.R.T @ state.x_dot
+    numbers = [*state.x, *_quat_xyzw(state.R), *twist, *state.omega, *bob, *bob_dot, *target]
+    _, first, _, second = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    assert (first[4], second[4]) == (NOT_BEGUN, OK)
+    assert low - 1e-6 <= first[0] <= high + 1e-6

@@ -288,24 +288,124 @@ def test_no_measurement_no_board_no_params_are_refused_and_answered():
     assert code.call("flypend_board_pass", None) == NULL
 
 
-def test_a_board_that_was_not_begun_or_is_damaged_is_refused():
-    made = board()
-    made.memory[5] = np.nan
-    made.step(_measurement(), np.zeros(27))
-    assert made.status == NOT_BEGUN
-    made.skip()
-    assert made.status == NOT_BEGUN
-    blank = np.zeros(10_000, np.uint8)
-    rotors = np.empty(4)
-    assert (
-        made.code.call("flypend_board_step", blank, _measurement(), np.zeros(27), made.code.params, rotors) == NOT_BEGUN
-    )
+def test_a_board_that_was_not_begun_is_refused():
+    made, blank, rotors = board(), np.zeros(10_000, np.uint8), np.empty(4)
+    arguments = (_measurement(), np.zeros(27), made.code.params, rotors)
+    assert made.code.call("flypend_board_step", blank, *arguments) == NOT_BEGUN
     assert np.all(rotors >= LEAST)
     other = library(INVERTED, VEHICLE, "double", 250.0)  # a board of the same law at another rate
-    fresh = board()
-    assert (
-        other.call("flypend_board_step", fresh.numbers, _measurement(), np.zeros(27), other.params, rotors) == NOT_BEGUN
-    )
+    assert other.call("flypend_board_step", made.numbers, *arguments) == NOT_BEGUN
+    made.step(*_broken("rod"))
+    assert made.status == ROD
+    made.memory[5] += 1e-9
+    with_rod, level = made.step(_measurement()), board()
+    assert made.status == NOT_BEGUN
+    assert np.allclose(
+        with_rod, level.step(_broken("rod")[0])
+    )  # it levels out: a broken rod says nothing of the attitude
+    made.skip()
+    assert made.status == NOT_BEGUN
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_no_measurement_however_wild_spoils_the_memory_for_good(precision):
+    """Of good periods after it, all but the first few are flown."""
+    rng, largest = default_rng(4), float(np.finfo(np.float64 if precision == "double" else np.float32).max)
+    good = fp.State(x=(0.01, 0, 0), y=(0, 0.28, 0.96)).packed()
+    for _ in range(300):
+        made = board(precision)
+        for _ in range(5):
+            made.step(good)
+        for _ in range(3):
+            wild = good.copy()
+            wild[[0, 1, 2, 3, 4, 5, 15, 16, 17]] *= 0
+            places = rng.choice([0, 1, 2, 3, 4, 5, 15, 16, 17], 3)
+            wild[places] = rng.choice([-1, 1], 3) * largest ** rng.uniform(0, 1, 3)
+            made.step(wild)
+        flown = []
+        for _ in range(40):
+            made.step(good)
+            flown.append(made.status)
+        assert set(flown) <= {OK, SINGULAR}
+        assert flown[-20:] == [OK] * 20
+
+
+def test_gains_are_changed_by_the_function_for_it_only():
+    made, other = board(), board()
+    softer = made.code.gains * 0.9
+    assert made.code.call("flypend_board_set_gains", made.numbers, softer) == OK
+    measured = fp.State(x=(0.01, 0, 0), y=(0, 0.28, 0.96)).packed()
+    assert not np.allclose(made.step(measured), other.step(measured))
+    assert made.status == OK
+    made.numbers[8:16] = np.array([made.code.gains[0]]).view(np.uint8)  # past mark and check
+    made.step(_measurement())
+    assert made.status == NOT_BEGUN
+
+
+@pytest.mark.parametrize("plant", ["rotors", "mujoco"])
+def test_a_memory_that_is_damaged_in_flight_begins_again(plant, monkeypatch):
+    """As adapters do: a period of the safe command, then the law, from the rotor forces of that command."""
+    flown = []
+
+    def struck(self, t, measured, command=CompiledBoard.command):
+        if round(t * 500) in (300, 301, 700, 1200):
+            self.memory[len(flown) % len(self.memory)] += 0.5
+            flown.append(t)
+        return command(self, t, measured)
+
+    monkeypatch.setattr(CompiledBoard, "command", struck)
+    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE), START, 6.0, plant=plant)
+    assert run.outcome.status == "completed"
+    assert len(flown) == 4
+    assert np.min(run.y[-20:, 2]) > 0.99
+
+
+def _field(word):
+    """A check word after one more word, as the header tells: h ↦ R L (h ^ word)."""
+    h = word
+    for shift in (5, 7):
+        h ^= (h << shift) & 0xFFFFFFFF
+    return h ^ h >> 9
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_the_check_word_is_what_its_comment_says(precision):
+    """One orbit of 2³² − 1 words, so a product in a field; L lowers no bit and R raises none."""
+    words = board(precision).numbers.view(np.uint32).tolist()
+    h = words[0]
+    for word in words[2:]:
+        h = _field(h ^ word)
+    assert h == words[1]
+    basis = [_field(1 << i) for i in range(32)]
+    step = np.array([[column >> row & 1 for column in basis] for row in range(32)], np.int64)
+
+    def power(n):
+        found, square = np.eye(32, dtype=np.int64), step
+        while n:
+            found, square, n = (found @ square % 2 if n & 1 else found), square @ square % 2, n >> 1
+        return found
+
+    order = 2**32 - 1
+    assert np.array_equal(power(order), np.eye(32))
+    assert not any(np.array_equal(power(order // prime), np.eye(32)) for prime in (3, 5, 17, 257, 65537))
+    for bits in range(32):  # the last bits of a word and the first of the next, 32 in a row
+        assert _is_invertible(step[bits:, bits:])
+    moved = basis
+    for _ in range(1000):  # two bits, up to so many words apart
+        assert all(word & (word - 1) for word in moved)
+        moved = list(map(_field, moved))
+
+
+def _is_invertible(matrix):
+    """Whether a matrix of bits is, by elimination modulo 2."""
+    m = matrix.copy() % 2
+    for i in range(len(m)):
+        pivot = i + int(np.argmax(m[i:, i]))
+        m[[i, pivot]] = m[[pivot, i]]
+        if not m[i, i]:
+            return False
+        m[i + 1 :] ^= np.outer(m[i + 1 :, i], m[i])
+    return True
 
 
 def test_a_vehicle_with_other_spins_stops_the_rotors():

@@ -29,7 +29,7 @@ def compiled(plan, folder, precision):
 
     def call(t, state):
         given = [(kind * len(part))(*part) for part in (state[:24], state[24:])]
-        wanted = (kind * 4)()
+        wanted = (kind * 4)(*[7.0] * 4)
         status = command(kind(t), *given, wanted)
         return status, np.array(wanted)
 
@@ -86,3 +86,43 @@ def test_a_failed_plan_is_not_exported(tmp_path):
     with pytest.raises(fp.InputError, match="plan: expected a plan that can be flown"):
         fp.export_plan(failed, tmp_path / "c")
     assert not (tmp_path / "c").exists()
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_it_keeps_what_its_header_promises(plan, tmp_path, precision):
+    """Every input that is not finite is refused; whatever is not, commands within limits; a refusal writes nothing."""
+    in_c, (low, high) = compiled(plan, tmp_path / "c", precision), HEHN.rotor_limits
+    largest = float(np.finfo(KINDS[precision]).max)
+    start = np.append(plan.packed[0], plan.rotor_forces[0])
+    hover = np.append(fp.State(y=(0, 0, 1)).packed(), np.full(4, HEHN.weight / 4))
+    untouched = np.full(4, 7.0)
+    for t in (np.nan, np.inf, -np.inf):
+        status, command = in_c(t, start)
+        assert status == 1
+        np.testing.assert_array_equal(command, untouched)
+    at_start = in_c(0.0, start)
+    assert at_start[0] == 0
+    for t in (-0.0, -1e-3, -1e30, -largest):
+        np.testing.assert_array_equal(in_c(t, start)[1], at_start[1])
+    for t in (plan.duration, 1e6, 1e30, largest):
+        status, command = in_c(t, hover)
+        assert status == 0
+        assert np.all((command >= low - 1e-6) & (command <= high + 1e-6))
+    for place in range(28):
+        for value in (np.nan, np.inf, -np.inf, largest, -largest, 1e30):
+            for t, good in ((0.0, start), (0.37 * plan.duration, start), (plan.duration + 1, hover)):
+                state = good.copy()
+                state[place] = value
+                status, command = in_c(t, state)
+                if status == 0:
+                    assert np.isfinite(value)
+                    assert np.all((command >= low - 1e-6) & (command <= high + 1e-6))
+                else:
+                    assert status == 1
+                    np.testing.assert_array_equal(command, untouched)
+    rng = np.random.default_rng(5)
+    for _ in range(3000):  # several at once, so that infinities of both signs meet
+        state = start + rng.choice([0, 1, 1e10, 1e30, largest], 28) * rng.choice([-1, 0, 0, 1], 28)
+        status, command = in_c(rng.uniform(-1, plan.duration + 1), state)
+        good = np.all((command >= low - 1e-6) & (command <= high + 1e-6))
+        assert good if status == 0 else np.array_equal(command, untouched)

@@ -121,3 +121,20 @@ def test_the_folder_has_the_two_files_and_only_with_sensors(tmp_path):
     assert (tmp_path / "with" / law).read_text() == (tmp_path / "without" / law).read_text()
     with pytest.raises(fp.InputError, match="sensors"):
         fp.export_c(LAW, VEHICLE, tmp_path / "wrong", sensors="onbord", check=False)
+
+
+def test_a_memory_that_is_damaged_in_flight_begins_again_at_the_last_estimate(monkeypatch):
+    struck = []
+
+    def striking(self, t, measured, command=CompiledSensors.command):
+        if round(t * 500) in (100, 200):
+            self.memory[150] += 0.5
+            struck.append(t)
+        return command(self, t, measured)
+
+    monkeypatch.setattr(CompiledSensors, "command", striking)
+    upright = fp.State(y=(0.0, 0.0, 1.0)).packed()
+    run = flown(compiled(LAW, VEHICLE), Plant(sensors=SLOWER), upright, 3.0)
+    assert run.outcome.status == "completed"
+    assert len(struck) == 2
+    assert run.packed[-1, 20] > 0.98

@@ -5,10 +5,8 @@ from __future__ import annotations
 import ctypes
 import os
 import shutil
-import subprocess
 import tempfile
 from collections.abc import Callable
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -17,7 +15,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.board.program import initial_memory, known
+from flypend.board.program import known
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
@@ -28,11 +26,16 @@ from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
+from flypend.plants import AnyPlant, Ideal
 from flypend.plants.loop import Loop
-from flypend.plants.plant import Sampled
 from flypend.plants.sensors import Sensors
+from flypend.signals import waiting
 
-FLAGS = ("-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror")
+NOT_BEGUN = 8  # of flypend_status
+FLAGS = (
+    "-O2", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Wfloat-equal", "-Wdouble-promotion",
+    "-Werror",
+)  # fmt: skip
 
 
 class Library:
@@ -54,7 +57,8 @@ class Library:
         self._of = (law, vehicle, precision, rate, sensors)
         self.made = interface(law, vehicle, rate, sensors)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
-        texts = core(self.made, precision) | {"many.c": filled("many.c", {})}
+        including = "flypend_sensors.h" if sensors is not None else "flypend_law.h"
+        texts = core(self.made, precision) | {"many.c": filled("many.c", {"include": including})}
         with tempfile.TemporaryDirectory(prefix="flypend-c-") as folder:
             for name, text in texts.items():
                 (Path(folder) / name).write_text(text, encoding="utf-8")
@@ -125,14 +129,17 @@ class CompiledBoard:
         self._measurement = np.zeros(records.MEASUREMENT.length, code.real)
         self._along = np.zeros(records.PATH.length, code.real)
         self._rotors = np.zeros(code.made.rotors.length, code.real)
-        self.status = code.call("flypend_board_begin", self.numbers, code.gains, code.params)
-        if rotors is not None:
-            self.memory[:] = initial_memory(code.made.loop, np.asarray(rotors, dtype=float))
+        self.begin(rotors)
         self._pointers = [
             ctypes.c_void_p(array.ctypes.data)
             for array in (self.numbers, self._measurement, self._along, code.params, self._rotors)
         ]
         self._step = code.c.flypend_board_step
+
+    def begin(self, rotors: Any = None) -> None:
+        """Begin with forces `rotors` (n,), N, of the rotors, by default the least; sets `status`."""
+        code, given = self.code, None if rotors is None else self.code.array(rotors)
+        self.status = code.call("flypend_board_restart", self.numbers, code.gains, code.params, given)
 
     @property
     def memory(self) -> Any:
@@ -158,9 +165,12 @@ class CompiledBoard:
     def command(self, t: float, measured: Any) -> Any:
         """Rotor forces (n,) for the state `measured` (24,), e₃ up, at time `t` (s); NaN where the board refuses.
 
-        The safe answer is none of the law's: a flight that needs it ends as singular, as it does in Python.
+        The safe answer is none of the law's: a flight that needs it ends as singular, as it does in Python. With a
+        damaged memory it is flown, and the board begins again, as adapters do.
         """
         rotors = self.step(measured, None if self._path is None else self._path(t))
+        if self.status == NOT_BEGUN:
+            self.begin(rotors)
         return np.full(len(rotors), np.nan) if self.status else rotors
 
 
@@ -173,32 +183,29 @@ class CompiledSensors:
     def __init__(self, code: Library, path: Callable[[float], Any] | None = None, rotors: Any = None) -> None:
         assert code.made.sensing is not None
         self.code, self._path, self._begun = code, path, rotors
-        self._memory = code.made.sensing.board.inputs[0]
-        gains = code.made.gains.length
-        # As the compiler lays out an unsigned long, the gains and the memory, all aligned to eight bytes or less.
-        self._start = 8 + gains * code.real.itemsize
-        size = self._start + self._memory * code.real.itemsize
-        self.numbers = np.zeros(-(-size // 8) * 8, np.uint8)
-        self.status = 0
+        self.numbers = np.zeros(int(code.c.flypend_sensors_bytes()), np.uint8)
+        self._estimate = np.zeros(records.STATE.length, code.real)
+        self.status = NOT_BEGUN
         self._rotors = np.zeros(code.made.rotors.length, code.real)
         self._hover = code.array(np.zeros(records.PATH.length))
 
     @property
     def memory(self) -> Any:
         """The numbers that are remembered: a view of them."""
-        end = self._start + self._memory * self.code.real.itemsize
-        return self.numbers[self._start : end].view(self.code.real)
+        assert self.code.made.sensing is not None
+        end = len(self.numbers)
+        size = self.code.made.sensing.board.inputs[0] * self.code.real.itemsize
+        return self.numbers[end - size :].view(self.code.real)
 
     def estimate_from(self, estimate: Any) -> None:
         """Begin with the `estimate` (24,) of the state, e₃ up."""
-        code = self.code
-        state = code.array(records.state_numbers(np.asarray(estimate), np.zeros(6)))
-        self.status = code.call("flypend_sensors_begin", self.numbers, code.gains, code.params, state)
-        if self._begun is not None and not self.status:
-            made = code.made
-            plant = made.loop.sampled.replace(sensors=made.sensing.sensors if made.sensing else None)
-            rotors = np.asarray(self._begun, dtype=float)
-            self.memory[:] = initial_memory(replace(made.loop, plant=plant), rotors, estimate)
+        self._estimate[:] = records.state_numbers(np.asarray(estimate), np.zeros(6))
+        self.begin(self._begun)
+
+    def begin(self, rotors: Any = None) -> None:
+        """Begin with the last estimate and forces `rotors` (n,), N, by default the least; sets `status`."""
+        code, given = self.code, None if rotors is None else self.code.array(rotors)
+        self.status = code.call("flypend_sensors_restart", self.numbers, code.gains, code.params, self._estimate, given)
 
     def step(self, readings: Any, path: Any = None) -> Any:
         """Rotor forces (n,) for numbers of the readings, or None for none, and of `records.PATH`; sets `status`."""
@@ -208,8 +215,14 @@ class CompiledSensors:
         return self._rotors.astype(float)
 
     def command(self, t: float, measured: Any) -> Any:
-        """Rotor forces (n,) for the readings `measured` at time `t` (s); NaN where they are refused."""
+        """Rotor forces (n,) for the readings `measured` at time `t` (s); NaN where they are refused.
+
+        With a damaged memory the least forces are flown, and it begins again at the last estimate.
+        """
         rotors = self.step(measured, None if self._path is None else self._path(t))
+        if self.status == NOT_BEGUN:
+            self.begin(rotors)
+        self.code.call("flypend_sensors_estimate", self.numbers, self._estimate)  # kept outside of what may be damaged
         return np.full(len(rotors), np.nan) if self.status else rotors
 
 
@@ -221,7 +234,7 @@ def _compile(folder: Path) -> Path:
     target = folder / "law.so"
     sources = [str(path) for path in sorted(folder.glob("*.c"))]
     command = [compiler, *FLAGS, "-shared", "-fPIC", *sources, "-lm", "-o", str(target)]
-    done = subprocess.run(command, capture_output=True, text=True)  # noqa: S603 (on files that were written above)
+    done = waiting.run(command, text=True)
     if done.returncode:
         raise InputError("controller", f"C code that {compiler} compiles", done.stderr.strip()[:500])
     return target
@@ -274,7 +287,7 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
     def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard | CompiledSensors:
         if loop.vehicle != vehicle:
             raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
-        _check_plant(loop.sampled)
+        check_plant(loop.sampled)
         sensors = known(loop.sampled).sensors
         code = library(bound, vehicle, precision, loop.sampled.rate, sensors)
         return CompiledBoard(code, path, rotors) if sensors is None else CompiledSensors(code, path, rotors)
@@ -291,7 +304,10 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
     )
 
 
-def _check_plant(plant: Sampled) -> None:
+def check_plant(plant: AnyPlant) -> None:
+    """Raise InputError unless exported code can command a `plant`: rotor forces within limits."""
+    if isinstance(plant, Ideal):
+        raise InputError("controller", "python, in the ideal plant, which is not sampled", "exported code")
     if plant.interface != "wrench" or not plant.limits:
         raise InputError("plant", "rotor forces within limits, which exported code commands", "another interface")
 

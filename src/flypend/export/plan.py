@@ -8,6 +8,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend import errors
 from flypend.compile.c99 import REAL, Precision, call, function, literal
 from flypend.compile.program import lower
 from flypend.errors import InputError
@@ -41,8 +42,9 @@ _HEADER = """\
 
 typedef {real} {REAL};
 
-/* Rotor forces (N) for a state and the forces of the rotors at time t (s). Returns 0; or 1, and leaves `command`, if
- * rod or pivot are too far from the plan or anything is not a number: then another law has to take over, for good. */
+/* Rotor forces (N), within their limits, for a state and the forces of the rotors at time t (s), before 0 as at 0.
+ * Returns 0; or 1, and leaves `command`, if rod or pivot are too far from the plan, an input is not a finite number, or
+ * the answer would not be: then another law has to take over, for good. */
 int {name}_command({REAL} t, const {REAL} *state, const {REAL} *rotors, {REAL} *command);
 
 #endif
@@ -52,6 +54,10 @@ _SOURCE = """\
 /* {title} */
 #include <math.h>
 #include "{name}.h"
+
+#ifdef __FAST_MATH__
+#error "-ffast-math lets a compiler assume that no number is NaN, and drops the checks below"
+#endif
 
 enum {{ ROTORS = FLYPEND_PLAN_ROTORS, STAGES = FLYPEND_PLAN_STAGES, STATE = {state}, OFF = {off} }};
 static const {REAL} stage = {stage};
@@ -70,13 +76,16 @@ static const {REAL} gains[STAGES + 1][ROTORS][OFF] = {{
 
 int {name}_command({REAL} t, const {REAL} *state, const {REAL} *rotors, {REAL} *command)
 {{
-    {REAL} here[STATE], nominal[STATE], off[OFF], into, rod, pivot, sum;
+    {REAL} here[STATE], nominal[STATE], off[OFF], forces[ROTORS], into, rod, pivot, sum;
     int i, j, k = STAGES;
 
+    sum = {zero} * t; /* 0 as long as all are finite, else not a number */
     for (i = 0; i < 24; i++)
         here[i] = state[i];
     for (i = 0; i < ROTORS; i++)
         here[24 + i] = rotors[i];
+    for (i = 0; i < STATE; i++)
+        sum += {zero} * here[i];
     if (t < stage * ({REAL})STAGES)
         k = (t > 0) ? (int)(t / stage) : 0;
     into = t - stage * ({REAL})k;
@@ -92,21 +101,22 @@ int {name}_command({REAL} t, const {REAL} *state, const {REAL} *rotors, {REAL} *
         {hovering}
     rod = off[12] * off[12] + off[13] * off[13] + off[14] * off[14];
     pivot = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
-    for (i = 0, sum = 0; i < OFF; i++)
-        sum += {zero} * off[i]; /* 0, or not a number */
+    for (i = 0; i < ROTORS; i++) {{
+        forces[i] = commands[k][i];
+        for (j = 0; j < OFF; j++)
+            forces[i] -= gains[k][i][j] * off[j];
+        sum += {zero} * forces[i];
+    }}
     if (!(rod < {far_rod} && pivot < {far_pivot} && sum >= 0))
         return 1;
-    for (i = 0; i < ROTORS; i++) {{
-        {REAL} force = commands[k][i];
-        for (j = 0; j < OFF; j++)
-            force -= gains[k][i][j] * off[j];
-        command[i] = (force < {low}) ? {low} : ((force > {high}) ? {high} : force);
-    }}
+    for (i = 0; i < ROTORS; i++)
+        command[i] = (forces[i] < {low}) ? {low} : ((forces[i] > {high}) ? {high} : forces[i]);
     return 0;
 }}
 """
 
 
+@errors.named_arguments
 def export_plan(plan: Plan, folder: str | Path, *, precision: Precision = "float") -> None:
     """Write `plan` with its tracking gains as flypend_plan.h and flypend_plan.c, C99 without allocation.
 

@@ -22,22 +22,17 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
     programs |= {program.name: program for program in sensing.board.programs}
     texts = [function(program, precision) for program in programs.values()]
     inputs = [readings, records.STATE, made.params]
-    inputs += [records.PATH] * made.follows + [made.gains] * made.has_gains
-    given = ("computer->memory", "m", "path", "g", "p")
-    locals_ = (
-        made.follows * "    flypend_real path[FLYPEND_PATH];\n"
-        + made.has_gains * "    flypend_real g[FLYPEND_GAINS];\n"
-    )
-    if not made.follows:
-        locals_ += "    (void)reference;\n"
-    fill = (
-        made.follows * "    path_numbers(reference, path);\n"
-        + made.has_gains * "    gains_numbers(&computer->gains, g);\n"
-    )
-    checks = ["path, FLYPEND_PATH"] * made.follows + ["g, FLYPEND_GAINS"] * made.has_gains
-    if checks:
-        finite = " && ".join(f"numbers({check})" for check in checks)
-        fill += f"    if (!({finite})) {{\n        return FLYPEND_NOT_FINITE;\n    }}\n"
+    inputs += [records.PATH] * made.follows
+    given = ("computer->memory", "m", "path", "gains_numbers(&computer->gains)", "p")
+    locals_, fill = "    (void)reference;\n", ""
+    if made.follows:
+        locals_ = "    flypend_real path[FLYPEND_PATH];\n"
+        fill = """\
+    path_numbers(reference, path);
+    if (!numbers(path, FLYPEND_PATH)) {
+        return FLYPEND_NOT_FINITE;
+    }
+"""
     return {
         "programs": "\n\n".join([*texts, routine_function(sensing.board, precision)]),
         "conversions": "\n\n".join([*map(numbers_of, inputs), record_of(records.STATE), record_of(made.rotors)]),
@@ -45,7 +40,7 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
         "readings_length": str(size),
         "sensors_memory": str(sensing.board.inputs[0]),
         "estimate_place": str(sensing.board.inputs[0] - len(sensing.begin.outputs[0]) + _own(sensing)),
-        "call_begin": call(sensing.begin, ("rotors.force", "s", "p"), ["computer->memory"]),
+        "call_begin": call(sensing.begin, ("given.force", "s", "p"), ["computer->memory"]),
         "call_sound": call(sensing.sound, ("r",), ["defect"]),
         "call_board": f"fly({', '.join(given[i] for i in used_inputs(sensing.board))}, after, command);",
         "hover": initializer(records.REFERENCE, [0.0] * records.REFERENCE.length, precision),

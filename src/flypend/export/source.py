@@ -65,15 +65,15 @@ def initializer(record: Record, values: Iterable[float], precision: Precision) -
 def functions(made: Interface, precision: Precision) -> dict[str, str]:
     """The C texts that the template of the source file takes."""
     inputs = [records.MEASUREMENT, records.STATE, records.PATH, made.params, records.WRENCH, made.rotors]
-    inputs += [records.REFERENCE] * made.follows + [made.gains] * made.has_gains
+    inputs += [records.REFERENCE] * made.follows
     outputs = [records.REFERENCE, records.WRENCH, made.rotors]
     programs = made.all_programs()
     texts = [function(program, precision) for program in programs.values()]
     texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
     inertia = next(place for field, place in made.params.places() if field.name == "inertia")
     places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
-    board_inputs = ("board->memory", "m", "path", "g", "p")
-    law = ("s", "s + FLYPEND_STATE", "r", "g", "p")
+    board_inputs = ("board->memory", "m", "path", "gains_numbers(&board->gains)", "p")
+    law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
     return {
         "programs": "\n\n".join(texts),
         "conversions": "\n\n".join([*map(numbers_of, inputs), *map(record_of, outputs)]),

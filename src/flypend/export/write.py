@@ -11,7 +11,7 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.board.command import usable_lead
 from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
 from flypend.errors import InputError
@@ -34,18 +34,12 @@ ADAPTERS = (
     "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c",
     "adapters/flypend_px4.cpp", "adapters/flypend_px4.hpp", "adapters/flypend_ros2.cpp", "adapters/flypend_ros2.hpp",
 )  # fmt: skip
-# What `python benchmarks/export_flights.py --bare --runs 500 --seed 2024` prints.
-BARE = """\
-| of 500 | board | no observer | no prediction | no lead | bare law |
-|---|---|---|---|---|---|
-| hehn2011 | 500 | 500 | 500 | 500 | 500 |
-| hehn2011, 15 ms from measurement to command | 500 | 500 | 498 | 500 | 0 |
-| hehn2011, vehicle and bob 20 % heavier than known | 500 | 0 | 500 | 500 | 0 |
-| crazyflie | 500 | 500 | 430 | 500 | 0 |"""
 # Largest relative difference of a test vector.
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 
+@errors.named_arguments
+@signals.deferred()
 def export_c(
     law: Law | BoundLaw,
     vehicle: Vehicle,
@@ -124,7 +118,7 @@ def _with_sensors(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of the files of a flight computer with sensors, if there are any."""
     if made.sensing is None:
         return {}
-    values = _values(made, precision) | sensor_values(made, made.sensing, precision)
+    values = _marked(_values(made, precision) | sensor_values(made, made.sensing, precision))
     return {name: filled(name, values) for name in FILES}
 
 
@@ -178,33 +172,36 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "baked": _baked(made),
         "latency": f"{computer.latency:.3g}",
         "rotor_table": _rotor_table(vehicle),
-        "bare_table": BARE,
         "period_us": str(round(1e6 / made.loop.sampled.rate)),
         "thrust_scale": repr(thrust_scale),
         "moment_scale": repr(moment_scale),
     }
-    # A board begun by other code is refused; what differs between two codes is in their texts.
-    return values | {"mark": f"{zlib.crc32(repr(sorted(values.items())).encode()) | 1}UL"}
+    values["checks"] = filled("checks.c", values)
+    return _marked(values)
+
+
+def _marked(values: dict[str, Any]) -> dict[str, Any]:
+    """`values` with the mark of a memory begun by this code: what differs between two codes is in their texts."""
+    return values | {"mark": f"0x{zlib.crc32(repr(sorted(values.items())).encode()) | 1:08x}U"}
 
 
 def _optional(made: Interface) -> dict[str, str]:
     """The lines for reference and gains in the functions of the board and of the bare law: only for what is read."""
-    board = {"path": (made.follows, "reference", "PATH"), "g": (made.has_gains, "&board->gains", "GAINS")}
-    step = {"r": (made.follows, "reference", "REFERENCE"), "g": (made.has_gains, "gains", "GAINS")}
     found: dict[str, str] = {}
-    for prefix, first, vectors_ in (("board", "m", board), ("step", "s", step)):
-        used = {name: (given, length) for name, (read, given, length) in vectors_.items() if read}
-        ignored = [given for read, given, _ in vectors_.values() if not read and not given.startswith("&")]
-        pointers = [first, *(given for given, _ in used.values() if not given.startswith("&"))]
+    for prefix, state, path, length in (("board", "m", "path", "PATH"), ("step", "s", "r", "REFERENCE")):
+        read = {"reference": made.follows, "gains": made.has_gains}
+        if prefix == "board":
+            del read["gains"]  # it has its own, which are finite
+        pointers = [state, *(pointer for pointer in read if read[pointer])]
         missing = [f"{pointer} == NULL" for pointer in pointers]
+        checks = [f"{path}, FLYPEND_{length}"] * made.follows
+        checks += ["gains_numbers(gains), FLYPEND_GAINS"] * ("gains" in pointers)
         found |= {
-            f"{prefix}_locals": "".join(f"    flypend_real {n}[FLYPEND_{length}];\n" for n, (_, length) in used.items())
-            + "".join(f"    (void){given};\n" for given in ignored),
+            f"{prefix}_locals": made.follows * f"    flypend_real {path}[FLYPEND_{length}];\n"
+            + "".join(f"    (void){pointer};\n" for pointer in read if not read[pointer]),
             f"{prefix}_null": missing[0] if len(missing) == 1 else " || ".join(f"({text})" for text in missing),
-            f"{prefix}_fill": "".join(
-                f"    {length.lower()}_numbers({given}, {n});\n" for n, (given, length) in used.items()
-            ),
-            f"{prefix}_finite": "".join(f" || !numbers({n}, FLYPEND_{length})" for n, (_, length) in used.items()),
+            f"{prefix}_fill": made.follows * f"    {length.lower()}_numbers(reference, {path});\n",
+            f"{prefix}_finite": "".join(f" || !numbers({check})" for check in checks),
         }
     return found
 

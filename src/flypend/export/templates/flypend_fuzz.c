@@ -41,15 +41,19 @@ static void fly_board(unsigned valid, inputs *in)
 {
     flypend_board board;
     flypend_rotors rotors;
+    int damaged = 0;
     memset(&board, 0, sizeof board);
-    if (flypend_board_begin(&board, &in->gains, &in->params) == FLYPEND_OK) {
+    if (flypend_board_restart(&board, &in->gains, &in->params, (valid & 32U) ? NULL : &in->modelled) == FLYPEND_OK) {
         require_finite(board.memory, FLYPEND_MEMORY);
+        (void)flypend_board_set_gains(&board, &in->gains);
     }
-    if (valid & 64U) { /* damaged, or a memory that may be */
+    if (valid & 64U) { /* whatever is written there, it is not flown with */
+        damaged = memcmp(board.memory, in->memory, sizeof board.memory) != 0;
         memcpy(board.memory, in->memory, sizeof board.memory);
     }
     for (int i = 0; i < STEPS; i++) {
         flypend_measurement *measurement = &in->measurement[i];
+        flypend_status status;
         if (valid & 4U) {
             memcpy(measurement->R, upright, sizeof upright);
         }
@@ -57,11 +61,14 @@ static void fly_board(unsigned valid, inputs *in)
             memcpy(measurement->y, upright, sizeof measurement->y);
             measurement->y_dot[0] = 0;
         }
-        (void)flypend_board_step(&board, (valid & 128U) && (i == 1) ? NULL : measurement, &in->path, &in->params, &rotors);
+        status = flypend_board_step(&board, (valid & 128U) && (i == 1) ? NULL : measurement, &in->path, &in->params, &rotors);
         REQUIRE_FINITE(rotors);
+        if (damaged && ((status == FLYPEND_OK) || (status == FLYPEND_SINGULAR) || (flypend_board_pass(&board) == FLYPEND_OK))) {
+            abort();
+        }
         (void)flypend_board_pass(&board);
     }
-    if ((valid & 64U) == 0) {
+    if (!damaged) {
         require_finite(board.memory, FLYPEND_MEMORY);
     }
 }

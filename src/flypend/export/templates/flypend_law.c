@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __FAST_MATH__
 #error "-ffast-math lets a compiler assume that no number is NaN, and drops the checks below"
@@ -30,22 +31,7 @@ $programs
 
 $conversions
 
-/* Checks ------------------------------------------------------------------------------------------------------- */
-
-static int number(flypend_real value)
-{
-    return (value >= -$largest) && (value <= $largest);
-}
-
-static int numbers(const flypend_real *values, int count)
-{
-    int all = 1;
-    for (int i = 0; i < count; i++) {
-        all = all && number(values[i]);
-    }
-    return all;
-}
-
+$checks
 static int spins_as_written(const flypend_real *spin)
 {
     static const flypend_real written[FLYPEND_ROTORS] = {$spins};
@@ -142,28 +128,72 @@ static void stop(flypend_real *values, int count)
 
 /* The flight computer ------------------------------------------------------------------------------------------ */
 
-flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *gains, const flypend_params *params)
+/* The gains as numbers: the struct holds nothing else. */
+static const flypend_real *gains_numbers(const flypend_gains *gains)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_status status;
-    if ((board == NULL) || (gains == NULL)) {
-        return FLYPEND_NULL;
-    }
-    board->mark = 0;
-    status = usable_params(params, p);
-    if (status == FLYPEND_OK) {
-        flypend_real rotors[FLYPEND_ROTORS];
-        least_forces(p, rotors);
-        begin(rotors, board->memory);
-        board->gains = *gains;
-        board->mark = FLYPEND_MARK;
-    }
-    return status;
+    return (const flypend_real *)gains;
+}
+
+/* What `check` holds as long as nobody but the functions below has written to the board. */
+static uint32_t check_of(const flypend_board *board)
+{
+    const uint32_t h = check_word(FLYPEND_MARK, gains_numbers(&board->gains), FLYPEND_GAINS);
+    return check_word(h, board->memory, FLYPEND_MEMORY);
 }
 
 static int has_begun(const flypend_board *board)
 {
-    return (board != NULL) && (board->mark == FLYPEND_MARK) && numbers(board->memory, FLYPEND_MEMORY);
+    return (board != NULL) && (board->mark == FLYPEND_MARK) && (board->check == check_of(board));
+}
+
+flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *gains, const flypend_params *params)
+{
+    return flypend_board_restart(board, gains, params, NULL);
+}
+
+flypend_status flypend_board_restart(flypend_board *board, const flypend_gains *gains, const flypend_params *params,
+                                     const flypend_rotors *rotors)
+{
+    flypend_real p[FLYPEND_PARAMS_LENGTH];
+    flypend_real forces[FLYPEND_ROTORS];
+    flypend_status status;
+    if (board == NULL) {
+        return FLYPEND_NULL;
+    }
+    board->mark = 0;
+    status = (gains == NULL) ? FLYPEND_NULL : usable_params(params, p);
+    if (status != FLYPEND_OK) {
+        return status;
+    }
+    if (rotors == NULL) {
+        least_forces(p, forces);
+    } else {
+        rotors_numbers(rotors, forces);
+    }
+    if (!(numbers(forces, FLYPEND_ROTORS) && numbers(gains_numbers(gains), FLYPEND_GAINS))) {
+        return FLYPEND_NOT_FINITE;
+    }
+    begin(forces, board->memory);
+    board->gains = *gains;
+    board->mark = FLYPEND_MARK;
+    board->check = check_of(board);
+    return FLYPEND_OK;
+}
+
+flypend_status flypend_board_set_gains(flypend_board *board, const flypend_gains *gains)
+{
+    if ((board == NULL) || (gains == NULL)) {
+        return FLYPEND_NULL;
+    }
+    if (!has_begun(board)) {
+        return FLYPEND_NOT_BEGUN;
+    }
+    if (!numbers(gains_numbers(gains), FLYPEND_GAINS)) {
+        return FLYPEND_NOT_FINITE;
+    }
+    board->gains = *gains;
+    board->check = check_of(board);
+    return FLYPEND_OK;
 }
 
 static flypend_status try_board(const flypend_board *board, const flypend_real *m, const flypend_path *reference,
@@ -183,11 +213,17 @@ $board_fill    if (!numbers(m + 1, FLYPEND_STATE)$board_finite) {
     return (numbers(command, FLYPEND_ROTORS) && numbers(after, FLYPEND_MEMORY)) ? FLYPEND_OK : FLYPEND_SINGULAR;
 }
 
-static void remember(flypend_board *board, const flypend_real *after)
+static void copy(const flypend_real *from, flypend_real *to)
 {
     for (int i = 0; i < FLYPEND_MEMORY; i++) {
-        board->memory[i] = after[i];
+        to[i] = from[i];
     }
+}
+
+static void remember(flypend_board *board, const flypend_real *after)
+{
+    copy(after, board->memory);
+    board->check = check_of(board);
 }
 
 flypend_status flypend_board_step(flypend_board *board, const flypend_measurement *measurement,
@@ -406,9 +442,9 @@ flypend_status flypend_lead(const flypend_rotors *wanted, const flypend_rotors *
     if (!(numbers(to, FLYPEND_ROTORS) && numbers(from, FLYPEND_ROTORS) && number(lead))) {
         return safe_rotors(FLYPEND_NOT_FINITE, p, command);
     }
-    quicken(to, from, &lead, p, to);
+    quicken(to, from, &lead, p, to); /* within the limits, whatever overflows, but where 0 times infinity is no number */
     if (!numbers(to, FLYPEND_ROTORS)) {
-        return safe_rotors(FLYPEND_SINGULAR, p, command);
+        return safe_rotors(FLYPEND_NOT_FINITE, p, command);
     }
     rotors_of(to, command);
     return FLYPEND_OK;

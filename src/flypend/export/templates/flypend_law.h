@@ -9,10 +9,13 @@
  *
  * Nothing here allocates, recurses or loops without a bound; the only function of the C library that is called is the
  * square root. What is remembered lies in flypend_board. Functions may be called from several threads at once, each
- * with a board of its own.
+ * with a board of its own. `Returns` lists the statuses of a function, FLYPEND_NULL for each pointer of which the text
+ * does not say that it may be null.
  */
 #ifndef FLYPEND_LAW_H
 #define FLYPEND_LAW_H
+
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -47,17 +50,21 @@ typedef enum {
     FLYPEND_SINGULAR = 6,
     /* The rotors of the vehicle spin otherwise than those that the code was written for. */
     FLYPEND_WRONG_VEHICLE = 7,
-    /* The board was not begun by this code, or its memory is damaged: call flypend_board_begin. */
+    /* The board was not begun by this code, or its memory is damaged: call flypend_board_restart. */
     FLYPEND_NOT_BEGUN = 8
 } flypend_status;
 
 $structs
 
-/* The flight computer between two control periods. */
+/* The flight computer between two control periods. Only the functions below write to it. Each checks first that nothing
+ * else has: it sees every damage within one number in single precision, within 32 bits in a row, of two bits, and of two
+ * words of 32 bits that are exchanged, and all but one in 2^32 of any other kind. It cannot see that an earlier state of
+ * the whole struct was put back, or damage that comes and goes within a step. */
 typedef struct {
-    /* set by flypend_board_begin */
-    unsigned long mark;
-    /* gains of the law; may be changed between two steps */
+    /* the code that began it, and a word that every function checks and renews */
+    uint32_t mark;
+    uint32_t check;
+    /* gains of the law: flypend_board_set_gains changes them */
     flypend_gains gains;
     /* modelled forces of the rotors (FLYPEND_ROTORS numbers, N), the observer, and the commands under way */
     flypend_real memory[FLYPEND_MEMORY];
@@ -67,8 +74,22 @@ typedef struct {
 extern const flypend_gains flypend_default_gains;
 extern const flypend_params flypend_default_params;
 
-/* Prepares `board` for a vehicle whose rotors give their least force. Call it on the ground, before the first step. */
+/* Prepares `board` for a vehicle whose rotors give their least force. Call it on the ground, before the first step.
+ *
+ * Returns OK, NULL, NOT_FINITE, PARAMS, WRONG_VEHICLE. After anything but FLYPEND_OK the board has not begun. */
 flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *gains, const flypend_params *params);
+
+/* The same in flight, after FLYPEND_NOT_BEGUN: the rotors give the forces `rotors`, such as the safe command that came
+ * with it. `rotors` may be null: then they give their least force.
+ *
+ * Returns OK, NULL, NOT_FINITE, PARAMS, WRONG_VEHICLE. After anything but FLYPEND_OK the board has not begun. */
+flypend_status flypend_board_restart(flypend_board *board, const flypend_gains *gains, const flypend_params *params,
+                                     const flypend_rotors *rotors);
+
+/* Changes the gains between two steps.
+ *
+ * Returns OK, NULL, NOT_FINITE, NOT_BEGUN. After anything but FLYPEND_OK the board is as it was. */
+flypend_status flypend_board_set_gains(flypend_board *board, const flypend_gains *gains);
 
 /* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for what was measured now.
  *
@@ -76,38 +97,55 @@ flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *ga
  * FLYPEND_FOLLOWS is 0.
  *
  * Anything but FLYPEND_OK comes with a safe command. As long as attitude and rates are finite and R is a rotation, the
- * vehicle is levelled, its rates are damped, and the thrust carries it (FLYPEND_ROD, FLYPEND_SINGULAR, numbers elsewhere
- * that are not finite). Otherwise nobody knows where a thrust would push: all rotors at their least force, or 0 with
- * unusable parameters. The output is finite in every case. The board remembers the command that was given and keeps its
- * estimates of external forces, so that it flies on with the next good measurement. */
+ * vehicle is levelled, its rates are damped, and the thrust carries it (FLYPEND_ROD, FLYPEND_SINGULAR,
+ * FLYPEND_NOT_BEGUN, numbers elsewhere that are not finite). Otherwise nobody knows where a thrust would push: all rotors
+ * at their least force, or 0 with unusable parameters. The output is finite in every case. A board that has begun
+ * remembers the command that was given and keeps its estimates of external forces, so that it flies on with the next good
+ * measurement.
+ *
+ * Returns OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE, NOT_BEGUN. */
 flypend_status flypend_board_step(flypend_board *board, const flypend_measurement *measurement,
                                   const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors);
 
-/* For a period in which flypend_board_step was not called and the last command stayed. */
+/* For a period in which flypend_board_step was not called and the last command stayed.
+ *
+ * Returns OK, NULL, NOT_BEGUN. */
 flypend_status flypend_board_pass(flypend_board *board);
 
 /* The law alone, for those who have their own flight computer: the wrench for a state.
  *
  * Anything but FLYPEND_OK comes with the safe wrench, chosen as flypend_board_step chooses its safe command.
- * `reference` may be null if FLYPEND_FOLLOWS is 0. */
+ * `reference` may be null if FLYPEND_FOLLOWS is 0.
+ *
+ * Returns OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE. */
 flypend_status flypend_step(const flypend_state *state, const flypend_reference *reference, const flypend_gains *gains,
                             const flypend_params *params, flypend_wrench *wrench);
 
 /* The reference on a path of the pivot. It leans the rod along the acceleration (and the force on the bob that `state`
- * holds), so the bob's derivatives take those of the path up to the eighth. Hover at a point: only x0 is not 0. */
+ * holds), so the bob's derivatives take those of the path up to the eighth. Hover at a point: only x0 is not 0.
+ *
+ * Returns OK, NULL, NOT_FINITE, PARAMS, SINGULAR, WRONG_VEHICLE. Anything but FLYPEND_OK comes with hover at the origin,
+ * or with zeros if the parameters are unusable. */
 flypend_status flypend_follow(const flypend_path *path, const flypend_state *state, const flypend_params *params,
                               flypend_reference *reference);
 
 /* Rotor forces for a wrench, each within its limits: roll and pitch first, then thrust, then yaw.
- * Anything but FLYPEND_OK comes with all rotors at their least force (0 if the parameters are unusable). */
+ *
+ * Returns OK, NULL, NOT_FINITE, PARAMS, SINGULAR, WRONG_VEHICLE. Anything but FLYPEND_OK comes with all rotors at their
+ * least force, 0 if the parameters are unusable. */
 flypend_status flypend_mix(const flypend_wrench *wrench, const flypend_params *params, flypend_rotors *rotors);
 
-/* The wrench of rotor forces. Anything but FLYPEND_OK comes with zeros. */
+/* The wrench of rotor forces.
+ *
+ * Returns OK, NULL, NOT_FINITE, PARAMS, SINGULAR, WRONG_VEHICLE. Anything but FLYPEND_OK comes with zeros. */
 flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params *params, flypend_wrench *wrench);
 
 /* Commands modelled + lead (wanted - modelled) within the limits, for rotors that lag: lead $lead is proposed here, at
  * most 1 / (1 - exp(-h / T)) for a control period h and a lag T. `command` may be `wanted`. Called with the command
- * that acts in place of `wanted` and 1 - exp(-h / T) in place of `lead`, it moves the model on by a period h. */
+ * that acts in place of `wanted` and 1 - exp(-h / T) in place of `lead`, it moves the model on by a period h.
+ *
+ * Returns OK, NULL, NOT_FINITE, PARAMS, WRONG_VEHICLE. Anything but FLYPEND_OK comes with all rotors at their
+ * least force, 0 if the parameters are unusable. */
 flypend_status flypend_lead(const flypend_rotors *wanted, const flypend_rotors *modelled, flypend_real lead,
                             const flypend_params *params, flypend_rotors *command);
 

@@ -23,13 +23,23 @@ $programs
 
 $conversions
 
-static int numbers(const flypend_real *values, int count)
+$checks
+/* The gains as numbers: the struct holds nothing else. */
+static const flypend_real *gains_numbers(const flypend_gains *gains)
 {
-    int all = 1;
-    for (int i = 0; i < count; i++) {
-        all = all && (values[i] >= -$largest) && (values[i] <= $largest);
-    }
-    return all;
+    return (const flypend_real *)gains;
+}
+
+/* What `check` holds as long as nobody but the functions below has written to the memory. */
+static uint32_t check_of(const flypend_sensors *computer)
+{
+    const uint32_t h = check_word(FLYPEND_MARK, gains_numbers(&computer->gains), FLYPEND_GAINS);
+    return check_word(h, computer->memory, FLYPEND_SENSORS_MEMORY);
+}
+
+static int has_begun(const flypend_sensors *computer)
+{
+    return (computer != NULL) && (computer->mark == FLYPEND_MARK) && (computer->check == check_of(computer));
 }
 
 /* Whether the parameters are usable, and the least forces for them. */
@@ -55,17 +65,33 @@ static flypend_status least_forces(const flypend_params *params, flypend_rotors 
 flypend_status flypend_sensors_begin(flypend_sensors *computer, const flypend_gains *gains, const flypend_params *params,
                                      const flypend_state *estimate)
 {
+    return flypend_sensors_restart(computer, gains, params, estimate, NULL);
+}
+
+flypend_status flypend_sensors_restart(flypend_sensors *computer, const flypend_gains *gains,
+                                       const flypend_params *params, const flypend_state *estimate,
+                                       const flypend_rotors *rotors)
+{
     flypend_real p[FLYPEND_PARAMS_LENGTH];
     flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
-    flypend_rotors rotors;
+    flypend_rotors given;
     flypend_wrench wrench;
-    if ((computer == NULL) || (gains == NULL) || (estimate == NULL)) {
+    if (computer == NULL) {
         return FLYPEND_NULL;
     }
     computer->mark = 0;
-    const flypend_status usable = least_forces(params, &rotors);
+    if ((gains == NULL) || (estimate == NULL)) {
+        return FLYPEND_NULL;
+    }
+    const flypend_status usable = least_forces(params, &given);
     if (usable != FLYPEND_OK) {
         return usable;
+    }
+    if (rotors != NULL) {
+        given = *rotors;
+    }
+    if (!(numbers(given.force, FLYPEND_ROTORS) && numbers(gains_numbers(gains), FLYPEND_GAINS))) {
+        return FLYPEND_NOT_FINITE;
     }
     /* The bare law refuses what is no state. */
     static const flypend_reference hover = $hover;
@@ -81,12 +107,24 @@ flypend_status flypend_sensors_begin(flypend_sensors *computer, const flypend_ga
     }
     computer->gains = *gains;
     computer->mark = FLYPEND_MARK;
+    computer->check = check_of(computer);
     return FLYPEND_OK;
 }
 
-static int has_begun(const flypend_sensors *computer)
+flypend_status flypend_sensors_set_gains(flypend_sensors *computer, const flypend_gains *gains)
 {
-    return (computer != NULL) && (computer->mark == FLYPEND_MARK) && numbers(computer->memory, FLYPEND_SENSORS_MEMORY);
+    if ((computer == NULL) || (gains == NULL)) {
+        return FLYPEND_NULL;
+    }
+    if (!has_begun(computer)) {
+        return FLYPEND_NOT_BEGUN;
+    }
+    if (!numbers(gains_numbers(gains), FLYPEND_GAINS)) {
+        return FLYPEND_NOT_FINITE;
+    }
+    computer->gains = *gains;
+    computer->check = check_of(computer);
+    return FLYPEND_OK;
 }
 
 /* No readings at all. */
@@ -147,6 +185,7 @@ $fill    m[0] = 0;
     for (int i = 0; i < FLYPEND_SENSORS_MEMORY; i++) {
         computer->memory[i] = after[i];
     }
+    computer->check = check_of(computer);
     rotors_of(command, rotors);
     return status;
 }
@@ -154,7 +193,7 @@ $fill    m[0] = 0;
 flypend_status flypend_sensors_estimate(const flypend_sensors *computer, flypend_state *estimate)
 {
     flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
-    if (estimate == NULL) {
+    if ((computer == NULL) || (estimate == NULL)) {
         return FLYPEND_NULL;
     }
     if (!has_begun(computer)) {

@@ -22,29 +22,52 @@ extern "C" {
 
 $readings_struct
 
-/* The flight computer between two control periods. */
+/* The flight computer between two control periods. What flypend_board says of itself holds here too. */
 typedef struct {
-    /* set by flypend_sensors_begin */
-    unsigned long mark;
-    /* gains of the law; may be changed between two steps */
+    /* the code that began it, and a word that every function checks and renews */
+    uint32_t mark;
+    uint32_t check;
+    /* gains of the law: flypend_sensors_set_gains changes them */
     flypend_gains gains;
     flypend_real memory[FLYPEND_SENSORS_MEMORY];
 } flypend_sensors;
 
 /* Prepares for a vehicle whose rotors give their least force, and that is about where `estimate` says: within the
- * standard deviations $start. */
+ * standard deviations $start.
+ *
+ * Returns OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE. After anything but FLYPEND_OK the computer
+ * has not begun. */
 flypend_status flypend_sensors_begin(flypend_sensors *computer, const flypend_gains *gains, const flypend_params *params,
                                      const flypend_state *estimate);
+
+/* The same in flight, after FLYPEND_NOT_BEGUN: the rotors give the forces `rotors`, and `estimate` is what
+ * flypend_sensors_estimate said before. `rotors` may be null: then they give their least force.
+ *
+ * Returns OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE. After anything but FLYPEND_OK the computer
+ * has not begun. */
+flypend_status flypend_sensors_restart(flypend_sensors *computer, const flypend_gains *gains,
+                                       const flypend_params *params, const flypend_state *estimate,
+                                       const flypend_rotors *rotors);
+
+/* Changes the gains between two steps.
+ *
+ * Returns OK, NULL, NOT_FINITE, NOT_BEGUN. After anything but FLYPEND_OK the computer is as it was. */
+flypend_status flypend_sensors_set_gains(flypend_sensors *computer, const flypend_gains *gains);
 
 /* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for the readings that have arrived.
  *
  * Null or unsound readings (not finite, FLYPEND_ROD, FLYPEND_ATTITUDE) are ignored as a whole and told, and the estimate
  * goes on by the model. With unusable parameters the rotors are at 0; if the answer is not finite (FLYPEND_SINGULAR) or the
- * computer has not begun, at their least force, and nothing is remembered. */
+ * computer has not begun, at their least force, and nothing is remembered. `reference` may be null if FLYPEND_FOLLOWS
+ * is 0.
+ *
+ * Returns OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE, NOT_BEGUN. */
 flypend_status flypend_sensors_step(flypend_sensors *computer, const flypend_readings *readings,
                                     const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors);
 
-/* The estimate that the last step was computed for, moved on by one period. */
+/* The estimate that the last step was computed for, moved on by one period.
+ *
+ * Returns OK, NULL, NOT_BEGUN. After anything but FLYPEND_OK `estimate` is as it was. */
 flypend_status flypend_sensors_estimate(const flypend_sensors *computer, flypend_state *estimate);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* Many states in one call, for tests and measurements. */
-#include "flypend_law.h"
+#include "$include"
 
 #include <stddef.h>
 
@@ -10,6 +10,7 @@ void flypend_fly(int count, flypend_board *board, const flypend_measurement *mea
                  const flypend_params *params, flypend_rotors *rotors, int *status);
 int flypend_board_bytes(void);
 int flypend_board_memory(void);
+int flypend_sensors_bytes(void);
 
 void flypend_many(int count, const flypend_state *state, const flypend_reference *reference,
                   const flypend_gains *gains, const flypend_params *params, flypend_wrench *wrench,
@@ -39,4 +40,13 @@ int flypend_board_bytes(void)
 int flypend_board_memory(void)
 {
     return (int)offsetof(flypend_board, memory);
+}
+
+int flypend_sensors_bytes(void)
+{
+#ifdef FLYPEND_SENSORS_H
+    return (int)sizeof(flypend_sensors);
+#else
+    return 0;
+#endif
 }

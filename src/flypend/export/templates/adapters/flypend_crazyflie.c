@@ -4,7 +4,8 @@
  * The firmware's frames are those of the law: world with z up, body front-left-up. It does not know the rod: call
  * flypend_crazyflie_bob with what the motion capture system sees. Until it has been called no thrust is asked for; when
  * the last call lies more than ROD_STEPS back the vehicle levels out and hovers. Call flypend_crazyflie_begin right
- * before lift-off: the ground pushes a vehicle that stands on it, which the observer would take for a force.
+ * before lift-off: the ground pushes a vehicle that stands on it, which the observer would take for a force. A board whose
+ * memory is damaged levels out for a period and begins again.
  * The answer is given as thrust and torques, which the firmware shares among the motors again; they are within the limits
  * of the rotors already. Export with --precision float: the processor has no doubles. The status is logged as
  * flypend.status.
@@ -120,6 +121,9 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
         read_measurement(sensors, state, bob_is_known, &now);
         read_path(setpoint, &path);
         status = (uint8_t)flypend_board_step(&board, &now, &path, &flypend_default_params, &rotors);
+        if (status == (uint8_t)FLYPEND_NOT_BEGUN) {
+            (void)flypend_board_restart(&board, &flypend_default_gains, &flypend_default_params, &rotors);
+        }
         (void)flypend_unmix(&rotors, &flypend_default_params, &wrench);
     }
     control->controlMode = controlModeForceTorque;

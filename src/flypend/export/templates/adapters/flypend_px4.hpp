@@ -31,7 +31,7 @@ void flypend_to_px4(const flypend_rotors &rotors, const flypend_params &params, 
 
 // Runs the flight computer at the measurement of the angular velocity at which a control period begins, and tells its
 // status as the debug value "flypend". Without a bob it asks for no thrust; when the bob is lost in flight the vehicle
-// levels out and hovers.
+// levels out and hovers. A board whose memory is damaged levels out for a period and begins again.
 class Flypend : public px4::ScheduledWorkItem
 {
 public:

@@ -60,6 +60,9 @@ bool FlypendControl::step(const nav_msgs::msg::Odometry &vehicle, const geometry
         flypend_rotors rotors;
         read(target, path.x0);
         _status = flypend_board_step(&_board, &measurement, &path, &flypend_default_params, &rotors);
+        if (_status == FLYPEND_NOT_BEGUN) {
+            (void)flypend_board_restart(&_board, &flypend_default_gains, &flypend_default_params, &rotors);
+        }
         (void)flypend_unmix(&rotors, &flypend_default_params, &_wrench);
     }
     status = _status;

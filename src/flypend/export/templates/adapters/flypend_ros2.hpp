@@ -24,7 +24,8 @@ public:
 
     // The wrench in the body frame that takes the pivot to `target`, to be called for every odometry: false, and the
     // wrench before, until the stamp says that a control period has passed. `status` says whether the flight computer
-    // could fly the law; if not, the wrench is its safe answer. Publish it, as a diagnostic for instance.
+    // could fly the law; if not, the wrench is its safe answer. Publish it, as a diagnostic for instance. A board whose
+    // memory is damaged says FLYPEND_NOT_BEGUN once, and begins again.
     bool step(const nav_msgs::msg::Odometry &vehicle, const geometry_msgs::msg::Point &bob,
               const geometry_msgs::msg::Vector3 &bob_velocity, const geometry_msgs::msg::Point &target,
               geometry_msgs::msg::Wrench &wrench, flypend_status &status);

@@ -6,13 +6,16 @@ import difflib
 import functools
 import importlib.util
 import inspect
-from collections.abc import Iterable, Mapping
-from numbers import Integral
-from typing import Any, TypeVar
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from numbers import Integral, Real
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Literal, TypeVar, Union, cast, get_args, get_origin
 
 import numpy as np
 
-C = TypeVar("C")
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 class InputError(ValueError):
@@ -71,7 +74,9 @@ def number(
     if not (np.isfinite(result) and inside):
         raise InputError(field, expected, f"{result:g}")
     if at_most is not None and result > at_most:
-        raise InputError(field, f"at most {at_most:g}{' ' + unit if unit else ''}", f"{result:g}")
+        meant = np.radians(result)  # of an angle in degrees
+        hint = f" (in degrees? write {meant:.4g})" if unit == "rad" and meant <= at_most else ""
+        raise InputError(field, f"at most {at_most:g}{' ' + unit if unit else ''}", f"{result:g}{hint}")
     return result
 
 
@@ -102,34 +107,170 @@ def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
             one_of(f"{field}.{name}" if field else name, name, names)
 
 
-def named_arguments(cls: type[C]) -> type[C]:
-    """Class decorator for records: a call with wrong arguments raises InputError, as a wrong value does."""
-    build = cls.__init__
-    signature = inspect.signature(build)
+def named_arguments(target: F) -> F:
+    """Decorator of public functions and records: a call with wrong arguments raises InputError, as a wrong value does.
 
-    @functools.wraps(build)
-    def checked(self: Any, *args: Any, **given: Any) -> None:
+    Arguments that are to be records, such as a Vehicle, are checked before the call; names and all other types only if
+    it fails. A record's public methods are checked only if they fail: equations pass vehicles of symbols to them.
+    """
+    if not isinstance(target, type):
+        return cast("F", _checked(target, target.__name__, target))
+    for name, member in list(vars(target).items()):
+        if name == "__init__":
+            setattr(target, name, _checked(member, target.__name__, target, bound=1))
+        elif inspect.isfunction(member) and not name.startswith("_"):
+            setattr(target, name, _checked(member, name, member, bound=1, before=False))
+    return target
+
+
+def _checked(function: Any, name: str, documented: Any, bound: int = 0, before: bool = True) -> Any:
+    """Return `function`, which is called `name` in messages; its first `bound` arguments are not the caller's.
+
+    Records among the arguments are checked `before` the call, if they are.
+    """
+
+    @functools.lru_cache(maxsize=1)  # annotations can be read once all modules are imported
+    def signature() -> tuple[list[inspect.Parameter], list[tuple[int, str, Any]]]:
+        known = list(inspect.signature(function).parameters.values())[bound:]
+        kinds = [_annotated(parameter.annotation, function) for parameter in known]
+        named = [parameter.replace(annotation=kind) for parameter, kind in zip(known, kinds, strict=True)]
+        records = [(bound + i, one.name, one.annotation) for i, one in enumerate(named) if _is_record(one.annotation)]
+        return named, records if before else []
+
+    @functools.wraps(function)
+    def checked(*args: Any, **given: Any) -> Any:
+        for place, field, kind in signature()[1]:
+            if field in given or place < len(args):
+                check_kind(field, given[field] if field in given else args[place], kind)
         try:
-            build(self, *args, **given)
-        except TypeError:
-            _check_call(cls.__name__, signature, args, given)
+            return function(*args, **given)
+        except InputError:
+            raise
+        except Exception:
+            _check_call(name, signature()[0], args[bound:], given, documented)
             raise
 
-    cls.__init__ = checked  # type: ignore[method-assign]
-    return cls
+    return checked
 
 
-def _check_call(name: str, signature: inspect.Signature, args: tuple[Any, ...], given: Mapping[str, Any]) -> None:
-    """Raise InputError if a call of the class `name` does not fit its constructor's `signature`."""
-    known = list(signature.parameters.values())[1:]
-    only_known(name, given, [parameter.name for parameter in known])
-    by_place = [parameter.name for parameter in known if parameter.kind is not inspect.Parameter.KEYWORD_ONLY]
-    if len(args) > len(by_place):
-        raise InputError(name, f"arguments by name, such as {known[0].name}=", f"{len(args)} without")
+def _check_call(
+    name: str, known: Sequence[inspect.Parameter], args: Sequence[Any], given: Mapping[str, Any], documented: Any
+) -> None:
+    """Raise InputError if a call of `name` does not fit the `known` arguments of what is `documented`."""
+    kinds = {parameter.kind for parameter in known}
+    if inspect.Parameter.VAR_KEYWORD not in kinds:
+        only_known(name, given, [parameter.name for parameter in known])
+    by_place = [parameter for parameter in known if parameter.kind is parameter.POSITIONAL_OR_KEYWORD]
+    if len(args) > len(by_place) and inspect.Parameter.VAR_POSITIONAL not in kinds:
+        told = f"such as {known[0].name}=" if known else "none"
+        raise InputError(name, f"arguments by name, {told}", f"{len(args)} without")
+    values = {**dict(zip([parameter.name for parameter in by_place], args, strict=False)), **given}
     for parameter in known:
-        missing = parameter.name not in given and parameter.name not in by_place[: len(args)]
-        if missing and parameter.default is inspect.Parameter.empty:
-            raise InputError(f"{name}.{parameter.name}", "a value", "nothing")
+        if parameter.name in values:
+            check_kind(parameter.name, values[parameter.name], parameter.annotation)
+        elif parameter.default is parameter.empty and parameter.kind not in (
+            parameter.VAR_POSITIONAL,
+            parameter.VAR_KEYWORD,
+        ):
+            raise InputError(f"{name}.{parameter.name}", documented_as(documented, parameter.name), "nothing")
+
+
+def documented_as(target: Any, name: str) -> str:
+    """Return what the docstring of `target` says of its argument `name`: kind, meaning and unit, up to a full stop."""
+    found = re.search(rf"^( +)(?:\w+, )*{name}(?:, \w+)* : (.*)\n((?:\1 +.*\n)+)", f"{target.__doc__}\n", re.MULTILINE)
+    if found is None:
+        return "a value"
+    said = " ".join(found[3].split()).split(". ")[0].rstrip(".")
+    kind = {"float": "a number", "int": "an integer", "str": "a word"}.get(found[2], found[2])
+    return f"{kind}: {said[:1].lower()}{said[1:]}"
+
+
+# Kinds of arguments ---------------------------------------------------------------------------------------------------
+
+# What is checked before a call, and how one gets it.
+RECORDS = {
+    "Vehicle": "fp.vehicle('hehn2011')",
+    "Law": "fp.laws.inverted()",
+    "State": "fp.State(y=(0, 0, -1))",
+    "Trajectory": "what fp.simulate and fp.load return",
+    "Plan": "what fp.plan returns",
+    "Flight": "fp.Flight(vehicle=..., law=..., starts=..., duration=...)",
+    "Criterion": "fp.Criterion()",
+    "Tolerances": "fp.Tolerances()",
+}
+_KINDS: tuple[tuple[Any, Any, str], ...] = (
+    (float, Real, "a number"),
+    (int, Integral, "an integer"),
+    (bool, (bool, np.bool_), "true or false"),
+    (str, str, "a word"),
+    (Path, Path, "a path"),
+)
+
+
+def _annotated(annotation: Any, function: Any) -> Any:
+    """Return the kind that an `annotation` of `function` stands for; Any for one that only type checkers know."""
+    if not isinstance(annotation, str):
+        return annotation
+    try:
+        return eval(annotation, getattr(inspect.unwrap(function), "__globals__", {}))  # noqa: S307 (our own text)
+    except (NameError, AttributeError, TypeError):
+        return Any
+
+
+def _members(kind: Any) -> tuple[Any, ...]:
+    """Return the kinds of a union; of any other, itself."""
+    return get_args(kind) if isinstance(kind, UnionType) or get_origin(kind) is Union else (kind,)
+
+
+def _is_record(kind: Any) -> bool:
+    return any(_bare(one) in RECORDS for one in _members(kind))
+
+
+def check_kind(field: str, value: Any, kind: Any) -> None:
+    """Raise InputError unless `value` is of a `kind`: an annotation, or the name of a record."""
+    members = _members(kind)
+    if not any(_fits(value, one) for one in members):
+        names = [_called(one) for one in members if one is not str or Path not in members]
+        form = next((f", such as {RECORDS[one]}" for one in (_bare(each) for each in members) if one in RECORDS), "")
+        raise InputError(field, " or ".join(dict.fromkeys(names)) + form, repr(value)[:80])
+
+
+def _bare(kind: Any) -> str:
+    return str(getattr(kind, "__name__", kind))
+
+
+def _called(kind: Any) -> str:
+    """Return what a kind is called in a message."""
+    if kind is None or kind is NoneType:
+        return "None"
+    if get_origin(kind) is Literal:
+        return "one of " + ", ".join(map(repr, get_args(kind)))
+    plain = next((told for known, _, told in _KINDS if kind is known), "")
+    origin = get_origin(kind) or kind
+    if plain or origin is Callable:
+        return plain or "a function"
+    return f"{'an' if _bare(origin)[0] in 'AEIO' else 'a'} {_bare(origin)}"
+
+
+def _fits(value: Any, kind: Any) -> bool:
+    """Whether `value` is of a `kind`; kinds that cannot be looked at fit always."""
+    if kind is None or kind is NoneType:
+        return value is None
+    if isinstance(kind, str):
+        return kind in (one.__name__ for one in type(value).__mro__)
+    if get_origin(kind) is Literal:
+        return isinstance(value, str) and value in get_args(kind)
+    for known, accepted, _ in _KINDS:
+        if kind is known:
+            return isinstance(value, accepted) and (known is bool or not isinstance(value, bool))
+    origin = get_origin(kind) or kind
+    if origin is Callable:
+        return callable(value)
+    if isinstance(value, str) and origin in (Sequence, Iterable):
+        return False
+    if kind is Any or not isinstance(origin, type) or getattr(origin, "_is_protocol", False):
+        return True  # ArrayLike is a union of protocols, of which a tuple is none
+    return isinstance(value, origin)
 
 
 def check_arguments(field: str, function: Any, form: str) -> None:
@@ -161,5 +302,37 @@ def require(module: str, *, extra: str, for_: str) -> None:
     The module is located, not imported. Call this before doing any work.
     """
     if importlib.util.find_spec(module) is None:
-        wanted = f"the extra flypend[{extra}] (pip install 'flypend[{extra}]')"
-        raise InputError(for_, wanted, f"no module {module}")
+        raise InputError(for_, f"the extra {extra} ({install_command(extra)})", f"no module {module}")
+
+
+def install_command(extra: str) -> str:
+    """Return the pip command that adds `extra` to this installation of flypend, which is on no package index.
+
+    What was installed from a folder, a file or a repository comes from there again, with the extra. If that place is
+    gone or unknown, the command names the packages of the extra that are missing.
+    """
+    import json  # what only a missing extra needs is imported here: every command imports this module
+    import re
+    import shlex
+    from importlib import metadata
+    from pathlib import Path
+    from urllib.parse import urlsplit
+    from urllib.request import url2pathname
+
+    def installed(requirement: str) -> bool:
+        return any(metadata.distributions(name=re.split(r"[^\w.-]", requirement)[0]))
+
+    own = next(iter(metadata.distributions(name="flypend")), None)
+    if own is None:  # a source tree on the path
+        return f"pip install '.[{extra}]' in a clone of flypend"
+    origin = json.loads(own.read_text("direct_url.json") or "{}")
+    url = origin.get("url", "")
+    if vcs := origin.get("vcs_info"):
+        return shlex.join(["pip", "install", f"flypend[{extra}] @ {vcs['vcs']}+{url}@{vcs['commit_id']}"])
+    place = Path(url2pathname(urlsplit(url).path))
+    if url.startswith("file:") and place.exists():
+        editable = ["-e"] if origin.get("dir_info", {}).get("editable") else []
+        return shlex.join(["pip", "install", *editable, f"{'.' if place == Path.cwd() else place}[{extra}]"])
+    listed = (text.partition(";") for text in own.requires or ())
+    wanted = [name.strip() for name, _, marker in listed if re.search(rf"extra == ['\"]{extra}['\"]", marker)]
+    return shlex.join(["pip", "install", *([text for text in wanted if not installed(text)] or wanted)])

@@ -145,9 +145,9 @@ def late(t, state, vehicle):
 @pytest.mark.parametrize(
     ("function", "line", "words"),
     [
-        (misspelt, 1, "AttributeError: 'State' object has no attribute 'omga'"),
-        (silent, 0, "it returns NoneType, not a Wrench"),
-        (short, 0, "its wrench is not one thrust and three moments"),
+        (misspelt, 1, "AttributeError: 'State' object has no attribute 'omga' (did you mean 'omega'?)"),
+        (silent, 0, "it returns NoneType, not a Wrench: return flypend.Wrench(thrust, moment)"),
+        (short, 1, "wrench.moment: expected three numbers, N m, got shape (2,)"),
     ],
 )
 def test_a_mistake_is_one_line_with_file_and_line(function, line, words):

@@ -3,9 +3,10 @@
 import casadi as ca
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from flypend.laws.passage import passage_of, steered
+from flypend.laws.passage import heading, passage_of, steered
 from flypend.model.mount import clearances
 
 HUB = fp.vehicle("hehn2011").replace(mount="hub")
@@ -27,6 +28,24 @@ def test_yaw_takes_the_nearer_gap_to_the_rod():
     for bearing in np.radians([5, 20, 40, 95, 130, 200]):
         off = (bearing - np.pi / 4 + np.pi / 4) % (np.pi / 2) - np.pi / 4
         assert np.sign(_steered(bearing)[1]) == np.sign(off)  # the rod beyond the gap: turn after it
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_heading_is_where_the_rod_will_be_seen_from_a_body_that_yaws(seed):
+    """Against a body that has turned by then."""
+    rng, time = np.random.default_rng(seed), 0.1
+    state = fp.State.random(rng)
+    axis = np.linalg.qr(rng.standard_normal((3, 3)))[0][0]
+
+    def way(R, rate, ahead):
+        seen = fp.State(R=R, omega=(0.3, -0.2, rate), y=state.y)
+        return np.asarray(ca.DM(heading(seen, ca.DM(state.y), ca.DM(axis), ahead))).ravel()
+
+    for rate in (-0.8, 0.5):
+        turned = state.R @ Rotation.from_rotvec([0, 0, rate * time]).as_matrix()
+        # A turn by 2 atan(angle/2) instead of the angle: angle³/12 < 5e-5.
+        np.testing.assert_allclose(way(state.R, rate, time), way(turned, rate, 0.0), atol=5e-5)
+        assert np.linalg.norm(way(state.R, rate, time) - way(state.R, rate, 0.0)) > 1e-3
 
 
 def test_arms_need_not_be_even():

@@ -224,6 +224,30 @@ def test_a_law_without_a_theorem_guarantees_nothing():
         fp.laws.repaired().bind(PAPERS).guarantee(fp.State.random(np.random.default_rng(0), 3))
 
 
+@pytest.mark.parametrize(
+    "change",
+    [{"mount": "hub"}, {"mount": "cup"}, {"pivot_offset": (0.0, 0.0, 0.01)}, {"pivot_damping": 1e-3},
+     {"pivot_friction": 1e-3}, {"rod_inertia": 1e-3, "rod_spin": 5.0, "rod_spin_inertia": 1e-4}],
+    ids=lambda change: next(iter(change)),
+)  # fmt: skip
+@pytest.mark.parametrize("law", [fp.laws.repaired, fp.laws.almost_global], ids=lambda law: law.__name__)
+def test_a_theorem_covers_no_vehicle_that_it_does_not_model(law, change):
+    start = fp.State(y=(0.6, 0.0, 0.8))
+    assert law().bind(HEHN).guarantee(start).covered
+    assert law().bind(HEHN.replace(rod_inertia=1e-3)).guarantee(start).covered  # it moves like a bob and two masses
+    refused = law().bind(HEHN.replace(**change)).guarantee(start)
+    assert not refused.covered
+    assert refused.reason.startswith("outside the theorem")
+    assert refused.thrust == (0.0, np.inf)
+
+
+def test_a_law_moved_along_a_path_has_no_theorem():
+    law = fp.laws.almost_global().bind(HEHN)
+    assert law.guarantee(fp.State(y=-E3)).covered
+    with pytest.raises(fp.InputError, match=r"^law: "):
+        law.along(law.path).guarantee(fp.State(y=-E3))
+
+
 @pytest.mark.parametrize("barrier", [0.05, 0.25, 0.5, 0.9, 1.0])
 def test_the_bound_on_the_wanted_rate_is_the_least_one(barrier):
     # |χ(G·φ)e − (1+c)P_φG| ≤ |G|√(2(1+c)) for χ ≤ 1; divided by (1−ε)(1+c) + 2ε it is largest where κ says.

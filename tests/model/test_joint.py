@@ -172,8 +172,9 @@ def test_a_spin_takes_no_energy_and_keeps_the_momentum_about_the_vertical():
 def test_viscous_friction_damps_a_small_swing_as_a_textbook_says():
     """A heavy vehicle that hovers: θ̈ = −(g/l) θ − c/(m l²) θ̇, of which the envelope is e^(−c t/2 m l²)."""
     vehicle = PLAIN.replace(
-        mass=500.0, inertia=(5e4, 5e4, 9e4), rotor_limits=(0, 5000), pivot_damping=1e-2, rotor_lag=0.0
-    )
+        mass=500.0, inertia=(5e4, 5e4, 9e4), rotor_limits=(0, 5000), pivot_damping=1e-2, rotor_lag=0.0,
+        rotor_positions=10 * PLAIN.rotor_positions,
+    )  # fmt: skip
     m, l = vehicle.m, vehicle.l
     # On a vehicle of finite mass the rod swings at √(g/l (M+m)/M), its inertia being that of the reduced mass.
     rate, ratio = np.sqrt(9.81 / l * (vehicle.M + m) / vehicle.M), (vehicle.M + m) / vehicle.M

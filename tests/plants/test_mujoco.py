@@ -504,7 +504,7 @@ def test_what_is_refused(tmp_path, monkeypatch):
 
 def test_without_mujoco_there_is_one_clear_line(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    line = r"^plant: expected the extra flypend\[mujoco\] \(pip install 'flypend\[mujoco\]'\), got no module mujoco$"
+    line = r"^plant: expected the extra mujoco \(pip install .*\), got no module mujoco$"
     with pytest.raises(fp.InputError, match=line):
         MujocoEngine(fp.vehicle("hehn2011"))
     assert model_xml(fp.vehicle("hehn2011"), timestep=1e-3).startswith("<mujoco")

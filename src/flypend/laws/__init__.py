@@ -12,9 +12,10 @@ from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
 from flypend.laws.learned import learned
+from flypend.laws.located import LawError
 from flypend.laws.lqr import lqr
-from flypend.laws.named import law_from_dict, law_names
-from flypend.laws.own import LawError, from_function
+from flypend.laws.named import FACTORIES, law_from_dict, law_names
+from flypend.laws.own import from_function
 from flypend.laws.printed import printed
 from flypend.laws.repaired import repaired
 from flypend.laws.supervised import supervised
@@ -44,3 +45,7 @@ __all__ = [
     "repaired",
     "supervised",
 ]
+
+# A law that is in the registry alone is an attribute as well; those above are what type checkers see.
+globals().update(FACTORIES)
+__all__ += [name for name in FACTORIES if name not in __all__]

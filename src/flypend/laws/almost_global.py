@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
+from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, norm, scale
 from flypend.laws.almost_global_bounds import theorem_b
 from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
@@ -34,6 +35,7 @@ OUTSIDE = Guard(
 )
 
 
+@errors.named_arguments
 @documented(GAINS)
 def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem B about a `reference` for the pivot. V falls along every solution.

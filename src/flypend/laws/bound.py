@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType, SimpleNamespace
@@ -13,15 +14,18 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.laws.gain import Gain, check_gain, is_number
-from flypend.laws.guarantee import Guarantee
+from flypend.laws.guarantee import Guarantee, unmodelled
+from flypend.laws.located import LawError, Located, beginning, check_finite, innermost, is_own, wrench_of
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import FLIP_PACKED, E3Direction
+from flypend.model.state import FLIP_PACKED, SIZE, E3Direction
 
+TRIED = 2  # states in which a law of the user's own is evaluated at binding
 # Maps (thrust, moment) between the e₃-down and the e₃-up frame, either way.
 FLIP_WRENCH = np.array([-1.0, 1.0, -1.0, -1.0])
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Guard:
     """A quantity that must not vanish: where `signal` drops below `threshold`, the law is undefined for `reason`."""
@@ -34,6 +38,7 @@ class Guard:
 MAX_LATENCY = 0.5  # s; the flight computer predicts over it, command by command
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Computer:
     """Settings of the flight computer around a law in a sampled flight. The ideal plant ignores them.
@@ -72,6 +77,7 @@ class Computer:
         errors.number("force_limit", self.force_limit, at_least=0)
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Control:
     """Output of a law: the wrench, and scalars to record.
@@ -91,6 +97,7 @@ class Control:
     signals: Mapping[str, Any] = field(default_factory=dict)
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BoundLaw:
     """A law ready to fly: every gain has a value for one vehicle. Made by `Law.bind`.
@@ -156,10 +163,15 @@ class BoundLaw:
     def guarantee(self, start: State) -> Guarantee:
         """Return what the law's theorem says of a single `start`, in the law's frame: see `laws.guarantee.Guarantee`.
 
-        Raises InputError if the law has no theorem, or `start` is a batch.
+        A vehicle that the theorem does not model (`laws.guarantee.unmodelled`) is not covered, wherever it starts.
+
+        Raises InputError if the law has no theorem, has been moved `along` a path, or `start` is a batch.
         """
         if self.theorem is None:
-            raise errors.InputError("law", "one with a theorem: repaired or almost_global", self.name)
+            raise errors.InputError("law", "one with a theorem: repaired or almost_global, on its own path", self.name)
+        missing = unmodelled(self.vehicle)
+        if missing:
+            return Guarantee(covered=False, reason=f"outside the theorem: {missing}", V=math.inf)
         return self.theorem(self, start)
 
     def calmed(self, share: float) -> BoundLaw:
@@ -181,11 +193,14 @@ class BoundLaw:
 
     @property
     def along(self) -> Callable[[Path], BoundLaw] | None:
-        """Return the same law on another path (see `laws.references.Path`); None for a law without a path."""
+        """Return the same law on another path (see `laws.references.Path`); None for a law without a path.
+
+        What is proved of the law is proved on its own path: the one that comes back has no theorem.
+        """
         return None if self.path is None else self._along
 
     def _along(self, path: Path) -> BoundLaw:
-        return replace(self, path=path)
+        return replace(self, path=path, theorem=None)
 
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
         """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
@@ -210,15 +225,26 @@ class BoundLaw:
         given = SimpleNamespace(**{**self.prepared, **self.gains, **(gains or {})})
         known = (forces or (ca.SX.zeros(3), ca.SX.zeros(3)),) if self.uses_forces else ()
         followed = {} if self.path is None else {"path": self.path}
-        try:
-            control = self.control(t, state, vehicle, given, *known, **followed)
-        except RuntimeError as error:
-            if "truth value" not in str(error):
-                raise
-            raise errors.InputError("law", "cases by casadi.if_else, because values are symbols", "an if") from None
-        if not isinstance(control, Control | Wrench):
-            raise errors.InputError("law", "a Control or a Wrench", type(control).__name__)
-        return Control(wrench=control) if isinstance(control, Wrench) else control
+        answer = Located(self.control, self.name) if is_own(self.control) else self.control
+        control = answer(t, state, vehicle, given, *known, **followed)
+        wrench = wrench_of(control, self.control, self.name)
+        return control if isinstance(control, Control) else Control(wrench=wrench)
+
+    def tried(self) -> BoundLaw:
+        """Return the law itself. Raises LawError if its equations fail, or answer no finite wrench in random states."""
+        t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+        control = self.evaluate(t, State.symbolic(packed), self.vehicle)
+        where = beginning(innermost(self.control))
+        for name, value in (*control.lyapunov.items(), *control.signals.items()):
+            shape = getattr(value, "shape", ())
+            if shape not in ((), (1,), (1, 1)):
+                raise LawError(where, self.name, f"its signal {name} is not one number, but of shape {shape}")
+        wrench = ca.vertcat(control.wrench.thrust, control.wrench.moment)
+        function = ca.Function("tried", [t, packed], [ca.densify(wrench)])
+        states = State.random(np.random.default_rng(0), TRIED).packed()
+        values = [np.array(function(0.0, state)).ravel() for state in states]
+        check_finite(values, self.control, self.name)
+        return self
 
     def upright(
         self,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.laws.bound import Computer
 from flypend.laws.gain import Gain, check_gain, checked, is_number, table
+from flypend.laws.located import Located, is_own, wrench_of
 from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction, seen_packed
@@ -77,7 +79,8 @@ class Controller:
         """Return the controller for `vehicle`: itself, unless it depends on vehicle or gains."""
         if self.steering is None:
             return self
-        return replace(self, function=self.steering(vehicle, self.gains))
+        steering = Located(self.steering, self.name, inner=True) if is_own(self.steering) else self.steering
+        return replace(self, function=steering(vehicle, self.gains))
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -110,5 +113,11 @@ class Controller:
 
     def upright(self, t: float, packed: Any) -> NDArray[Any]:
         """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
-        wrench = self.function(t, State.trusted(seen_packed(packed, self.e3))).seen(self.e3)
+        answer = self._answer(t, State.trusted(seen_packed(packed, self.e3)))
+        wrench = wrench_of(answer, self.function, self.name).seen(self.e3)
         return np.append(wrench.thrust, wrench.moment)
+
+    @cached_property
+    def _answer(self) -> Steering:
+        """The function; that of a user with its mistakes on one line."""
+        return Located(self.function, self.name) if is_own(self.function) else self.function

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from flypend import errors
 from flypend.laws.bound import Control, Guard
 from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, Gain, documented, table
 from flypend.laws.law import Law
@@ -30,6 +31,7 @@ GAINS = table(
 )  # fmt: skip
 
 
+@errors.named_arguments
 @documented(GAINS)
 def corrected(**gains: float | str) -> Law:
     """Build Theorem 1 with f_p = k_p e₃ − k_d ẏ, in the paper's frame, where y = e₃ hangs along gravity.

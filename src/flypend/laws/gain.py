@@ -18,6 +18,7 @@ from flypend.model import Vehicle
 F = TypeVar("F", bound=Callable[..., Any])
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Bounds:
     """The interval [low, high] of valid gain values; (low, high] with `open_low`."""
@@ -127,9 +128,13 @@ def is_number(value: object) -> bool:
 
 def table(gains: Mapping[str, Any] | Iterable[Gain]) -> Mapping[str, Gain]:
     """Return a table of gains by name, from records or from a dict of defaults (without bounds)."""
+    errors.check_kind("gains", gains, Iterable)
     if isinstance(gains, Mapping):
         gains = [value if isinstance(value, Gain) else Gain(name, value) for name, value in gains.items()]
-    return MappingProxyType({gain.name: gain for gain in gains})
+    listed = list(gains)
+    for gain in listed:
+        errors.check_kind("gains", gain, Gain)
+    return MappingProxyType({gain.name: gain for gain in listed})
 
 
 def checked(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str = "") -> dict[str, Any]:

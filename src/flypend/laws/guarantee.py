@@ -6,7 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from flypend.laws.step import Step
+from flypend.model import Vehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +49,25 @@ class Guarantee:
     assumes: tuple[str, ...] = ()
 
 
-IDEAL = ("the wrench acts as commanded, without limits, lag or delay", "mass, inertia and rod length are as told")
+def unmodelled(vehicle: Vehicle) -> str:
+    """Return what `vehicle` has that the theorems' equations lack, in words; empty for a vehicle that they model.
+
+    They know a free ball joint at the centre of mass, a rod that touches nothing and does not spin, and no air.
+    """
+    has = {
+        f"a {vehicle.mount}, which the rod must not touch": vehicle.mount != "gimbal",
+        "a pivot off the centre of mass": bool(np.any(vehicle.pivot_offset)),
+        "friction in the joint": bool(vehicle.pivot_damping or vehicle.pivot_friction),
+        "a rod that spins": bool(vehicle.rod_spin and vehicle.rod_spin_inertia),
+    }
+    return ", ".join(words for words, present in has.items() if present)
+
+
+IDEAL = (
+    "the wrench acts as commanded, without limits, lag or delay",
+    "mass, inertia and rod length are as told",
+    "no forces of the air",
+)
 
 
 def least_distance(V: float, step: Step) -> float:

@@ -18,6 +18,7 @@ from typing import Any
 
 import casadi as ca
 
+from flypend import errors
 from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
@@ -65,6 +66,7 @@ CALM, SPUN = 1.0, 2.0
 SPIN_LAG = 1.3
 
 
+@errors.named_arguments
 @documented(GAINS)
 def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
     """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle.

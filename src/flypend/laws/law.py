@@ -14,6 +14,7 @@ from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.gain import Gain, check_gain, checked, table
 from flypend.laws.guarantee import Guarantee
+from flypend.laws.located import is_own
 from flypend.laws.references import Path, Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.state import E3Direction
@@ -152,7 +153,7 @@ class Law:
 
     def _bind(self, vehicle: Vehicle) -> BoundLaw:
         gains = self.gains_for(vehicle)
-        return BoundLaw(
+        bound = BoundLaw(
             name=self.name,
             e3=self.e3,
             vehicle=vehicle,
@@ -170,6 +171,7 @@ class Law:
             check=self.check,
             calmer=self._calmer(vehicle),
         )
+        return bound.tried() if is_own(self.control) else bound
 
     def _calmer(self, vehicle: Vehicle) -> Callable[[float], BoundLaw] | None:
         """Return share → the law bound to `vehicle` with gains as calm; None if there are none, or all are given."""

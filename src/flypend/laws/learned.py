@@ -42,6 +42,7 @@ GAINS = table(
 )  # fmt: skip
 
 
+@errors.named_arguments
 @documented(GAINS)
 def learned(reference: Reference | None = None, **gains: Any) -> Law:
     """Build the learned law.

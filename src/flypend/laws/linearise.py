@@ -17,6 +17,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, hat, project_tangent, rotation_from_vector, unit
 from flypend.laws.bound import BoundLaw
@@ -112,6 +113,7 @@ class Linearisation:
         return bool(largest <= _ROUNDOFF * np.max(np.abs(self.A)))
 
 
+@errors.named_arguments
 def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) -> Linearisation:
     """Linearise the closed loop of `vehicle` under `law` about the equilibrium near `at`, at time 0.
 

@@ -18,6 +18,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
@@ -58,6 +59,7 @@ GAINS = table(
 )  # fmt: skip
 
 
+@errors.named_arguments
 @documented(GAINS)
 def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """Build the linear-quadratic regulator; its weights are the inverse squares of the largest acceptable deviations.

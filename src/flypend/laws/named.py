@@ -37,11 +37,13 @@ SHAPES: Mapping[str, Callable[..., Reference]] = {
 }
 
 
+@errors.named_arguments
 def law_names() -> list[str]:
     """Return the names of the built-in laws."""
     return list(FACTORIES)
 
 
+@errors.named_arguments
 def law_from_dict(values: Mapping[str, Any], key: str = "law") -> Law:
     """Build a law from a TOML table `values`, {name, gains = {...}, reference = {...}}; messages begin with `key`.
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import inspect
-import traceback
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -22,11 +21,12 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend import errors
 from flypend.errors import InputError
-from flypend.laws.bound import Control
 from flypend.laws.controller import Controller, Steering
 from flypend.laws.gain import Gain, is_number
 from flypend.laws.law import Law
+from flypend.laws.located import LawError, Located, beginning, check_finite, file_of, innermost, wrench_of
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.model.state import SIZE, E3Direction
 
@@ -43,64 +43,9 @@ warnings.filterwarnings("ignore", message=r"\s*casadi: a numpy function", catego
 EXPECTED = "a function of (t, state, vehicle, *, gain=default, ...)"
 # Each function is tried on a known vehicle in two states, where symbolic and numeric results must agree to this.
 _TRIED, _AGREEMENT = 2, 1e-9
-_SHAPE = "its wrench is not one thrust and three moments"
 
 
-class LawError(InputError):
-    """A mistake in a custom law, reported on one line with file and line number.
-
-    `where` is file:line, `name` that of the law (may be empty), `said` what went wrong.
-    """
-
-    def __init__(self, where: str, name: str, said: str) -> None:
-        super().__init__("law", said, name)
-        self.where, self.name, self.said = where, name, " ".join(said.split())
-        self.args = (f"{where}: {self.said}" + (f" (in the law {name})" if name else ""),)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the three fields, so that the error survives the trip between processes."""
-        return (LawError, (self.where, self.name, self.said))
-
-
-@dataclass(frozen=True, eq=False)
-class Located:
-    """A `function` of the law `name` whose errors are reported with file and line, on one line.
-
-    With `inner` it returns another function of the law, which is treated alike.
-    """
-
-    function: Callable[..., Any]
-    name: str
-    inner: bool = False
-
-    def __call__(self, *arguments: Any, **gains: Any) -> Any:
-        """Call the function. Raises LawError for any exception but InputError."""
-        try:
-            result = self.function(*arguments, **gains)
-        except InputError:
-            raise
-        except (Exception, SystemExit) as error:  # a law must not end the program
-            raise law_error(error, self.function, self.name) from error
-        return Located(result, self.name) if self.inner and not isinstance(result, Located) else result
-
-
-def law_error(error: BaseException, function: Any, name: str) -> LawError:
-    """Return the `LawError` for an `error` raised by the `function` of the law `name`."""
-    file = _file(function)
-    frames = traceback.extract_tb(error.__traceback__)
-    frame = next((f for f in reversed(frames) if f.filename == file), frames[-1])
-    said = f"{type(error).__name__}: {error}"
-    if "truth value" in said:
-        said = "an if on symbols, which need casadi.if_else, or on arrays"
-    return LawError(f"{shown(frame.filename)}:{frame.lineno}", name, said)
-
-
-def shown(file: str) -> str:
-    """Return the path of `file`, relative to the current folder if it lies below it."""
-    path = Path(file)
-    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
-
-
+@errors.named_arguments
 def from_function(
     function: Callable[..., Any],
     *,
@@ -154,10 +99,8 @@ def from_function(
 
 def fingerprint(controller: Controller) -> bytes:
     """Return a digest of a `controller`: its name, settings and gains, and the text of its source file."""
-    function: Any = controller.steering or controller.function
-    while isinstance(function, Located | _Steer | _Steering):
-        function = function.function
-    file, code = Path(_file(function)), getattr(function, "__code__", None)
+    function: Any = innermost(controller.steering or controller.function)
+    file, code = Path(file_of(function)), getattr(function, "__code__", None)
     text = file.read_bytes() if file.is_file() else code.co_code if code else b""
     said = repr((controller.name, dict(controller.gains), controller.e3, controller.rate, controller.computer))
     return hashlib.sha256(said.encode() + text).digest()
@@ -261,14 +204,14 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
     answers: list[NDArray[Any]] = []
     failure: LawError | None = None
     try:
-        wrench = _wrench(call(t, State.symbolic(packed), machine, **gains), call)
-        stacked = _stacked(wrench, call)
+        wrench = wrench_of(call(t, State.symbolic(packed), machine, **gains), call, call.name)
+        stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
         symbolic = ca.Function("try", [t, packed], [ca.densify(stacked)])
         answers = [np.array(symbolic(0.0, state.packed())).ravel() for state in states]
     except LawError as error:
         failure = error
     except Exception as error:  # the result is not an expression
-        failure = LawError(_start(call.function), call.name, f"its wrench is not made of symbols: {error}")
+        failure = LawError(beginning(call.function), call.name, f"its wrench is not made of symbols: {error}")
     try:
         numbers = [_numbers(call(0.0, state, machine, **gains), call) for state in states]
     except InputError as error:
@@ -278,7 +221,8 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
         raise told from told.__cause__
     if failure is not None:
         return f"{failure.said}, {failure.where}"
-    same = np.allclose(answers, numbers, rtol=_AGREEMENT, atol=_AGREEMENT)
+    check_finite(numbers, call, call.name)
+    same = np.allclose(answers, numbers, rtol=_AGREEMENT, atol=_AGREEMENT, equal_nan=True)
     return "" if same else "its symbols do not say what its numbers say"
 
 
@@ -288,42 +232,11 @@ def _example() -> tuple[Vehicle, tuple[State, ...]]:
     return vehicle("hehn2011"), tuple(states[i] for i in range(_TRIED))
 
 
-def _wrench(answer: Any, call: Located) -> Wrench:
-    wrench = answer.wrench if isinstance(answer, Control) else answer
-    if not isinstance(wrench, Wrench):
-        raise LawError(_start(call.function), call.name, f"it returns {type(answer).__name__}, not a Wrench")
-    return wrench
-
-
-def _stacked(wrench: Wrench, call: Located) -> Any:
-    """Return thrust and moment (4, 1) as an expression."""
-    stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
-    if stacked.shape != (4, 1):
-        raise LawError(_start(call.function), call.name, _SHAPE)
-    return stacked
-
-
 def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:
     """Return thrust and moment (4,) from a function's numeric output."""
-    wrench = _wrench(answer, call)
+    wrench = wrench_of(answer, call, call.name)
     try:
-        given = [np.array(part) for part in (wrench.thrust, wrench.moment)]
-        if any(map(np.iscomplexobj, given)):
-            raise LawError(_start(call.function), call.name, "its wrench is not made of real numbers")
-        parts = [np.asarray(part, dtype=float).ravel() for part in given]
+        parts = [np.asarray(part, dtype=float).ravel() for part in (wrench.thrust, wrench.moment)]
     except (TypeError, ValueError, RuntimeError):
-        raise LawError(_start(call.function), call.name, "its wrench is not made of numbers") from None
-    if [part.size for part in parts] != [1, 3]:
-        raise LawError(_start(call.function), call.name, _SHAPE)
+        raise LawError(beginning(call.function), call.name, "its wrench is not made of numbers") from None
     return np.concatenate(parts)
-
-
-def _file(function: Any) -> str:
-    code = getattr(inspect.unwrap(function), "__code__", None) or getattr(type(function).__call__, "__code__", None)
-    return getattr(code, "co_filename", "")
-
-
-def _start(function: Any) -> str:
-    """Return file:line where a function begins."""
-    code = getattr(inspect.unwrap(function), "__code__", None)
-    return f"{shown(code.co_filename)}:{code.co_firstlineno}" if code else repr(function)

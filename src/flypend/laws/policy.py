@@ -11,7 +11,8 @@ asks for the hover forces: hover is an equilibrium whatever the weights.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +22,8 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.files.arrays import read_arrays
-from flypend.files.whole import whole_file
+from flypend.files.arrays import read_arrays, save_arrays
+from flypend.files.schema import Field
 from flypend.geometry import E3
 from flypend.model import State
 
@@ -31,6 +32,15 @@ FEATURES = 18
 HOVER = np.concatenate([np.zeros(6), E3, np.zeros(3), E3, np.zeros(3)])
 MOST_WEIGHTS = 30_000
 LARGEST = float(np.finfo(np.float32).max)
+
+# The weights as in a file, for n rotors and hidden layers of k and m.
+FIELDS: Mapping[str, Field] = {
+    name: Field(dims, "<f4")
+    for name, dims in {
+        "D": ("n", FEATURES), "W_1": ("k", FEATURES), "b_1": ("k",), "W_2": ("m", "k"), "b_2": ("m",),
+        "W_3": ("n", "m"),
+    }.items()
+}  # fmt: skip
 
 Matrix = NDArray[np.float32]
 
@@ -70,7 +80,7 @@ class Policy:
     @property
     def arrays(self) -> dict[str, Matrix]:
         """The weights by name."""
-        return {entry.name: getattr(self, entry.name) for entry in fields(self)}
+        return {name: getattr(self, name) for name in FIELDS}
 
     @property
     def size(self) -> int:
@@ -129,17 +139,14 @@ def shares(v: Any, hover: Any) -> Any:
 
 def save(policy: Policy, path: Path) -> None:
     """Write `policy` to the file `path`, .npz; the same weights give the same bytes. Raises InputError if it cannot."""
-    with whole_file(path, (".npz",)) as partial, partial.open("wb") as stream:
-        np.savez(stream, **policy.arrays)  # type: ignore[arg-type]
+    save_arrays(path, FIELDS, policy.arrays)
 
 
 def load(path: Path) -> Policy:
     """Read a policy from the file `path`. Raises InputError if it holds none."""
     expected = "a file written by `flypend learn`"
-    stored, names = read_arrays("policy", path, expected), [entry.name for entry in fields(Policy)]
-    if lacking := [name for name in names if name not in stored]:
-        raise InputError("policy", expected, f"{path}, without {', '.join(lacking)}")
+    stored = read_arrays("policy", path, expected, FIELDS)
     try:
-        return Policy(**{name: stored[name] for name in names})
+        return Policy(**stored)
     except InputError as error:
         raise InputError("policy", expected, f"{path}: {error}") from None

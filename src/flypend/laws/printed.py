@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from flypend import errors
 from flypend.laws.bound import Control, Guard
 from flypend.laws.gain import NOT_NEGATIVE, Gain, documented, table
 from flypend.laws.law import Law
@@ -25,6 +26,7 @@ GAINS = table(
 )  # fmt: skip
 
 
+@errors.named_arguments
 @documented(GAINS)
 def printed(**gains: float | str) -> Law:
     """Build Theorem 1 with the printed damping sign and the minimum-norm beta, in the paper's frame (e₃ along gravity).

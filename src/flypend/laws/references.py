@@ -57,11 +57,14 @@ def check_reference(reference: Any, field: str = "reference") -> None:
     if not callable(reference):
         raise InputError(field, what, repr(reference)[:80])
     try:
-        shape = ca.SX(reference(ca.SX.sym("t"))).shape
-    except (TypeError, ValueError, NotImplementedError, RuntimeError) as error:
-        raise InputError(field, what, f"one that fails: {error}"[:80]) from error
-    if shape != (3, 1):
-        raise InputError(field, what, f"one that gives shape {shape}")
+        answer = reference(ca.SX.sym("t"))
+    except Exception as error:
+        raise InputError(field, what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
+    if not isinstance(answer, ca.SX | ca.DM) or answer.shape != (3, 1):
+        shape = f"shape {answer.shape}" if hasattr(answer, "shape") else f"a {type(answer).__name__}"
+        raise InputError(field, f"{what}, or casadi.vertcat(x, y, z)", f"one that gives {shape}")
+    if not np.all(np.isfinite(sampled(reference, [0.1, 1.0]))):  # math.sin of a symbol is NaN
+        raise InputError(field, f"{what}, of CasADi's functions", "one that gives NaN")
 
 
 def sampled(reference: Reference, t: Any) -> Any:

@@ -15,6 +15,7 @@ from typing import Any
 
 import casadi as ca
 
+from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
@@ -62,6 +63,7 @@ GAINS = table(
 )  # fmt: skip
 
 
+@errors.named_arguments
 @documented(GAINS)
 def repaired(**gains: float) -> Law:
     """Build Theorem 1 repaired, in the paper's frame, where y = e₃ hangs along gravity. V falls along every solution.

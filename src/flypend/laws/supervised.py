@@ -12,6 +12,7 @@ from typing import Any
 
 import casadi as ca
 
+from flypend import errors
 from flypend.laws.almost_global import almost_global
 from flypend.laws.bound import Control
 from flypend.laws.gain import NOT_NEGATIVE, Bounds, Gain, documented, table
@@ -37,6 +38,7 @@ GAINS = table(
 )
 
 
+@errors.named_arguments
 @documented(GAINS)
 def supervised(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law that flies `inverted` until `handover` and `almost_global` from then on, about one `reference`.

@@ -25,6 +25,7 @@ AIR: tuple[AirEffect, ...] = ("rotor_drag", "inflow", "lift", "body_drag")
 CLOSEST = 0.5
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Air:
     """Coefficients of the air's forces on a vehicle at rest in still air, where they vanish.

@@ -18,6 +18,7 @@ MountKind = Literal["gimbal", "hub", "cup"]
 MOUNTS: tuple[MountKind, ...] = ("gimbal", "hub", "cup")
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Body:
     """Solid parts of a machine as far as the rod can touch them, around its pivot, m.
@@ -66,7 +67,8 @@ def body_from(value: Any) -> Body | None:
     if not isinstance(value, Mapping):
         raise errors.InputError("body", "a Body, or its fields as a dict", repr(value))
     errors.only_known("body", value, [entry.name for entry in fields(Body)])
-    for entry in fields(Body):
-        if entry.default is MISSING and entry.name not in value:
-            raise errors.InputError(f"body.{entry.name}", "a length in m", "nothing")
+    needed = [entry.name for entry in fields(Body) if entry.default is MISSING]
+    for name in needed:
+        if name not in value:
+            raise errors.InputError(f"body.{name}", f"{', '.join(needed)}, lengths in m", f"no {name}")
     return Body(**value)

@@ -8,6 +8,7 @@ from flypend import errors
 from flypend.model.vehicle import Vehicle
 
 
+@errors.named_arguments
 def uniform_rod(mass: float, length: float) -> dict[str, float]:
     """Return the fields of a `Vehicle` for a uniform rod of `mass` (kg) and `length` (m), held at one end.
 
@@ -16,6 +17,7 @@ def uniform_rod(mass: float, length: float) -> dict[str, float]:
     return rod_with_bob(mass, length, bob_mass=0.0)
 
 
+@errors.named_arguments
 def rod_with_bob(mass: float, length: float, bob_mass: float) -> dict[str, float]:
     """Return the fields of a `Vehicle` for a uniform rod that carries a point mass `bob_mass` (kg) at its far end.
 

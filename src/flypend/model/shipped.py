@@ -2,42 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from importlib import resources
+from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
 from flypend import errors
+from flypend.model.table import file_of, on_base, vehicle_names
 from flypend.model.vehicle import Vehicle
 
 
-def vehicle_names() -> list[str]:
-    """Names of the vehicles shipped with the package."""
-    folder = resources.files("flypend") / "vehicles"
-    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
-
-
+@errors.named_arguments
 def vehicle(name: str | Path) -> Vehicle:
-    """Load the vehicle `name` shipped with the package, or the TOML file at the path `name`. Raises InputError."""
-    with _file_of(name) as path:
+    """Load the vehicle `name` shipped with the package, or the TOML file at the path `name`. Raises InputError.
+
+    A file has the fields of `Vehicle`; with a `base`, the name of a vehicle or a path from the folder of the file, it
+    needs only those that differ.
+    """
+    with file_of(name) as path:
         return Vehicle.from_toml(path)
 
 
-@contextmanager
-def _file_of(name: str | Path) -> Iterator[Path]:
-    """Yield the file of the vehicle `name`."""
-    if isinstance(name, Path) or (isinstance(name, str) and name.endswith(".toml")):
-        yield Path(name)
-        return
-    errors.one_of("vehicle", name, vehicle_names())
-    with resources.as_file(resources.files("flypend") / "vehicles" / f"{name}.toml") as path:
-        yield path
+def vehicle_table(value: Any) -> dict[str, Any]:
+    """Return all fields of a vehicle, given by name or as a table on top of `base`. Raises InputError."""
+    table = {"base": value} if isinstance(value, str) else value
+    known = {entry.name: entry.default for entry in fields(Vehicle) if entry.default not in (MISSING, None)}
+    plain = {name: list(default) if isinstance(default, tuple) else default for name, default in known.items()}
+    found = on_base(table, Path(), field="vehicle" if isinstance(value, str) else "vehicle.base")
+    return plain | found if "base" in table else found
 
 
 def vehicle_text(name: str | Path) -> str:
     """Return the TOML of the vehicle `name`, comments and sources included. Raises InputError."""
-    with _file_of(name) as path:
+    with file_of(name) as path:
         vehicle(path)
         return path.read_text(encoding="utf-8")
 

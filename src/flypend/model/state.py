@@ -165,7 +165,7 @@ class State:
         max_omega, max_y_dot, max_x_dot : float
             Radii of the ball of omega (rad/s), the tangent disc of y_dot (1/s) and the ball of x_dot (m/s).
         """
-        shape = (size,) if isinstance(size, int) else tuple(size)
+        shape = tuple(size) if isinstance(size, tuple) else (int(size),)
         y = geometry.random_sphere(rng, shape)
         return cls(
             x=np.zeros((*shape, 3)),
@@ -210,15 +210,39 @@ def project(packed: Any) -> tuple[Any, Any]:
     return out, drift
 
 
+@errors.named_arguments
 @dataclass(frozen=True, eq=False)
 class Wrench:
     """Wrench of the rotors: `thrust` (N) along z = R e₃ and `moment` (..., 3) in the body frame (N m).
 
     In the e₃-up frame, thrust ≥ 0. In the paper's e₃-down frame, the thrust that carries the vehicle is negative.
+
+    Parameters
+    ----------
+    thrust : float, (...,) or expression
+        Thrust along z, N.
+    moment : (..., 3) or expression (3, 1)
+        Moment, body frame, N m.
+
+    Raises
+    ------
+    InputError
+        If the thrust is not one number and the moment not three, in numbers or in CasADi expressions.
     """
 
     thrust: Any
     moment: Any
+
+    def __post_init__(self) -> None:
+        thrust, moment = _part("wrench.thrust", self.thrust), _part("wrench.moment", self.moment)
+        shape = tuple(moment.shape)
+        if shape != (3, 1) and shape[-1:] != (3,):
+            raise errors.InputError("wrench.moment", "three numbers, N m", f"shape {shape}")
+        batch = () if shape == (3, 1) else shape[:-1]
+        if math.prod(thrust.shape) != 1 and thrust.shape != batch:
+            raise errors.InputError("wrench.thrust", "one number, N", f"shape {tuple(thrust.shape)}")
+        if isinstance(self.moment, list | tuple):
+            object.__setattr__(self, "moment", moment)
 
     def flipped(self) -> Wrench:
         """Return the same wrench in the frame rotated by π about e₁."""
@@ -227,6 +251,18 @@ class Wrench:
     def seen(self, e3: E3Direction) -> Wrench:
         """The wrench, given with e₃ up, in the frame of `e3`; or given in that frame, with e₃ up."""
         return self if e3 == "up" else self.flipped()
+
+
+def _part(field: str, value: Any) -> Any:
+    """Return a part of a wrench as an array or an expression. Raises InputError unless it consists of numbers."""
+    if geometry.is_symbolic(value):
+        return value
+    if isinstance(value, list | tuple) and any(map(geometry.is_symbolic, value)):
+        return ca.vertcat(*value)
+    found = np.asarray(value)
+    if found.dtype.kind in "iuf" or (found.dtype == object and all(map(geometry.is_symbolic, found.ravel()))):
+        return found
+    raise errors.InputError(field, "real numbers, or CasADi expressions", repr(value)[:80])
 
 
 def seen_packed(packed: Any, e3: E3Direction) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -13,9 +12,12 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.files.toml import read_toml
 from flypend.model.air import Air, air_from
 from flypend.model.body import MOUNTS, Body, MountKind, body_from
+from flypend.model.plausible import check_plausible
 from flypend.model.state import FLIP, E3Direction
+from flypend.model.table import on_base
 
 
 @errors.named_arguments
@@ -34,8 +36,10 @@ class Vehicle:
         Name for tables and files.
     mass : float
         Mass without the rod, kg.
-    bob_mass, rod_length : float
-        Mass of the rod with its bob, kg, and distance from the pivot to their centre of mass, m.
+    bob_mass : float
+        Mass of the rod with its bob, kg.
+    rod_length : float
+        Distance from the pivot to the centre of mass of rod and bob, m.
     rod_end : float, optional
         Distance from the pivot to the far end of the rod, m; default `rod_length`.
     rod_inertia : float
@@ -72,9 +76,9 @@ class Vehicle:
     Raises
     ------
     InputError
-        If a number is not finite or out of range, the inertia is not symmetric positive definite or violates the
-        triangle inequality, a spin is not ±1, the rotors cannot produce every wrench, the mount is unknown, or a hub or
-        cup has no body.
+        If a number is not finite, out of range or such as no machine has (see `flypend.model.plausible`), the inertia
+        is not symmetric positive definite or violates the triangle inequality, a spin is not ±1, the rotors cannot
+        produce every wrench, the mount is unknown, or a hub or cup has no body.
     """
 
     name: str = "unnamed"
@@ -133,6 +137,7 @@ class Vehicle:
         rank = np.linalg.matrix_rank(self.mixing())
         if rank < 4:
             raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
+        check_plausible(self)
 
     def _spin_inertia(self) -> float:
         inertia = errors.number("rod_spin_inertia", self.rod_spin_inertia, at_least=0, unit="kg m²")
@@ -253,7 +258,7 @@ class Vehicle:
         errors.only_known(field, values, _FIELDS)
         for name in _REQUIRED:
             if name not in values:
-                raise InputError(f"{field}.{name}", "a value", "nothing")
+                raise InputError(f"{field}.{name}", errors.documented_as(cls, name), "nothing")
         try:
             return cls(**values)
         except InputError as error:
@@ -261,8 +266,8 @@ class Vehicle:
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
-        """Load a vehicle from the TOML file at `path`. Raises InputError, also if the file cannot be read."""
-        return cls.from_dict(read_toml(path))
+        """Load a vehicle from the TOML file at `path`, as `flypend.vehicle` does. Raises InputError."""
+        return cls.from_dict(on_base(read_toml(path), Path(path).parent, (Path(path).resolve(),)))
 
 
 _FIELDS = tuple(field.name for field in fields(Vehicle))
@@ -275,21 +280,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
     return value.to_dict() if isinstance(value, Body | Air) else value
-
-
-def read_toml(path: str | Path) -> dict[str, Any]:
-    """Parse a TOML file. Raises InputError if it cannot be read or is not TOML."""
-    try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(str(path), "a readable TOML file", error.strerror or error) from None
-    except UnicodeDecodeError as error:
-        before = error.object[: error.start]
-        line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
-        told = f"byte 0x{error.object[error.start]:02x} (at line {line}, column {column})"
-        raise InputError(str(path), "a TOML file in UTF-8", told) from None
-    except ValueError as error:  # no TOML, or a name that no file can have
-        raise InputError(str(path), "a TOML file", error) from None
 
 
 def _inertia(value: Any) -> Any:

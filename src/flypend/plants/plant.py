@@ -29,7 +29,7 @@ MISMATCHED = (
 LONGEST_DELAY, MOST_IN_TRANSIT = 0.5, 1000  # s, commands
 MOST_SAG = 0.25  # beyond, rotors asked for more than nearly everything give less
 MOST_STIFFNESS = 1e3  # 1/s; steps of 2 ms are stable up to 1,390
-LEAST_RATE = 0.01  # Hz; a period is flown in steps of 1 ms
+LEAST_RATE = 0.01  # Hz; a period of so many steps (`schedule.PLANT_STEP`) still takes no time to fly
 
 
 def check_seed(field: str, seed: object) -> None:
@@ -98,6 +98,7 @@ _KINDS: tuple[tuple[str, Any, str], ...] = (
 )
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Ideal:
     """The ideal plant of the theorems: continuous time, and the wrench acts as commanded."""
@@ -115,7 +116,8 @@ class Sampled:
     engine : "equations" or "mujoco"
         Integrator of the motion: the built-in equations, or MuJoCo.
     limits : bool
-        Whether rotor forces are kept within `vehicle.rotor_limits`; priority: roll and pitch, thrust, yaw.
+        Whether commands are kept within `vehicle.rotor_limits`; priority: roll and pitch, thrust, yaw. Rotors idle at
+        their minimum before the first command acts, with or without limits.
     lag : float, optional
         Time constant of the rotors, s; 0 for none. Default: that of the vehicle.
     rate : float

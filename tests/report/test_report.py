@@ -393,14 +393,15 @@ def test_the_judgement_tells_whether_a_run_stands_and_what_it_took():
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
     stands = fp.simulate(vehicle, law, fp.State(y=(0, 0, 1), x=(0.3, 0, 0)), 3.0, plant="ideal")
     told = re.fullmatch(
-        r"stands after ([\d.]+) s, largest distance ([\d.]+) m, largest rotor force ([\d.]+) N", text.judgement(stands)
+        r"inverted hover reached after ([\d.]+) s, largest distance ([\d.]+) m, largest rotor force ([\d.]+) N",
+        text.judgement(stands),
     )
     since, distance, force = map(float, told.groups())
     assert 0 < since < 3
     assert distance == pytest.approx(np.max(norm(stands.x)), rel=5e-3)
     assert force == pytest.approx(np.max(stands.rotor_forces), rel=5e-3)
     assert text.judgement(fp.simulate(vehicle, law, fp.State(y=(0, 0, -1)), 0.1, plant="ideal")).startswith(
-        "does not stand ("
+        "inverted hover not reached ("
     )
 
 

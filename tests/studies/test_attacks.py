@@ -15,17 +15,20 @@ import time
 from collections import Counter
 
 import pytest
+import zarr
 from short_study import SHORT, content
 
 import flypend as fp
 from flypend.files.toml import toml_text
-from flypend.studies.sweep.bins import Runs
-from flypend.studies.sweep.store import existing
+from flypend.studies.sweep.bins import Runs, sphere
+from flypend.studies.sweep.store import Store, _seal, existing
 
 TENS = SHORT | {"chunk": 10}
 SMALL = TENS | {"runs": 20}
 LONG = TENS | {"runs": 400, "chunk": 20, "duration": 6.0, "rtol": 1e-9}
 CHUNKS = 20
+NUMBERS = [float("nan"), float("inf"), -1.0, 0.0, 1e30, 2.0]
+TOML = ["-1", "0", "1e300", "nan", "inf", '"x"', "[]", "true", "{}", "1000000000", "[1.0]", "1979-05-27", "2"]
 # A process that has imported and compiled everything forks one for every command: they start within a millisecond.
 FORKS = """
 import json, os, sys
@@ -204,6 +207,83 @@ def mutate(store, rng):
         else:
             path.unlink()
             path.mkdir()
+
+
+def mutate_behind(store, rng):
+    """Change numbers, a study or an attribute of a store, and renew its marks and its seal, as one would on purpose."""
+    group = zarr.open_group(store, mode="r+", zarr_format=3)
+    about = dict(group.attrs)
+    how = rng.choice(["number"] * 4 + ["study", "study", "attribute", "bomb", "codec"])
+    name = rng.choice([name for name, _ in group.arrays() if name != "whole"])
+    if how == "number":
+        array = group[name]
+        spot = (rng.randrange(array.shape[0]), *(0,) * (array.ndim - 1))
+        array[spot] = rng.choice([0, 1, 7, 200]) if array.dtype.kind in "ub" else rng.choice(NUMBERS)
+    elif how == "study":
+        lines = str(about["study"]).split("\n")
+        line = rng.randrange(len(lines))
+        key = lines[line].split(" = ")[0]
+        lines[line] = rng.choice([f"{key} = {value}" for value in TOML] + ["", "[vary.gains]", "a." * 9000 + "b = 1"])
+        about["study"] = "\n".join(lines)
+    elif how == "attribute":
+        which = rng.choice(sorted(about))
+        about[which] = rng.choice([3, None, [], {}, "x", "up"])
+        if rng.random() < 0.3:
+            del about[which]
+    elif how == "bomb":  # 2 GB, as the head of the chunk says, of a few bytes
+        for chunk in (store / name / "c").rglob("0"):
+            if chunk.is_file():
+                chunk.write_bytes(chunk.read_bytes()[:4] + (2**31 - 64).to_bytes(4, "little") * 2 + bytes(40))
+    else:
+        target = store / name / "zarr.json"
+        target.write_text(target.read_text(encoding="utf-8").replace("zstd", "lz4"), encoding="utf-8")
+    about["seal"] = _seal(about)
+    group.attrs.put(about)
+    if how in ("number", "study"):
+        renew_marks(store, group, about["seal"])
+
+
+def renew_marks(store, group, seal):
+    """Renew the marks of a store whose attributes have this `seal`."""
+    names = sorted(name for name, _ in group.arrays() if name != "whole")
+    for number in range(group["whole"].shape[0]):
+        kept = object.__new__(Store)
+        kept.attributes, kept._arrays = {"seal": seal}, dict.fromkeys(names)
+        rows = slice(10 * number, 10 * (number + 1))
+        group["whole"][number] = kept._digest(number, {name: group[name][rows] for name in names})
+
+
+def attack_behind(number, seed, folder):
+    """Read stores changed behind their seals and digests: what is read is as a store's columns are, and is mapped."""
+    rng, ends, study = random.Random(seed), Counter(), fp.study(SMALL)
+    fp.sweep(study, folder / "sound.zarr", workers=1)
+    path = folder / "a.zarr"
+    for k in range(number):
+        shutil.copytree(folder / "sound.zarr", path)
+        mutate_behind(path, rng)
+        begin = time.process_time()
+        try:
+            runs = Runs(path)
+            (found,) = runs.gather([sphere(runs.study, 4)])
+            assert found.runs.sum() == runs.number, (seed, k)
+            assert (found.causes.sum(axis=0) == found.runs).all(), (seed, k)
+            ends["read"] += 1
+        except fp.InputError as error:
+            ends["in lines" if "\n" in str(error) else "refused"] += 1
+        assert time.process_time() - begin < 10, (seed, k)
+        shutil.rmtree(path)
+    return ends
+
+
+def test_stores_changed_behind_their_digests_are_read_or_refused(tmp_path):
+    ends = attack_behind(40, 1, tmp_path)
+    assert ends.keys() == {"read", "refused"}
+    assert ends["refused"] > 10
+
+
+@pytest.mark.slow
+def test_1000_stores_changed_behind_their_digests(tmp_path):
+    print("1,000 stores, changed behind their digests:", dict(attack_behind(1000, 2, tmp_path)))
 
 
 def attack_stores(number, seed, folder):

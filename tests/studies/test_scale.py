@@ -9,6 +9,7 @@ from flypend.studies.sweep.store import existing
 # Everything random that there is: starts, noise and gusts, judged, in several chunks.
 STUDY = {
     "vehicle": "hehn2011", "law": {"name": "lqr"}, "duration": 0.2, "runs": 50, "chunk": 8, "final": True,
+    "criterion": {"hold": 0.1},
     "plant": {
         "base": "rotors", "rate": 100.0, "noise": {"x": 0.01, "omega": 0.1, "y": 0.01}, "wind": {"gust_on_bob": 0.02}
     },

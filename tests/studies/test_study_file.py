@@ -272,7 +272,6 @@ def test_the_table_of_the_page_has_the_defaults():
         "judge_period",
         "precision",
         "max_steps",
-        "engine",
         "sampling",
         "seed",
         "chunk",

@@ -107,6 +107,7 @@ def test_an_interrupted_search_goes_on_to_the_same_result(tmp_path):
 def test_noise_is_tuned_on_other_seeds_than_it_is_reported_on():
     table = {
         "vehicle": "hehn2011", "law": {"name": "corrected", "gains": {"k_d": 1.0}}, "duration": 0.3, "runs": 5,
+        "criterion": {"hold": 0.1},
         "plant": {"base": "rotors", "rate": 100.0, "noise": {"omega": 0.5}}, "start": {"y": [0, 0, 1]},
         "vary": {"start": {"omega": {"ball": 1e-9}}},
         "tune": {"gains": {"k_d": [0.5, 2.0]}, "runs": 5, "generations": 1, "population": 2,
@@ -137,8 +138,10 @@ def test_the_command_leaves_a_file_that_flies(tmp_path, monkeypatch, capsys):
     history = json.loads((tmp_path / "out" / "history.json").read_text(encoding="utf-8"))
     settings = tomllib.loads((tmp_path / "out" / "tuned.toml").read_text(encoding="utf-8"))
     assert settings["law"]["gains"] == {"yaw_damping": 1.0, **history["after"]["gains"]}
-    run = fly(run_file("out/tuned.toml", ["duration=0.2"]).flight)
-    assert run.outcome.status == "completed"
+    chosen = run_file("out/tuned.toml", ["duration=0.2"]).flight
+    drawn = design(fp.study(small), 0, 1).packed[0]
+    np.testing.assert_allclose(chosen.starts.packed(), drawn, rtol=0, atol=1e-15)  # a start of the study, not another
+    assert fly(chosen).outcome.status == "completed"
     assert f"k_d = {history['after']['gains']['k_d']:g}" in told
     assert fp.study(tomllib.loads(history["study"])).text() == history["study"]
 

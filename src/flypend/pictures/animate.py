@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.files.whole import whole_file
 from flypend.flight.trajectory import Trajectory
 from flypend.pictures.frames import Frame, stage
+from flypend.signals import waiting
 
 Progress = Callable[[int, int], None]
 
@@ -22,6 +23,7 @@ MAX_FRAMES = 100_000
 HOLD = 1.5  # s of playback for which the last frame is held, with the verdict
 
 
+@signals.deferred()
 def movie(
     run: Trajectory,
     path: str | Path,
@@ -97,6 +99,7 @@ def frame_times(run: Trajectory, *, speed: float, fps: float) -> Any:
 def _frames(render: Callable[[int, bool], Frame], count: int, hold: int, progress: Progress | None) -> Iterator[Frame]:
     """Yield all frames: `count` of the flight, then the last one `hold` times with the verdict written on it."""
     for i in range(count + hold):
+        signals.poll()
         if i <= count:
             frame = render(min(i, count - 1), i >= count)
         yield frame
@@ -129,7 +132,7 @@ def _frames_in(path: Path) -> int:
 
     command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "quiet", "-i", str(path), "-c", "copy"]
     command += ["-progress", "-", "-f", "null", "-"]
-    report = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=False)  # noqa: S603
+    report = waiting.run(command, stdin=subprocess.DEVNULL)
     counts = re.findall(rb"^frame=\s*(\d+)", report.stdout, flags=re.MULTILINE)
     return int(counts[-1]) if counts and report.returncode == 0 else 0
 

@@ -19,7 +19,7 @@ from flypend.flight.metrics import wilson
 from flypend.palette import INK
 from flypend.pictures.canvas import LABEL, SMALL, new_figure, symbol
 from flypend.pictures.style import PAGE
-from flypend.studies.sweep.bins import EDGE, Cells, Runs, default_plane, label, plane, side, sphere
+from flypend.studies.sweep.bins import EDGE, Cells, Runs, check_plane, default_plane, label, plane, side, sphere
 from flypend.studies.sweep.chunk import CAUSES
 
 FAILED = [palette.CAUSES[name] for name in CAUSES[1:]]  # success is white
@@ -91,9 +91,8 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
 
 def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tuple[list[_Panel], tuple[str, str] | None]:
     """The panels, gathered in one pass over the store, and the quantities of the plane."""
+    check_plane(runs.study, x, y)
     names = (x, y) if x and y else default_plane(runs)
-    if (x is None) != (y is None):
-        raise InputError("x, y", "both or none", "one")
     grids = []
     per_side = cells or side(runs.number, 2)
     if "y" in runs.names and not {"tilt", "azimuth"} & set(runs.names):

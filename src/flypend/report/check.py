@@ -19,7 +19,7 @@ from flypend.report.text import number, write_json
 from flypend.studies.check import Check
 from flypend.studies.trial import Trial
 
-COLUMNS = ("law", "task", "stands", "% (95 %)", "settle s", "exc. m", "clear mm", "failed")
+COLUMNS = ("law", "task", "grade", "succeed", "% (95 %)", "settle s", "exc. m", "clear mm", "failed")
 Cells = list[list[str]]
 
 
@@ -30,8 +30,8 @@ def task_cells(checks: Mapping[str, Check]) -> Cells:
         for name, row in check.rows().items():
             _, share, settling, excursion, *_, failed = comparison_cells(row)
             clear = f"{1e3 * row['clearance_p5']:.3g}" if "clearance_p5" in row else "-"
-            stands = f"{row['successes']} of {row['runs']}"
-            rows.append([law, name, stands, share, settling, excursion, clear, failed])
+            count = f"{row['successes']} of {row['runs']}"
+            rows.append([law, name, check.envelope[name], count, share, settling, excursion, clear, failed])
     return rows
 
 
@@ -73,8 +73,7 @@ def verdicts(checks: Mapping[str, Check]) -> list[str]:
     """Return a line per law, reason and warning."""
     lines = []
     for law, check in checks.items():
-        can = "can" if check.ok else "cannot"
-        lines.append(f"{check.vehicle.name} {can} be flown by {law}.")
+        lines.append(check.verdict(law))
         lines += [f"  {line}" for line in (*check.reasons, *check.warnings, check.possible) if line]
     return lines
 

@@ -43,7 +43,7 @@ def figure_tasks(
 
 def check_movies() -> None:
     """Raise InputError if movies cannot be made. Call it before any flight."""
-    errors.require("imageio_ffmpeg", extra="movies", for_="movies (--quick leaves them out)")
+    errors.require("imageio_ffmpeg", extra="movies", for_="movies")
 
 
 def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[str, Task]]:
@@ -126,7 +126,7 @@ def write_flight(
                 text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)}),
                 "",
             ]
-        lines += [f"Inverted: {text.judgement(run)}", ""]
+        lines += [f"Goal: {text.judgement(run)}.", ""]
         (folder / "report.md").write_text("\n".join(lines), encoding="utf-8")
         content = {"flypend": __version__, "settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
         content["inverted"] = vars(metrics(run))

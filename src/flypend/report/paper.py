@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 
 from flypend import __version__
@@ -24,6 +22,7 @@ from flypend.paper.proved import fly_repaired, theorem_a_claims
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks
+from flypend.signals.waiting import processes, result_of
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")
@@ -90,15 +89,15 @@ def reproduce(
         tasks += figure_tasks(swing_up, folder / "figures", "swing-up-", style=style)
         if not quick:
             tasks = movie_tasks(swing_up, folder / "movies", "swing-up-")[:1] + tasks
-        with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
-            pending = [(name, _submit(pool, task)) for name, task in tasks]
+        with processes(os.cpu_count() or 1) as submit:
+            pending = [(name, submit(task)) for name, task in tasks]
             result = _judge(runs, swing_up)
             _save_runs(runs, folder / "runs")
             swing_up.save(folder / "runs" / "inverted-swing-up.nc")
             _write_reports(result, folder)
             for done, (name, future) in enumerate(pending):
                 progress(f"drawing {name}", total + done, total + len(pending))
-                future.result()
+                result_of(future)
         progress("done", total + len(tasks), total + len(tasks))
     return result
 
@@ -115,10 +114,6 @@ def _pictures(runs: Runs, folder: Path, quick: bool, style: str = "paper") -> li
         prefix = f"experiment-{name}-printed-without-beta-"
         tasks += figure_tasks(run, folder / "figures", prefix, False, style)[:1]
     return tasks
-
-
-def _submit(pool: Executor, task: Task) -> Future[object]:
-    return pool.submit(task)
 
 
 def _judge(runs: Runs, swing_up: Trajectory) -> Reproduction:

@@ -13,8 +13,8 @@ from rich.table import Table
 
 from flypend import __version__
 from flypend.files.staging import staged
-from flypend.files.toml import toml_text
 from flypend.report.text import write_json
+from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
 from flypend.studies.hehn import Tracking
@@ -79,7 +79,7 @@ def write_comparison(
         save_both(comparison_figure(comparison), folder / "comparison")
         for name, run in (failed or {}).items():
             (folder / "failed").mkdir(exist_ok=True)
-            (folder / "failed" / f"{name}.toml").write_text(toml_text(run), encoding="utf-8")
+            (folder / "failed" / f"{name}.toml").write_text(run_text(run, Path(out) / "failed"), encoding="utf-8")
 
 
 def ladder_rows(ladder: Ladder) -> list[list[str]]:

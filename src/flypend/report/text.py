@@ -37,13 +37,14 @@ def number(value: float) -> str:
 
 
 def judgement(run: Trajectory) -> str:
-    """Return one line: whether `run` ends inverted at its reference, its excursion and its peak rotor force."""
+    """Return one line: whether `run` reaches inverted hover at its reference, its excursion and peak rotor force."""
     m = metrics(run)
-    verdict = f"stands after {m.settling:.2f} s" if m.success else f"does not stand ({WHY.get(m.cause, m.cause)})"
+    reached = f"reached after {m.settling:.2f} s" if m.success else f"not reached ({WHY.get(m.cause, m.cause)})"
     least = (
         f", rod clear by {number(1e3 * m.clearance)} mm" if m.cause != "collided" and m.clearance < float("inf") else ""
     )
-    return f"{verdict}, largest distance {number(m.excursion)} m, largest rotor force {number(m.peak_force)} N{least}"
+    largest = f"largest distance {number(m.excursion)} m, largest rotor force {number(m.peak_force)} N"
+    return f"inverted hover {reached}, {largest}{least}"
 
 
 def mark(holds: bool) -> str:

@@ -26,6 +26,7 @@ from flypend.paper.proved import fly_repaired, fly_swing_ups, theorem_a_claims, 
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.text import Column
+from flypend.studies.starts import check_starts
 
 POINTS = 61  # of the basin's grid, per axis
 Progress = Callable[[str, int, int], None]
@@ -69,6 +70,7 @@ def check_theorems(
         If `out` is not writable or the style is unknown.
     """
     style_named(style)
+    check_starts(runs, seed)
     with staged(out) as folder:
         progress("flying the experiments", 0, 1)
         hanging, inverted = fly_repaired(), fly_swing_ups()

@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 
 from flypend import __version__
 from flypend.files.staging import staged
-from flypend.files.toml import toml_text
 from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
 from flypend.pictures.canvas import LABEL, SMALL, new_figure, symbol
 from flypend.pictures.style import PAGE
 from flypend.report.text import write_json
+from flypend.settings.runfile import run_text
 from flypend.studies.tune import Tuned
 
 STYLES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (ORANGE, ":"), (GREY, (0, (5, 1, 1, 1, 1, 1))))
@@ -28,7 +28,7 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
     """
     with staged(out) as folder:
         words = f"# {told(result.before)} before,\n# {told(result.after)} with these gains.\n"
-        (folder / "tuned.toml").write_text(words + toml_text(result.settings()), encoding="utf-8")
+        (folder / "tuned.toml").write_text(words + run_text(result.settings(), out), encoding="utf-8")
         content = {
             "flypend": __version__,
             "study": result.study.text(),

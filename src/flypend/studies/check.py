@@ -1,4 +1,4 @@
-"""What a vehicle can do under a law, and how much may be wrong before it cannot: `flypend check`."""
+"""What a vehicle can do under a law, its envelope, and how much may be wrong before it cannot: `flypend check`."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from flypend import errors, plants
+from flypend import errors, plants, signals
 from flypend.errors import InputError
+from flypend.flight.criterion import Criterion
 from flypend.flight.ensemble import Ensemble
 from flypend.flight.feasibility import Feasibility, feasibility
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
-from flypend.laws.own import LawError
+from flypend.laws.located import LawError
 from flypend.model import Vehicle
 from flypend.planning import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
@@ -27,6 +28,8 @@ from flypend.studies.possible import STARTS, possible, told
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
 USUAL, SLOW = (1000, 12, 30.0), (24, 3, 10.0)
 MARGIN_RUNS, SLOW_MARGIN_RUNS = 200, 12
+MOST_RUNS = 1_000_000  # minutes of flights; a sweep can be stopped and resumed
+GRADES = ("all", "most", "some", "none")  # of the starts of a task succeed; most: at least 90 %
 LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
 
 Progress = Callable[[str, int, int], Any]
@@ -51,6 +54,7 @@ class Catch:
     swung: int
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Check:
     """The result of `check`.
@@ -70,9 +74,10 @@ class Check:
     margins : dict of Margin
         By name: delay, rotor lag, rod length, mass and noise. Empty if they were not searched.
     reasons : tuple of str
-        Why the vehicle cannot be flown by this law; empty if it can.
+        Why the vehicle cannot be flown by this law: its numbers forbid it, the law refuses it, or hover fails. Empty if
+        it can be flown.
     warnings : tuple of str
-        What leaves little room, though flights succeed.
+        What leaves little room, and in which tasks flights fail.
     plans : PlanEnsemble, optional
         Plans from some of the random starts, where the law fails: what the vehicle could do.
     """
@@ -95,8 +100,20 @@ class Check:
 
     @property
     def ok(self) -> bool:
-        """Whether it hovers always, and stands from at least 90 % of the starts of every other task of its mount."""
+        """Whether the law hovers with the vehicle. What else it can do is the `envelope`."""
         return not self.reasons
+
+    @property
+    def envelope(self) -> dict[str, str]:
+        """One of `GRADES` for each task that was flown: from how many of its starts flights succeed."""
+        return {name: grade(ensemble.rate) for name, ensemble in self.tasks.items()}
+
+    def verdict(self, law: str = "") -> str:
+        """Return in a line whether the law, here called `law`, can fly the vehicle, and the grade of each task."""
+        machine, can = f"{self.vehicle.name} on a {self.vehicle.mount}", "can" if self.ok else "cannot"
+        told = f"{machine} {can} be flown by {law or self.law}"
+        graded = [f"{name} {found}" for name, found in self.envelope.items() if name != "hover"]
+        return f"{told}: {', '.join(graded)}." if self.ok and graded else f"{told}."
 
     def __repr__(self) -> str:
         """Return verdict, tasks and margins, a line each."""
@@ -105,7 +122,7 @@ class Check:
         for name, row in self.rows().items():
             span = f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f} %"
             lines.append(
-                f"  {name:7} {row['successes']} of {row['runs']} ({span}), "
+                f"  {name:7} {self.envelope[name]}: {row['successes']} of {row['runs']} ({span}), "
                 f"excursion {row['excursion_p50']:.3g}/{row['excursion_p95']:.3g} m"
             )
         if self.catch is not None:
@@ -123,6 +140,7 @@ class Check:
             "vehicle": self.vehicle.to_dict(),
             "law": self.law,
             "ok": self.ok,
+            "envelope": self.envelope,
             "reasons": list(self.reasons),
             "warnings": list(self.warnings),
             "possible": self.possible,
@@ -133,6 +151,8 @@ class Check:
         }
 
 
+@errors.named_arguments
+@signals.deferred()
 def check(
     vehicle: Vehicle,
     law: AnyLaw | None = None,
@@ -147,8 +167,9 @@ def check(
 ) -> Check:
     """Find out whether `vehicle` can be flown by `law`, how well, and how much may be wrong before it cannot.
 
-    Hover, leans at rest, a swing-up from hanging, and random starts; then the margins of delay, rotor lag, rod length,
-    mass and noise, at which success from random starts drops below 90 % while the law still believes its vehicle.
+    Hover, leans at rest, a swing-up from hanging, level and random starts; then the margins of delay, rotor lag, rod
+    length, mass and noise, at which success from random starts drops below 90 % while the law still believes its
+    vehicle.
 
     Parameters
     ----------
@@ -195,18 +216,26 @@ def check(
         return Check(**about, reasons=(*found.doubtful, refusal), plans=plans)
     quick = isinstance(bound, BoundLaw) and world.engine == "equations"
     usual, directions, long = USUAL if quick else SLOW
-    seconds = long if duration is None else errors.number("duration", duration, above=0, unit="s")
-    starts = task_starts(vehicle, usual if runs is None else errors.integer("runs", runs, 1), seed, directions)
+    seconds = long if duration is None else errors.number("duration", duration, at_least=Criterion().hold, unit="s")
+    starts = task_starts(
+        vehicle, usual if runs is None else errors.integer("runs", runs, 1, MOST_RUNS), seed, directions
+    )
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
-    reasons = _failed(tasks)
+    reasons, shortfalls = _shortfalls(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
     if (quick if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
         flight = _of_margins(vehicle, bound, world, tasks["random"], seconds, quick)
         about["margins"] = search(flight, quantities(vehicle, world), progress)
+    if (reasons or shortfalls) and world.limits:
+        about["plans"] = possible(world.true_vehicle(vehicle), starts["random"], workers, progress)
     if reasons:
-        plans = possible(world.true_vehicle(vehicle), starts["random"], workers, progress) if world.limits else None
-        return Check(**about, reasons=(*reasons, *found.doubtful), plans=plans)
-    return Check(**about, warnings=found.doubtful)
+        return Check(**about, reasons=(*reasons, *shortfalls, *found.doubtful))
+    return Check(**about, warnings=(*shortfalls, *found.doubtful))
+
+
+def grade(rate: float) -> str:
+    """Return which of `GRADES` a success rate is."""
+    return GRADES[0] if rate == 1 else GRADES[1] if rate >= LEAST_RATE else GRADES[2] if rate > 0 else GRADES[3]
 
 
 def caught(leans: Ensemble, directions: int) -> Catch:
@@ -225,15 +254,14 @@ def caught(leans: Ensemble, directions: int) -> Catch:
     )
 
 
-def _failed(tasks: Mapping[str, Ensemble]) -> tuple[str, ...]:
-    """Why the flights of `tasks` are not good enough, most basic first; leans are told, not required."""
-    reasons = []
+def _shortfalls(tasks: Mapping[str, Ensemble]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Why hover fails, and in which other tasks fewer than 90 % succeed; each empty if there is nothing to tell."""
+    told = {}
     for name, ensemble in tasks.items():
-        least = {"hover": 1.0, "lean": 0.0}.get(name, LEAST_RATE)
-        if ensemble.rate < least:
+        if ensemble.rate < {"hover": 1.0, "lean": 0.0}.get(name, LEAST_RATE):
             causes = ", ".join(f"{cause} {count}" for cause, count in summary(ensemble)["causes"].items())
-            reasons.append(f"{name}: {int(ensemble.success.sum())} of {len(ensemble)} stand ({causes})")
-    return tuple(reasons)
+            told[name] = f"{name}: {int(ensemble.success.sum())} of {len(ensemble)} succeed ({causes})"
+    return tuple(told[name] for name in told if name == "hover"), tuple(told[name] for name in told if name != "hover")
 
 
 def _of_margins(

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from flypend import plants
+from flypend import errors, plants, signals
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel, kernel_of
 from flypend.flight.labelled import dataset, variable
-from flypend.flight.request import Flight, bound_to
-from flypend.laws import Controller, Law
+from flypend.flight.request import Flight, bound_to, check_batch, check_judged
+from flypend.laws import AnyLaw, Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import AnyPlant
+from flypend.signals.waiting import result_of, threads
 
 if TYPE_CHECKING:
     import xarray
@@ -28,6 +29,7 @@ AHEAD = 4
 Name = TypeVar("Name", str, tuple[str, str])
 
 
+@errors.named_arguments
 @dataclass(frozen=True)
 class Comparison:
     """Laws flown from the same physical starts.
@@ -53,9 +55,11 @@ class Comparison:
         return dataset({"law": variable("law", ("law",), list(self.ensembles)), **variables}, {"vehicle": vehicle.name})
 
 
+@errors.named_arguments
+@signals.deferred()
 def compare(
     vehicle: Vehicle,
-    laws: Sequence[Law | Controller],
+    laws: Law | Controller | Sequence[Law | Controller],
     starts: State,
     duration: float = 10.0,
     *,
@@ -69,7 +73,7 @@ def compare(
     ----------
     vehicle : Vehicle
         The vehicle.
-    laws : sequence of Law or Controller
+    laws : Law, Controller or sequence of them
         Laws to compare; e₃-down laws fly the same physical starts in their own frame.
     starts : State
         A batch of states in the e₃-up frame.
@@ -83,15 +87,21 @@ def compare(
     return Comparison(flown({name: flight.through(world) for name, flight in flights.items()}, workers, progress))
 
 
-def flights_of(vehicle: Vehicle, laws: Sequence[Law | Controller], starts: State, duration: float) -> dict[str, Flight]:
+def flights_of(
+    vehicle: Vehicle, laws: Law | Controller | Sequence[Law | Controller], starts: State, duration: float
+) -> dict[str, Flight]:
     """Return a request for each of `laws`, by unique name; `starts` (e₃ up) are converted to the frame of each law."""
-    if not isinstance(starts, State) or len(starts.batch_shape) != 1:
-        raise InputError("starts", "a State with one leading batch axis", repr(starts)[:80])
+    check_batch(starts)
+    several = (laws,) if isinstance(laws, AnyLaw) else tuple(laws)
+    if not several:
+        raise InputError("laws", "a law, or several", "none")
     flights: dict[str, Flight] = {}
-    for law in laws:
+    for law in several:
+        errors.check_kind("law", law, AnyLaw)
         own = starts.seen(law.e3)
         name = _free_name(law.name, flights)
         flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
+        check_judged(flights[name])
     return flights
 
 
@@ -103,16 +113,13 @@ def flown(
     `workers` as in `compare`; `progress` is called with `(key of the flight, done, total)`.
     """
     names, ensembles = list(flights), {}
-    with ThreadPoolExecutor(1) as pool:
+    with threads(1, last=False) as pool:
         coming: deque[Future[Any]] = deque()
-        try:
-            for place, name in enumerate(names):
-                for following in names[place + len(coming) : place + AHEAD]:
-                    coming.append(pool.submit(_compile, flights[following]))
-                coming.popleft().result()
-                ensembles[name] = fly_many(flights[name], workers=workers, progress=partial(progress, name))
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+        for place, name in enumerate(names):
+            for following in names[place + len(coming) : place + AHEAD]:
+                coming.append(pool.submit(_compile, flights[following]))
+            result_of(coming.popleft())
+            ensembles[name] = fly_many(flights[name], workers=workers, progress=partial(progress, name))
     return ensembles
 
 

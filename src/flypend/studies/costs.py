@@ -13,8 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend.errors import InputError
+from flypend.files.reading import parse_json, read_bytes
+from flypend.files.schema import Field, check_arrays
 
 KIND = "flypend tune 1"
+MOST_BYTES = 2**26  # a generation takes some 0.3 kB
+GENERATION = {"costs": Field(("point",))}
 
 
 class Costs:
@@ -33,9 +37,11 @@ class Costs:
         if self._path is None:
             return []
         try:
-            lines = self._path.read_text(encoding="utf-8").split("\n")
+            lines = read_bytes(self._path, MOST_BYTES).decode("utf-8").split("\n")
         except FileNotFoundError:
             return []
+        except InputError:
+            raise
         except (OSError, ValueError) as error:
             raise InputError(str(self._path), "a file of costs that can be read", error) from None
         if lines[0] != self._head:
@@ -45,12 +51,12 @@ class Costs:
 
     @staticmethod
     def _whole(lines: list[str]) -> list[NDArray[np.float64]]:
-        """The costs in `lines`, up to the first one that was not written to its end."""
+        """The costs in `lines`, up to the first one that was not written to its end, or holds other than costs."""
         found = []
         for line in lines:
             try:
-                values, check = json.loads(line)
-                costs = np.array(values, dtype=float)
+                values, check = parse_json(line)
+                costs = check_arrays(GENERATION, {"costs": values})["costs"]
             except (ValueError, TypeError):
                 break
             if check != _check(costs):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from flypend import errors, plants
+from flypend import errors, plants, signals
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import AnyPlant
@@ -42,9 +42,10 @@ class Ladder:
         return xarray.concat(found, dim=xarray.Variable("rung", list(self.rungs)), combine_attrs="override")
 
 
+@signals.deferred()
 def ladder(
     vehicle: Vehicle,
-    laws: Sequence[Law | Controller],
+    laws: Law | Controller | Sequence[Law | Controller],
     starts: State,
     duration: float = 10.0,
     *,
@@ -61,12 +62,12 @@ def ladder(
     rungs : dict, optional
         Plants by name of the rung; default `flypend.studies.rungs.rungs_for(vehicle)`.
     progress : callable
-        Called with `(rung and law, done, total)`.
+        Called with `(task, done, total)`.
     """
     worlds = {
         rung: plants.plant(plant) for rung, plant in (rungs or rungs_for(vehicle)).items()
     }  # raises if an extra is not installed
     of_laws = flights_of(vehicle, laws, starts, duration)
     flights = {(rung, law): flight.through(world) for rung, world in worlds.items() for law, flight in of_laws.items()}
-    ensembles = flown(flights, workers, lambda key, done, total: progress(f"{key[0]}, {key[1]}", done, total))
+    ensembles = flown(flights, workers, lambda key, done, total: progress(f"flying {key[1]} on {key[0]}", done, total))
     return Ladder({rung: Comparison({law: ensembles[rung, law] for law in of_laws}) for rung in worlds})

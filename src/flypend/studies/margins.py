@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from threading import Event
@@ -18,6 +17,7 @@ from flypend.flight.request import Flight
 from flypend.model import Vehicle
 from flypend.plants import MOTION_CAPTURE, Noise, Sampled
 from flypend.plants.plant import LONGEST_DELAY, MOST_IN_TRANSIT
+from flypend.signals.waiting import result_of, threads
 
 LEAST_RATE = 0.9  # success rate at which a margin ends
 # A search stops once the boundary is known to this share of it, or to be below this share of its first step.
@@ -146,15 +146,14 @@ def search(
     done, stop = 0, Event()
     found: dict[tuple[str, float], dict[float, int]] = {}
     progress("margins", 0, len(sides))
-    with ThreadPoolExecutor(SEARCHES if has_kernel(flight) else 1) as pool:
+    with threads(SEARCHES if has_kernel(flight) else 1) as pool:
         try:
             jobs = [(quantity.name, sign, pool.submit(_side, flight, quantity, sign, stop)) for quantity, sign in sides]
             for name, sign, job in jobs:
-                found[name, sign] = job.result()
+                found[name, sign] = result_of(job)
                 progress(f"margin of {name}", done := done + 1, len(sides))
         finally:
             stop.set()
-            pool.shutdown(wait=True, cancel_futures=True)
     return {quantity.name: _margin(quantity, believed, found, flight.runs) for quantity in wanted}
 
 

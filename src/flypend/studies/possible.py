@@ -30,7 +30,7 @@ def told(plans: PlanEnsemble, law: str) -> str:
     count, share = int(plans.success.sum()), float(plans.success.mean())
     found = f"plans reach inverted hover from {count} of {len(plans)} random starts"
     if share >= MOST:
-        return f"{found}: this vehicle can be inverted; the {law} law cannot do it"
+        return f"{found}: the limit is the {law} law's, not the vehicle's"
     if share <= HARDLY_ANY:
         return f"{found}: no law will do much better"
     return f"{found}: this vehicle can be inverted from some"

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from numbers import Integral
-
 import numpy as np
 
-from flypend.errors import InputError
+from flypend import errors
 from flypend.files.memory import check_fits
 from flypend.model import State
 from flypend.model.state import SHAPES
@@ -16,16 +14,21 @@ from flypend.plants.plant import check_seed
 MOST_RUNS = 10**8  # 20 GB of states
 
 
+@errors.named_arguments
 def random_starts(runs: int, seed: int) -> State:
     """Return `runs` random states from `seed`: y, R uniform, |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0.
 
     Raises InputError for a number of runs or a seed that is none.
     """
-    if not isinstance(runs, Integral) or isinstance(runs, bool) or not 1 <= int(runs) <= MOST_RUNS:
-        raise InputError("runs", f"an integer from 1 to {MOST_RUNS}", repr(runs))
+    check_starts(runs, seed)
+    return State.random(np.random.default_rng(seed), runs)
+
+
+def check_starts(runs: int, seed: int) -> None:
+    """Raise InputError unless `random_starts` can draw so many `runs` from the `seed`."""
+    errors.integer("runs", runs, 1, MOST_RUNS)
     check_seed("seed", seed)
     check_fits("runs", 1000.0 * runs, f"{runs} starts")
-    return State.random(np.random.default_rng(seed), runs)
 
 
 def paper_starts() -> State:

@@ -7,14 +7,13 @@ against errors of the model, one number at a time.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend import errors, plants
+from flypend import errors, plants, signals
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
@@ -23,6 +22,7 @@ from flypend.flight.tasks import task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
+from flypend.signals.waiting import result_of, threads
 from flypend.studies.margins import SEARCHES, mismatched
 
 DURATION, KNOCKS = 60.0, 15  # s
@@ -32,6 +32,7 @@ FACTORS = (0.75, 0.875, 1.125, 1.25)
 RUNS, STEPPED_RUNS = 100, 8
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Trial:
     """The result of `trial`.
@@ -94,6 +95,8 @@ class Trial:
         }
 
 
+@errors.named_arguments
+@signals.deferred()
 def trial(
     vehicle: Vehicle,
     law: AnyLaw | None = None,
@@ -189,11 +192,9 @@ def _swept(
         return int(flown.success.sum())
 
     found: dict[str, dict[float, tuple[int, int]]] = {name: {} for name in worlds}
-    with ThreadPoolExecutor(SEARCHES if compiled else 1) as pool:
-        try:
-            for done, (cell, count) in enumerate(zip(cells, pool.map(fly, cells), strict=True), 1):
-                found[cell[0]][cell[1]] = (count, flight.runs)
-                progress(f"sweep of {cell[0]}", done, len(cells))
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+    with threads(SEARCHES if compiled else 1) as pool:
+        calls = [pool.submit(fly, cell) for cell in cells]
+        for done, (cell, call) in enumerate(zip(cells, calls, strict=True), 1):
+            found[cell[0]][cell[1]] = (result_of(call), flight.runs)
+            progress(f"sweep of {cell[0]}", done, len(cells))
     return found

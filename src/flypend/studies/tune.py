@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.errors import InputError
 from flypend.flight.ensemble import fly_many
 from flypend.flight.metrics import wilson
 from flypend.model import State
+from flypend.model.state import SHAPES
 from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import program_digest
@@ -28,6 +29,7 @@ LATE, FAR = 2.0, 100.0
 MOST_REPORTED = 20_000
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Objective:
     """The objective that tuning minimises: a weighted sum of means over the runs.
@@ -63,6 +65,7 @@ class Objective:
         return whole + self.effort * np.minimum(effort, FAR)
 
 
+@errors.named_arguments
 @dataclass(frozen=True, eq=False)
 class Tuned:
     """The result of tuning.
@@ -87,16 +90,17 @@ class Tuned:
     history: list[dict[str, Any]]
 
     def settings(self) -> dict[str, Any]:
-        """Return the content of a run file with the tuned gains, for `flypend run`."""
+        """Return the content of a run file with the tuned gains, for `flypend run`: the first flight of `after`."""
         from_study = self.study.settings
         law = dict(from_study["law"])
         law["gains"] = {**law.get("gains", {}), **self.gains}
-        start = dict(from_study["start"])
-        start.setdefault("y", [0.0, 0.0, -1.0 if self.study.law.e3 == "up" else 1.0])  # hanging
+        start = State.trusted(design(self.study, 0, 1, cube.REPORTED).packed[0])
         kept = {key: from_study[key] for key in ("duration", "rtol", "plant", "vehicle")}
-        return {**kept, "law": law, "start": start}
+        return {**kept, "law": law, "start": {name: getattr(start, name).tolist() for name in SHAPES}}
 
 
+@errors.named_arguments
+@signals.deferred()
 def tune(
     study: Study | str | Path | Mapping[str, Any],
     *,
@@ -214,7 +218,7 @@ class _Task:
         flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
         if stream == cube.TUNED:  # its own noise, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
-        return fly_many(flight, study.engine, workers=workers).columns
+        return fly_many(flight, workers=workers).columns
 
 
 def _task(made: Study) -> _Task:

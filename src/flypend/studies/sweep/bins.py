@@ -15,6 +15,7 @@ from flypend.flight.metrics import wilson_bounds
 from flypend.geometry import norm
 from flypend.studies.sweep.axes import ANGLES
 from flypend.studies.sweep.chunk import CAUSES
+from flypend.studies.sweep.design import design
 from flypend.studies.sweep.store import existing
 from flypend.studies.sweep.study import Study
 
@@ -81,7 +82,7 @@ class Runs:
     def __init__(self, path: str | Path) -> None:
         self._store = existing(path)
         self.study: Study = self._store.study
-        self._numbers = [number for number in range(self.study.chunks) if self._store.marked(number)]
+        self._numbers = self._store.numbers()
         self.names = self._store.columns
         if not self._numbers:
             raise InputError(str(path), "a store with runs", "one without")
@@ -178,12 +179,27 @@ QUANTITIES = {
 }
 
 
-def quantities(runs: Runs) -> list[str]:
-    """Return the names of the quantities that can be an axis of a plane."""
-    by_vector = [name for name, (column, _) in QUANTITIES.items() if column in runs.names and name not in runs.names]
-    angles = [name for name in ANGLES if name in runs.names]
-    others = [f"{axis.group}.{axis.name}" for axis in runs.study.axes if axis.group != "start"]
+def quantities(study: Study) -> list[str]:
+    """Return the names of the quantities that can be an axis of a plane of a `study`."""
+    drawn = design(study, 0, 1).columns
+    by_vector = [name for name, (column, _) in QUANTITIES.items() if column in drawn and name not in drawn]
+    angles = [name for name in ANGLES if name in drawn]
+    others = [f"{axis.group}.{axis.name}" for axis in study.axes if axis.group != "start"]
     return by_vector + angles + others
+
+
+def check_plane(study: Study, x: str | None, y: str | None) -> None:
+    """Raise InputError unless the axes `x` and `y` of a plane are both left out, or two quantities of the `study`."""
+    if (x is None) != (y is None):
+        raise InputError("x, y", "both or none", "one")
+    for field, name in (("x", x), ("y", y)):
+        if name is not None:
+            one_of(field, name, quantities(study))
+    if x is not None and x == y:
+        raise InputError("y", "another quantity than x", repr(y))
+    varied = {axis.name for axis in study.axes if axis.group == "start"}
+    if x is None and len(quantities(study)) < 2 and ("y" not in varied or {"tilt", "azimuth"} & varied):
+        raise InputError("study", "one in which two quantities vary", "fewer")
 
 
 def label(name: str) -> str:
@@ -195,8 +211,6 @@ def label(name: str) -> str:
 
 def plane(runs: Runs, names: tuple[str, str], cells: int) -> tuple[Grid, tuple[Any, Any]]:
     """Return the grid over two quantities and the edges of its cells; a grid of the study keeps its own points."""
-    for name in names:
-        one_of("plane", name, quantities(runs))
     edges = tuple(_edges(runs.study, name, cells) for name in names)
     shape = (len(edges[1]) - 1, len(edges[0]) - 1)
 
@@ -245,7 +259,7 @@ def _between(values: Any) -> Any:
 
 def default_plane(runs: Runs) -> tuple[str, str] | None:
     """Return tilt and rate if both vary, else the first two quantities; None if there are fewer than two."""
-    known = quantities(runs)
+    known = quantities(runs.study)
     if {"tilt", "rate"} <= set(known):
         return ("tilt", "rate")
     return (known[0], known[1]) if len(known) > 1 else None

@@ -54,7 +54,7 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
     """Return the columns of runs `first` to `last` (exclusive) of `study`, from sample `stream`, flown on one core."""
     drawn = design(study, first, last, stream)
-    parts = [fly_many(flight, study.engine, workers=1) for flight in flights(study, drawn, first)]
+    parts = [fly_many(flight, workers=1) for flight in flights(study, drawn, first)]
     judged = [flown.columns for flown in parts]
     columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
     cause = np.zeros(last - first, dtype=np.uint8)

@@ -12,6 +12,7 @@ from uuid import uuid4
 from filelock import FileLock, Timeout
 
 from flypend.errors import InputError
+from flypend.files.staging import check_writable
 
 # Names of what a sweep leaves when it is killed: folders beside the store, and Zarr's files inside it.
 _LEFT = r"\.{name}\.[0-9a-f]{{32}}\.(partial|removed)"
@@ -26,6 +27,11 @@ def checked_path(path: str | Path) -> Path:
         raise InputError("store", "a name ending in .zarr", str(path))
     _real(path)
     return path
+
+
+def check_place(path: str | Path) -> None:
+    """Raise InputError unless a store can be at `path`: it ends in .zarr, and its folder can be written."""
+    check_writable(_real(checked_path(path)).parent)
 
 
 def lock_of(path: str | Path) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -12,6 +13,7 @@ from flypend.studies.sweep.chunk import fly_chunk
 # Chunks submitted per core: one runs, one waits.
 AHEAD = 2
 CONNECT = 10.0
+ADDRESS = re.compile(r"([a-z]+://)?([\w.-]+|\[[0-9a-fA-F:.]+\]):\d{1,5}", re.ASCII)
 
 
 def flown_chunks(
@@ -46,6 +48,14 @@ def flown_chunks(
                 following = submit(number)
                 futures[following] = number
                 coming.add(following)
+
+
+def check_answers(scheduler: str) -> None:
+    """Raise InputError unless a Dask `scheduler` answers at its address."""
+    if not ADDRESS.fullmatch(scheduler):  # Dask would look for a long time
+        raise InputError("scheduler", "the address of a Dask scheduler, such as tls://host:8786", repr(scheduler))
+    with _client(scheduler):
+        pass
 
 
 def _result(future: Any) -> dict[str, Any]:

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.studies.sweep.chunk import CAUSES
+from flypend.files.reading import read_bytes
+from flypend.files.schema import Field
+from flypend.model.state import SIZE
+from flypend.studies.sweep.chunk import CAUSES, FLOATS
 from flypend.studies.sweep.claim import aside
+from flypend.studies.sweep.design import design
 from flypend.studies.sweep.study import Study
 
 MARKS = "whole"
+LARGEST_HEADER = 16  # bytes that Blosc adds to what it cannot compress
 ROWS = {
     "y": "axis",
     "y_dot": "axis",
@@ -41,15 +48,19 @@ NOTES = {
     "final": "packed final state: x, x_dot, R (row-major), omega, y, y_dot",
     MARKS: "digest of a complete chunk of runs; 0 for an incomplete one",
 }
-Columns = Mapping[str, tuple[str, list[int]]]
 
 
-def columns_of(like: Mapping[str, Any]) -> dict[str, tuple[str, list[int]]]:
-    """Return type and shape of a row of each column of `like`, as a store's attributes list them."""
-    return {name: (value.dtype.str, list(value.shape[1:])) for name, value in sorted(like.items())}
+def columns_of(study: Study) -> dict[str, Field]:
+    """Return the columns of a store of `study`, by name: what varies, how a run ended, and perhaps its last state."""
+    drawn = design(replace(study, samples=1, sampling="uniform"), 0, 1).columns
+    found = {name: Field(("run", *value.shape[1:]), "<f4") for name, value in drawn.items()}
+    found |= {name: Field(("run",), "<f4", finite=False) for name in FLOATS}  # of a run that failed, some are NaN
+    found |= {"success": Field(("run",), "|b1"), "cause": Field(("run",), "|u1", low=0, high=len(CAUSES) - 1)}
+    found |= {"final": Field(("run", SIZE), "<f8", finite=False)} if study.final else {}
+    return dict(sorted(found.items()))
 
 
-def create(path: Path, study: Study, attributes: Mapping[str, Any], columns: Columns) -> None:
+def create(path: Path, study: Study, attributes: Mapping[str, Any]) -> None:
     """Create an empty store beside `path` and rename it to `path`. The caller holds the lock.
 
     Raises InputError if the folder cannot be written.
@@ -59,7 +70,7 @@ def create(path: Path, study: Study, attributes: Mapping[str, Any], columns: Col
     partial = aside(path, "partial")
     try:
         group = zarr.create_group(partial, attributes=dict(attributes))
-        add_arrays(group, study, columns)
+        add_arrays(group, study)
         partial.rename(path.resolve())
     except OSError as error:
         raise InputError(str(path), "a folder that can be written", error.strerror or error) from None
@@ -67,13 +78,13 @@ def create(path: Path, study: Study, attributes: Mapping[str, Any], columns: Col
         shutil.rmtree(partial, ignore_errors=True)
 
 
-def add_arrays(group: Any, study: Study, columns: Columns) -> None:
+def add_arrays(group: Any, study: Study) -> None:
     """Create the array of each column in the Zarr `group`, and that of the marks; metadata only."""
     from zarr.codecs import BloscCodec, BloscShuffle
 
     blosc = BloscCodec(cname="zstd", clevel=1, shuffle=BloscShuffle.shuffle)
-    for name, (kind, row) in columns.items():
-        dtype = np.dtype(kind)
+    for name, field in columns_of(study).items():
+        dtype, row = np.dtype(field.dtype), field.dims[1:]
         group.create_array(
             name,
             shape=(study.runs, *row),
@@ -90,21 +101,33 @@ def add_arrays(group: Any, study: Study, columns: Columns) -> None:
     )  # fmt: skip
 
 
-def model(study: Study, columns: Columns) -> Any:
+def model(study: Study) -> Any:
     """Return a store in memory with the arrays of `add_arrays` and no data, to compare with."""
     import zarr
 
     group = zarr.create_group(zarr.storage.MemoryStore())
-    add_arrays(group, study, columns)
+    add_arrays(group, study)
     return group
 
 
 def alike(found: Any, wanted: Any) -> bool:
-    """Whether two arrays agree in all that decides what their chunks mean."""
-    names = ("shape", "chunks", "dtype")
-    same = all(getattr(found, name) == getattr(wanted, name) for name in names)
-    dimensions = found.metadata.dimension_names == wanted.metadata.dimension_names
-    return same and dimensions and dict(found.attrs) == dict(wanted.attrs)
+    """Whether two arrays have the same metadata: what their chunks mean, and how they are packed."""
+    return bool(found.metadata.to_dict() == wanted.metadata.to_dict())
+
+
+def check_packed(folder: Path, number: int, array: Any) -> None:
+    """Raise ValueError unless chunk `number` of the `array` in `folder` says that it unpacks to what a chunk holds.
+
+    Blosc takes the memory that the first bytes of a chunk ask for.
+    """
+    size = math.prod(array.chunks) * array.dtype.itemsize
+    path = folder.joinpath("c", str(number), *["0"] * (array.ndim - 1))
+    try:
+        content = read_bytes(path, size + LARGEST_HEADER)
+    except FileNotFoundError:  # of a chunk that is all fill values Zarr writes none
+        return
+    if array.compressors and int.from_bytes(content[4:8], "little") != size:
+        raise ValueError(f"{path}: {len(content)} bytes that do not unpack to {size}")
 
 
 def _notes(name: str) -> dict[str, Any]:

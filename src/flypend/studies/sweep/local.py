@@ -10,6 +10,7 @@ from typing import Any
 
 from flypend.errors import InputError
 from flypend.flight.kernels.stopping import interruptible, joined
+from flypend.signals import waiting
 from flypend.studies.sweep.chunk import fly_chunk
 
 # Times that workers may die in a row, with no chunk in between.
@@ -53,14 +54,14 @@ def flown_chunks(
 def _flown(
     text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
-    from joblib import Parallel, delayed
-
-    with interruptible() as stop:
-        # Processes hear the end of this one from their pipes; threads poll a word, which cannot be sent.
-        word = None if processes else stop
-        tasks = (delayed(_fly)(text, number, program, word) for number in list(numbers))
-        backend = "loky" if processes else "threading"
-        yield from Parallel(n_jobs=workers, backend=backend, return_as="generator_unordered")(tasks)
+    if processes:
+        with waiting.processes(workers) as submit:
+            for call in waiting.as_they_come([submit(_fly, text, number, program, None) for number in numbers]):
+                yield call.result()
+    else:
+        with waiting.threads(workers) as pool, interruptible() as stop:
+            for call in waiting.as_they_come([pool.submit(_fly, text, number, program, stop) for number in numbers]):
+                yield call.result()
 
 
 def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str, Any]]:

@@ -8,10 +8,10 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from flypend import errors
+from flypend import errors, signals
 from flypend.studies.sweep import cluster, local
 from flypend.studies.sweep.chunk import fly_range, program_digest
-from flypend.studies.sweep.claim import alone
+from flypend.studies.sweep.claim import alone, check_place
 from flypend.studies.sweep.store import discard, opened
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], Any]
 
 
+@errors.named_arguments
+@signals.deferred()
 def sweep(
     study: Study | str | Path | Mapping[str, Any],
     store: str | Path,
@@ -63,13 +65,21 @@ def sweep(
     """
     for module in ("zarr", "xarray", "scipy", *(["distributed"] if scheduler is not None else [])):
         errors.require(module, extra="studies", for_="sweep")
+    if workers is not None:
+        errors.integer("workers", workers, 1)
+    for name, given in (("workers", workers is not None), ("processes", processes)):
+        if scheduler is not None and given:
+            raise errors.InputError(name, "nothing beside a scheduler, which has workers of its own", "it")
+    check_place(store)
     made = study if isinstance(study, Study) else study_from(study)
-    like = fly_range(made, 0, 1)
+    if scheduler is not None:
+        cluster.check_answers(scheduler)
+    fly_range(made, 0, 1)  # a law that cannot be flown leaves no store
     program = program_digest(made)
     with alone(store):
         if force:
             discard(store)
-        kept = opened(store, made, program, versions(), like)
+        kept = opened(store, made, program, versions())
         missing = [number for number in range(made.chunks) if not kept.whole(number)]
         done = made.runs - sum(_length(made, number) for number in missing)
         progress(done, made.runs)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import shutil
 import tomllib
 from collections.abc import Mapping
@@ -20,11 +21,18 @@ from uuid import uuid4
 import numpy as np
 
 from flypend.errors import InputError, require
+from flypend.files.reading import MOST_TEXT, parse_json, read_bytes, read_text
+from flypend.files.schema import check_arrays, check_attributes
+from flypend.files.toml import parse_toml
 from flypend.studies.sweep import layout
 from flypend.studies.sweep.claim import checked_path, clear, remove
 from flypend.studies.sweep.layout import MARKS
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
+
+METADATA = "zarr.json"
+ATTRIBUTES = ("study", "program", "vehicle", "law", "e3", "seal", "id")
+_NUMBER = re.compile(r"\d{1,9}")
 
 
 class Store:
@@ -39,6 +47,7 @@ class Store:
         self._group = group
         self.attributes = dict(group.attrs)
         self.study: Study = _study_in(path, self.attributes)
+        self._fields = layout.columns_of(self.study)
         self._arrays = self._opened(writable)
         self._marks: Any = self._arrays.pop(MARKS)
 
@@ -58,7 +67,11 @@ class Store:
         return self.study.chunk
 
     def write(self, number: int, columns: Mapping[str, Any]) -> None:
-        """Write chunk `number`, then its mark. Raises InputError if a file cannot be written, or the store is gone."""
+        """Write chunk `number`, then its mark.
+
+        Raises InputError if a column is not as a reader expects it, a file cannot be written, or the store is gone.
+        """
+        self._checked(columns)
         mark = self._digest(number, columns)
         try:
             for name in self.columns:
@@ -74,14 +87,39 @@ class Store:
     def read(self, number: int, names: list[str] | None = None) -> dict[str, Any]:
         """Return the columns `names` (default all) of chunk `number`. Raises InputError unless it matches its mark."""
         try:
-            columns = {name: self._arrays[name][self._rows(number)] for name in self.columns}
+            columns = {name: self._unpacked(name, number) for name in self.columns}
             sound = self._mark(number) == self._digest(number, columns)
         except Exception:  # undecodable data: Zarr and its codecs raise exceptions of many types
             sound = False
+        if sound:
+            self._checked(columns)
         if not sound:
             wanted = f"chunk {number} as it was written (flypend sweep flies it again)"
             raise InputError(str(self.path), wanted, "a chunk that does not match its digest")
         return columns if names is None else {name: columns[name] for name in names}
+
+    def _unpacked(self, name: str, number: int) -> Any:
+        """Return the rows of chunk `number` of the column `name`. Raises what Zarr raises, and ValueError."""
+        array = self._arrays[name]
+        layout.check_packed(self.path / name, number, array)
+        return array[self._rows(number)]
+
+    def _checked(self, columns: Mapping[str, Any]) -> None:
+        """Raise InputError unless `columns` are as those of a chunk of the study."""
+        try:
+            found = check_arrays(self._fields, columns)
+        except InputError as error:
+            wanted = f"chunks whose {error.field} has {error.expected} (--force replaces the store)"
+            raise InputError(str(self.path), wanted, error.got) from None
+        if np.any(found["success"] != (found["cause"] == 0)):
+            raise InputError(str(self.path), "the cause 0 for success (--force replaces the store)", "others")
+
+    def numbers(self) -> list[int]:
+        """Return the numbers of the chunks that have been flown, as `marked` tells, without asking for every chunk."""
+        folder = self.path / MARKS / "c"
+        names = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
+        found = sorted(int(name) for name in names if _NUMBER.fullmatch(name))
+        return [number for number in found if number < self.study.chunks and self.marked(number)]
 
     def marked(self, number: int) -> bool:
         """Whether chunk `number` has been flown: it has a mark, which is perhaps unreadable."""
@@ -102,6 +140,7 @@ class Store:
         self._marks[number] = 0
 
     def _mark(self, number: int) -> int:
+        layout.check_packed(self.path / MARKS, number, self._marks)
         return int(self._marks[number])
 
     def _rows(self, number: int) -> slice:
@@ -123,48 +162,49 @@ class Store:
 
     def _opened(self, writable: bool) -> dict[str, Any]:
         """The arrays by name, their metadata compared with those of a new store."""
-        model = layout.model(self.study, self.attributes["columns"])
+        model = layout.model(self.study)
         found = {}
         for name, wanted in model.arrays():
-            array = _array_in(self._group, name)
+            array = _array_in(self.path, self._group, name)
             if array is None or not layout.alike(array, wanted):
                 if not writable:
                     told = f"the metadata of {name} as they were written (flypend sweep restores them)"
                     raise InputError(str(self.path), told, "none" if array is None else "others")
-                _restore(self.path, name, self.study, self.attributes["columns"])
+                _restore(self.path, name, self.study)
                 array = self._group[name]
             found[name] = array
         return found
 
 
-def _array_in(group: Any, name: str) -> Any:
-    """Return the array `name` of `group`; None if it cannot be opened."""
+def _array_in(path: Path, group: Any, name: str) -> Any:
+    """Return the array `name` of `group`, the store at `path`; None if it cannot be opened."""
     import zarr
 
     try:
+        read_bytes(path / name / METADATA, MOST_TEXT)
         array = group[name]
     except Exception:  # as in `Store.read`
         return None
     return array if isinstance(array, zarr.Array) else None
 
 
-def _restore(path: Path, name: str, study: Study, columns: layout.Columns) -> None:
+def _restore(path: Path, name: str, study: Study) -> None:
     """Write the metadata of the array `name` in the store at `path`, as in a new store."""
     import zarr
 
-    target = path / name / "zarr.json"
+    target = path / name / METADATA
     try:
         with TemporaryDirectory() as new:
-            layout.add_arrays(zarr.create_group(new), study, columns)
+            layout.add_arrays(zarr.create_group(new), study)
             target.parent.mkdir(exist_ok=True)
             partial = target.with_name(f"zarr.{uuid4().hex}.partial")
-            shutil.copyfile(Path(new) / name / "zarr.json", partial)
+            shutil.copyfile(Path(new) / name / METADATA, partial)
         partial.replace(target)
     except OSError as error:
         raise InputError(str(target), "a file that can be written", error.strerror or error) from None
 
 
-def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, str], like: Mapping[str, Any]) -> Store:
+def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, str]) -> Store:
     """Return the store of `study` at `path` for writing, creating it if there is none. The caller holds its lock.
 
     Parameters
@@ -175,8 +215,6 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         Digest of the program, from `program_digest`.
     versions : dict
         Versions of this package and of those on which the results depend.
-    like : dict
-        Columns of a few runs, for their names, types and shapes.
 
     Raises
     ------
@@ -184,7 +222,6 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         If the path is not writable, or if the store belongs to another study (naming the first difference).
     """
     path = checked_path(path)
-    columns = layout.columns_of(like)
     attributes: dict[str, Any] = {
         "flypend": "sweep",
         "study": study.text(),
@@ -193,11 +230,10 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
         "vehicle": study.flight.vehicle.name,
         "law": study.law.name,
         "e3": study.law.e3,
-        "columns": {name: [kind, row] for name, (kind, row) in columns.items()},
     }
     clear(path)
     if not path.exists():
-        layout.create(path, study, {**attributes, "id": uuid4().hex, "seal": _seal(attributes)}, columns)
+        layout.create(path, study, {**attributes, "id": uuid4().hex, "seal": _seal(attributes)})
     store = existing(path, writable=True)
     _check_same(path, store.attributes, attributes)
     return store
@@ -235,7 +271,9 @@ def _group_at(path: Path) -> Any:
 
     wanted = "a store that a sweep has written"
     try:
-        group = zarr.open_group(path, mode="r+", use_consolidated=False) if path.is_dir() else None
+        if path.is_dir():
+            read_bytes(path / METADATA, MOST_TEXT)
+        group = zarr.open_group(path, mode="r+", use_consolidated=False, zarr_format=3) if path.is_dir() else None
     except Exception as error:  # not Zarr, or unreadable metadata
         raise InputError(str(path), wanted, error) from None
     if group is None or group.attrs.get("flypend") != "sweep":
@@ -246,7 +284,7 @@ def _group_at(path: Path) -> Any:
 def _id_at(path: Path) -> Any:
     """The id of the store at `path`; None if there is none."""
     try:
-        return json.loads((path / "zarr.json").read_bytes())["attributes"]["id"]
+        return parse_json(read_text(path / METADATA))["attributes"]["id"]
     except (OSError, ValueError, LookupError, TypeError):
         return None
 
@@ -260,7 +298,8 @@ def _seal(attributes: Mapping[str, Any]) -> str:
 def _study_in(path: Path, attributes: Mapping[str, Any]) -> Study:
     """The study of a store. Raises InputError if it cannot be built here, as without the file of its law."""
     try:
-        return study_from(tomllib.loads(str(attributes["study"])))
+        text = check_attributes(dict.fromkeys(ATTRIBUTES, str), attributes)["study"]
+        return study_from(parse_toml("study", text))
     except InputError as error:
         wanted = f"a store whose study can be read ({error.field}: expected {error.expected})"
         raise InputError(str(path), wanted, error.got) from None

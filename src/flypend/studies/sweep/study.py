@@ -12,21 +12,21 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.files.toml import toml_text
+from flypend.files.toml import read_toml, toml_text
 from flypend.flight.criterion import Criterion
-from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
+from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, check_judged
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.named import THEOREM_1
 from flypend.model import State, Vehicle
-from flypend.model.vehicle import read_toml
+from flypend.model.shipped import vehicle_table
 from flypend.plants import AnyPlant, Ideal, Sampled
 from flypend.settings.laws import absolute, law_from, law_table, table_of
-from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, start_of, table_at, vehicle_table
+from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, start_of, table_at
 from flypend.studies.sweep.axes import Axis, axes
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
 KEYS = (
-    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "engine", "runs",
+    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs",
     "sampling", "seed", "chunk", "final", "criterion", "start", "vary", "tune",
 )  # fmt: skip
 # Runs per chunk (ideal plant, sampled plant, MuJoCo, callable law): each takes a few seconds on one core.
@@ -36,9 +36,9 @@ STEPS = 20_000
 MOST_CHUNK = 1_000_000
 MOST_RUNS = 10**9
 MOST_PLANTS = 32
-ENGINES = ("kernel", "jax")
 
 
+@errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Study:
     """A study of many runs.
@@ -47,8 +47,6 @@ class Study:
     ----------
     flight : Flight
         The request that all runs share, except for what varies.
-    engine : "kernel" or "jax"
-        The engine: compiled kernels, or JAX on the ideal plant.
     axes : tuple of Axis
         The quantities that vary.
     samples : int
@@ -68,7 +66,6 @@ class Study:
     """
 
     flight: Flight
-    engine: str
     axes: tuple[Axis, ...]
     samples: int
     sampling: str
@@ -133,6 +130,7 @@ class Study:
         return plant_of(table)
 
 
+@errors.named_arguments
 def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study:
     """Return the study in `what`, a TOML file or its content as a dict; docs/studies/studies.md lists the keys.
 
@@ -170,7 +168,6 @@ def _build(given: dict[str, Any]) -> Study:
     found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
     made = Study(
         flight=flight,
-        engine=errors.one_of("engine", given.get("engine", "kernel"), ENGINES),
         axes=found,
         samples=errors.integer("runs", given.get("runs", 1), 1),
         sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
@@ -184,7 +181,7 @@ def _build(given: dict[str, Any]) -> Study:
     exact = flight.tolerances
     settings = {
         "duration": flight.duration, "rtol": exact.rtol, "judge_period": flight.judge_period,
-        "precision": exact.precision, "max_steps": exact.max_steps, "engine": made.engine,
+        "precision": exact.precision, "max_steps": exact.max_steps,
         "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
         "vehicle": flight.vehicle.to_dict(), "law": absolute(law_table(given["law"]), Path.cwd()),
         "plant": _plant_table(given.get("plant", "rotors")),
@@ -203,7 +200,7 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         max_steps=errors.integer("max_steps", given.get("max_steps", STEPS), 100),
     )
     vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
-    return Flight(
+    flight = Flight(
         vehicle=vehicle,
         law=law_from(law_table(given["law"])).bind(vehicle),
         starts=_fixed(start, vary),
@@ -213,6 +210,8 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         criterion=_criterion(given),
         judge_period=given.get("judge_period", SAMPLE_PERIOD),
     )
+    check_judged(flight)
+    return flight
 
 
 def _chunk(flight: Flight) -> int:
@@ -265,8 +264,6 @@ def _check(made: Study) -> None:
         raise InputError("chunk", f"at most {MOST_CHUNK}", made.chunk)
     if made.samples > 1 and made.dimensions == 0 and not _random(made.flight.plant):
         raise InputError("runs", "1, since nothing is drawn", made.samples)
-    if made.engine == "jax" and not isinstance(made.flight.plant, Ideal):
-        raise InputError("engine", "'kernel' in a sampled flight", "'jax'")
     check_size(made.sampling, made.samples, made.dimensions)
 
 

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from flypend.compile.llvm.jit import CACHE_VARIABLE
+from flypend.compile.cache import VARIABLE
 
 # The first two write what others need.
 LINES = (
@@ -26,6 +26,7 @@ LINES = (
     "flypend figures flown/run.nc",
     "flypend laws",
     "flypend vehicles",
+    "flypend cache",
     "flypend lab --no-browser",
     "flypend paper --quick",
     "flypend theorem",
@@ -48,7 +49,7 @@ def spent(line: str, folder: Path, cache: Path) -> float:
     """Type `line` in `folder`; return its processor time, s. The laboratory is closed once it has told its address."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [sys.executable, "-m", *shlex.split(line)]
-    environment = {**os.environ, CACHE_VARIABLE: str(cache)}
+    environment = {**os.environ, VARIABLE: str(cache)}
     with subprocess.Popen(
         command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as typed:

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -33,24 +33,31 @@ class Ready:
     together: Callable[[], Any] | None
 
 
-def compare(say: Callable[[str], None]) -> list[dict[str, Any]]:
-    """One row per peer that can be imported; nobody finds anything compiled."""
+def compare(say: Callable[[str], None], share: float = 1.0) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """One row per peer that flies, and why the others do not, by name; nobody finds anything compiled.
+
+    A `share` of the runs that count are flown.
+    """
     with tempfile.TemporaryDirectory() as folder, patch.dict(os.environ, FLYPEND_CACHE=folder):
-        return _compared(say)
+        return _compared(say, share)
 
 
-def _compared(say: Callable[[str], None]) -> list[dict[str, Any]]:
-    problem = Problem()
-    starts = problem.starts(ACCURACY_RUNS, seed=7)
-    exact = reference(problem, starts)
-    ready = []
+def _compared(say: Callable[[str], None], share: float) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    problem, ready, missing = Problem(), [], {}
+    starts = problem.starts(max(4, round(share * ACCURACY_RUNS)), seed=7)
+    try:
+        exact = reference(problem, starts)
+    except ModuleNotFoundError as error:
+        return [], {"peers": f"no reference, {error}"}
     for module, peer in peers():
         try:
-            ready.append(prepared(module, peer, problem, starts, exact))
-        except ModuleNotFoundError as missing:
-            say(f"{peer.name}: left out, {missing}")
+            one = prepared(module, replace(peer, runs=max(2, round(share * peer.runs))), problem, starts, exact)
+        except Exception as error:  # whatever it is: the others fly, and the table says who does not
+            missing[peer.name] = f"{type(error).__name__}: {error}"
+            say(f"{peer.name}: left out, {missing[peer.name]}")
         else:
-            say(f"{peer.name}: rtol {ready[-1].row['tolerance']:.0e}")
+            ready.append(one)
+            say(f"{peer.name}: rtol {one.row['tolerance']:.0e}, first run after {one.row['cold']:.1f} s")
     # The peers take turns, so that all see the machine in the same moods.
     seconds = clock.processor(*(one.alone for one in ready), repeats=ROUNDS)
     threaded = [one for one in ready if one.together]
@@ -59,10 +66,8 @@ def _compared(say: Callable[[str], None]) -> list[dict[str, Any]]:
         one.row["per_core"] = one.peer.runs / spent
     for one, spent in zip(threaded, together, strict=True):
         one.row["all_cores"] = one.peer.runs / spent
-    for one in ready:
-        one.row["cold"], one.row["cold_again"] = cold(one.row["module"], one.row["tolerance"])
-        say(f"{one.peer.name}: {one.row['per_core']:.3g} runs/s and core, first run after {one.row['cold']:.1f} s")
-    return [one.row for one in ready]
+        say(f"{one.peer.name}: {one.row['per_core']:.3g} runs/s and core")
+    return [one.row for one in ready], missing
 
 
 def prepared(module: str, peer: Peer, problem: Problem, starts: Any, exact: Any) -> Ready:
@@ -85,6 +90,7 @@ def prepared(module: str, peer: Peer, problem: Problem, starts: Any, exact: Any)
         None if wide is None else partial(wide, many, tolerance),
     )
     ready.alone()  # compiles for this number of runs, where that matters
+    row["cold"], row["cold_again"] = cold(module, tolerance)
     return ready
 
 

@@ -169,7 +169,10 @@ def cortex_m4(folder, ends, made, bytes_):
             sizes[cells[3]] = int(cells[1], 16)
     needed = set().union(*(reached(fast, name) for name in ends))
     deepest = max(depth(fast, stack, name) for name in ends)
-    loops = {"numbers": checked(made, ends), "remember": made.memory, "spins_as_written": made.rotors.length}
+    loops = {
+        "numbers": checked(made, ends), "copy": made.memory, "spins_as_written": made.rotors.length,
+        "check_word": (made.gains.length + made.memory) / 2,  # of its calls, which come in pairs
+    }  # fmt: skip
     tables = weights(made)
     held = set().union(*(reached(plain, name) for name in ends)) & tables.keys()
     size = sum(sizes[name] for name in needed) + sum(bytes_ * tables[name] for name in held)
@@ -188,10 +191,11 @@ def weights(made):
 
 def checked(made, ends):
     """How often the loop of `numbers` runs on the average of its calls on the way of a valid state."""
-    own = [made.gains.length] * made.has_gains + [made.params.length]
+    own = [made.params.length]
     if ends == PARTS["board"][0]:
-        lengths = [*own, 24, made.rotors.length, made.memory, made.memory, *[records.PATH.length] * made.follows]
+        lengths = [*own, 24, made.rotors.length, made.memory, *[records.PATH.length] * made.follows]
     else:
+        own += [made.gains.length] * made.has_gains
         lengths = [*own, 30, 4, *[records.REFERENCE.length] * made.follows, made.params.length, 4, made.rotors.length]
     return sum(lengths) / len(lengths)
 

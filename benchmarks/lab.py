@@ -16,9 +16,9 @@ from tornado.httpserver import HTTPServer
 from tornado.testing import bind_unused_port
 from tornado.websocket import websocket_connect
 
+from flypend.lab.answers import answer
 from flypend.lab.controls import offer
 from flypend.lab.server import Laboratory
-from flypend.lab.session import flights
 
 MOVES = 60
 
@@ -35,9 +35,9 @@ def on_server(plant):
     """Milliseconds of processor and of clock to answer each move."""
     times = []
     for i in range(MOVES + 1):
-        message = {"number": i, "setting": setting(i, plant)}
+        message = {"kind": "fly", "number": i, "setting": setting(i, plant)}
         begun = time.process_time(), time.perf_counter()
-        list(flights(message, lambda: None))
+        list(answer(message))
         times.append((time.process_time() - begun[0], time.perf_counter() - begun[1]))
     return 1e3 * np.array(times[1:]).T
 

@@ -40,25 +40,18 @@ class Line(NamedTuple):
         if not self.goal:
             return None
         sense, number = self.goal.split()
-        return self.value >= float(number) if sense == "≥" else self.value <= float(number)
+        return bool(self.value >= float(number) if sense == "≥" else self.value <= float(number))
 
 
-def lines() -> Iterator[Line]:
-    """All of them, one after the other."""
-    problem = Problem()
-    kernel = partial(ideal_kernel, problem.loop)
-    yield from threads(problem, kernel(method="dp5"))
-    yield from sampling(problem, kernel(method="dp5"))
-    yield from floats(problem, kernel)
-    yield from inverted()
-    yield from judging()
-    yield from rotors()
-    yield from sizes(problem, kernel(method="dp5"))
+def scaled(runs: int, share: float) -> int:
+    """Return a `share` of so many runs, but at least two vectors full."""
+    return max(16, round(share * runs))
 
 
-def threads(problem: Problem, kernel: Any) -> Iterator[Line]:
+def threads(problem: Problem, share: float) -> Iterator[Line]:
     """All threads over one."""
-    starts, count = problem.starts(16384), os.cpu_count() or 1
+    kernel = ideal_kernel(problem.loop, method="dp5")
+    starts, count = problem.starts(scaled(16384, share)), os.cpu_count() or 1
     one, all_ = (partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=n) for n in (1, count))
     alone, together = clock.wall(one, all_)
     yield Line(f"{count} threads over one, on the wall", alone / together, "×", "≥ 1.85")
@@ -67,16 +60,18 @@ def threads(problem: Problem, kernel: Any) -> Iterator[Line]:
     yield Line(f"{count} threads over one, if both had a core to themselves", count * alone / together, "×", "≥ 1.85")
 
 
-def sampling(problem: Problem, kernel: Any) -> Iterator[Line]:
+def sampling(problem: Problem, share: float) -> Iterator[Line]:
     """What it costs to keep, or to judge, 100 states of a run."""
-    starts, times = problem.starts(4096), np.linspace(0, problem.duration, 100)
+    kernel = ideal_kernel(problem.loop, method="dp5")
+    starts, times = problem.starts(scaled(4096, share)), np.linspace(0, problem.duration, 100)
     fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=1)
     # The memory of the states comes from the operating system, which fills it with zeros first: that is told apart.
     there = fly(keep_at=times, judge=False)
     setting, nothing = (problem.duration, 1e-6, 1e-6, MAX_STEPS), np.zeros((len(starts), 0))
+    never = np.zeros(1, dtype=np.int64)
     tasks = [
         partial(fly, judge=False),
-        partial(call, kernel.function, starts, nothing, setting, Moments.of(keep_at=times), there),
+        partial(call, kernel.function, starts, nothing, setting, Moments.of(keep_at=times), there, never),
         partial(fly, keep_at=times, judge=False),
         partial(fly, judge_at=times),
     ]
@@ -86,32 +81,32 @@ def sampling(problem: Problem, kernel: Any) -> Iterator[Line]:
     yield Line("judging at 100 times, above none", 100 * (judged / none - 1), "%")
 
 
-def floats(problem: Problem, kernel: Any) -> Iterator[Line]:
+def floats(problem: Problem, share: float) -> Iterator[Line]:
     """Floats over doubles at 1e-3."""
-    starts = problem.starts(8192)
-    tasks = [
-        partial(kernel(method="dp5", precision=precision).fly, starts, problem.duration, rtol=1e-3, workers=1)
-        for precision in ("double", "float")
-    ]
+    starts, tasks = problem.starts(scaled(8192, share)), []
+    for precision in ("double", "float"):
+        kernel = ideal_kernel(problem.loop, method="dp5", precision=precision)
+        tasks.append(partial(kernel.fly, starts, problem.duration, rtol=1e-3, workers=1))
     double, single = clock.processor(*tasks)
     yield Line("corrected law, rtol 1e-3, doubles", len(starts) / double, "runs/s")
     yield Line("corrected law, rtol 1e-3, floats", len(starts) / single, "runs/s")
     yield Line("floats over doubles", double / single, "×", "≥ 1.8")
 
 
-def inverted() -> Iterator[Line]:
+def inverted(problem: Problem, share: float) -> Iterator[Line]:
     """Ten seconds of the inverted law on the ideal plant."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 2048).packed()
+    law = fp.laws.inverted().bind(vehicle)
+    starts = fp.State.random(np.random.default_rng(0), scaled(2048, share)).packed()
     kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method="dp5")
     for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
         (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
         yield Line(f"inverted law, 10 s, ideal plant, rtol {rtol:.0e}", len(starts) / seconds, "runs/s", goal)
 
 
-def judging() -> Iterator[Line]:
+def judging(problem: Problem, share: float) -> Iterator[Line]:
     """What the default judging, every 10 ms, leaves of the speed on the ideal plant."""
-    vehicle, starts = fp.vehicle("hehn2011"), fp.State.random(np.random.default_rng(0), 2048)
+    vehicle, starts = fp.vehicle("hehn2011"), fp.State.random(np.random.default_rng(0), scaled(2048, share))
     law = fp.laws.inverted().bind(vehicle)
     for method in ("dp5", "dop853"):
         kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method=method)
@@ -123,10 +118,11 @@ def judging() -> Iterator[Line]:
         yield Line(f"inverted law, {method}, judged every 10 ms over unjudged", plain / full, "×", "≥ 0.75")
 
 
-def rotors() -> Iterator[Line]:
+def rotors(problem: Problem, share: float) -> Iterator[Line]:
     """Ten seconds of the inverted law with rotors at 500 Hz, judged every 10 ms, without and with noise and gusts."""
     vehicle = fp.vehicle("hehn2011")
-    law, starts = fp.laws.inverted().bind(vehicle), fp.State.random(np.random.default_rng(0), 128).packed()
+    law = fp.laws.inverted().bind(vehicle)
+    starts = fp.State.random(np.random.default_rng(0), scaled(128, share)).packed()
     windy = Wind(gust_on_vehicle=0.3, gust_on_bob=0.03)
     loops = [Loop(vehicle, law, p) for p in (ROTORS, ROTORS.replace(noise=MOTION_CAPTURE, wind=windy))]
     ticks = np.arange(0, 5001, 5)
@@ -146,23 +142,26 @@ def operations_per_tick(loop: Loop, judged: Any) -> dict[str, float]:
     """Operations of a flight per control tick, by part; `judged` are the ticks at which it is judged."""
     problem = sampled_problem(loop, Criterion())
     assert isinstance(problem.world, EquationsProblem)
-    names = {"command": "law and allocation", "twin": "prediction", "observe": "observer", "rotor": "rotor model"}
-    parts = dict.fromkeys(names.values(), 0.0)
+    names = {"command": "law and allocation", "twin": "prediction", "observe": "observer", "rotor": "rotor model",
+             "find": "search for the delay"}  # fmt: skip
+    parts: dict[str, float] = {}
     for called in problem.board.calls:
         program = problem.board.programs[called.program]
-        parts[names[program.name.split("_")[0]]] += sum(program.counts().values())
+        part = names.get(program.name.split("_")[0], program.name)  # a program that is new here has its own name
+        parts[part] = parts.get(part, 0.0) + sum(program.counts().values())
     steps = sum(stretch.steps for stretch in problem.flown)
     parts["plant"] = steps * sum(problem.world.step.counts().values())
     parts["judging"] = sum(problem.judge.counts().values()) * (len(judged) - 1) / judged[-1]
     return parts
 
 
-def sizes(problem: Problem, kernel: Any) -> Iterator[Line]:
+def sizes(problem: Problem, share: float) -> Iterator[Line]:
     """Cost of a run in ensembles of a thousand to a million, all threads, judged every 50 ms."""
+    kernel = ideal_kernel(problem.loop, method="dp5")
     times, cores = np.linspace(0, problem.duration, 131), os.cpu_count() or 1
     costs = {}
     for decade in DECADES:
-        starts = problem.starts(10**decade)
+        starts = problem.starts(scaled(10**decade, share))
         fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, judge_at=times)
         begin = time.perf_counter()
         (seconds,) = clock.processor(fly, repeats=1 if decade >= 6 else 3)
@@ -172,3 +171,7 @@ def sizes(problem: Problem, kernel: Any) -> Iterator[Line]:
             yield Line(f"a million runs on {cores} cores of their own", seconds / cores, "s", "≤ 20")
             yield Line("a million runs on the wall", time.perf_counter() - begin, "s")
     yield Line("dearest over cheapest run, 10^3 to 10^7", max(costs.values()) / min(costs.values()), "×", "≤ 1.25")
+
+
+# What each line is printed by: (problem, share of the runs that count) → lines.
+LINES = (threads, sampling, floats, inverted, judging, rotors, sizes)

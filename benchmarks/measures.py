@@ -23,7 +23,7 @@ def flown(runs: int, duration: float = 10.0, **options: Any) -> float:
 
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
     starts = fp.State.random(np.random.default_rng(0), runs)
-    fp.simulate_ensemble(vehicle, law, starts[:1], 0.1, workers=1, **options)  # compiles
+    fp.simulate_ensemble(vehicle, law, starts[:1], duration, workers=1, **options)  # compiles
     best = float("inf")
     for _ in range(REPEATS):
         begin = time.process_time()

@@ -58,7 +58,7 @@ class Shooting:
         worlds, least = self.worlds, np.full(self.rotors, self.vehicle.rotor_limits[0])
         worlds.begin(np.arange(SHOTS))
         begun = np.concatenate([start.packed(), least])
-        worlds._memories[:, 2 : 2 + len(begun)] = begun[:, None]
+        worlds.arrays["memories"][:, 2 : 2 + len(begun)] = begun[:, None]
         alive, lasted = np.ones(SHOTS, dtype=bool), np.zeros(SHOTS, dtype=int)
         for k in range(round(AHEAD * RATE)):
             period = k // HELD

@@ -43,15 +43,18 @@ def with_ratios(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     own = {row["name"]: row["per_core"] for row in rows if row["name"].startswith("flypend d")}
     for row in rows:
         against, goal = GOALS.get(row["name"], (None, None))
-        row["ratio"] = (own[against] if against else max(own.values())) / row["per_core"]
+        row["ratio"] = (own.get(against, math.nan) if against else max(own.values(), default=math.nan)) / row[
+            "per_core"
+        ]
         row["goal"] = goal
     return sorted(rows, key=lambda row: row["ratio"])
 
 
-def markdown(rows: list[dict[str, Any]], lines: list[Line], where: dict[str, Any]) -> str:
-    """Two tables."""
+def markdown(rows: list[dict[str, Any]], lines: list[Line], missing: dict[str, str], where: dict[str, Any]) -> str:
+    """Two tables, and what is `missing` in them and why."""
     text = [
         f"{where['processor']}, {where['cores']} cores (load {where['load']:.1f} at the start), {where['date']}; "
+        f"{_share(where)}"
         "corrected law, 6.5 s, median error 1e-6.\n",
         "| | flypend is … times as fast | goal | runs/s on a core | on all | rtol | median, 95 % error "
         "| compile, first run | cold start, again |",
@@ -70,7 +73,12 @@ def markdown(rows: list[dict[str, Any]], lines: list[Line], where: dict[str, Any
         f"| {line.name} | {short(line.value)} {line.unit} | {short(line.old)} | {line.goal}{_mark(line)} |"
         for line in lines
     ]
+    text += [f"\nMissing: {name} ({' '.join(why.split())})" for name, why in missing.items()]
     return "\n".join(text) + "\n"
+
+
+def _share(where: dict[str, Any]) -> str:
+    return "" if where["share"] == 1 else f"{where['share']:g} of the runs, no measurement; "
 
 
 def _mark(line: Line) -> str:
@@ -85,13 +93,17 @@ def short(value: float | None) -> str:
     return f"{round(value, 2 - math.floor(math.log10(abs(value)))):,.{min(digits, 2)}f}" if value else "0"
 
 
-def save(folder: Path, rows: list[dict[str, Any]], lines: list[Line], where: dict[str, Any]) -> None:
-    """benchmark.md, benchmark.json and benchmark.png."""
+def save(
+    folder: Path, rows: list[dict[str, Any]], lines: list[Line], missing: dict[str, str], where: dict[str, Any]
+) -> None:
+    """benchmark.md, benchmark.json and, of peers, benchmark.png."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "benchmark.md").write_text(markdown(rows, lines, where), encoding="utf-8")
+    (folder / "benchmark.md").write_text(markdown(rows, lines, missing, where), encoding="utf-8")
     table = {"machine": where, "peers": rows, "lines": [line._asdict() | {"met": line.met} for line in lines]}
+    table["missing"] = missing
     (folder / "benchmark.json").write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
-    picture(folder / "benchmark.png", rows, where)
+    if rows:
+        picture(folder / "benchmark.png", rows, where)
 
 
 def picture(path: Path, rows: list[dict[str, Any]], where: dict[str, Any]) -> None:

@@ -131,17 +131,14 @@ def step(library: Path, case: str, steps: int, count: int, planted: str) -> None
     native.restype, native.argtypes = None, kernel.KINDS
     kernel.compiled = lambda made: native  # type: ignore[assignment, misc]
     worlds = kernel.Worlds(environment(**CASES[case]), count)
-    own = {"memories": "_memories", "seeds": "_seeds", "actions": "_actions"}
-    for name, attribute in own.items():
-        setattr(worlds, attribute, exact(getattr(worlds, attribute), name == planted))
-    worlds._arrays = {name: exact(array, name == planted) for name, array in worlds._arrays.items()}
+    worlds.arrays = {name: exact(array, name == planted) for name, array in worlds.arrays.items()}
     worlds.begin(np.arange(count))
     rng, length = np.random.default_rng(1), worlds.env.actions
     actions = rng.uniform(-1.5, 1.5, (50, count, length)).astype(np.float32)
     actions[7, ::11], actions[13, ::13], actions[29, ::17] = np.nan, np.inf, 1e30
     for k in range(-(-steps // count)):
         worlds.step(actions[rng.integers(50)] if k % 3 else np.roll(actions[k % 50], k, axis=0))
-    if not all(np.isfinite(worlds._arrays[name]).all() for name in ("observations", "rewards")):
+    if not all(np.isfinite(worlds.arrays[name]).all() for name in ("observations", "rewards")):
         sys.exit("observations or rewards are not finite")
 
 

@@ -17,7 +17,7 @@ from playwright.sync_api import sync_playwright
 
 import flypend as fp
 from benchmarks.lab import OPTIONS
-from flypend.compile.llvm.jit import CACHE_VARIABLE
+from flypend.compile.cache import VARIABLE
 
 SIZE = {"width": 1280, "height": 800}
 # Milliseconds in the calls of WebGL until the mark "flypend drawn", and when two frames later the picture is shown.
@@ -81,7 +81,7 @@ def written(run, file):
 def main(count=20):
     """Print medians and the least of `count` openings of the page of the swing-up."""
     with TemporaryDirectory() as empty:
-        os.environ[CACHE_VARIABLE] = empty
+        os.environ[VARIABLE] = empty
         opened(count)
 
 

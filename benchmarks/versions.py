@@ -31,7 +31,13 @@ RECORDED = {
 }  # fmt: skip
 # Runs with which a study of 0.1 is flown twice and extrapolated, where all would take it long: an hour with MuJoCo.
 FEW = {"ladder": (16, 48), "map": (4_000, 20_000)}
-ALL = {"ladder": 2_000, "map": 200_000}
+ALL = {"compare": 2_000, "map, ideal": 200_000, "map": 200_000, "ladder": 2_000}
+STUDIES = {
+    "compare": ("compare",),
+    "map, ideal": ("map", "--law", "inverted", "--plant", "ideal", "--force"),
+    "map": ("map", "--law", "inverted", "--plant", "rotors", "--force"),
+    "ladder": ("ladder",),
+}
 
 
 class Version(NamedTuple):
@@ -73,7 +79,7 @@ def versions() -> Iterator[tuple[Version, Version | None]]:
     with tempfile.TemporaryDirectory() as folder:
         old, caches = Path(folder) / "old", [Path(folder) / name for name in ("cache", "old-cache")]
         for cache in caches:
-            cache.mkdir()
+            cache.mkdir(mode=0o700)
         found = subprocess.run(["git", "archive", COMMIT, "src"], cwd=ROOT, capture_output=True, check=False)
         if found.returncode == 0:
             with tarfile.open(fileobj=BytesIO(found.stdout)) as archive:
@@ -82,12 +88,15 @@ def versions() -> Iterator[tuple[Version, Version | None]]:
         yield today, Version(old / "src", caches[1]) if found.returncode == 0 else None
 
 
-def goals() -> Iterator[Line]:
-    """The figures of users' paths, with their goals, beside those of 0.1."""
+def goals(share: float = 1.0) -> Iterator[Line]:
+    """The figures of users' paths, with their goals, beside those of 0.1; studies with a `share` of their runs.
+
+    For a share, the studies of 0.1 are those recorded, the same share of them.
+    """
     with versions() as (today, old):
-        yield from _flights(today, old)
-        yield from _cold(today, old)
-        yield from _studies(today, old)
+        yield from flights(today, old)
+        yield from cold(today, old)
+        yield from studies(today, old if share == 1 else None, share)
 
 
 def _both(name: str, today: Version, old: Version | None, least: bool = False) -> tuple[float, float]:
@@ -99,7 +108,8 @@ def _both(name: str, today: Version, old: Version | None, least: bool = False) -
     return best(new), best(before)
 
 
-def _flights(today: Version, old: Version | None) -> Iterator[Line]:
+def flights(today: Version, old: Version | None) -> Iterator[Line]:
+    """Flights per second of processor time, by plant."""
     rates = {name: _both(name, today, old) for name in ("unjudged", "judged", "rotors", "real", "mujoco")}
     said = {
         "unjudged": "inverted law, 10 s, ideal plant at 1e-6, judged at its end",
@@ -119,7 +129,7 @@ def _flights(today: Version, old: Version | None) -> Iterator[Line]:
         yield Line(f"{name}: today's over 0.1's", new / before, "×", f"≥ {least}")
 
 
-def _cold(today: Version, old: Version | None) -> Iterator[Line]:
+def cold(today: Version, old: Version | None) -> Iterator[Line]:
     """Cold starts, by the processor's time, kernels and bytecode in their caches."""
     flown = {version: [version.command("run", "1", "--no-figures")[0] for _ in range(2 * TURNS)]
              for version in (today, old) if version}  # fmt: skip
@@ -132,24 +142,18 @@ def _cold(today: Version, old: Version | None) -> Iterator[Line]:
         yield Line(what, new, "s", f"≤ {most}", before)
 
 
-def _studies(today: Version, old: Version | None) -> Iterator[Line]:
+def studies(today: Version, old: Version | None, share: float = 1.0) -> Iterator[Line]:
     """What studies take on the wall, all kernels compiled: the second of two."""
-    for name, arguments in {
-        "compare": ("compare", "--runs", "2000"),
-        "map, ideal": ("map", "--law", "inverted", "--plant", "ideal", "--runs", "200000", "--force"),
-    }.items():
-        new, before = (
-            RECORDED[name] if version is None else min(version.command(*arguments)[1] for _ in range(2))
-            for version in (today, old)
-        )
-        yield from _wall(" ".join(("flypend", *arguments)), new, before)
-    for name, arguments in {
-        "map": ("map", "--law", "inverted", "--plant", "rotors", "--force"),
-        "ladder": ("ladder",),
-    }.items():
-        new = min(today.command(*arguments, "--runs", str(ALL[name]))[1] for _ in range(2))
-        before = extrapolated(old, name, arguments) if old else RECORDED[name]
-        yield from _wall(f"flypend {' '.join(arguments)} --runs {ALL[name]}", new, before)
+    for name, arguments in STUDIES.items():
+        sized = (*arguments, "--runs", str(max(2, round(share * ALL[name]))))
+        new = min(today.command(*sized)[1] for _ in range(2))
+        if old is None:
+            before = share * RECORDED[name]
+        elif name in FEW:
+            before = extrapolated(old, name, arguments)
+        else:
+            before = min(old.command(*sized)[1] for _ in range(2))
+        yield from _wall(" ".join(("flypend", *sized)), new, before)
 
 
 def extrapolated(version: Version, name: str, arguments: tuple[str, ...]) -> float:

@@ -49,6 +49,6 @@ def peer(module: str) -> Peer:
 
 
 def peers() -> Iterator[tuple[str, Peer]]:
-    """Every peer whose packages are there."""
+    """Every peer; those whose packages are missing say so when they are made."""
     for module in modules():
         yield module, peer(module)

@@ -17,7 +17,7 @@ def make(problem: Any, threads: int) -> Fly:
     import jax
     import jax.numpy as jnp
 
-    from flypend.compile.jax.arrays import as_jax
+    from benchmarks.as_jax import as_jax
 
     jax.config.update("jax_enable_x64", True)
     rates, none = as_jax(problem.programs.rates), jnp.zeros((0, 1))

@@ -5,9 +5,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 OLDEST := .venv-lowest
 FRESH := .venv-size
+BASE := .venv-base
 OUT ?= paper-out
 
-.PHONY: setup paper lab docs test lowest size bench test-tools fuzz web lint lock clean
+.PHONY: setup paper lab docs test lowest first-contact size bench test-tools fuzz web lint lock release clean
 
 setup: $(VENV)/.ready
 
@@ -72,20 +73,30 @@ lock:
 	$(COMPILE) --all-extras --group bench --constraint requirements.lock --output-file requirements-bench.lock
 	$(COMPILE) $(OLDEST_EXTRAS) --resolution lowest-direct --output-file requirements-lowest.lock
 
-# The lower bounds of pyproject.toml, installed as a wheel and flown, with every extra but JAX: a minute and a half.
+# The lower bounds of pyproject.toml, installed as a wheel and flown, with every extra: a minute and a half.
 # `make lock` resolves them.
 lowest: setup $(OLDEST)/.ready
 	rm -rf $(OLDEST)/wheel
 	$(BIN)/python -m hatchling build --target wheel --directory $(OLDEST)/wheel
 	$(OLDEST)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
 	    $(OLDEST)/wheel/*.whl
-	$(OLDEST)/bin/python tests/smoke.py
+	$(OLDEST)/bin/python -m flypend.selftest
 
 $(OLDEST)/.ready: requirements-lowest.lock
 	$(PYTHON) -m venv --clear $(OLDEST)
 	$(OLDEST)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes \
 	    -r requirements-lowest.lock
 	touch $@
+
+# Sets the version, builds wheel and sdist, tries both in empty environments, commits and tags: make release VERSION=0.3.0
+release: setup
+	$(BIN)/python .ci/release.py $(VERSION)
+
+# What README and the first pages tell one to type, on installations without extras: tests/first_contact.py.
+first-contact: setup
+	rm -rf $(BASE)/wheel
+	$(BIN)/python -m hatchling build --target wheel --directory $(BASE)/wheel
+	$(BIN)/python tests/first_contact.py $(BASE)/wheel/*.whl $(BASE)
 
 # Megabytes of a fresh installation without extras; more than 700 is an error.
 size:
@@ -95,4 +106,4 @@ size:
 	test $$(cut -f1 $(FRESH)/size) -le 700
 
 clean:
-	rm -rf $(VENV) $(OLDEST) $(FRESH) web/node_modules paper-out bench-out docs/_build docs/jupyter_execute .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(FRESH) $(BASE) web/node_modules paper-out bench-out docs/_build docs/jupyter_execute .pytest_cache .mypy_cache .ruff_cache

@@ -1,5 +1,6 @@
-"""What several test files share: a browser without a screen, and a checker of what it shows."""
+"""What several test files share: a cache of their own, a browser without a screen, and a checker of what it shows."""
 
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -13,6 +14,12 @@ OPTIONS = [
     "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
+
+
+def pytest_configure(config):
+    """Keep the machine code of tests, and of what they start, away from the user's."""
+    os.environ["FLYPEND_CACHE"] = str(config.rootpath / ".pytest_cache" / "machine-code")
+    os.environ.pop("FLYPEND_CACHE_LIMIT", None)
 
 
 @pytest.fixture(scope="module")

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 import flypend
+from flypend.compile.llvm.jit import ABOVE
 
 ROOT = Path(__file__).parents[1]
 SOURCE = Path(flypend.__file__).parent
@@ -25,6 +26,7 @@ SOURCE = Path(flypend.__file__).parent
 # A room (a package) or single module may import those that stand before it. `flypend` itself, the namespace of public
 # names, stands after everything that it imports.
 ORDER = [
+    "signals",
     "errors",
     "geometry",
     "palette",
@@ -47,6 +49,7 @@ ORDER = [
     "report",
     "lab",
     "cli",
+    "selftest",
     "__main__",
 ]
 MOST_SINGLE = 8  # modules directly under src/flypend; the next one belongs in a room
@@ -162,6 +165,12 @@ def _wrong_imports(sources):
     return messages
 
 
+def test_contributing_names_all_rooms_in_their_order():
+    section = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("## The rooms")[2].partition("\n## ")[0]
+    rooms = [word for names in re.findall(r"^    (.*?)  ", section, flags=re.MULTILINE) for word in names.split()]
+    assert rooms == ORDER[:-1]
+
+
 def _single(sources):
     """Modules directly under flypend that are no rooms."""
     rooms = {name.split(".")[0] for name in sources if "." in name}
@@ -252,6 +261,20 @@ def test_a_wrong_import_is_found(sources, complaint):
     messages = _wrong_imports(sources)
     assert len(messages) == 1
     assert complaint in messages[0]
+
+
+# Machine code ---------------------------------------------------------------------------------------------------
+
+
+def test_rooms_outside_the_key_of_the_cache_write_no_machine_code():
+    """They stand last, so no generator imports them, and they hand none over: what they compile is in the key."""
+    assert set(ORDER[ORDER.index("export") : ORDER.index("cli") + 1]) == ABOVE
+    sources = _sources()
+    for name, text in sources.items():
+        if name.split(".")[0] in ABOVE:
+            modules = _Imports(text, sources).modules
+            assert not modules & {"compile.llvm", "compile.llvm.jit", "compile.llvm.vector", "compile.llvm.emit"}, name
+            assert not re.search(r"(import|from) llvmlite", text), name
 
 
 # Public names ---------------------------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from flypend.model.shipped import vehicle
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle
-    from flypend.planning import Plan, PlanEnsemble, Window, nmpc, plan, plan_and_track, plan_ensemble, track
+    from flypend.planning import Plan, PlanEnsemble, Window, load_plan, nmpc, plan, plan_and_track, plan_ensemble, track
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from flypend.studies.trial import Trial, trial
     from flypend.studies.tune import Objective, Tuned, tune
 
-__version__ = "0.2.0.dev0"
+__version__ = "0.3.0.dev0"
 
 # Where each name is defined.
 _WHERE = {
@@ -59,7 +59,17 @@ _WHERE = {
     "model.air": ("Air",),
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
-    "planning": ("Plan", "PlanEnsemble", "Window", "nmpc", "plan", "plan_and_track", "plan_ensemble", "track"),
+    "planning": (
+        "Plan",
+        "PlanEnsemble",
+        "Window",
+        "load_plan",
+        "nmpc",
+        "plan",
+        "plan_and_track",
+        "plan_ensemble",
+        "track",
+    ),
     "plants": ("Ideal", "Noise", "Plant", "Sensor", "Sensors", "Wind"),
     "studies.check": ("Check", "check"),
     "studies.compare": ("Comparison", "compare"),
@@ -111,6 +121,7 @@ __all__ = [
     "laws",
     "linearise",
     "load",
+    "load_plan",
     "metrics",
     "nmpc",
     "plan",

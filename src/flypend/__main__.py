@@ -1,5 +1,5 @@
 """`python -m flypend` is the command line."""
 
-from flypend.cli.app import main
+from flypend.cli import main
 
 main()

@@ -1,6 +1,6 @@
 """Train a policy by PPO of Stable-Baselines3: to balance the rod, or for another task.
 
-`python examples/train.py [TASK]` needs flypend[rl] and stable-baselines3, whose interface for many worlds is its own.
+`python examples/train.py [TASK]` needs the extra rl and stable-baselines3, whose interface for many worlds is its own.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import shutil
 from collections.abc import Mapping
@@ -111,8 +112,10 @@ def model(study: Study) -> Any:
 
 
 def alike(found: Any, wanted: Any) -> bool:
-    """Whether two arrays have the same metadata: what their chunks mean, and how they are packed."""
-    return bool(found.metadata.to_dict() == wanted.metadata.to_dict())
+    """Whether two arrays have the same metadata, as written: what their chunks mean, and how they are packed."""
+    # As text, for a fill value of NaN is not equal to itself.
+    first, second = (json.dumps(array.metadata.to_dict(), default=str, sort_keys=True) for array in (found, wanted))
+    return first == second
 
 
 def check_packed(folder: Path, number: int, array: Any) -> None:

@@ -16,6 +16,7 @@ import flypend
 import flypend as fp
 from flypend.cli.app import app
 from flypend.compile.llvm import jit
+from flypend.files.toml import toml_text
 
 LONGEST = 20.0  # s of processor time of a command that does no work: other tests run beside it
 STUDY = """
@@ -208,3 +209,21 @@ def test_a_wrong_line_names_its_field(attempt, line):
     code, told = attempt(*command.split())
     assert code == 2, (command, code)
     assert told.startswith(f"flypend: {field}"), (command, told)
+
+
+@pytest.mark.parametrize(("edit", "field"), TABLE["studies"], ids=range(len(TABLE["studies"])))
+def test_a_wrong_study_names_its_field(attempt, tmp_path, edit, field):
+    key, _, value = edit.partition(" = ")
+    *tables, name = key.split(".")
+    settings = table = tomllib.loads(STUDY)
+    for inner in tables:
+        if not isinstance(table.get(inner), dict):
+            table[inner] = {}
+        table = table[inner]
+    table[name] = tomllib.loads(f"value = {value}")["value"]
+    (tmp_path / "study.toml").write_text(toml_text(settings), encoding="utf-8")
+    code, told = attempt(
+        *(["tune", "study.toml"] if key.startswith("tune") else ["sweep", "study.toml", "-o", "s.zarr"])
+    )
+    assert code == 2, edit
+    assert told.startswith(f"flypend: {field}"), (edit, told)

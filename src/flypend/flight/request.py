@@ -25,6 +25,7 @@ from flypend.plants.plant import check_seed
 
 SAMPLE_PERIOD = 0.01
 LEAST_RTOL = 100 * float(np.finfo(float).eps)
+LARGEST_RTOL = 0.1  # looser steps have no digit right
 MOST_JUDGED = 1e7
 MOST_SPIN = 200.0  # rad/s, where a rotor's own speed begins
 # What a result takes: a sample of a trajectory with wrench, signals and intermediate arrays; a run of an ensemble.
@@ -54,7 +55,8 @@ class Tolerances:
     Raises
     ------
     InputError
-        If a tolerance is not positive, rtol is below 100 machine epsilons, or method or precision is unknown.
+        If a tolerance is not positive, rtol is not within 100 machine epsilons and 0.1, or method or precision is
+        unknown.
     """
 
     rtol: float = 1e-9
@@ -64,7 +66,7 @@ class Tolerances:
     max_steps: int | None = None
 
     def __post_init__(self) -> None:
-        rtol = errors.number("rtol", self.rtol, above=0)
+        rtol = errors.number("rtol", self.rtol, above=0, at_most=LARGEST_RTOL)
         if rtol < LEAST_RTOL:
             raise InputError("rtol", f"at least {LEAST_RTOL:g}, 100 machine epsilons", f"{rtol:g}")
         object.__setattr__(self, "rtol", rtol)

@@ -20,6 +20,7 @@ from flypend.signals import waiting
 Progress = Callable[[int, int], None]
 
 MAX_FRAMES = 100_000
+LARGEST = 4096  # pixels: what H.264 encodes on any machine
 HOLD = 1.5  # s of playback for which the last frame is held, with the verdict
 
 
@@ -64,8 +65,8 @@ def movie(
     if gif and fps > 50:
         raise errors.InputError("fps", "at most 50 for a .gif", f"{fps:g}")
     shape = errors.array("size", size, (2,))
-    if shape.shape != (2,) or np.any(shape < 160) or np.any(shape % 2):
-        raise errors.InputError("size", "two even numbers of pixels, at least 160", size)
+    if shape.shape != (2,) or np.any(shape < 160) or np.any(shape > LARGEST) or np.any(shape % 2):
+        raise errors.InputError("size", f"two even numbers of pixels, 160 to {LARGEST}", size)
     width, height = (int(side) for side in shape)
     hold = round(HOLD * fps)
     with whole_file(path, (".mp4", ".gif")) as partial:

@@ -5,6 +5,7 @@ counts of docs/reliability.md.
 """
 
 import contextlib
+import importlib
 import io
 import json
 import random
@@ -128,37 +129,60 @@ def accepted(*_args, **_more):
     raise AcceptedError
 
 
+TUNED = STUDY | {
+    "vary": {"start": STUDY["vary"]["start"]},
+    "tune": {"runs": 4, "generations": 1, "gains": {"k_d": [0.3, 5.0]}},
+}
+# What is mutated, how often of eight, and the command that reads it.
+COMMANDS = (
+    *[(RUN, ["run", "f.toml", "--no-figures", "-o", "out"])] * 3,
+    (STUDY, ["sweep", "f.toml", "-o", "s.zarr", "--force", "--workers", "1"]),
+    (TUNED, ["tune", "f.toml"]),
+    (RUN["vehicle"], ["check", "f.toml"]),
+    (RUN["vehicle"], ["export-c", "--vehicle", "f.toml", "-o", "out"]),
+    (RUN["vehicle"], ["plan", "--vehicle", "f.toml", "-o", "plan.nc"]),
+)
+# Where the work of the last four begins: it is left out.
+WORK = (
+    "flypend.studies.tune.program_digest", "flypend.studies.check.fly_tasks", "flypend.export.write.interface",
+    "flypend.planning.planner.prepared", "flypend.planning.ensemble.prepared",
+)  # fmt: skip
+
+
 def attack_settings(number, seed, folder, monkeypatch, flown):
-    """Exit codes of `number` settings. Of those that are accepted one in `flown` is compiled and flown."""
+    """Ends of `number` commands on mutated settings. Of runs and sweeps that are accepted one in `flown` flies."""
     monkeypatch.chdir(folder)
     monkeypatch.setenv("FLYPEND_CACHE", str(folder / "cache"))
-    rng, codes = random.Random(seed), Counter()
+    rng, ends = random.Random(seed), Counter()
     fly, fly_range = simulate.fly, run.fly_range
+    for place in WORK:
+        module, _, name = place.rpartition(".")
+        monkeypatch.setattr(importlib.import_module(module), name, accepted)
     for k in range(number):
         really = rng.randrange(flown) == 0
         monkeypatch.setattr(simulate, "fly", fly if really else accepted)
         monkeypatch.setattr(run, "fly_range", fly_range if really else accepted)
-        as_study = k % 4 == 3
-        text = mutated_settings(STUDY if as_study else RUN, rng)
+        settings, arguments = COMMANDS[k % len(COMMANDS)]
+        text = mutated_settings(settings, rng)
         (folder / "f.toml").write_text(text, encoding="utf-8")
-        sweep = ["sweep", "f.toml", "-o", "s.zarr", "--force", "--workers", "1"]
-        arguments = sweep if as_study else ["run", "f.toml", "--no-figures", "-o", "out"]
         try:
-            codes[check(arguments, text)] += 1
+            ends[arguments[0], check(arguments, text)] += 1
         except AcceptedError:
-            codes["accepted"] += 1
-    return codes
+            ends[arguments[0], "accepted"] += 1
+    return ends
 
 
 def test_mutated_settings_end_in_a_code_and_one_line(tmp_path, monkeypatch):
-    codes = attack_settings(150, 1, tmp_path, monkeypatch, 20)
-    assert codes[0] + codes["accepted"] > 10  # not all are refused at the door
-    assert codes[2] > 50
+    ends = attack_settings(240, 1, tmp_path, monkeypatch, 20)
+    for command in {arguments[0] for _, arguments in COMMANDS}:
+        assert ends[command, "accepted"] > 0, ends  # not all are refused at the door
+        assert ends[command, 2] > 10, ends
 
 
 @pytest.mark.slow
 def test_10_000_mutated_settings(tmp_path, monkeypatch):
-    print("10,000 mutated settings, by exit code:", dict(attack_settings(10_000, 2, tmp_path, monkeypatch, 50)))
+    ends = attack_settings(10_000, 2, tmp_path, monkeypatch, 50)
+    print("10,000 mutated settings:", *(f"{name}, {end}: {count}" for (name, end), count in ends.items()), sep="\n  ")
 
 
 # Files of results -----------------------------------------------------------------------------------------------------

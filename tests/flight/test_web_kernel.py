@@ -32,9 +32,9 @@ CHANGE = np.random.default_rng(1).standard_normal(24)
 
 def flown_here(loop, starts):
     count = round(DURATION * loop.sampled.rate)
-    keep = np.arange(0, count + 1, count // KEPT)
+    keep, judge = np.arange(0, count + 1, count // KEPT), np.arange(0, count + 1, round(loop.sampled.rate / 100))
     kernel = sampled_kernel(loop, fp.Criterion())
-    return kernel.fly(starts.packed(), DURATION, judge_at=keep, keep_at=keep, first_seed=SEED, workers=1)
+    return kernel.fly(starts.packed(), DURATION, judge_at=judge, keep_at=keep, first_seed=SEED, workers=1)
 
 
 def assert_equal(loop, starts, tmp_path):
@@ -45,9 +45,6 @@ def assert_equal(loop, starts, tmp_path):
     (page, ends), here = flown_by_page(loop, starts, tmp_path), flown_here(loop, starts)
     own = seen_packed(page[:, :: (page.shape[1] - 1) // KEPT, :24], loop.law.e3)
     assert [end["status"] for end in ends] == here.code.tolist()
-    # Judged at every hundredth of a second there, and 60 times here: of what is reduced, the effort hardly differs.
-    effort = [(end["reductions"][5], there[5]) for end, there in zip(ends, here.reductions, strict=True)]
-    np.testing.assert_allclose(*np.transpose(effort)[:, here.code == 0], rtol=0.05)
     scale, kept = 1 + np.abs(here.samples[..., :24]), here.samples[..., :24]
     beside = flown_here(loop, fp.State.trusted(starts.packed() + 1e-12 * CHANGE)).samples[..., :24]
     apart = np.maximum.accumulate(np.nanmax(np.abs(beside - kept) / scale, axis=-1), axis=-1)
@@ -55,6 +52,9 @@ def assert_equal(loop, starts, tmp_path):
     assert np.array_equal(np.isnan(own), np.isnan(kept))
     assert np.all((error < 1e-9) | (error < apart) | (apart > 1e-3))
     assert np.all(error[:, : KEPT // 6] < 1e-9)  # and always in the first second
+    told = (here.code == 0) & (apart[:, -1] < 1e-3)
+    effort = np.array([end["reductions"][5] for end in ends])
+    np.testing.assert_allclose(effort[told], here.reductions[told, 5], rtol=1e-3)  # what may differ in the flights
     return error
 
 

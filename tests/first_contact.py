@@ -23,7 +23,7 @@ from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).parents[1]
 VERSIONS = ("3.11", "3.12", "3.13")
-PAGES = ("README.md", "docs/index.md", "docs/start.md")
+PAGES = ("README.md", "docs/index.md", "docs/start.md", "docs/findings.md")
 EXAMPLES = "src/flypend/examples"
 RULES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 # On a page: a block of Python, a line by itself, a command within a sentence.

@@ -230,7 +230,7 @@ def parsed(line):
 def test_commands_are_found():
     found = {shlex.split(line, comments=True)[1] for line in commands()}
     assert {"run", "compare", "check", "export-c"} <= found
-    assert len(commands()) >= 8
+    assert len(commands()) >= 6
     assert any(line.startswith("flypend run examples/swing-up.toml --out") for line in commands())
     assert any("examples/my_law.py:balance --law inverted --runs 20" in line for line in commands())
 

@@ -93,7 +93,7 @@ def test_jobs_keep_their_order():
         ({"guesses": 9}, "guesses: expected an integer >= 1 and <= 8"),
         ({"guesses": 1.5}, "guesses: expected an integer"),
         ({"workers": -1}, "workers: expected an integer >= 1"),
-        ({"floor": 0.0}, "box: expected one that holds pivot and rod at the start"),
+        ({"floor": 0.0}, "floor, ceiling: expected room for pivot and rod at the start"),
     ],
 )
 def test_bad_wishes_are_refused(wish, line):

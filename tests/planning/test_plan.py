@@ -224,8 +224,8 @@ def test_a_time_limit_is_kept_and_told():
 @pytest.mark.parametrize(
     ("wish", "line"),
     [
-        ({"ceiling": 0.3}, "box: expected one that holds pivot and rod at the target"),
-        ({"floor": -0.2}, "box: expected one that holds pivot and rod at the start"),
+        ({"ceiling": 0.3}, "floor, ceiling: expected room for pivot and rod at the target"),
+        ({"floor": -0.2}, "floor, ceiling: expected room for pivot and rod at the start"),
         ({"box": 1.0}, r"box: expected numbers of shape \(2, 3\)"),
         ({"objective": "excursio"}, "did you mean 'excursion'"),
         ({"objective": {"effort": 0.0}}, "objective: expected a weight > 0"),

@@ -78,7 +78,7 @@ def test_commands_run_from_an_empty_folder(site, empty):
     flypend(site, empty, "run 1 --no-figures --set duration=0.5 -o one")
     flypend(site, empty, "figures out/run.nc -o figures")
     flypend(site, empty, "replay out/run.nc one/run.nc -o both.html")
-    flypend(site, empty, "compare --law examples.my_law:balance --runs 1 --duration 0.5 -o compared")
+    flypend(site, empty, "compare --law examples.my_law:balance --runs 1 --duration 1 -o compared")
     flypend(site, empty, "export-c --law inverted -o flight")
     made = {path.relative_to(empty).as_posix() for path in empty.rglob("*") if path.is_file()}
     assert {

@@ -278,7 +278,8 @@ def test_a_folder_that_is_removed_meanwhile_is_made_again(folder):
     try:
         for i in range(300):
             store(ENTRY, b"code %d" % i)
-            assert load(ENTRY) in (None, b"code %d" % i)
+            # What was stored before may be there: a file in a folder that is being removed may not be replaced.
+            assert load(ENTRY) in (None, *(b"code %d" % j for j in range(i + 1)))
     finally:
         gone.set()
         thread.join()

@@ -162,8 +162,8 @@ def test_unfinished_stores_are_drawn_and_empty_ones_refused(store, tmp_path):
     ("options", "line"),
     [
         ({"x": "tilt"}, "x, y: expected both or none"),
-        ({"x": "tilt", "y": "rat"}, "plane: expected one of "),
-        ({"x": "speed", "y": "rate"}, "plane: expected one of "),
+        ({"x": "tilt", "y": "rat"}, "y: expected one of "),
+        ({"x": "speed", "y": "rate"}, "x: expected one of "),
     ],
 )
 def test_quantities_that_the_store_lacks_are_refused(options, line, store):
@@ -173,7 +173,7 @@ def test_quantities_that_the_store_lacks_are_refused(options, line, store):
 
 
 def test_every_quantity_can_be_drawn(store):
-    known = bins.quantities(bins.Runs(store))
+    known = bins.quantities(bins.Runs(store).study)
     assert known == ["tilt", "rate", "spin", "body_tilt", "gains.k_d"]
     for one in known[1:]:
         _, (cells, edges) = bins.Runs(store), bins.plane(bins.Runs(store), ("tilt", one), 5)

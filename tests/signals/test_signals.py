@@ -147,7 +147,11 @@ def test_a_program_is_run_as_by_subprocess():
     assert (done.returncode, done.stdout, done.stderr) == (1, "out\n", "err\n")
 
 
-def test_worker_processes_hear_no_interrupt_and_die_if_the_block_fails():
+def test_worker_processes_hear_no_interrupt_and_die_if_the_block_fails(monkeypatch):
+    monkeypatch.setattr(waiting, "IDLE", 0.5)
+    with waiting.processes(2) as submit:
+        waiting.result_of(submit(os.getpid))
+    time.sleep(2)  # its workers have ended, and a pool of another size starts new ones
     with waiting.processes(1) as submit:
         blocked = waiting.result_of(submit(signal.pthread_sigmask, signal.SIG_BLOCK, []))
         worker = waiting.result_of(submit(os.getpid))

@@ -54,31 +54,38 @@ def threads(number: int, *, last: bool = True) -> Iterator[ThreadPoolExecutor]:
 
 
 @contextmanager
+def _masked() -> Iterator[None]:
+    """Block SIGINT for what is started here, threads that start others included; this process hears by others."""
+    if os.name != "posix":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
 def processes(number: int) -> Iterator[Submit]:
     """Yield `submit(function, *arguments)`, which calls a function in one of `number` processes.
 
     They hear no Ctrl-C, which a terminal sends to all of its processes. If the block raises they are killed, and if
     this process is, they end.
     """
-    from multiprocessing import resource_tracker
-
     from joblib.externals.loky import get_reusable_executor
-
-    pool = get_reusable_executor(number, timeout=IDLE, env=ENVIRONMENT)
-
-    def submit(function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        # What is started here, threads that start others included, inherits the mask; this process hears by others.
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-        try:
-            call: Future[Any] = pool.submit(function, *arguments)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        return call
+    from joblib.externals.loky.backend import resource_tracker
 
     if os.name == "posix":
         resource_tracker.ensure_running()  # it would lift the mask
-    else:
-        submit = pool.submit
+    with _masked():  # a pool of another size starts workers here
+        pool = get_reusable_executor(number, timeout=IDLE, env=ENVIRONMENT)
+
+    def submit(function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        with _masked():
+            call: Future[Any] = pool.submit(function, *arguments)
+        return call
+
     try:
         yield submit
     except BaseException:

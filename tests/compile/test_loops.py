@@ -108,7 +108,8 @@ def test_oscillators_fly_without_undefined_behaviour(tmp_path, name, smooth):
         grid = np.arange(1, 501) / 100
         x = np.array([exact(start, omega, t)[:2] for t in grid[grid <= end]])
         if row[0] == C:
-            assert reductions[3] == pytest.approx(np.max(np.abs(x[:, 1])), abs=1e-6)
+            # By the quintic through a step, or by dense output at every judged time.
+            assert reductions[3] == pytest.approx(np.max(np.abs(x[:, 1])), abs=5e-6 if smooth else 3e-8)
             out = [grid[np.flatnonzero(x[:, 0] ** 2 > 0.25)[-1]] if np.any(x[:, 0] ** 2 > 0.25) else -1]
             assert reductions[1] == pytest.approx(out[0])
             fine = np.array([exact(start, omega, t)[0] for t in np.linspace(0, 5, 20_001)])

@@ -8,7 +8,7 @@ FRESH := .venv-size
 BASE := .venv-base
 OUT ?= paper-out
 
-.PHONY: setup paper lab docs test lowest first-contact size bench test-tools fuzz web lint lock release clean
+.PHONY: setup paper lab docs test lowest first-contact size bench test-tools fuzz loops web lint lock release clean
 
 setup: $(VENV)/.ready
 
@@ -54,6 +54,11 @@ INSTALL := $(AS_ROOT) apt-get update --quiet=2 && $(AS_ROOT) apt-get install --y
 test-tools:
 	dpkg -s $(TEST_PACKAGES) >/dev/null 2>&1 || { $(INSTALL) $(TEST_PACKAGES); }
 	command -v npm >/dev/null || { $(INSTALL) npm; }
+
+# Compiles src/flypend/compile/loops to bitcode, which is tracked: whoever installs flypend needs no compiler. Debian 12's
+# clang 14.0.6 writes it; a test compares.
+loops: test-tools
+	sh src/flypend/compile/loops/build.sh
 
 # Bundles web/ into src/flypend/pages/web, which is tracked: whoever installs flypend needs no npm.
 web:

@@ -53,7 +53,6 @@ def make(problem: Any, threads: int, method: str = "dp5", lanes: int = 8) -> Fly
 
 def text(programs: Any, method: str, lanes: int) -> str:
     """The C++ source (for its `?:` on vectors; the rest is C with GCC's vectors)."""
-    from flypend.compile.llvm import runge_kutta
     from flypend.compile.methods import method as method_named
 
     table = method_named(method)
@@ -61,9 +60,9 @@ def text(programs: Any, method: str, lanes: int) -> str:
     fsal = int(table.errors[0][-1] != 0)
     A = np.zeros((s, s))
     A[:, : table.A.shape[1]] = table.A[:s, :s]
+    # The step control of compile/loops/runge_kutta.cpp.
     numbers = {"N": 24, "STAGES": s, "FSAL": fsal, "ESTIMATES": len(table.errors), "ORDER": 8 if s > 8 else 5,
-               "SAFETY": runge_kutta.SAFETY, "LEAST_FACTOR": runge_kutta.LEAST_FACTOR,
-               "MOST_FACTOR": runge_kutta.MOST_FACTOR}  # fmt: skip
+               "SAFETY": 0.8, "LEAST_FACTOR": 0.2, "MOST_FACTOR": 5.0}  # fmt: skip
     tables = [f"#define {name} {value}" for name, value in numbers.items()]
     tables += [array("A", A), array("B", table.B), array("C", table.C[:s]), array("E", np.array(table.errors))]
     body = (Path(__file__).parent / "template.cpp").read_text()

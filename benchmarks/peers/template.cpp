@@ -1,4 +1,4 @@
-// The embedded Runge-Kutta method of flypend.compile.llvm.runge_kutta on vectors of W lanes, each with its own time and step,
+// The embedded Runge-Kutta method of compile/loops/runge_kutta.cpp on vectors of W lanes, each with its own time and step,
 // refilled from a queue; without statuses, samples and reductions.
 #include <cmath>
 #include <cstdint>

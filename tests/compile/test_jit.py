@@ -150,7 +150,8 @@ def changed(path):
 
 WRITERS = (
     "__init__.py", "compile/tableaus.toml", "compile/methods.py", "compile/problem.py", "compile/routine.py",
-    "compile/llvm/stages.py", "flight/kernels/ideal.py", "flight/kernels/pieces.py", "envs/kernel.py",
+    "compile/llvm/emit.py", "compile/loops/runge_kutta_8x64_p64.bc", "flight/kernels/ideal.py",
+    "flight/kernels/pieces.py", "envs/kernel.py",
     "planning/single.py", "plants/equations.py", "learning/world.py", "model/state.py",
 )  # fmt: skip
 

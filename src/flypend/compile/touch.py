@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 from flypend.compile.program import Program
 
+# Longest interval in which the rod moves along a cubic, s.
+LONGEST = 2e-3
+
 
 @dataclass(frozen=True)
 class Touch:

@@ -18,6 +18,7 @@ import numpy
 
 from flypend.compile import cache
 from flypend.compile.aside import aside
+from flypend.compile.llvm.loops import LoopModule, linked
 from flypend.compile.llvm.target import Target, native
 
 # Rooms that stand after those that write machine code, and can change it by no more than what is in its key.
@@ -32,7 +33,7 @@ def source_files() -> dict[str, tuple[int, int, int]]:
     root, found = str(_ROOT), {}
     for folder, inside, names in os.walk(root, followlinks=True):
         inside[:] = [name for name in inside if name != "__pycache__" and (folder != root or name not in ABOVE)]
-        for path in (f"{folder}{os.sep}{name}" for name in names if name.endswith((".py", ".toml"))):
+        for path in (f"{folder}{os.sep}{name}" for name in names if name.endswith((".py", ".toml", ".bc"))):
             with suppress(FileNotFoundError):  # an editor's, such as a link that leads nowhere
                 status = os.stat(path)  # noqa: PTH116 (300 of them, at every kernel)
                 found[path] = status.st_size, status.st_mtime_ns, status.st_ctime_ns
@@ -123,6 +124,8 @@ def compiled(module: Any, target: Target | None = None) -> bytes:
     parsed = llvm.parse_assembly(str(module))
     if not target.jit:
         parsed.triple, parsed.data_layout = target.triple, str(machine.target_data)
+    if isinstance(module, LoopModule):
+        parsed = linked(module, parsed, target)
     parsed.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=1)
     llvm.create_pass_builder(machine, options).getModulePassManager().run(

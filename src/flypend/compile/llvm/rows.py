@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from llvmlite import ir
 
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes, Value
+from flypend.compile.llvm.vector import I64, Code, Lanes, Value
 
 # Size of the square blocks of lanes × components that are transposed in registers.
 BLOCK = 8
@@ -30,7 +30,7 @@ def define_turn(lanes: Lanes, length: int) -> ir.Function:
         with code.count(lanes.width) as lane:
             here = code.builder.add(ir.Constant(I64, i * lanes.width), lane)
             there = code.builder.add(code.builder.mul(lane, ir.Constant(I64, length)), ir.Constant(I64, i))
-            code.put(as_double(code, code.scalar(source, here)), rows, there)
+            code.put(_as_double(code, code.scalar(source, here)), rows, there)
     code.builder.ret_void()
     return function
 
@@ -86,66 +86,6 @@ def _mask(places: object) -> ir.Constant:
     return ir.Constant(ir.VectorType(ir.IntType(32), len(chosen)), chosen)
 
 
-def copy_row(code: Code, source: ir.Value, here: ir.Value, target: ir.Value, there: ir.Value, length: int) -> None:
-    """Copy row `here` of `source`, `length` doubles, to row `there` of `target`, and prefetch the row after that."""
-    builder = code.builder
-    first, second = (builder.mul(row, ir.Constant(I64, length)) for row in (here, there))
-
-    def move(offset: int, kind: ir.Type) -> None:
-        step = ir.Constant(I64, offset)
-        value = builder.load(code.scalar_at(source, builder.add(first, step), ir.DoubleType()), typ=kind)
-        value.align = 8
-        place = builder.add(second, step)
-        builder.store(value, code.scalar_at(target, place, ir.DoubleType())).align = 8
-        _fetch(code, code.scalar_at(target, builder.add(place, ir.Constant(I64, length)), ir.DoubleType()))
-
-    for offset in range(0, length - length % BLOCK, BLOCK):
-        move(offset, DOUBLES)
-    for offset in range(length - length % BLOCK, length):
-        move(offset, ir.DoubleType())
-
-
-def _fetch(code: Code, place: ir.Value) -> None:
-    """Prefetch the cache line at `place` for writing; `place` may lie outside the array."""
-    kind = ir.FunctionType(VOID, [POINTER, _I32, _I32, _I32])
-    write, keep, data = (ir.Constant(_I32, value) for value in (1, 3, 1))
-    code.builder.call(code.lanes.declared("llvm.prefetch.p0", kind), [place, write, keep, data])
-
-
-def gathered(code: Code, memory: ir.Value, places: ir.Value, mask: Value) -> Value:
-    """Gather the doubles of `memory` at the indices `places` (a vector of i64) in the lanes of `mask`; 0 elsewhere."""
-    builder, lanes = code.builder, code.lanes
-    integers, pointers = ir.VectorType(I64, lanes.width), ir.VectorType(POINTER, lanes.width)
-    doubles = ir.VectorType(ir.DoubleType(), lanes.width)
-    base = code.repeated(builder.ptrtoint(memory, I64))
-    offsets = builder.shl(places, ir.Constant(integers, [3] * lanes.width))  # times 8 bytes
-    addresses = builder.inttoptr(builder.add(base, offsets), pointers)
-    kind = ir.FunctionType(doubles, [pointers, _I32, lanes.mask, doubles])
-    gather = lanes.declared(f"llvm.masked.gather.v{lanes.width}f64.v{lanes.width}p0", kind)
-    align, zeros = ir.Constant(_I32, 8), ir.Constant(doubles, [0.0] * lanes.width)
-    found = builder.call(gather, [addresses, align, mask.raw, zeros])
-    return Value(code, found if lanes.precision == "double" else builder.fptrunc(found, lanes.vector))
-
-
-def as_double(code: Code, value: ir.Value) -> ir.Value:
+def _as_double(code: Code, value: ir.Value) -> ir.Value:
     """Convert a scalar of the lanes to double."""
     return value if code.lanes.precision == "double" else code.builder.fpext(value, ir.DoubleType())
-
-
-def from_double(code: Code, value: ir.Value) -> ir.Value:
-    """Convert a double to the scalar type of the lanes."""
-    return value if code.lanes.precision == "double" else code.builder.fptrunc(value, code.lanes.scalar)
-
-
-def copy_lane(
-    code: Code, memory: ir.Value, lane: ir.Value, rows: ir.Value, row: ir.Value, length: int, *, out: bool
-) -> None:
-    """Copy lane `lane` of `length` vectors to row `row` of an array of doubles, or from it unless `out`."""
-    builder = code.builder
-    with code.count(length) as i:
-        here = builder.add(builder.mul(i, ir.Constant(I64, code.lanes.width)), lane)
-        there = builder.add(builder.mul(row, ir.Constant(I64, length)), i)
-        if out:
-            code.put(as_double(code, code.scalar(memory, here)), rows, there)
-        else:
-            code.put(from_double(code, code.scalar(rows, there, ir.DoubleType())), memory, here)

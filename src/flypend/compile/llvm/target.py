@@ -24,6 +24,8 @@ class Target:
         Whether an instruction estimates 1/√x for eight doubles.
     jit : bool
         Whether its code is run by this process.
+    pointer_bits : int
+        Size of an address.
     """
 
     triple: str
@@ -32,6 +34,7 @@ class Target:
     fuses: bool = False
     estimates_roots: bool = False
     jit: bool = False
+    pointer_bits: int = 64
 
     @cached_property
     def machine(self) -> Any:
@@ -69,4 +72,6 @@ def wasm32() -> Target:
     """WebAssembly with vectors of two doubles, which browsers have had since 2023."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    return Target(triple="wasm32-unknown-unknown", cpu="generic", features="+simd128,+nontrapping-fptoint")
+    return Target(
+        triple="wasm32-unknown-unknown", cpu="generic", features="+simd128,+nontrapping-fptoint", pointer_bits=32
+    )

@@ -10,13 +10,12 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
-from llvmlite import ir
 from numpy.typing import ArrayLike, NDArray
 
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.runge_kutta import ARGUMENTS, INTEGERS, REALS, write_kernel
+from flypend.compile.llvm.loops import LoopModule
+from flypend.compile.llvm.runge_kutta import ARGUMENTS, INTEGERS, REALS, kernel_module
 from flypend.compile.llvm.target import Target
-from flypend.compile.llvm.vector import Lanes
 from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
 from flypend.compile.problem import Judging, Problem
@@ -50,7 +49,7 @@ class Moments(NamedTuple):
     """Times of a run in a kernel's format, each list increasing and ending with infinity.
 
     States are kept at `kept`, s; the criterion is evaluated at `judged`, s. Entry b of `bins` is at most the number of
-    judged times up to b / `rate`, s, as `compile.llvm.grid` requires.
+    judged times up to b / `rate`, s, as `compile/loops/grid.hpp` requires.
     """
 
     kept: NDArray[np.float64]
@@ -253,13 +252,11 @@ def compiled(key: str, problem: Problem, method: str, precision: str = "double")
 
 def written(
     key: str, problem: Problem, width: int, method: str, precision: str, target: Target | None = None
-) -> tuple[str, Callable[[], ir.Module]]:
+) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` runs at a time, and what writes its module."""
 
-    def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), width, precision, target=target)
-        write_kernel(lanes, problem, method_named(method))
-        return lanes.module
+    def module() -> LoopModule:
+        return kernel_module(problem, method_named(method), width, precision, target)
 
     return f"{key} {width} lanes, states below {MAX_STATE}", module
 

@@ -1,0 +1,84 @@
+"""Loops in C++ around generated programs.
+
+`compile/loops` holds the loops' source and, for each width of a vector, LLVM's bitcode of it (`make loops`). Sizes,
+tableaus and programs are left open there, as external constants and functions. They are linked here; LLVM then folds
+the constants, unrolls what they bound and compiles for the processor at hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+from importlib import resources
+from typing import Any
+
+import llvmlite.binding as llvm
+import numpy as np
+from llvmlite import ir
+from numpy.typing import ArrayLike
+
+from flypend.compile.llvm.emit import define
+from flypend.compile.llvm.target import Target
+from flypend.compile.llvm.vector import I64, Lanes
+from flypend.compile.program import Program
+
+SHORT = 64  # operations; a program of so few becomes part of the loop
+
+
+class LoopModule(ir.Module):  # type: ignore[misc]  # llvmlite has no types
+    """What a loop leaves open: `programs` and `constants` by their names in the loop's source.
+
+    Integers and floats are constants of their own, anything else is an array of doubles. The function "kernel" of the
+    `loop` is the only one of its functions that stays visible. `vectors` are width, precision and target of its lanes.
+    """
+
+    def __init__(
+        self,
+        loop: str,
+        vectors: tuple[int, str, Target | None],
+        programs: Mapping[str, Program],
+        constants: Mapping[str, int | float | ArrayLike],
+    ) -> None:
+        super().__init__("flypend")
+        width, precision, target = vectors
+        lanes = Lanes(self, width, precision, target=target)
+        self.bitcode = file_of(loop, width, 8 * lanes.size // width, lanes.target.pointer_bits)
+        self.inner = {*programs, *constants}
+        for name, program in programs.items():
+            short = len(program.operations) <= SHORT
+            define(lanes, replace(program, name=name), inline=short).linkage = "external"
+        for name, value in constants.items():
+            known = _constant(value)
+            variable = ir.GlobalVariable(self, known.type, name)
+            variable.initializer, variable.global_constant = known, True
+
+
+def file_of(loop: str, width: int, bits: int, pointer_bits: int) -> str:
+    """Return the name of the bitcode of `loop` for `width` lanes with numbers and pointers of so many bits."""
+    return f"{loop}_{width}x{bits}_p{pointer_bits}.bc"
+
+
+def _constant(value: int | float | ArrayLike) -> ir.Constant:
+    if isinstance(value, (int, float)):
+        return ir.Constant(I64 if isinstance(value, int) else ir.DoubleType(), value)
+    numbers = [float(number) for number in np.ravel(value)]
+    return ir.Constant(ir.ArrayType(ir.DoubleType(), len(numbers)), numbers)
+
+
+def linked(module: LoopModule, given: Any, target: Target) -> Any:
+    """Return the loop of `module` for LLVM, linked to `given`, which is `module` parsed."""
+    loop = llvm.parse_bitcode(_bitcode(module.bitcode))
+    for part in (loop, given):
+        part.triple, part.data_layout = target.triple, str(target.machine.target_data)
+    inner = {part.name for part in (*loop.functions, *loop.global_variables)} - {"kernel"} | module.inner
+    loop.link_in(given)
+    for part in (*loop.functions, *loop.global_variables):
+        if part.name in inner and not part.is_declaration:
+            part.linkage = "internal"
+    return loop
+
+
+@lru_cache(maxsize=4)
+def _bitcode(name: str) -> bytes:
+    return resources.files("flypend.compile").joinpath("loops", name).read_bytes()

@@ -1,20 +1,21 @@
 """From how many starts of OmniDrones' hover the bar stays up for all 8 s: `python -m benchmarks.omnidrones [FILE]`.
 
-Laws that know the machine, through the actions of `flypend/InvPendulumHover-v0`, beside a policy that
-`examples/train.py inv_pendulum_hover` has left in FILE; 2,000 starts that no training has seen. With FILE it needs
-Stable-Baselines3.
+Laws that know the machine, through the actions of the task, beside the policy in FILE, which is trained first if there
+is no such file; 2,000 starts that no training has seen. With FILE (.zip) it needs Stable-Baselines3.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
 import flypend as fp
+from benchmarks.omnidrones_tasks import inv_pendulum_hover
 from flypend.envs import VectorWorlds
 from flypend.flight.metrics import wilson
 
@@ -49,12 +50,14 @@ def kept_up(policy: Policy, worlds: VectorWorlds) -> int:
 
 def main() -> None:
     """Print a line for each law, and for the policy."""
-    worlds = VectorWorlds("inv_pendulum_hover", COUNT)
+    worlds = VectorWorlds(inv_pendulum_hover(), COUNT)
     vehicle = worlds.worlds.env.vehicle
     policies = {"regulator": law(fp.laws.lqr(), vehicle), "tuned law": law(fp.laws.inverted(), vehicle)}
     if sys.argv[1:]:
-        from stable_baselines3 import PPO
+        from flypend.examples.train import PPO, train
 
+        if not Path(sys.argv[1]).exists():
+            train(inv_pendulum_hover())[0].save(sys.argv[1])
         model = PPO.load(sys.argv[1])
         policies["policy"] = lambda seen: model.predict(seen, deterministic=True)[0]
     for name, policy in policies.items():

@@ -23,12 +23,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks import omnidrones_tasks
 from flypend.envs import environment, kernel
 from flypend.envs.make import TASKS
 from flypend.envs.problem import problem
 
 # What a sanitised kernel is made of: every task, and what else is in the memory of a world.
-CASES: dict[str, dict[str, Any]] = {name: {"task": name} for name in TASKS} | {
+CASES: dict[str, dict[str, Any]] = {
+    name: {"task": make()} for name, make in {**TASKS, **omnidrones_tasks.TASKS}.items()
+} | {
     "hub": {"task": "swing_up", "mount": "hub"},
     "onboard": {"task": "balance", "sensors": "onboard"},
     "varied": {

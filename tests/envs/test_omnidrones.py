@@ -5,7 +5,14 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.envs import Gate, VectorWorlds, World, environment
+from benchmarks.omnidrones_tasks import (
+    TASKS,
+    Gate,
+    inv_pendulum_fly_through,
+    inv_pendulum_hover,
+    inv_pendulum_track,
+)
+from flypend.envs import VectorWorlds, World, environment
 from flypend.envs.kernel import Worlds
 from flypend.envs.task import Moment
 
@@ -16,7 +23,7 @@ GOALS = {"inv_pendulum_hover": 1, "inv_pendulum_track": 7, "inv_pendulum_fly_thr
 
 def flown(task, count, steps, seed=0):
     """By step: states, rewards, ends, goals, infos and observations of worlds with actions about hover; the worlds."""
-    worlds = VectorWorlds(task, count)
+    worlds = VectorWorlds(TASKS[task](), count)
     worlds.reset(seed=seed)
     hover = 2 * worlds.worlds.env.vehicle.weight / (4 * worlds.worlds.env.vehicle.rotor_limits[1]) - 1
     rng, rows = np.random.default_rng(seed), []
@@ -90,7 +97,7 @@ def test_track_pays_its_formula_and_shows_what_comes():
 
 
 def test_the_velocity_of_the_eight_is_its_derivative():
-    task = environment("inv_pendulum_track").task
+    task = inv_pendulum_track()
     numbers = np.array([1.0, 0.3, 0.7, 2.0, 3.0, 1.2, -0.9])
     t, step = 1.3, 1e-5
     ahead, behind = (np.array(ca.DM(ca.evalf(ca.SX(task.goal(t + d, numbers)[0])))) for d in (step, -step))
@@ -122,7 +129,7 @@ def test_fly_through_pays_its_formula_and_shows_the_gate():
     ],
 )
 def test_worlds_begin_where_their_source_says(task, least, most, tilt, reach):
-    worlds = Worlds(environment(task), 3000)
+    worlds = Worlds(environment(TASKS[task]()), 3000)
     worlds.begin(np.arange(3000))
     s = fp.State.trusted(worlds.states[:, :24])
     assert worlds.env.vehicle.reach == pytest.approx(reach)
@@ -141,7 +148,7 @@ def test_worlds_begin_where_their_source_says(task, least, most, tilt, reach):
 
 
 def test_payloads_weigh_what_their_source_says():
-    worlds = Worlds(environment("inv_pendulum_hover"), 3000)
+    worlds = Worlds(environment(inv_pendulum_hover()), 3000)
     worlds.begin(np.arange(3000))
     ratio = worlds.part("numbers", 2)[:, 1]
     bob = ratio * worlds.env.vehicle.bob_mass
@@ -155,7 +162,7 @@ def test_payloads_weigh_what_their_source_says():
 )
 def test_worlds_end_as_their_source_says(task, lowest_up, steps):
     """What is last seen of worlds that end fulfils a condition, and what is seen of those that go on none."""
-    env = environment(task)
+    env = environment(TASKS[task]())
     assert env.limit == steps
     vehicle, gate, met = env.vehicle, Gate(), set()
     target = {"inv_pendulum_hover": (0, 0, 2.5), "inv_pendulum_fly_through": (1.5, 0, 2.3)}.get(task)
@@ -213,7 +220,7 @@ def sampled(gate, state, spacing, vehicle):
 
 def test_the_clearance_of_the_gate_is_that_of_points():
     """It never says free where points touch; level, and on edge towards the bars, it is exact."""
-    gate, vehicle, rng = Gate(), environment("inv_pendulum_fly_through").vehicle, np.random.default_rng(0)
+    gate, vehicle, rng = Gate(), environment(inv_pendulum_fly_through()).vehicle, np.random.default_rng(0)
     starts = fp.random_starts(60, seed=1)
     spare = []
     for i in range(60):
@@ -234,7 +241,7 @@ def test_the_clearance_of_the_gate_is_that_of_points():
 
 def test_a_gate_that_is_touched_ends_a_world_without_reward():
     """Thrust towards the gate, through whose bars nothing steers: what touches is over, what goes on is clear."""
-    worlds, vehicle, gate = VectorWorlds("inv_pendulum_fly_through", 300), None, Gate()
+    worlds, vehicle, gate = VectorWorlds(inv_pendulum_fly_through(), 300), None, Gate()
     vehicle = worlds.worlds.env.vehicle
     worlds.reset(seed=4)
     touched = 0
@@ -253,12 +260,27 @@ def test_a_gate_needs_a_machine_with_radii():
     bare = fp.vehicle("hehn2011").to_dict() | {"mount": "gimbal"}
     del bare["body"]
     with pytest.raises(fp.InputError, match=r"vehicle\.body"):
-        VectorWorlds("inv_pendulum_fly_through", 2, vehicle=fp.Vehicle(**bare))
+        VectorWorlds(inv_pendulum_fly_through(), 2, vehicle=fp.Vehicle(**bare))
 
 
 def test_another_vehicle_and_another_gate():
-    worlds = World("inv_pendulum_fly_through", vehicle="hehn2011", gate=Gate(spacing=(2.0, 2.5)))
+    worlds = World(inv_pendulum_fly_through(Gate(spacing=(2.0, 2.5))), vehicle="hehn2011")
     seen, _ = worlds.reset(seed=0)
     assert seen[-2] - seen[-4] > 1.99
     assert worlds.worlds.env.vehicle.name == "hehn2011"
     assert worlds.worlds.env.rate == 62.5
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [({"radius": -1}, "radius"), ({"spacing": (1.2, 0.9)}, "spacing"), ({"lower": np.inf}, "lower"),
+     ({"payload": "large"}, "payload")],
+)  # fmt: skip
+def test_a_gate_is_one(arguments, field):
+    with pytest.raises(fp.InputError, match=rf"^gate\.{field}: "):
+        Gate(**arguments)
+
+
+def test_the_gate_of_a_task_is_a_gate():
+    with pytest.raises(fp.InputError, match=r"^gate: "):
+        inv_pendulum_fly_through(3)

@@ -5,9 +5,7 @@ The physics is that of every other flight: state, rotors and vehicle advance by 
 **Observations** (float32, SI units): position and velocity of the pivot relative to the goal, world frame (3 + 3); R by
 columns (9), or its first two (6); angular velocity in the body frame (3); rod direction and its rate, world frame
 (3 + 3); rotor forces from −1 to 1 within their limits (n); the last action (m); and for "track" where the goal will be
-in 0.1, 0.2 and 0.4 s, relative to where it is (9). The tasks of `flypend.envs.omnidrones` show a little more: where
-the payload's target will be after 5, 10 … 25 actions (15, to track), the bars of the gate relative to the vehicle, by
-first axis and height (4, to fly through), and the share of their time that has passed (1).
+in 0.1, 0.2 and 0.4 s, relative to where it is (9). A task may show more: `Task.shown`.
 
 With `sensors` they are what the flight computer's estimator says; see `Environment`.
 
@@ -26,9 +24,7 @@ require("gymnasium", extra="rl", for_="flypend.envs")
 
 import gymnasium  # noqa: E402
 
-from flypend.envs.gate import Gate  # noqa: E402
 from flypend.envs.make import environment  # noqa: E402
-from flypend.envs.omnidrones import inv_pendulum_fly_through, inv_pendulum_hover, inv_pendulum_track  # noqa: E402
 from flypend.envs.problem import Environment  # noqa: E402
 from flypend.envs.randomise import Randomisation  # noqa: E402
 from flypend.envs.single import World  # noqa: E402
@@ -38,7 +34,6 @@ from flypend.envs.vector import VectorWorlds  # noqa: E402
 
 __all__ = [
     "Environment",
-    "Gate",
     "Moment",
     "Randomisation",
     "SavedState",
@@ -48,17 +43,12 @@ __all__ = [
     "balance",
     "catch_in_cup",
     "environment",
-    "inv_pendulum_fly_through",
-    "inv_pendulum_hover",
-    "inv_pendulum_track",
     "swing_up",
     "track",
 ]
 
 for _id, _task in {
     "Balance": "balance", "SwingUp": "swing_up", "Track": "track", "CatchInCup": "catch_in_cup",
-    "InvPendulumHover": "inv_pendulum_hover", "InvPendulumTrack": "inv_pendulum_track",
-    "InvPendulumFlyThrough": "inv_pendulum_fly_through",
 }.items():  # fmt: skip
     gymnasium.register(
         id=f"flypend/{_id}-v0",

@@ -67,13 +67,3 @@ class Draws:
         side = ca.cross(axis, heading)
         second = side / ca.norm_2(side)
         return ca.horzcat(ca.cross(second, axis), second, axis)
-
-    def tilted(self, angle: float) -> Any:
-        """A rotation (3, 3) of any heading, with roll and pitch uniform up to `angle` (rad) to either side."""
-        roll, pitch, heading = (self.between(-most, most) for most in (angle, angle, np.pi))
-        (a, b, c), (p, q, r) = ([f(v) for v in (roll, pitch, heading)] for f in (ca.cos, ca.sin))
-        return ca.vertcat(
-            ca.horzcat(c * b, c * q * p - r * a, c * q * a + r * p),
-            ca.horzcat(r * b, r * q * p + c * a, r * q * a - c * p),
-            ca.horzcat(-q, b * p, b * a),
-        )

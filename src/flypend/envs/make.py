@@ -13,7 +13,6 @@ from gymnasium.spaces import Box
 
 from flypend import errors
 from flypend.compile.llvm.stepped_worlds import BOUND
-from flypend.envs import omnidrones
 from flypend.envs import task as tasks
 from flypend.envs.problem import Action, Attitude, Environment
 from flypend.envs.randomise import Randomisation
@@ -25,8 +24,6 @@ from flypend.plants.plant import ROTORS, Sampled
 
 TASKS: Mapping[str, Callable[..., Task]] = {
     "balance": tasks.balance, "swing_up": tasks.swing_up, "track": tasks.track, "catch_in_cup": tasks.catch_in_cup,
-    "inv_pendulum_hover": omnidrones.inv_pendulum_hover, "inv_pendulum_track": omnidrones.inv_pendulum_track,
-    "inv_pendulum_fly_through": omnidrones.inv_pendulum_fly_through,
 }  # fmt: skip
 DEFAULTS: Mapping[str, Any] = {"vehicle": "hehn2011", "rate": 100.0, "randomise": Randomisation()}
 PHYSICS = ROTORS.replace(rate=1000.0)
@@ -51,8 +48,7 @@ def environment(
     Parameters
     ----------
     task : str or Task
-        "balance", "swing_up", "track", "catch_in_cup", "inv_pendulum_hover", "inv_pendulum_track",
-        "inv_pendulum_fly_through", or a task of one's own.
+        "balance", "swing_up", "track", "catch_in_cup", or a task of one's own.
     vehicle : str, Path or Vehicle, optional
         Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional
@@ -66,7 +62,7 @@ def environment(
     duration : float, optional
         Seconds after which a world is cut off; default that of the task.
     about
-        Arguments of the task: those of `flypend.envs.track` and `inv_pendulum_fly_through`.
+        Arguments of the task: those of `flypend.envs.track`.
 
     Raises
     ------

@@ -79,7 +79,7 @@ class VecWorlds(VecEnv):
         return [False for _ in self._get_indices(indices)]
 
 
-def kept_up(model: PPO, task: str, count: int, seed: int) -> float:
+def kept_up(model: PPO, task: Any, count: int, seed: int) -> float:
     """Share of `count` starts from which the rod stays up until the world is cut off."""
     worlds = VecWorlds(task, count)
     worlds.seed(seed)
@@ -90,7 +90,7 @@ def kept_up(model: PPO, task: str, count: int, seed: int) -> float:
     return float(up.mean())
 
 
-def train(task: str = "balance", most: int = 18_000_000, wanted: float = 0.97) -> tuple[PPO, float]:
+def train(task: Any = "balance", most: int = 18_000_000, wanted: float = 0.97) -> tuple[PPO, float]:
     """Train until the `wanted` share of 500 starts is kept up, or for `most` steps, the last quarter of them smaller.
 
     Return the policy, and the share of 1,000 other starts that it keeps up.

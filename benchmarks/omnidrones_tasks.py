@@ -1,5 +1,7 @@
 """The inverted pendulum tasks of OmniDrones (Xu and others, arXiv 2309.12825), by its repository at 9ce7c20.
 
+An import registers `flypend/InvPendulumHover-v0`, `-Track-v0` and `-FlyThrough-v0` with gymnasium.
+
 A Hummingbird carries a payload on a bar; actions come every 16 ms. With e the payload's distance from its target,
 up = y₃, ω_z the vertical component of the angular velocity, v the payload's speed and uᵢ the share of its largest force
 that rotor i gives, each step is worth
@@ -28,10 +30,11 @@ from functools import partial
 from typing import Any
 
 import casadi as ca
+import gymnasium
 import numpy as np
 
+from flypend import errors
 from flypend.envs.draws import Draws
-from flypend.envs.gate import Gate
 from flypend.envs.task import Begin, Moment, Task
 from flypend.errors import InputError
 from flypend.geometry import E3
@@ -62,6 +65,17 @@ def _defaults(bar: float) -> dict[str, Any]:
 def _at_rest(x: Any, R: Any) -> State:
     """At `x`, with attitude `R` and the bar along the thrust axis."""
     return State(x=x, x_dot=ca.SX(3, 1), R=R, omega=ca.SX(3, 1), y=R[:, 2], y_dot=ca.SX(3, 1))
+
+
+def _tilted(draws: Draws, angle: float) -> Any:
+    """A rotation (3, 3) of any heading, with roll and pitch uniform up to `angle` (rad) to either side."""
+    roll, pitch, heading = (draws.between(-most, most) for most in (angle, angle, np.pi))
+    (a, b, c), (p, q, r) = ([f(v) for v in (roll, pitch, heading)] for f in (ca.cos, ca.sin))
+    return ca.vertcat(
+        ca.horzcat(c * b, c * q * p - r * a, c * q * a + r * p),
+        ca.horzcat(r * b, r * q * p + c * a, r * q * a - c * p),
+        ca.horzcat(-q, b * p, b * a),
+    )
 
 
 def _held(t: Any, numbers: Any, target: Any) -> tuple[Any, Any]:
@@ -97,7 +111,7 @@ def _passed(now: Moment, steps: int) -> Any:
 
 def _begin_hover(draws: Draws, vehicle: Vehicle) -> Begin:
     x = ca.vertcat(draws.between(-1.5, 1.5), draws.between(-1.5, 1.5), draws.between(1.0, 2.0))
-    return Begin(_at_rest(x, draws.tilted(0.15 * np.pi)), ca.SX(vehicle.reach))
+    return Begin(_at_rest(x, _tilted(draws, 0.15 * np.pi)), ca.SX(vehicle.reach))
 
 
 def _hover_reward(now: Moment) -> Any:
@@ -140,7 +154,7 @@ def _begin_track(draws: Draws, vehicle: Vehicle) -> Begin:
     pace = ca.if_else(draws.share() < 0.5, -1, 1) * draws.between(0.7, 1.0)
     numbers = ca.vertcat(vehicle.reach, height, heading, *size, pace)
     x = ca.DM(CENTRE) + lemniscate(ca.SX(np.pi / 2), height) - vehicle.reach * ca.DM(E3)
-    return Begin(_at_rest(x, draws.tilted(0.1 * np.pi)), numbers)
+    return Begin(_at_rest(x, _tilted(draws, 0.1 * np.pi)), numbers)
 
 
 def _off_track(now: Moment) -> Any:
@@ -176,6 +190,74 @@ def _heading(angle: Any) -> Any:
     return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
 
 
+@errors.named_arguments
+@dataclass(frozen=True)
+class Gate:
+    """Two level bars along the second axis of the world, one above the other, above the origin; m.
+
+    Parameters
+    ----------
+    radius : float
+        Of each bar.
+    lower : float
+        Height of the lower bar.
+    spacing : (2,)
+        Least and largest height of the upper bar above the lower, drawn when a world begins.
+    payload : float
+        Radius of the payload.
+
+    Raises
+    ------
+    InputError
+        If a radius or a height is out of range.
+    """
+
+    radius: float = 0.04
+    lower: float = 1.2
+    spacing: tuple[float, float] = (0.9, 1.2)
+    payload: float = 0.04
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "payload"):
+            errors.number(f"gate.{name}", getattr(self, name), at_least=0, unit="m")
+        errors.number("gate.lower", self.lower, unit="m")
+        least, largest = errors.array("gate.spacing", self.spacing, (2,)).tolist()
+        errors.number("gate.spacing", least, at_least=0, unit="m")
+        errors.number("gate.spacing", largest, at_least=least, unit="m")
+
+    def bars(self, spacing: Any) -> list[Any]:
+        """Return where the bars are, (2, 1) each: along the first axis, and height."""
+        return [ca.vertcat(0, self.lower), ca.vertcat(0, self.lower + spacing)]
+
+    def clearance(self, now: Moment, spacing: Any) -> Any:
+        """Return the least distance, m, between a bar and rod, payload or vehicle; below 0 they touch.
+
+        The vehicle is a disc about its pivot that reaches to the rims of its rotors, as thick as its hub. Along the
+        bars a disc is seen as an ellipse; what is taken is the stadium around it with the same axes, which is the
+        ellipse itself for a vehicle that is level or stands on edge.
+        """
+        pivot, end, z = now.state.x[[0, 2]], now.end[[0, 2]], now.state.R[:, 2]
+        body = now.vehicle.body
+        span = float(np.linalg.norm(now.vehicle.rotor_positions[:, :2], axis=1).max()) + body.disc_radius
+        seen = ca.fabs(z[1])  # how much of the disc's face is seen along a bar
+        half = span * ca.sqrt((1 - seen) / (1 + seen)) * ca.vertcat(-z[2], z[0])
+        free = [
+            ca.fmin(
+                ca.fmin(_apart(bar, pivot, end) - body.rod_radius, ca.norm_2(bar - end) - self.payload),
+                _apart(bar, pivot - half, pivot + half) - span * seen - body.hub_radius,
+            )
+            for bar in self.bars(spacing)
+        ]
+        return ca.fmin(*free) - self.radius
+
+
+def _apart(point: Any, a: Any, b: Any) -> Any:
+    """Distance of a `point` from the segment from `a` to `b`, m."""
+    along = b - a
+    share = ca.fmin(ca.fmax(ca.dot(point - a, along) / ca.fmax(ca.sumsqr(along), 1e-12), 0), 1)
+    return ca.norm_2(point - a - share * along)
+
+
 @dataclass(frozen=True)
 class _FlyThrough:
     """Starts, reward, end and what is shown of a flight through `gate`."""
@@ -187,7 +269,7 @@ class _FlyThrough:
             raise InputError("vehicle.body", "the radii of the machine's parts, for a gate", "nothing")
         x = ca.vertcat(draws.between(-2.2, -1.0), 0, draws.between(1.0, 2.0))
         numbers = ca.vertcat(vehicle.reach, draws.between(*self.gate.spacing))
-        return Begin(_at_rest(x, draws.tilted(0.15 * np.pi)), numbers)
+        return Begin(_at_rest(x, _tilted(draws, 0.15 * np.pi)), numbers)
 
     def touched(self, now: Moment) -> Any:
         return self.gate.clearance(now, now.goal[1]) < 0
@@ -215,9 +297,23 @@ def inv_pendulum_fly_through(gate: Gate | None = None) -> Task:
     """
     opening = Gate() if gate is None else gate
     if not isinstance(opening, Gate):
-        raise InputError("gate", "a flypend.envs.Gate", repr(gate))
+        raise InputError("gate", "a Gate", repr(gate))
     through = _FlyThrough(opening)
     return Task(
         "InvPendulumFlyThrough", through.begin, partial(_held, target=BEHIND), through.reward, through.ended,
         STEPS * PERIOD, shown=through.shown, defaults=_defaults(0.85),
     )  # fmt: skip
+
+
+TASKS = {
+    "inv_pendulum_hover": inv_pendulum_hover,
+    "inv_pendulum_track": inv_pendulum_track,
+    "inv_pendulum_fly_through": inv_pendulum_fly_through,
+}
+for _task in (make() for make in TASKS.values()):
+    gymnasium.register(
+        id=f"flypend/{_task.name}-v0",
+        entry_point="flypend.envs.single:World",
+        vector_entry_point="flypend.envs.vector:VectorWorlds",
+        kwargs={"task": _task},
+    )

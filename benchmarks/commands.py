@@ -32,7 +32,6 @@ LINES = (
     "flypend theorem",
     "flypend compare --law inverted --law lqr --runs 500",
     "flypend ladder --law inverted --runs 20",
-    "flypend circles",
     "flypend check hehn2011",
     "flypend plan",
     "flypend plan --fly mujoco --figure plan.png",

@@ -10,9 +10,9 @@ import sys
 import numpy as np
 
 import flypend as fp
+from benchmarks.withstood import withstood
 from flypend.flight.metrics import wilson
 from flypend.laws.repaired import stiffness
-from flypend.laws.repaired_bounds import withstood
 from flypend.paper.descent import RISES, descend
 
 SEED = 2024
@@ -57,7 +57,7 @@ def starts():
 
 
 def forces():
-    """Print the bounds of `repaired_bounds` on nayak2018, level by level."""
+    """Print the bounds of `withstood` on nayak2018, level by level."""
     law = fp.laws.repaired().bind(fp.vehicle("nayak2018"))
     k_p, rod = float(stiffness(law.vehicle)), law.vehicle.l * law.vehicle.m
     for share in (0.01, 0.1, 0.5, 1.0, 1.5):

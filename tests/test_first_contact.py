@@ -25,7 +25,7 @@ def test_every_command_of_the_pages_is_typed():
 
 
 def test_the_rules_are_about_commands_that_are_typed():
-    named = {*RULES["needs"], *RULES["foreign"], *RULES["smaller"], *RULES["ends"], *RULES["long"]["commands"]}
+    named = {*RULES["needs"], *RULES["foreign"], *RULES["smaller"], *RULES["long"]["commands"]}
     named |= {claim["command"] for claim in RULES["claim"]}
     assert named <= TYPED
     assert all(line == command(line) for line in named)
@@ -96,19 +96,17 @@ def test_a_worse_refusal_is_noticed(typing, script):
         typing("flypend lab", script)
 
 
-CIRCLES = "print('hover inverted yes {} 0.0185 x hover lqr yes 0.107 0.116 x')"
+VEHICLES = "print('hehn2011 0.5 0.05 0.565 {} 0.02')"
 
 
 def test_the_numbers_of_a_page_are_compared_with_what_is_printed(typing):
-    typing("flypend circles", CIRCLES.format(0.0124))
+    typing("flypend vehicles", VEHICLES.format(2.6))
 
 
-@pytest.mark.parametrize(
-    "script", [CIRCLES.format(0.009), "print('nothing')", CIRCLES.format(0.0124) + "; sys.exit(1)"]
-)
+@pytest.mark.parametrize("script", [VEHICLES.format(2.7), "print('nothing')", VEHICLES.format(2.6) + "; sys.exit(1)"])
 def test_another_number_is_noticed(typing, script):
     with pytest.raises(BrokenError):
-        typing("flypend circles", script)
+        typing("flypend vehicles", script)
 
 
 def test_what_a_command_suggests_is_typed_too(typing):

@@ -49,7 +49,7 @@ WORK = (
     "flypend.studies.ladder.flown", "flypend.planning.planner.prepared", "flypend.planning.ensemble.prepared",
     "flypend.studies.check.fly_tasks", "flypend.studies.sweep.run.fly_range", "flypend.studies.tune.program_digest",
     "flypend.studies.trial.fly_many", "flypend.report.paper.fly_all", "flypend.report.theorem.fly_repaired",
-    "flypend.studies.hehn.fly_many", "flypend.pictures.animate.stage", "flypend.report.flight.figure_tasks",
+    "flypend.pictures.animate.stage", "flypend.report.flight.figure_tasks",
     "flypend.lab.server.serve", "flypend.lab.alone.page_alone", "flypend.export.write.write_files",
 )  # fmt: skip
 NUMBERS = [

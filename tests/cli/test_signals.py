@@ -38,7 +38,6 @@ COMMANDS = (
     "compare --law mine.py:hold --runs 20 --duration 2 -o out",
     "ladder --law inverted --runs 20 --duration 3 -o out",
     "check hehn2011 -o out",
-    "circles",
     "plan -o out.nc",
     "plan --fly mujoco -o out.nc",
     "map --law lqr --runs 5000 -o out.png",

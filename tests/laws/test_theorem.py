@@ -8,11 +8,11 @@ import pytest
 from balls import RateCheck
 
 import flypend as fp
+from benchmarks.withstood import withstood
 from flypend.geometry import E3, norm, rotation_from_vector
 from flypend.laws import references
 from flypend.laws.guarantee import least_distance, rate_bound
 from flypend.laws.repaired import repaired_control, stiffness
-from flypend.laws.repaired_bounds import withstood
 from flypend.laws.step import Step
 
 PAPERS, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from benchmarks.withstood import withstood
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.repaired import stiffness
-from flypend.laws.repaired_bounds import withstood
 from flypend.model.state import project
 
 RATE = slice(21, 24)  # ẏ in a packed state

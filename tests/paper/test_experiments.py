@@ -14,7 +14,7 @@ import flypend as fp
 from flypend import paper as experiments
 from flypend.geometry import norm
 from flypend.paper import claims, defects, experiment, experiment_names, sphere, stability, statements
-from flypend.paper.claims import SETTLED, largest_rise, pivot_acceleration, theorem_claims, upright_since
+from flypend.paper.claims import SETTLED, largest_rise, pivot_acceleration, theorem_claims
 from flypend.paper.defects import DEFECTS
 
 ERRATA = Path(__file__).parents[2] / "docs" / "paper" / "errata.md"
@@ -212,6 +212,14 @@ def test_pivot_acceleration_is_the_rate_of_the_velocity():
 def test_the_largest_rise_is_over_all_pairs(values):
     pairs = [values[j] - values[i] for i in range(len(values)) for j in range(i, len(values))]
     assert largest_rise(values) == max(pairs)
+
+
+def upright_since(run, threshold=0.99):
+    """Return the time, s, from which y₃ of `run` stays at or above `threshold`; NaN if it ends below."""
+    below = np.flatnonzero(run.y[:, 2] < threshold)
+    if not len(below):
+        return 0.0
+    return float(run.t[below[-1] + 1]) if below[-1] + 1 < len(run.t) else float("nan")
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from saddle import crossing, loop_around, ways_down, winding
 
 import flypend as fp
 from flypend.geometry import E3, norm
@@ -11,7 +12,6 @@ from flypend.paper import experiment_names
 from flypend.paper.basin import basin, planar
 from flypend.paper.descent import RISES, descend, laws, relative_rises, wide_starts
 from flypend.paper.proved import SWING_UPS, claims_of, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
-from flypend.paper.saddle import crossing, loop_around, ways_down, winding
 from flypend.paper.stability import RUNAWAYS, runaway_starts
 from flypend.pictures.descent import basin_figure
 

@@ -12,6 +12,8 @@ import pytest
 from rich.console import Console
 
 import flypend as fp
+from benchmarks import circles
+from benchmarks.circles import Tracking, hehn2011, tracking_table
 from flypend import Plant, geometry
 from flypend.files import whole as files
 from flypend.flight.ensemble import Ensemble
@@ -25,13 +27,11 @@ from flypend.report.studies import (
     comparison_table,
     ladder_rows,
     ladder_table,
-    tracking_table,
     write_comparison,
     write_ladder,
 )
-from flypend.studies import Comparison, Ladder, compare, hehn, ladder, law_named, paper_starts, random_starts
+from flypend.studies import Comparison, Ladder, compare, ladder, law_named, paper_starts, random_starts
 from flypend.studies.compare import summary
-from flypend.studies.hehn import Tracking, hehn2011
 from flypend.studies.rungs import RUNGS, rung_named, rungs_for
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -701,7 +701,7 @@ def tracked():
 
 
 def test_the_inverted_law_does_better_than_what_was_published(tracked):
-    assert list(tracked) == list(hehn.CASES) == ["hover", "circle R = 0.1 m", "circle R = 0.5 m"]
+    assert list(tracked) == list(circles.CASES) == ["hover", "circle R = 0.1 m", "circle R = 0.5 m"]
     assert all(row.stood and row.law == "inverted" for row in tracked.values())
     assert tracked["hover"].offset < 0.05  # m, published
     assert tracked["circle R = 0.1 m"].error < 0.1
@@ -712,23 +712,23 @@ def test_the_inverted_law_does_better_than_what_was_published(tracked):
 
 
 def test_the_setup_is_theirs():
-    assert (hehn.PLANT.interface, hehn.PLANT.rate, hehn.PLANT.delay) == ("rates", 50.0, 0.03)
-    assert hehn.PLANT.noise.x > 0
-    time = np.linspace(0, 2 * np.pi / hehn.RATE, 50)
+    assert (circles.PLANT.interface, circles.PLANT.rate, circles.PLANT.delay) == ("rates", 50.0, 0.03)
+    assert circles.PLANT.noise.x > 0
+    time = np.linspace(0, 2 * np.pi / circles.RATE, 50)
     for case, radius in (("circle R = 0.1 m", 0.1), ("circle R = 0.5 m", 0.5), ("hover", 0.0)):
-        path = fp.laws.references.sampled(hehn.CASES[case], time)
+        path = fp.laws.references.sampled(circles.CASES[case], time)
         np.testing.assert_allclose(np.hypot(path[:, 0], path[:, 1]), radius, atol=1e-12)
 
 
 def only_hover(monkeypatch, **plant):
-    monkeypatch.setattr(hehn, "CASES", {"hover": hehn.CASES["hover"]})
-    monkeypatch.setattr(hehn, "PLANT", hehn.PLANT.replace(**plant))
+    monkeypatch.setattr(circles, "CASES", {"hover": circles.CASES["hover"]})
+    monkeypatch.setattr(circles, "PLANT", circles.PLANT.replace(**plant))
 
 
 def test_an_offset_that_is_there_is_told(monkeypatch):
     """Negative control: a wind that the law does not observe pushes it off."""
     only_hover(monkeypatch, wind=fp.plants.Wind(on_vehicle=(0.4, 0, 0)), noise=None)
-    monkeypatch.setattr(hehn, "_law", lambda _, reference: inverted(reference=reference, observer=0.0))
+    monkeypatch.setattr(circles, "_law", lambda _, reference: inverted(reference=reference, observer=0.0))
     (row,) = hehn2011(("inverted",))
     assert row.offset > 0.05
     assert row.error == pytest.approx(row.offset, rel=0.1)
@@ -749,4 +749,4 @@ def test_a_run_that_diverges_is_told_without_numbers(monkeypatch):
 def test_only_laws_of_the_package_that_follow_a_reference_fly_there(name, words):
     with pytest.raises(fp.InputError, match=words) as error:
         hehn2011((name,))
-    assert error.value.field == "--law"
+    assert error.value.field == "law"

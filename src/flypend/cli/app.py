@@ -297,17 +297,6 @@ def ladder(
     console.print(f"Report and figure are in {bold(out)}.")
 
 
-@app.command()
-@laws_option
-@seed_option
-def circles(law: tuple[str, ...], seed: int) -> None:
-    """Fly hover and two circles in the set-up of Hehn and D'Andrea (2011), next to their published results."""
-    from flypend.report.studies import tracking_table
-    from flypend.studies.hehn import hehn2011
-
-    console.print(tracking_table(hehn2011(law or ("inverted", "lqr"), seed)))
-
-
 LOCAL = "127.0.0.1"
 
 

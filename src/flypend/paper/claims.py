@@ -52,14 +52,6 @@ def largest_rise(values: Any) -> float:
     return float(np.max(values - np.minimum.accumulate(values)))
 
 
-def upright_since(run: Trajectory, threshold: float = 0.99) -> float:
-    """Return the time, s, from which y₃ of `run` stays at or above `threshold`; NaN if it ends below."""
-    below = np.flatnonzero(run.y[:, 2] < threshold)
-    if not len(below):
-        return 0.0
-    return float(run.t[below[-1] + 1]) if below[-1] + 1 < len(run.t) else float("nan")
-
-
 def claim(run: Trajectory, what: str, measured: str, value: float, bound: float, above: bool, why: str = "") -> Verdict:
     """Return the verdict on the claim `what` about `run`: a `measured` `value` at or `above` (or below) a `bound`."""
     met = value >= bound if above else value <= bound

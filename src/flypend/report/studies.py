@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,6 @@ from flypend.report.text import write_json
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
-from flypend.studies.hehn import Tracking
 
 COLUMNS = ("runs", "success % (95 %)", "settle s", "exc. m", "effort", "peak N", "failed")
 
@@ -27,10 +26,10 @@ def comparison_cells(row: dict[str, Any]) -> list[str]:
     return [
         str(row["runs"]),
         f"{100 * row['success']:.4g} ({100 * row['wilson_low']:.1f}-{100 * row['wilson_high']:.1f})",
-        f"{_short(row['settling_p50'])}/{_short(row['settling_p95'])}",
-        f"{_short(row['excursion_p50'])}/{_short(row['excursion_p95'])}",
-        _short(row["effort_p50"]),
-        _short(row["peak_force_max"]),
+        f"{short(row['settling_p50'])}/{short(row['settling_p95'])}",
+        f"{short(row['excursion_p50'])}/{short(row['excursion_p95'])}",
+        short(row["effort_p50"]),
+        short(row["peak_force_max"]),
         ", ".join(f"{cause} {count}" for cause, count in row["causes"].items()) or "-",
     ]
 
@@ -88,7 +87,7 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
     for rung, comparison in ladder.rungs.items():
         cells = []
         for ensemble in comparison.ensembles.values():
-            cells.append(f"{100 * ensemble.rate:.1f} %, {_short(ensemble.percentile('excursion', 95))} m")
+            cells.append(f"{100 * ensemble.rate:.1f} %, {short(ensemble.percentile('excursion', 95))} m")
         rows.append([rung, *cells])
     return rows
 
@@ -131,19 +130,6 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
         save_both(ladder_figure(ladder), folder / "ladder")
 
 
-def tracking_table(results: Iterable[Tracking]) -> Table:
-    """Return the table of offsets and errors, hover and circles, for the terminal."""
-    table = Table(title="Set-up of Hehn and D'Andrea (2011)", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
-    for name in ("case", "law", "stands", "offset m", "RMS error m", "published m"):
-        table.add_column(name, justify="left" if name in ("case", "law") else "right")
-    for r in results:
-        stands = "yes" if r.stood else "[red]no"
-        table.add_row(r.case, r.law, stands, _short(r.offset), _short(r.error), r.published)
-    table.caption = "50 Hz, 30 ms latency, motion-capture noise, 2 % model error; published: their experiment"
-    table.caption_justify = "left"
-    return table
-
-
 def _failures(ladder: Ladder) -> list[str]:
     """One line per rung and law with failures: the count of each cause."""
     lines = []
@@ -160,7 +146,7 @@ def _broken(ladder: Ladder, law: str) -> str:
     return "all" if len(broken) == len(ladder.rungs) else ", ".join(broken) or "none"
 
 
-def _short(value: float) -> str:
+def short(value: float) -> str:
     """Format to three digits, without an exponent from 1000 up; NaN, the quantile of no runs, becomes a dash."""
     return "-" if math.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
 

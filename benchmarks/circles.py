@@ -1,12 +1,19 @@
-"""The set-up of Hehn and D'Andrea (2011): hover and two circles, thrust and body rates at 50 Hz, 30 ms latency."""
+"""The set-up of Hehn and D'Andrea (2011), next to their published results: `python -m benchmarks.circles [LAW ...]`.
+
+Hover and two circles, thrust and body rates at 50 Hz, 30 ms latency; the laws are inverted and lqr by default.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import sys
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from rich.box import SIMPLE
+from rich.console import Console
+from rich.table import Table
 
 from flypend.errors import InputError, one_of
 from flypend.flight.simulate import simulate
@@ -15,6 +22,7 @@ from flypend.laws import Law, law_names, references
 from flypend.laws.named import FACTORIES, follows
 from flypend.model import State, vehicle
 from flypend.plants import MOTION_CAPTURE, sampled_plant
+from flypend.report.studies import short
 
 # Chosen: a period of four seconds; the rates of their circles are not known here.
 RATE = 2 * np.pi / 4
@@ -85,6 +93,23 @@ def _fly(name: str, case: str, reference: Callable[[Any], Any], seed: int) -> Tr
 
 
 def _law(name: str, reference: Callable[[Any], Any]) -> Law:
-    if not follows(one_of("--law", name, law_names())):
-        raise InputError("--law", "a law that follows a reference", repr(name))
+    if not follows(one_of("law", name, law_names())):
+        raise InputError("law", "a law that follows a reference", repr(name))
     return FACTORIES[name](reference=reference)
+
+
+def tracking_table(results: Iterable[Tracking]) -> Table:
+    """Return the table of offsets and errors, hover and circles, for the terminal."""
+    table = Table(title="Set-up of Hehn and D'Andrea (2011)", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
+    for name in ("case", "law", "stands", "offset m", "RMS error m", "published m"):
+        table.add_column(name, justify="left" if name in ("case", "law") else "right")
+    for r in results:
+        stands = "yes" if r.stood else "[red]no"
+        table.add_row(r.case, r.law, stands, short(r.offset), short(r.error), r.published)
+    table.caption = "50 Hz, 30 ms latency, motion-capture noise, 2 % model error; published: their experiment"
+    table.caption_justify = "left"
+    return table
+
+
+if __name__ == "__main__":
+    Console().print(tracking_table(hehn2011(tuple(sys.argv[1:]) or ("inverted", "lqr"))))

@@ -15,8 +15,7 @@ from rich.table import Table
 
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
-from flypend.paper.claims import Verdict
-from flypend.paper.finding import Finding
+from flypend.paper.claims import Finding, Verdict
 
 Column = tuple[str, str]
 # What each cause of failure means by the default criterion, for readers who meet it for the first time.

@@ -28,9 +28,8 @@ from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import goal, verdict
 from flypend.geometry import cross, dot
 from flypend.lab import answers
-from flypend.lab.answers import answer
+from flypend.lab.answers import answer, engine_of
 from flypend.lab.controls import offer, sliders
-from flypend.lab.engine import engine_of
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poked
 from flypend.lab.map import region

@@ -9,8 +9,8 @@ from playwright.sync_api import expect
 from test_lab import Lab
 
 from flypend.flight.simulate import fly as fly_request
+from flypend.lab.answers import engine_of
 from flypend.lab.controls import offer, sliders
-from flypend.lab.engine import engine_of
 from flypend.lab.flying import fly
 from flypend.lab.setting import setting_of
 from flypend.laws import inverted

@@ -11,9 +11,8 @@ from flypend.learning import flights as flying
 from flypend.learning import world
 from flypend.learning.flights import Course, Flights
 from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
-from flypend.learning.scouts import AMONG, Scouts
 from flypend.learning.teacher import Imitation, Teacher, direct
-from flypend.learning.training import Learner, Training, starts, usual
+from flypend.learning.training import AMONG, Learner, Scouts, Training, starts, usual
 from flypend.model.mount import clearances
 from flypend.planning.scaled import Scaled, Units
 

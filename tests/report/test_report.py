@@ -21,9 +21,8 @@ from flypend.files import whole as files
 from flypend.files.staging import check_writable, staged
 from flypend.geometry import norm
 from flypend.paper import experiment, experiment_names
-from flypend.paper.claims import SETTLED, Verdict, theorem_claims
+from flypend.paper.claims import SETTLED, Finding, Runs, Verdict, theorem_claims
 from flypend.paper.defects import DEFECTS, findings
-from flypend.paper.finding import Finding, Runs
 from flypend.report import paper, text
 from flypend.report.flight import movie_tasks, write_flight
 from flypend.report.paper import Reproduction, reproduce

@@ -32,7 +32,7 @@ from flypend.report.studies import (
 )
 from flypend.studies import Comparison, Ladder, compare, ladder, law_named, paper_starts, random_starts
 from flypend.studies.compare import summary
-from flypend.studies.rungs import RUNGS, rung_named, rungs_for
+from flypend.studies.ladder import RUNGS, rung_named, rungs_for
 
 VEHICLE = fp.vehicle("hehn2011")
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass, field
 from typing import Any
 
 import casadi as ca
 
 from flypend.model import Vehicle
+from flypend.model.state import E3Direction
 
 
 @dataclass(frozen=True)
@@ -41,13 +41,18 @@ class Believed:
     def limited(cls, vehicle: Vehicle) -> Believed:
         """The nominal `vehicle` with its parameters as constants, and symbols for least and largest rotor force, N."""
         limits = ca.SX.sym("limits", 2)
-        return cls(_limited(vehicle, limits), len(vehicle.rotor_spins), vehicle.rotor_lag, limits)
+        return cls(_Limited(vehicle, limits), len(vehicle.rotor_spins), vehicle.rotor_lag, limits)
 
 
-def _limited(vehicle: Vehicle, limits: Any) -> Any:
-    """Return a copy of `vehicle` whose rotor limits are symbols, which its class would refuse."""
-    twin = copy(vehicle)
-    twin.__dict__.pop("_content", None)  # of the vehicle with numbers
-    object.__setattr__(twin, "rotor_limits", (limits[0], limits[1]))
-    object.__setattr__(twin, "seen", lambda e3: _limited(vehicle.seen(e3), limits))
-    return twin
+class _Limited:
+    """A `vehicle` whose rotor limits are the symbols `limits` (2, 1), which its own class would refuse."""
+
+    def __init__(self, vehicle: Vehicle, limits: Any) -> None:
+        self._vehicle, self.rotor_limits = vehicle, (limits[0], limits[1])
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._vehicle, name)
+
+    def seen(self, e3: E3Direction) -> _Limited:
+        """As `Vehicle.seen`."""
+        return _Limited(self._vehicle.seen(e3), self.rotor_limits)

@@ -15,7 +15,6 @@ import click
 
 from flypend import __version__, signals
 from flypend.cli import cache, check, examples, learning, listing, planning, studies, theorem, viewing
-from flypend.cli.ahead import ahead, pictures_of_studies
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
@@ -27,7 +26,7 @@ from flypend.cli.options import (
     style_option,
     vehicle_option,
 )
-from flypend.cli.terminal import bold, console, counter, draw, lacking, say, tell_how
+from flypend.cli.terminal import ahead, bold, console, counter, draw, lacking, pictures_of_studies, say, tell_how
 from flypend.errors import InputError, require
 
 if TYPE_CHECKING:
@@ -279,7 +278,7 @@ def ladder(
     from flypend.plants import plant
     from flypend.report.studies import ladder_table, write_ladder
     from flypend.studies import ladder as climb
-    from flypend.studies.rungs import rung_named, rungs_for
+    from flypend.studies.ladder import rung_named, rungs_for
 
     laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
     rungs = rungs_for(machine)

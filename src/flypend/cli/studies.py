@@ -10,9 +10,8 @@ from typing import Any
 
 import click
 
-from flypend.cli.ahead import ahead, maps
 from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, refuse_idle, sensors_option
-from flypend.cli.terminal import bold, complaints, console, lines, resumable, stepped, tell_how
+from flypend.cli.terminal import ahead, bold, complaints, console, lines, maps, resumable, stepped, tell_how
 
 workers_option = click.option(
     "--workers", type=click.IntRange(min=1), help="Cores of this machine to use; default all."

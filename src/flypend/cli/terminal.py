@@ -7,8 +7,9 @@ import shlex
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 from rich.console import Console
@@ -126,3 +127,23 @@ def tell_how(law: Any) -> None:
 
     if said := note(law):
         say(said)
+
+
+def ahead(imports: Callable[[], None]) -> None:
+    """Call `imports` in a thread. What fails there fails again, and is told, where the module is used."""
+
+    def bring() -> None:
+        with suppress(Exception):
+            imports()
+
+    Thread(target=bring, daemon=True, name=imports.__name__).start()
+
+
+def pictures_of_studies() -> None:
+    """Import what draws comparisons and ladders."""
+    import flypend.pictures.studies  # noqa: F401
+
+
+def maps() -> None:
+    """Import what draws maps."""
+    import flypend.pictures.maps  # noqa: F401

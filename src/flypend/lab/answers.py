@@ -5,20 +5,24 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from flypend.errors import InputError
 from flypend.flight.kernels.stopping import StoppedError
+from flypend.flight.live import live_loop, tunable
+from flypend.flight.live_engine import engine_facts
 from flypend.flight.verdict import verdict
 from flypend.lab.controls import sliders
-from flypend.lab.engine import engine_of
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly
+from flypend.lab.flying import MOST_STEPS, fly
 from flypend.lab.map import region
 from flypend.lab.own import NONE, OwnLaws
-from flypend.lab.setting import setting_of
+from flypend.lab.setting import Setting, setting_of
 from flypend.lab.tuning import Tell, tuned
+from flypend.laws import BoundLaw
 from flypend.pages import replay
+from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import plain
 
 log = logging.getLogger(__name__)
@@ -84,3 +88,17 @@ def _engine(message: Any, own: OwnLaws, _: Tell) -> Replies:
 
 # In the order in which a page needs them.
 ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {"fly": _flight, "engine": _engine, "map": _map}
+
+
+def engine_of(setting: Setting) -> dict[str, Any] | None:
+    """Return what a page needs to fly settings like `setting` by itself; None for one that only the server flies.
+
+    The page changes numbers of the plant and gains but those that are `fixed`: from these the law, which must be one of
+    the package, computes others in advance.
+    """
+    law = setting.flight.law
+    if setting.where or not isinstance(law, BoundLaw):
+        return None
+    fixed = set(sliders_of(law)) - set(tunable(law))
+    exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
+    return engine_facts(live_loop(setting.flight), exact) | {"fixed": sorted(fixed)}

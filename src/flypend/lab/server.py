@@ -24,8 +24,8 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from flypend import errors, signals
 from flypend.errors import InputError
 from flypend.lab.answers import ANSWERS, refusal
+from flypend.lab.controls import page
 from flypend.lab.own import OwnLaws
-from flypend.lab.page import page
 from flypend.lab.session import Slot, read
 from flypend.lab.shares import Shares
 from flypend.lab.worker import Workers, encoded

@@ -7,7 +7,6 @@ Lyapunov function, a reference or a frame, build a `Law` directly.
 from flypend.laws.almost_global import almost_global
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.controller import Controller
-from flypend.laws.corrected import corrected
 from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
@@ -16,9 +15,9 @@ from flypend.laws.located import LawError
 from flypend.laws.lqr import lqr
 from flypend.laws.named import FACTORIES, law_from_dict, law_names
 from flypend.laws.own import from_function
-from flypend.laws.printed import printed
 from flypend.laws.repaired import repaired
 from flypend.laws.supervised import supervised
+from flypend.laws.theorem1 import corrected, printed
 
 AnyLaw = Law | BoundLaw | Controller
 

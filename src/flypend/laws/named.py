@@ -9,14 +9,13 @@ from typing import Any
 from flypend import errors
 from flypend.laws import references
 from flypend.laws.almost_global import almost_global
-from flypend.laws.corrected import corrected
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
 from flypend.laws.learned import learned
 from flypend.laws.lqr import lqr
-from flypend.laws.printed import printed
 from flypend.laws.references import Reference
 from flypend.laws.repaired import repaired
+from flypend.laws.theorem1 import corrected, printed
 
 FACTORIES: Mapping[str, Callable[..., Law]] = {
     "printed": printed,

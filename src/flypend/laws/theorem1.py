@@ -1,18 +1,22 @@
 """Theorem 1: backstepping from the pendulum on S² to the thrust axis on S², in the paper's frame (e₃ along gravity).
 
-One function serves the printed and the corrected law. They differ only in arguments, set in `printed.py` and
-`corrected.py`. Labels are the paper's equation labels.
+One function serves two laws, which differ only in arguments: `printed`, exactly as the paper has it, which does not do
+what it claims (docs/paper/errata.md); and `corrected`, with three defects fixed: damping sign, speed floor, and beta
+(dropped or regularised), which has no proof. Labels are the paper's equation labels.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import casadi as ca
 
+from flypend import errors
 from flypend.geometry import E3, apply, cross, dot, hat_squared, norm, scale, smooth_norm, transport_derivative
 from flypend.laws.bound import Control, Guard
-from flypend.laws.gain import POSITIVE, Gain
+from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, Gain, documented, table
+from flypend.laws.law import Law
 from flypend.laws.sphere import velocity_error
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
 
@@ -101,3 +105,101 @@ def theorem_1(
             "k_p": k_p,
         },
     )
+
+
+PRINTED = table(
+    (
+        *PAPER_GAINS,
+        # As printed it is 0, and the law is undefined at ẏ = 0, where experiment 4 starts. The default lets that run
+        # start; no result depends on its value.
+        Gain("speed_floor", 1e-6, "rad/s", "s in √(|ẏ|² + s²), which replaces |ẏ| in (kpeqn)", NOT_NEGATIVE),
+        Gain(
+            "beta", "minimum-norm", doc="minimum-norm A, as printed; off isolates the effect of the damping sign",
+            choices=("minimum-norm", "off"),
+        ),
+    )
+)  # fmt: skip
+
+
+@errors.named_arguments
+@documented(PRINTED)
+def printed(**gains: float | str) -> Law:
+    """Build Theorem 1 with the printed damping sign and the minimum-norm beta, in the paper's frame (e₃ along gravity).
+
+    Parameters
+    ----------
+    **gains : float or str
+        Any of the gains below, in the stated unit.
+
+    {gains}
+
+    Raises
+    ------
+    InputError
+        If a gain is unknown or out of bounds.
+    """
+    return Law(name="printed", e3="down", gains=PRINTED, given=gains, control=_as_printed, guard=_printed_guard)
+
+
+def _as_printed(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
+    return theorem_1(
+        t, state, vehicle, k_d=k.k_d, k_1=k.k_1, k_2=k.k_2, damping_sign=+1, speed_floor=k.speed_floor,
+        beta_floor=0.0 if k.beta == "minimum-norm" else None,
+    )  # fmt: skip
+
+
+def _printed_guard(gains: Mapping[str, Any]) -> Guard | None:
+    return BETA_GUARD if gains["beta"] == "minimum-norm" else None
+
+
+CORRECTED = table(
+    (
+        *PAPER_GAINS,
+        Gain(
+            "speed_floor", 1e-2, "rad/s", "s in √(|ẏ|² + s²), which replaces |ẏ| in (kpeqn) and keeps it smooth",
+            POSITIVE,
+        ),
+        Gain(
+            "beta", "off", doc="off leaves a cascade; regularized divides by |v_e|² + beta_floor², and is worse",
+            choices=("off", "regularized"),
+        ),
+        Gain("beta_floor", 0.1, "1/s", "Floor of |v_e| in beta; at 0 beta is minimum-norm, and singular", NOT_NEGATIVE),
+        Gain(
+            "yaw_damping", 0.0, "1/s", "Third component of I⁻¹mu over ω₃; (setmu) leaves it free", NOT_NEGATIVE,
+        ),
+    )
+)  # fmt: skip
+
+
+@errors.named_arguments
+@documented(CORRECTED)
+def corrected(**gains: float | str) -> Law:
+    """Build Theorem 1 with f_p = k_p e₃ − k_d ẏ, in the paper's frame, where y = e₃ hangs along gravity.
+
+    The paper's five experiments converge, and so do most random starts. Some run away: the rod spins ever faster
+    (docs/paper/errata.md, defect 9).
+
+    Parameters
+    ----------
+    **gains : float or str
+        Any of the gains below, in the stated unit.
+
+    {gains}
+
+    Raises
+    ------
+    InputError
+        If a gain is unknown or out of bounds.
+    """
+    return Law(name="corrected", e3="down", gains=CORRECTED, given=gains, control=_as_corrected, guard=_corrected_guard)
+
+
+def _as_corrected(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
+    return theorem_1(
+        t, state, vehicle, k_d=k.k_d, k_1=k.k_1, k_2=k.k_2, damping_sign=-1, speed_floor=k.speed_floor,
+        beta_floor=k.beta_floor if k.beta == "regularized" else None, yaw_damping=k.yaw_damping,
+    )  # fmt: skip
+
+
+def _corrected_guard(gains: Mapping[str, Any]) -> Guard | None:
+    return BETA_GUARD if gains["beta"] == "regularized" and gains["beta_floor"] == 0 else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,12 +18,33 @@ from flypend.files.schema import Field
 from flypend.laws.policy import MOST_WEIGHTS, Policy
 from flypend.learning.flights import Costs, Course, Flights
 from flypend.learning.network import Adam, Weights, first_weights
-from flypend.learning.scouts import Scouts
 from flypend.learning.teacher import RATE, Imitation, direct
 from flypend.model import State, Vehicle
 from flypend.model.mount import clearances
 from flypend.planning.scaled import Units
 from flypend.signals.waiting import result_of, threads
+
+AHEAD = 0.3  # s: what touches does so soon, or can be helped later
+AMONG = 4  # starts flown for each that is kept
+
+
+class Scouts:
+    """Memory of short flights in the manner of a `course`, of which the `kept` most dangerous count."""
+
+    def __init__(self, course: Course, kept: int) -> None:
+        self._flights, self._kept = Flights(replace(course, duration=AHEAD), AMONG * kept), kept
+
+    @property
+    def count(self) -> int:
+        """Starts that are flown."""
+        return self._flights.count
+
+    def dangerous(self, weights: Weights, starts: Any) -> Any:
+        """Return those of `starts` (count, 24 + n), own units, whose rods come nearest to an arm under `weights`."""
+        self._flights.fly(weights, starts)
+        near = self._flights.costs[:, :, 2].max(axis=0).ravel()
+        return starts[np.argsort(-near, kind="stable")[: self._kept]]
+
 
 PARTS = 2  # of a batch, each flown by a thread; fixed, so that results do not depend on the machine's cores
 PHASES = ("imitation", "descent")

@@ -1,8 +1,8 @@
-"""The claims of Theorem 1, each checked on a run: a measured value against a criterion."""
+"""What is found in the paper: verdicts on the claims of Theorem 1, each on a run, and the record of a defect."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -104,3 +104,36 @@ def theorem_claims(run: Trajectory, settled: Trajectory | None = None) -> list[V
     """
     with np.errstate(all="ignore"):  # a diverged run may hold huge values, which meet no criterion
         return [judge(run, settled or run) for judge in CLAIMS]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One defect of the paper.
+
+    Parameters
+    ----------
+    title : str
+        The defect in a few words.
+    printed, corrected : str
+        The formula as printed, and as it should read.
+    evidence : dict
+        The computed values, by name.
+    shown : bool
+        Whether these values show the defect.
+    """
+
+    title: str
+    printed: str
+    corrected: str
+    evidence: Mapping[str, float]
+    shown: bool
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Runs of the experiments by name: as printed, printed without beta, corrected, corrected with printed beta."""
+
+    printed: Mapping[str, Trajectory]
+    without_beta: Mapping[str, Trajectory]
+    corrected: Mapping[str, Trajectory]
+    corrected_singular: Mapping[str, Trajectory]

@@ -13,8 +13,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.geometry import E3, dot, hat_squared, norm, random_sphere, random_tangent
 from flypend.model import State, Wrench, potential_energy, rod_tension
 from flypend.paper import sphere, stability, statements
-from flypend.paper.claims import largest_rise
-from flypend.paper.finding import Finding, Runs
+from flypend.paper.claims import Finding, Runs, largest_rise
 from flypend.paper.table import experiment, experiment_names, table
 
 SEED = 2018

@@ -12,7 +12,7 @@ from flypend.laws import corrected
 from flypend.laws.linearise import linearise
 from flypend.model import State, Wrench, equations_of_motion, vehicle
 from flypend.paper import sphere
-from flypend.paper.finding import Finding, Runs
+from flypend.paper.claims import Finding, Runs
 
 # Members of State.random(default_rng(2024), 2000), flipped into the paper's frame, that run away.
 RUNAWAYS = (446, 1990)

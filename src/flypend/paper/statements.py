@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from flypend.flight.simulate import simulate
 from flypend.geometry import E3, apply, dot, norm
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, potential_energy, vehicle
-from flypend.paper.finding import Finding, Runs
+from flypend.paper.claims import Finding, Runs
 from flypend.paper.table import experiment
 
 SEED = 2018

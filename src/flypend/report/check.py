@@ -15,7 +15,7 @@ from flypend import __version__
 from flypend.files.staging import staged
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
-from flypend.report.text import number, write_json
+from flypend.report.text import markdown_table, number, write_json
 from flypend.studies.check import Check
 from flypend.studies.trial import Trial
 
@@ -112,8 +112,8 @@ def _markdown(checks: Mapping[str, Check], trials: Mapping[str, Trial], settings
     parts = ["# Check", f"{told}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
     if cells := task_cells(checks):
         meaning = "\n".join(f"- {name}: {words}" for name, words in TASKS.items())
-        parts += [_barred([list(COLUMNS), *cells]), meaning, _barred(margin_cells(checks))]
-    parts += [_barred(trial_cells(trials))] if trials else []
+        parts += [markdown_table([list(COLUMNS), *cells]), meaning, markdown_table(margin_cells(checks))]
+    parts += [markdown_table(trial_cells(trials))] if trials else []
     return "\n\n".join(parts) + "\n"
 
 
@@ -124,14 +124,6 @@ def _table(cells: Cells) -> Table:
     for row in cells[1:]:
         table.add_row(*(escape(cell) for cell in row))
     return table
-
-
-def _barred(cells: Cells) -> str:
-    rows = [[cell.replace("|", "\\|") for cell in row] for row in cells]
-    return "\n".join(
-        ["| " + " | ".join(rows[0]) + " |", "|---" * len(rows[0]) + "|"]
-        + [f"| {' | '.join(row)} |" for row in rows[1:]]
-    )
 
 
 def _caught(check: Check) -> str:

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from flypend import __version__
 from flypend.files.staging import staged
-from flypend.report.text import write_json
+from flypend.report.text import markdown_table, write_json
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
@@ -55,9 +55,7 @@ def comparison_table(comparison: Comparison) -> Table:
 
 def comparison_markdown(comparison: Comparison) -> str:
     """Return the Markdown table, one row per law."""
-    lines = ["| law | " + " | ".join(COLUMNS) + " |", "|---|" + "---|" * len(COLUMNS)]
-    lines += [f"| {_barred(row['law'])} | " + " | ".join(comparison_cells(row)) + " |" for row in comparison.rows()]
-    return "\n".join(lines)
+    return markdown_table([["law", *COLUMNS], *([row["law"], *comparison_cells(row)] for row in comparison.rows())])
 
 
 def write_comparison(
@@ -113,9 +111,7 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     from flypend.pictures.studies import ladder_figure
 
     laws = list(next(iter(ladder.rungs.values())).ensembles)
-    lines = ["| rung | " + " | ".join(_barred(law) for law in laws) + " |", "|---|" + "---|" * len(laws)]
-    lines += ["| " + " | ".join(row) + " |" for row in ladder_rows(ladder)]
-    table = "\n".join(lines)
+    table = markdown_table([["rung", *laws], *ladder_rows(ladder)])
     broken = "\n".join(f"- {law}: {_broken(ladder, law)}" for law in laws)
     failures = "\n".join(_failures(ladder)) or "none"
     with staged(out) as folder:
@@ -149,11 +145,6 @@ def _broken(ladder: Ladder, law: str) -> str:
 def short(value: float) -> str:
     """Format to three digits, without an exponent from 1000 up; NaN, the quantile of no runs, becomes a dash."""
     return "-" if math.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
-
-
-def _barred(name: str) -> str:
-    """Escape a name for a cell of a Markdown table."""
-    return name.replace("|", "\\|")
 
 
 def _told(settings: dict[str, Any]) -> str:

@@ -15,8 +15,7 @@ from rich.table import Table
 
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
-from flypend.paper.claims import Verdict
-from flypend.paper.finding import Finding
+from flypend.paper.claims import Finding, Verdict
 
 Column = tuple[str, str]
 # What each cause of failure means by the default criterion, for readers who meet it for the first time.
@@ -85,26 +84,24 @@ def findings_table(findings: Iterable[Finding]) -> Table:
 def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str]) -> str:
     """Return the verdicts by (law, experiment) as a Markdown table; `ends` states how each run ended."""
     first = next(iter(verdicts.values()))
-    lines = [
-        "| law | experiment | run | " + " | ".join(_cell(v.claim) for v in first) + " |",
-        "|---|---|---|" + "---|" * len(first),
-        "| *measured* | | | " + " | ".join(_cell(_generic(v.measured)) for v in first) + " |",
-        "| *criterion* | | | " + " | ".join(_cell(v.criterion) for v in first) + " |",
+    rows = [
+        ["law", "experiment", "run", *(v.claim for v in first)],
+        ["*measured*", "", "", *(_generic(v.measured) for v in first)],
+        ["*criterion*", "", "", *(v.criterion for v in first)],
     ]
     for key, row in verdicts.items():
-        cells = " | ".join(f"{number(v.value)} **{mark(v.holds)}**" for v in row)
-        lines.append(f"| {_cell(key[0])} | {_cell(key[1])} | {_cell(ends[key])} | {cells} |")
-    return "\n".join(lines)
+        rows.append([*key, ends[key], *(f"{number(v.value)} **{mark(v.holds)}**" for v in row)])
+    return markdown_table(rows)
 
 
 def findings_markdown(findings: Iterable[Finding]) -> str:
     """Return the defects as Markdown sections: as printed, as corrected, and the computed numbers."""
     sections = []
     for i, finding in enumerate(findings, 1):
-        rows = "\n".join(f"| {_cell(name)} | {number(value)} |" for name, value in finding.evidence.items())
+        rows = [["computed", "value"], *([name, number(value)] for name, value in finding.evidence.items())]
         sections.append(
             f"### {i}. {finding.title}\n\n- printed: {finding.printed}\n- should read: {finding.corrected}\n"
-            f"- shown by this run: {'yes' if finding.shown else 'NO'}\n\n| computed | value |\n|---|---|\n{rows}\n"
+            f"- shown by this run: {'yes' if finding.shown else 'NO'}\n\n{markdown_table(rows)}\n"
         )
     return "\n".join(sections)
 
@@ -130,5 +127,8 @@ def _generic(measured: str) -> str:
     return measured.split(" at ")[0]
 
 
-def _cell(text: str) -> str:
-    return " ".join(text.replace("|", "\\|").split())
+def markdown_table(rows: Sequence[Sequence[str]]) -> str:
+    """Return `rows` of cells, the first of them the header, as a Markdown table. A cell may hold any text."""
+    plain = [[" ".join(cell.replace("|", "\\|").split()) for cell in row] for row in rows]
+    header, *body = ["| " + " | ".join(row) + " |" for row in plain]
+    return "\n".join([header, "|" + "---|" * len(rows[0]), *body])

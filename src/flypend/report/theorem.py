@@ -116,17 +116,13 @@ def descent_table(descents: list[Descent]) -> Table:
 
 
 def _markdown(descents: list[Descent]) -> str:
-    lines = [
-        "| law | converge (95 %, Wilson) | end early | V rises | largest rise over V(0), median / worst |",
-        "|---|---|---|---|---|",
-    ]
+    rows = [["law", "converge (95 %, Wilson)", "end early", "V rises", "largest rise over V(0), median / worst"]]
     for row in descents:
         low, high = wilson(row.converged, row.runs)
-        lines.append(
-            f"| {row.law} | {row.converged} of {row.runs} ({low:.2%} to {high:.2%}) | {row.ended} | {row.rising} | "
-            f"{row.median_rise:.2g} / {row.worst_rise:.2g} |"
-        )
-    return "\n".join(lines)
+        share = f"{row.converged} of {row.runs} ({low:.2%} to {high:.2%})"
+        rise = f"{row.median_rise:.2g} / {row.worst_rise:.2g}"
+        rows.append([row.law, share, str(row.ended), str(row.rising), rise])
+    return text.markdown_table(rows)
 
 
 def claims_markdown(verdicts: Mapping[Column, list[Verdict]]) -> str:

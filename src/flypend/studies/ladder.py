@@ -1,20 +1,115 @@
-"""The reality ladder: the same starts and laws on plants that each add a departure from the ideal."""
+"""The reality ladder: the same starts and laws on plants that each add a departure from the ideal, or several."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from flypend import errors, plants, signals
+from flypend.errors import InputError
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
-from flypend.plants import AnyPlant
+from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
 from flypend.studies.compare import Comparison, flights_of, flown
-from flypend.studies.rungs import rungs_for
 
 if TYPE_CHECKING:
     import xarray
+
+# The ideal wrench, then limits alone, then lag on top of limits. Every other rung adds one departure to the plant
+# "rotors" (limits, the vehicle's lag, 500 Hz), so that the rung that breaks a law names the reason.
+RUNGS: Mapping[str, AnyPlant] = {
+    "ideal wrench": PRESETS["ideal"],
+    "limits": Sampled(lag=0.0),
+    **{f"lag {ms} ms": ROTORS.replace(lag=ms / 1000) for ms in (10, 20, 30, 40, 50)},
+    "spin-up x1.5": ROTORS.replace(spin_up=1.5),
+    "battery sag 10 %": ROTORS.replace(sag=0.1),
+    "thrust -20 %": ROTORS.replace(strength=0.8),
+    **{f"{rate} Hz": ROTORS.replace(rate=float(rate)) for rate in (200, 100, 50)},
+    **{f"delay {ms} ms": ROTORS.replace(delay=ms / 1000) for ms in (5, 15, 30)},
+    "noise": ROTORS.replace(noise=MOTION_CAPTURE),
+    "mass +10 %": ROTORS.replace(mismatch={"mass": 1.1, "bob_mass": 1.1}),
+    "mass -10 %": ROTORS.replace(mismatch={"mass": 0.9, "bob_mass": 0.9}),
+    "rod +10 %": ROTORS.replace(mismatch={"rod_length": 1.1}),
+    "rod -10 %": ROTORS.replace(mismatch={"rod_length": 0.9}),
+    "inertia +10 %": ROTORS.replace(mismatch={"inertia": 1.1}),
+    "inertia -10 %": ROTORS.replace(mismatch={"inertia": 0.9}),
+    "pivot offset 5 cm": ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
+    "MuJoCo": PRESETS["mujoco"],
+}
+
+# Friction of the joint: viscous, with which the hanging rod swings at this damping ratio; dry, as a share of m g l, of
+# which a good joint has a thousandth. And the spin of a rod in its bearing, rad/s.
+SWING_DAMPING, DRY_SHARE, ROD_SPIN = 0.02, 0.002, 20 * np.pi
+
+# What comes together on a machine: a slow one, one that is not quite the one written down, one with tired motors.
+TOGETHER: tuple[tuple[str, ...], ...] = (
+    ("lag 40 ms", "delay 15 ms", "100 Hz"),
+    ("lag 50 ms", "delay 30 ms", "100 Hz"),
+    ("noise", "mass +10 %", "rod +10 %"),
+    ("spin-up x1.5", "battery sag 10 %", "delay 15 ms"),
+    ("viscous friction", "dry friction", "rod +10 %", "delay 15 ms"),
+    ("viscous friction", "dry friction", "rod spin 10 turns/s", "rod +10 %"),
+)
+
+
+def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
+    """Return `RUNGS`, then those that take numbers of `vehicle` as far as it has them, then those of `TOGETHER`."""
+    found = dict(RUNGS)
+    weak = (1.0,) * (len(vehicle.rotor_spins) - 1) + (0.8,)
+    found["one rotor -20 %"] = ROTORS.replace(strength=weak)
+    known = () if vehicle.air is None else vehicle.air.known()
+    found |= {name.replace("_", " "): ROTORS.replace(air=(name,)) for name in known}
+    if vehicle.body is not None:
+        found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
+    if known:
+        found["air"] = ROTORS.replace(air="all")
+    found |= _joint(vehicle)
+    return found | {", ".join(names): together(names, found) for names in TOGETHER if set(names) <= found.keys()}
+
+
+def _joint(vehicle: Vehicle) -> dict[str, AnyPlant]:
+    """Return the rungs of the joint: friction, and spin of a rod that has an inertia about its own axis."""
+    moment = vehicle.m * vehicle.g * vehicle.l
+    swing = 2 * SWING_DAMPING * vehicle.m * vehicle.l * np.sqrt(vehicle.g * vehicle.l)
+    found: dict[str, AnyPlant] = {
+        "viscous friction": ROTORS.replace(pivot_damping=float(swing)),
+        "dry friction": ROTORS.replace(pivot_friction=float(DRY_SHARE * moment)),
+    }
+    if vehicle.rod_spin_inertia > 0:
+        found["rod spin 10 turns/s"] = ROTORS.replace(rod_spin=float(ROD_SPIN))
+    return found
+
+
+def together(names: Sequence[str], rungs: Mapping[str, AnyPlant]) -> Sampled:
+    """Return the plant with the departures of several of `rungs` at once.
+
+    Raises InputError for an unknown name, for the ideal wrench, and for two rungs that set the same number.
+    """
+    changes: dict[str, Any] = {}
+    for name in names:
+        plant = rungs[errors.one_of("--rung", name, rungs)]
+        if not isinstance(plant, Sampled):
+            raise InputError("--rung", "rungs with numbers", repr(name))
+        for entry in fields(Sampled):
+            value = getattr(plant, entry.name)
+            if value == getattr(ROTORS, entry.name):
+                continue
+            before = changes.get(entry.name)
+            merging = entry.name == "mismatch" and before is not None and not before.keys() & value.keys()
+            if before is not None and not merging:
+                raise InputError("--rung", "rungs that change different numbers", f"{entry.name} twice in {names}")
+            changes[entry.name] = before | value if merging else value
+    return ROTORS.replace(**changes)
+
+
+def rung_named(text: str, rungs: Mapping[str, AnyPlant]) -> AnyPlant:
+    """Return the rung `text`, or several at once by names with commas in between. Raises InputError like `together`."""
+    if text in rungs or "," not in text:
+        return rungs[errors.one_of("--rung", text, rungs)]
+    return together([name.strip() for name in text.split(",")], rungs)
 
 
 @dataclass(frozen=True)
@@ -60,7 +155,7 @@ def ladder(
     vehicle, laws, starts, duration, workers
         As in `compare`.
     rungs : dict, optional
-        Plants by name of the rung; default `flypend.studies.rungs.rungs_for(vehicle)`.
+        Plants by name of the rung; default `rungs_for(vehicle)`.
     progress : callable
         Called with `(task, done, total)`.
     """

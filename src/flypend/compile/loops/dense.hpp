@@ -6,6 +6,18 @@
 // Σ_p c_p x^p with four coefficients.
 static INLINE V polynomial(const double *c, V x) { return ((T(c[3]) * x + T(c[2])) * x + T(c[1])) * x + T(c[0]); }
 
+// The additional stages overwrite Y, which is restored; `moved` is Y − S.
+OUTLINE void more_stages(const Stages stages, V t, V h, V *end, V *moved) {
+    const int64_t count = STAGES + 1 + EXTRA;
+    for (int64_t i = 0; i < N; i++) end[i] = stages.Y[i];
+    for (int64_t i = 0; i < N; i++) moved[i] = stages.Y[i] - stages.S[i];
+    UNROLLED for (int64_t extra = 0; extra < EXTRA; extra++) {
+        stages.combine(A_EXTRA + extra * count, count, h);
+        stages.evaluate(t + T(C_EXTRA[extra]) * h, STAGES + 1 + extra);
+    }
+    for (int64_t i = 0; i < N; i++) stages.Y[i] = end[i];
+}
+
 // The sum of S and the stages, weighted by polynomials in θ = (time − t)/h, then projected.
 struct Dense {
     const Stages &stages;
@@ -16,24 +28,12 @@ struct Dense {
 
     // state = that at `time` within `step`
     INLINE void evaluate(const Step &step, V time) {
-        if (EXTRA && !ready) prepare(step);
+        if (EXTRA && !ready) more_stages(stages, step.t, step.h, end, moved);
+        ready = true;
         V theta = (time - step.t) / step.h;
         if (EXTRA) dop853(step, theta);
         else dp5(step, theta);
         onto(state, state);
-    }
-
-    // The additional stages overwrite Y, which is restored.
-    INLINE void prepare(const Step &step) {
-        const int64_t count = STAGES + 1 + EXTRA;
-        for (int64_t i = 0; i < N; i++) end[i] = stages.Y[i];
-        for (int64_t i = 0; i < N; i++) moved[i] = stages.Y[i] - stages.S[i];
-        UNROLLED for (int64_t extra = 0; extra < EXTRA; extra++) {
-            stages.combine(A_EXTRA + extra * count, count, step.h);
-            stages.evaluate(step.t + T(C_EXTRA[extra]) * step.h, STAGES + 1 + extra);
-        }
-        for (int64_t i = 0; i < N; i++) stages.Y[i] = end[i];
-        ready = true;
     }
 
     // s(θ) = S + h Σ_j (Σ_p P_jp θ^(p+1)) k_j

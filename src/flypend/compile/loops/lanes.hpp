@@ -18,6 +18,7 @@ constexpr T INFINITE = __builtin_huge_val();
 
 // Programs are linked at run time and stay functions; all else becomes part of the one loop.
 #define INLINE inline __attribute__((always_inline))
+#define OUTLINE static __attribute__((noinline))  // what several places call, but rarely
 #define WITHIN __attribute__((always_inline))  // a lambda
 #define EACH_LANE _Pragma("clang loop unroll(full)") for (int64_t lane = 0; lane < W; lane++)
 #define UNROLLED _Pragma("clang loop unroll(full)")

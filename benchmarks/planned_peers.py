@@ -21,7 +21,9 @@ import flypend as fp
 from benchmarks.plans import PATIENT, VEHICLE, quantiles
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model.state import SIZE
+from flypend.planning.constraints import Constraints
 from flypend.planning.ensemble import ORDER
+from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, end_errors
 from flypend.planning.method import Settings
 from flypend.planning.planner import HORIZONS
 from flypend.planning.request import Request, request
@@ -29,7 +31,6 @@ from flypend.planning.scaled import Scaled
 from flypend.planning.search import NOT_REACHED, Found, Job, guessed, one_by_one, stages_of
 from flypend.planning.stage import stepped
 from flypend.planning.telling import told
-from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED, end_errors
 from flypend.plants.lag import step_timing
 
 TOLERANCE, ITERATIONS = 1e-6, 300
@@ -140,7 +141,7 @@ def main() -> None:
     asked = parser.parse_args()
     starts = fp.random_starts(asked.runs, asked.seed)
     runs = [starts[i] for i in range(asked.runs)]
-    wished = [request(VEHICLE, start, "excursion", (0, 0, 0), None, None, None, None, 0) for start in runs]
+    wished = [request(VEHICLE, start, "excursion", (0, 0, 0), kept=Constraints(clearance=0)) for start in runs]
     best = [fp.plan(VEHICLE, start, duration=HORIZONS[0] * each.units.time, time_limit=PATIENT)
             for start, each in zip(runs, wished, strict=True)]  # fmt: skip
     alone = told(wished, one_by_one([Job(each, ORDER[0]) for each in wished], HORIZONS[0]), HORIZONS[0])

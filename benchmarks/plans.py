@@ -18,11 +18,11 @@ import flypend as fp
 from flypend.flight.metrics import wilson
 from flypend.planning import guesses
 from flypend.planning.coordinates import retract
+from flypend.planning.inequalities import BASE, END, YAW, end_errors
 from flypend.planning.method import Settings
 from flypend.planning.request import STAGES_PER_UNIT
 from flypend.planning.scaled import Units
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import BASE, END, YAW, end_errors
 from flypend.plants.lag import step_timing
 
 VEHICLE = fp.vehicle("hehn2011")

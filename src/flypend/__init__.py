@@ -29,7 +29,18 @@ if TYPE_CHECKING:
     from flypend.model.shipped import vehicle
     from flypend.model.state import State, Wrench
     from flypend.model.vehicle import Vehicle
-    from flypend.planning import Plan, PlanEnsemble, Window, load_plan, nmpc, plan, plan_and_track, plan_ensemble, track
+    from flypend.planning import (
+        Constraints,
+        Plan,
+        PlanEnsemble,
+        Window,
+        load_plan,
+        nmpc,
+        plan,
+        plan_and_track,
+        plan_ensemble,
+        track,
+    )
     from flypend.plants import Ideal, Noise, Plant, Sensor, Sensors, Wind
     from flypend.studies.check import Check, check
     from flypend.studies.compare import Comparison, compare
@@ -60,6 +71,7 @@ _WHERE = {
     "model.body": ("Body",),
     "model.rod": ("rod_with_bob", "uniform_rod"),
     "planning": (
+        "Constraints",
         "Plan",
         "PlanEnsemble",
         "Window",
@@ -86,6 +98,7 @@ __all__ = [
     "BoundLaw",
     "Check",
     "Comparison",
+    "Constraints",
     "Controller",
     "Criterion",
     "Ensemble",

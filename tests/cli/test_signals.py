@@ -184,8 +184,7 @@ def attack(commands, shots, seed, prepared, *, numbers=tuple(LINES), cold=3):
 
 
 def test_signals_at_random_moments(prepared):
-    """An experiment with its figures and movies, a sweep, and an export."""
-    attack([COMMANDS[0], COMMANDS[13], COMMANDS[20]], 6, 3, prepared)
+    attack(["run 1 -o out", "sweep study.toml -o out.zarr", "export-c -o out"], 6, 3, prepared)
 
 
 @pytest.mark.parametrize("number", LINES)

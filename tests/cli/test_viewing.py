@@ -149,7 +149,7 @@ def test_a_run_draws_in_the_style_asked_for(call, tmp_path, monkeypatch):
         (["movie", "{}/4.nc", "-o", "a.avi"], "path: expected a file name ending in .mp4 or .gif, got a.avi"),
         (
             ["movie", "{}/4.nc", "--size", "3", "3"],
-            "size: expected two even numbers of pixels, at least 160, got (3, 3)",
+            "size: expected two even numbers of pixels, 160 to 4096, got (3, 3)",
         ),
         (["figures", "{}/4.nc", "--style", "poster"], "--style: expected one of paper, slides, got 'poster'"),
         (["run", "4", "--style", "slide"], "--style: expected one of paper, slides, got 'slide'"),

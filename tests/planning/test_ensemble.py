@@ -45,7 +45,7 @@ def test_a_plan_that_touches_on_the_way_is_not_the_last_word():
     """On a hub clearance is soft in the solver, and checked afterwards: where one guess touches, another is tried."""
     hub = HEHN.replace(mount="hub")
     starts = task_starts(hub, 6, 3)["random"][np.array([4])]
-    asked = request(hub, starts[0], "excursion", (0, 0, 0), None, None, None, None, 0.01)
+    asked = request(hub, starts[0], "excursion", (0, 0, 0))
     one = told([asked], one_by_one([Job(asked, ORDER[0])], HORIZONS[0]), HORIZONS[0])[0]
     assert "touched" in one.reason
     assert np.all(fp.plan_ensemble(hub, starts, guesses=1).success)
@@ -60,10 +60,10 @@ def test_more_guesses_find_no_less(planned):
 
 def test_a_lane_that_is_taken_over_begins_anew():
     """Solving on in one lane changes nothing in the others, bit for bit."""
-    asked = [request(HEHN, STARTS[i], "excursion", (0, 0, 0), None, None, None, None, 0.01) for i in range(8)]
+    asked = [request(HEHN, STARTS[i], "excursion", (0, 0, 0)) for i in range(8)]
     jobs = [Job(each, 1) for each in asked]
     problem = guessed(jobs, HORIZONS[0])
-    one, other = (Solver(kernels(4, asked[0].wishes), *guessed(jobs, HORIZONS[0])) for _ in range(2))
+    one, other = (Solver(kernels(4, asked[0].structure), *guessed(jobs, HORIZONS[0])) for _ in range(2))
     for solver in (one, other):
         solver.improve()
         solver.improve()
@@ -73,13 +73,13 @@ def test_a_lane_that_is_taken_over_begins_anew():
     kept = [0, 1, 2, 4, 5, 6, 7]
     np.testing.assert_array_equal(one.states[..., kept], other.states[..., kept])
     assert not np.array_equal(one.states[..., 3], other.states[..., 3])
-    fresh = Solver(kernels(4, asked[0].wishes), *guessed(jobs, HORIZONS[0]))
+    fresh = Solver(kernels(4, asked[0].structure), *guessed(jobs, HORIZONS[0]))
     fresh.improve()
     np.testing.assert_array_equal(other.states[..., 3], fresh.states[..., 5])
 
 
 def test_jobs_keep_their_order():
-    asked = [request(HEHN, STARTS[i], "excursion", (0, 0, 0), None, None, None, None, 0.01) for i in range(10)]
+    asked = [request(HEHN, STARTS[i], "excursion", (0, 0, 0)) for i in range(10)]
     found = one_by_one([Job(each, 1) for each in asked], HORIZONS[0])
     for each, own in zip(found, asked, strict=True):
         np.testing.assert_array_equal(each.states[0], own.start)

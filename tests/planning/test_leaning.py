@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.planning.constraints import Constraints
 from flypend.planning.leaning import WAYS, leaned, leans
 from flypend.planning.request import request
 from flypend.planning.search import stages_of
@@ -15,7 +16,7 @@ SIDEWAYS = 4
 
 
 def asked(window=LOW, lean=1.0):
-    return request(HEHN, START, "effort", np.array([1.5, 0, 0]), None, None, None, lean, 0.01, window)
+    return request(HEHN, START, "effort", np.array([1.5, 0, 0]), kept=Constraints(lean=lean, window=window))
 
 
 @pytest.mark.parametrize("style", [2, SIDEWAYS, 7])
@@ -64,6 +65,5 @@ def test_only_where_the_lean_is_limited_and_a_wall_stands():
     assert not leans(asked(), 0)  # an upright style
     assert not leans(asked(lean=None), SIDEWAYS)
     assert not leans(asked(window=None), SIDEWAYS)
-    nothing = (None, None, None)
     above, below = fp.State(x=(0, 0, -1), y=(0, 0, 1)), np.array([0, 0, 1.0])
-    assert not leans(request(HEHN, above, "effort", below, *nothing, 1.0, 0.01, hatch), SIDEWAYS)
+    assert not leans(request(HEHN, above, "effort", below, kept=Constraints(lean=1.0, window=hatch)), SIDEWAYS)

@@ -48,7 +48,7 @@ def planned():
 
 def real_time(plan):
     """Return real-time iterations on `plan`, and its states in own units."""
-    asked = request(plan.vehicle, plan.states[0], "excursion", np.zeros(3), None, None, None, None, 0.01)
+    asked = request(plan.vehicle, plan.states[0], "excursion", np.zeros(3))
     units, n = Units.of(plan.vehicle), len(plan.vehicle.rotor_spins)
     per_stage = (len(plan.t) - 1) // len(plan.commands)
     states = (np.column_stack([plan.packed, plan.rotor_forces]) / units.states(n))[::per_stage]

@@ -7,13 +7,14 @@ import pytest
 
 import flypend as fp
 from benchmarks.planned_peers import BROKEN, Shooting
+from flypend.planning.constraints import Constraints
 from flypend.planning.request import request
 
 
 def test_a_plan_keeps_the_constraints_of_its_peers() -> None:
     """The stages of a plan break none of them; another start, a state that is moved or a command too large do."""
     vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
-    asked = request(vehicle, start, "excursion", (0, 0, 0), None, None, None, None, 0)
+    asked = request(vehicle, start, "excursion", (0, 0, 0), kept=Constraints(clearance=0))
     plan, shooting = fp.plan(vehicle, start, time_limit=600), Shooting(asked)
     states = np.column_stack([plan.packed, plan.rotor_forces]) / asked.units.states(asked.rotors)
     states, commands = states[:: (len(states) - 1) // shooting.N], plan.commands / asked.units.force

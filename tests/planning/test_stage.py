@@ -12,10 +12,10 @@ from flypend.geometry import rotation_defect
 from flypend.model.state import SIZE
 from flypend.planning.barrier import Barrier
 from flypend.planning.coordinates import local, plane, retract
+from flypend.planning.inequalities import Structure
 from flypend.planning.riccati import Shape
 from flypend.planning.scaled import Units
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import Wishes
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.lag import step_timing
 
@@ -114,18 +114,18 @@ def test_derivatives_are_those_by_finite_differences(maps):
         np.testing.assert_allclose(A[:, i] if i < 20 else B[:, i - 20], column, rtol=1e-7, atol=2e-8)
 
 
-@pytest.mark.parametrize("wishes", [Wishes(), Wishes(box=True, speed=True)])
-def test_the_terms_are_the_gradient_of_the_barrier(maps, wishes):
+@pytest.mark.parametrize("structure", [Structure(), Structure(box=True, speed=True)])
+def test_the_terms_are_the_gradient_of_the_barrier(maps, structure):
     """With s = g and z = μ/s, the gradient of the linear-quadratic problem is that of cost − μ Σ log g."""
     forth, _ = maps
     stage = Stage(4)
-    barrier = Barrier(stage, wishes)
+    barrier = Barrier(stage, structure)
     values, terms = numeric(barrier.values()), numeric(barrier.terms())
     rng = np.random.default_rng(6)
     state = random_state(rng, HEHN) / Units.of(HEHN).states(4)
     state[:3] = rng.normal(size=3) * 0.3
-    walls = [1.0, *[-3.0] * 3, *[3.0] * 3] if wishes.box else []
-    numbers = np.array([1.0, 0.3, 0.06, 2.6, 0.1, *walls, *([5.0] if wishes.speed else [])])
+    walls = [1.0, *[-3.0] * 3, *[3.0] * 3] if structure.box else []
+    numbers = np.array([1.0, 0.3, 0.06, 2.6, 0.1, *walls, *([5.0] if structure.speed else [])])
     command, vehicle, mu = rng.uniform(0.2, 2.4, 4), Units.of(HEHN).numbers(HEHN), 0.02
 
     def merit(delta, upsilon, epsilon):

@@ -31,7 +31,7 @@ def begin_of(start, vehicle=HEHN):
 def asking(vehicle):
     def ask(_, here):
         start, rotors = fp.State.from_packed(here[:SIZE]), np.clip(here[SIZE:], *vehicle.rotor_limits)
-        return request(vehicle, start, "excursion", np.zeros(3), rotors, None, None, None, 0.01)
+        return request(vehicle, start, "excursion", np.zeros(3), rotors)
 
     return ask
 

@@ -83,7 +83,7 @@ def plan(
     from flypend.files.whole import FIGURES
     from flypend.flight.metrics import metrics
     from flypend.flight.simulate import simulate
-    from flypend.planning import Window, track
+    from flypend.planning import Constraints, Window, track
     from flypend.planning import plan as planned
 
     figures = {"--figure": figure, "--front": front, "--map": sphere}
@@ -94,12 +94,11 @@ def plan(
     half = None if cube is None else errors.number("--cube", cube, above=0, unit="m") / 2
     box = None if half is None else ((-half,) * 3, (half,) * 3)
     windows = [Window(place[:3], *place[3:]) for place in window]
-    wishes: dict[str, Any] = {
-        "target": target, "floor": floor, "ceiling": ceiling, "speed": speed, "window": windows,
-        "box": None if box is None else np.add(box, target), "lean": None if lean is None else np.radians(lean),
-        "waypoints": waypoint or None,
-    }  # fmt: skip
-    found = planned(machine, start, objective, duration=duration, **wishes)
+    kept = Constraints(
+        floor=floor, ceiling=ceiling, speed=speed, window=windows or None, waypoints=waypoint or None,
+        box=None if box is None else np.add(box, target), lean=None if lean is None else np.radians(lean),
+    )  # fmt: skip
+    found = planned(machine, start, objective, duration=duration, target=target, constraints=kept)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
@@ -121,9 +120,9 @@ def plan(
         console.print(f"The replay is {bold(html)}.")
     with counter() as tell:
         if figure is not None:
-            _drawn("draw_plan", figure, found, shown if ghosts else None, wishes)
+            _drawn("draw_plan", figure, found, shown if ghosts else None, windows)
         if front is not None:
-            _drawn("draw_front", front, found, start, wishes, tell)
+            _drawn("draw_front", front, found, start, kept, tell)
         if sphere is not None:
             _drawn("draw_strays", sphere, found, tell)
 

@@ -41,7 +41,7 @@ def eight(t):
     return ca.vertcat(0.5 * ca.sin(angle(t)), 0.5 * ca.sin(angle(t)) * ca.cos(angle(t)), 0)
 
 
-# For each its start, and what is wished.
+# For each its start, and what the plan keeps.
 MANOEUVRES = {
     "cube": (fp.State(x=(0, 0, 0.25), y=DOWN), {"target": (0, 0, -0.25), "box": ((-0.5,) * 3, (0.5,) * 3)}),
     "door": (AHEAD, BEYOND | {"window": DOOR, "lean": np.pi / 2}),
@@ -80,8 +80,8 @@ def worst():
 
 def fly(name, plant="rotors"):
     """Return the plan of a manoeuvre, and its flight in a plant."""
-    start, wishes = (worst(), {"lean": np.pi / 2}) if name == "worst" else MANOEUVRES[name]
-    plan = fp.plan(VEHICLE, start, time_limit=60, **wishes)
+    start, kept = (worst(), {"lean": np.pi / 2}) if name == "worst" else MANOEUVRES[name]
+    plan = fp.plan(VEHICLE, start, time_limit=60, **kept)
     if not plan:
         sys.exit(f"{name}: {plan.reason}")
     return plan, fp.simulate(VEHICLE, fp.track(plan), start, plan.duration + 2, plant=plant)

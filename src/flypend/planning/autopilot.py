@@ -5,23 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.board.computer import FlightComputer, SteppedBoard
+from flypend.errors import InputError
 from flypend.laws import Computer, Controller, Law
 from flypend.laws.references import hover
 from flypend.model import State
+from flypend.planning.constraints import Constraints, Keywords, gathered
 from flypend.planning.feedback import regulator
 from flypend.planning.planner import plan
-from flypend.planning.request import walls_of, weights_of, windows_of
+from flypend.planning.request import weights_of
 from flypend.planning.tracking import Tracker, fallback, rotors_only
 from flypend.plants.loop import Loop
 
-WISHES = ("box", "floor", "ceiling", "speed", "lean", "window", "waypoints", "duration", "clearance")
 PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
 
 
@@ -32,7 +33,9 @@ def plan_and_track(
     target: ArrayLike = (0.0, 0.0, 0.0),
     latency: float = 0.0,
     otherwise: Law | None = None,
-    **wishes: Any,
+    duration: float | None = None,
+    constraints: Constraints | None = None,
+    **keywords: Unpack[Keywords],
 ) -> Controller:
     """Return a controller that plans a flight from its first measurement, tracks the plan, and hovers.
 
@@ -48,21 +51,20 @@ def plan_and_track(
     otherwise : Law, optional
         The law that flies where there is no plan, or takes over once a flight is too far from it; default the inverted
         law about the target.
-    **wishes
-        Further arguments of `plan`: box, floor, ceiling, speed, lean, window, waypoints, duration, clearance.
+    duration, constraints, **keywords
+        As in `plan`, except a path.
 
     Raises
     ------
     InputError
-        If a wish is unknown, or objective, walls, windows or `otherwise` are none; other errors of `plan` come when a
-        flight begins.
+        If objective, constraints or `otherwise` are none; other errors of `plan` come when a flight begins.
     """
-    errors.only_known("wish", wishes, WISHES)
     weights_of(objective)
-    walls_of(*(wishes.get(name) for name in ("box", "floor", "ceiling")))
-    windows_of(wishes.get("window"))
+    kept = gathered("plan_and_track", constraints, keywords)
+    if kept.path is not None:
+        raise InputError("path", "nothing: flights begin where they are thrown", repr(kept.path)[:80])
     goal = errors.array("target", target, (3,))
-    asked = partial(plan, objective=objective, target=goal, time_limit=PATIENT, **wishes)
+    asked = partial(plan, objective=objective, duration=duration, target=goal, constraints=kept, time_limit=PATIENT)
     law = fallback(otherwise, hover(goal))
     return Controller(
         name="plan",

@@ -13,31 +13,31 @@ from typing import Any
 import casadi as ca
 
 from flypend.planning.coordinates import MOTION, POSITION, VELOCITY, retract
+from flypend.planning.inequalities import SHARED, Structure, end_errors, inequalities, nearness, running_cost
 from flypend.planning.riccati import packed_cost, packed_to_go
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import SHARED, Wishes, end_errors, inequalities, nearness, running_cost
 
 
 class Barrier:
-    """Programs of a `stage` under `wishes`, with deviations δ of the state, υ of the command, ε of what is shared."""
+    """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared."""
 
-    def __init__(self, stage: Stage, wishes: Wishes) -> None:
+    def __init__(self, stage: Stage, structure: Structure) -> None:
         n = stage.rotors
-        self._stage, self._state, self._exact = stage, stage.before, wishes.exact(n)
+        self._stage, self._state, self._exact = stage, stage.before, structure.exact(n)
         self._moves = [ca.SX.sym("delta", MOTION + n), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
         delta, upsilon, epsilon = self._moves
-        shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", wishes.numbers)
+        shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", structure.numbers)
         here, command, place = retract(stage.before, delta), stage.command + upsilon, ca.SX.sym("place", 3)
-        self._g = inequalities(here, command, shared + epsilon, numbers, place, wishes, stage.machine)
+        self._g = inequalities(here, command, shared + epsilon, numbers, place, structure, stage.machine)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
-        self._near = nearness(here, stage.before, numbers, wishes, stage.machine)
+        self._near = nearness(here, stage.before, numbers, structure, stage.machine)
         self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers)
         self.inequalities, self.end_size = int(self._g.numel()), int(self._end.numel())
         self._slack, self._dual = ca.SX.sym("s", self.inequalities), ca.SX.sym("z", self.inequalities)
         self._mu, self._numbers = ca.SX.sym("mu"), numbers
-        self._weight = numbers[-2] if wishes.soft else 0
+        self._weight = numbers[-2] if structure.soft else 0
         self._point = [stage.before, stage.command, shared, numbers, stage.machine.numbers]
-        self._place = [place] if wishes.path else []
+        self._place = [place] if structure.path else []
 
     def _function(self, name: str, inputs: list[Any], *outputs: Any) -> ca.Function:
         """Return a function of `inputs`, with all moves zero."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,14 +15,13 @@ from flypend.compile.llvm.stagewise import WIDTH
 from flypend.errors import InputError
 from flypend.flight.metrics import wilson
 from flypend.flight.request import check_batch
-from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
+from flypend.planning.constraints import Constraints, Keywords, gathered
 from flypend.planning.planner import horizons_of
-from flypend.planning.request import Request, end_of, request, walls_of
+from flypend.planning.request import Request, end_of, request
 from flypend.planning.result import Plan
 from flypend.planning.search import Job, one_by_one, prepared
 from flypend.planning.telling import told
-from flypend.planning.window import Window
 from flypend.signals.waiting import result_of, threads
 
 # Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
@@ -110,18 +109,11 @@ def plan_ensemble(
     duration: float | None = None,
     target: ArrayLike | None = None,
     rotors: ArrayLike | None = None,
-    box: ArrayLike | None = None,
-    floor: float | None = None,
-    ceiling: float | None = None,
-    speed: float | None = None,
-    lean: float | None = None,
-    window: Window | Sequence[Window] | None = None,
-    waypoints: ArrayLike | None = None,
-    path: Reference | None = None,
-    clearance: float = 0.01,
+    constraints: Constraints | None = None,
     guesses: int = 2,
     workers: int | None = None,
     progress: Progress = lambda *_: None,
+    **keywords: Unpack[Keywords],
 ) -> PlanEnsemble:
     """Plan flights of `vehicle` from each of `starts`, each guess on a lane of its own.
 
@@ -129,7 +121,7 @@ def plan_ensemble(
 
     Parameters
     ----------
-    vehicle, duration, target, rotors, box, floor, ceiling, speed, lean, window, waypoints, path, clearance
+    vehicle, duration, target, rotors, constraints, **keywords
         As in `plan`.
     starts : State
         A batch of states with one leading axis, e₃ up.
@@ -146,16 +138,16 @@ def plan_ensemble(
     Raises
     ------
     InputError
-        If an argument is out of range, or a start breaks a wish.
+        If an argument is out of range, or a start breaks a constraint.
     """
     check_batch(starts)
     if objective == "time":
         raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
     first = errors.integer("guesses", guesses, 1, WIDTH)
     cores = errors.integer("workers", os.cpu_count() or 1 if workers is None else workers, 1)
-    walls, goal = walls_of(box, floor, ceiling), end_of(path, duration, target)
-    wishes = (objective, goal, rotors, walls, speed, lean, clearance, window, waypoints, path)
-    asked = [request(vehicle, starts[i], *wishes) for i in range(len(starts))]
+    kept = gathered("plan_ensemble", constraints, keywords)
+    goal = end_of(kept.path, duration, target)
+    asked = [request(vehicle, starts[i], objective, goal, rotors, kept) for i in range(len(starts))]
     horizons = horizons_of(asked[0], duration)
     prepared(asked[0])  # compiling takes seconds, once
     share = min(CHUNK, WIDTH * -(-len(asked) // (WIDTH * cores)))

@@ -20,10 +20,10 @@ from flypend.geometry import E3, cross, unit
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turned
+from flypend.planning.inequalities import Structure
 from flypend.planning.result import Plan
 from flypend.planning.scaled import Units, size
 from flypend.planning.single import laid, single
-from flypend.planning.wishes import Wishes
 from flypend.plants.lag import step_timing
 
 # Largest acceptable deviations, own units: position, velocity, attitude, spin, rod, its rate; heading; command.
@@ -87,7 +87,7 @@ def _hover(plan: Plan) -> Array:
 def _gains(vehicle: Any, units: Units, states: Array, commands: Array, h: float) -> Array:
     """Return the gains (stages, n, 18 + n) of the regulator in SI units, by one recursion from zero cost to go."""
     n, count = commands.shape[1], len(commands)
-    compiled, one = single(n, Wishes()), partial(lanes, width=1)
+    compiled, one = single(n, Structure()), partial(lanes, width=1)
     shape = compiled.shape
     own, forces, timing, numbers = one(count + 1, SIZE + n), one(count, n), one(4), one(size(n))
     own[:] = (states / units.states(n))[..., None]
@@ -123,7 +123,7 @@ def _cost(n: int) -> Array:
     none = np.zeros(MOTION + n)
     R = np.full(n, 1 / COMMAND**2)
     # Nothing depends on the shared parameter; its curvature only must not vanish.
-    cost = laid(n, Wishes()).cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
+    cost = laid(n, Structure()).cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
     return np.array(ca.DM(ca.evalf(cost))).ravel()
 
 

@@ -112,7 +112,7 @@ def _force(a: Any, y: Any, H: Any, m: Any, e3: Any) -> Any:
 
 
 def _acceleration(x: Any, x_dot: Any, y: Any, H: Any, style: Any, e3: Any) -> Any:
-    """Return the acceleration of the pivot that a `style` wishes."""
+    """Return the acceleration of the pivot that a `style` asks for."""
     largest, gain, bandwidth, energy, uncircle, top, slow, caught, _ = ca.vertsplit(style)
     y_dot, speed = cross(H, y), dot(H, H)
     pump = -gain * (energy - speed / 2 - y[2]) * y_dot + uncircle * H[2] * cross(e3, y)

@@ -1,4 +1,4 @@
-"""The compiled programs of the solver, for machines with some number of rotors and some wishes."""
+"""The compiled programs of the solver, for machines with some number of rotors and some structure of inequalities."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from functools import lru_cache
 
 from flypend.compile.llvm.stagewise import Stagewise, stagewise
 from flypend.planning.barrier import Barrier
+from flypend.planning.inequalities import Structure
 from flypend.planning.riccati import Shape, backward, forward
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import Wishes
 
 
 @dataclass(frozen=True)
@@ -53,19 +53,19 @@ class Kernels:
 
 
 @lru_cache(maxsize=32)
-def kernels(rotors: int, wishes: Wishes) -> Kernels:
-    """Return the compiled programs of as many problems as lanes, for machines with so many `rotors`, and `wishes`.
+def kernels(rotors: int, structure: Structure) -> Kernels:
+    """Return the compiled programs of as many problems as lanes, for machines with so many `rotors`, and `structure`.
 
     They come from the cache if possible.
     """
     stage = Stage(rotors)
-    barrier = Barrier(stage, wishes)
+    barrier = Barrier(stage, structure)
     linearised, A, B = stage.linearised()
     shape = Shape(A, B)
     return Kernels(
         shape=shape,
         inequalities=barrier.inequalities,
-        exact=wishes.exact(rotors),
+        exact=structure.exact(rotors),
         end_size=barrier.end_size,
         slopes=(A.nnz(), B.nnz()),
         of_stage=shape.of_stage,

@@ -82,7 +82,7 @@ class Problem:
     vehicle : (k, lanes)
         Numbers of the machines; see `scaled.Units.numbers`.
     numbers : (j, lanes)
-        Numbers of the wishes; see `wishes.Wishes.numbers`.
+        Numbers of the inequalities; see `inequalities.Structure.numbers`.
     places : (stages + 1, 3, lanes), optional
         Where the pivot is to be, with the wish of a path; else the origin.
     """

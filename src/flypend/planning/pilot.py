@@ -27,6 +27,7 @@ from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.planning import waiting
 from flypend.planning.boards import Boards
+from flypend.planning.constraints import Constraints
 from flypend.planning.equilibrium import falls, hovers, upright, weighed
 from flypend.planning.flown import OF_STAGES, Flown
 from flypend.planning.planner import plan_within
@@ -62,7 +63,7 @@ class Receding:
     law: Law
     latency: float
     computing: float | None
-    clearance: float
+    constraints: Constraints
 
     def __call__(self, loop: Loop, rotors: Any) -> Pilot:
         """Return the flight computer for a `loop` and initial `rotors` (n,), N."""
@@ -112,7 +113,8 @@ class Pilot:
         self._by_law = replace(loop, law=receding.law.bind(loop.vehicle))
         self._rotors = np.asarray(rotors, dtype=float)
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
-        self._where, self._waits = _moving(receding.reference), waiting.Waits(self._by_law, receding.clearance)
+        self._where = _moving(receding.reference)
+        self._waits = waiting.Waits(self._by_law, receding.constraints.clearance)
         self._mode = "waiting"
         self._coming: Coming | None = None
         self._flown: Flown | None = None
@@ -232,8 +234,8 @@ class Pilot:
     def _asked(self, t: float, here: Any) -> Request:
         """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError."""
         start, forces = State.from_packed(self._relative(t, here[:SIZE])), here[SIZE:]
-        rotors, kept = np.clip(forces, *self._vehicle.rotor_limits), self._common.clearance
-        return request(self._vehicle, start, "excursion", np.zeros(3), rotors, None, None, None, kept)
+        rotors = np.clip(forces, *self._vehicle.rotor_limits)
+        return request(self._vehicle, start, "excursion", np.zeros(3), rotors, self._common.constraints)
 
     def _planned(self, t: float, here: Any, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
         """Return a plan from `here` as in `_asked`, what it answers, and why there is none."""
@@ -242,7 +244,7 @@ class Pilot:
         except InputError as error:
             return None, None, str(error)
         found = plan_within(asked, horizon, iterations, ROUNDS)
-        if asked.wishes.mounted is not None:
+        if asked.structure.mounted is not None:
             asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason
 

@@ -1,4 +1,4 @@
-"""`plan`: from a vehicle, a start and wishes to a `Plan`."""
+"""`plan`: from a vehicle, a start and constraints to a `Plan`."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Unpack
 
 from numpy.typing import ArrayLike
 
 from flypend import errors, signals
-from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
-from flypend.planning.request import STAGES_PER_UNIT, Request, end_of, request, walls_of
+from flypend.planning.constraints import Constraints, Keywords, gathered
+from flypend.planning.request import STAGES_PER_UNIT, Request, end_of, request
 from flypend.planning.result import Plan
 from flypend.planning.search import prepared, together
 from flypend.planning.telling import told
-from flypend.planning.window import Window
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
 LONGEST = 60.0  # √(l/g)
@@ -32,16 +32,9 @@ def plan(
     duration: float | None = None,
     target: ArrayLike | None = None,
     rotors: ArrayLike | None = None,
-    box: ArrayLike | None = None,
-    floor: float | None = None,
-    ceiling: float | None = None,
-    speed: float | None = None,
-    lean: float | None = None,
-    window: Window | Sequence[Window] | None = None,
-    waypoints: ArrayLike | None = None,
-    path: Reference | None = None,
-    clearance: float = 0.01,
+    constraints: Constraints | None = None,
     time_limit: float = 5.0,
+    **keywords: Unpack[Keywords],
 ) -> Plan:
     """Plan a flight of `vehicle` from `start` to inverted hover at the `target`.
 
@@ -61,26 +54,12 @@ def plan(
         Where the pivot is to hover, m; default the origin, or the end of the path.
     rotors : (n,), optional
         Rotor forces at the start, N; default their minimum.
-    box : (2, 3), optional
-        Lowest and highest corner of a box that pivot and rod stay in, m; infinite entries for no wall.
-    floor, ceiling : float, optional
-        Lowest and highest height of pivot and rod, m.
-    speed : float, optional
-        Largest speed of the pivot, m/s.
-    lean : float, optional
-        Largest angle between the rod and the vertical, rad: π/2 keeps it above the horizon.
-    window : Window or several, optional
-        Openings in walls between start and target, to fly through: rod and machine keep clear of the frame.
-    waypoints : (k, 3), optional
-        Points that the pivot passes, one after the other on the way from start to target, within a twentieth of the
-        rod's length, m.
-    path : callable, optional
-        Where the pivot is to be, m, as a function of time, with CasADi's functions (see `laws.references`): circles,
-        figures of eight. The excursion is measured from it. It takes the `duration`, and ends in hover.
-    clearance : float
-        Distance that the rod of a hub or cup keeps from what it can touch, and the machine from a window's frame, m.
+    constraints : Constraints, optional
+        What the flight keeps, beside the limits of the rotors.
     time_limit : float
-        Time after which the best so far is returned, s. Compiling, once per kind of wishes, does not count.
+        Time after which the best so far is returned, s. Compiling, once per kind of constraints, does not count.
+    **keywords
+        Fields of `Constraints` one by one: box, floor, ceiling, speed, lean, window, waypoints, path, clearance.
 
     Returns
     -------
@@ -90,13 +69,13 @@ def plan(
     Raises
     ------
     InputError
-        If an argument is out of range, or the start breaks a wish.
+        If an argument is out of range, or the start breaks a constraint.
     """
-    walls, goal = walls_of(box, floor, ceiling), end_of(path, duration, target)
-    asked = request(vehicle, start, objective, goal, rotors, walls, speed, lean, clearance, window, waypoints, path)
+    kept = gathered("plan", constraints, keywords)
+    asked = request(vehicle, start, objective, end_of(kept.path, duration, target), rotors, kept)
     limit = errors.number("time_limit", time_limit, above=0, unit="s")
     horizons = horizons_of(asked, duration)
-    attempts = [asked.unwished(), asked] if asked.wishing and not asked.wishes.gates else [asked]
+    attempts = [asked.unconstrained(), asked] if asked.constrained and not asked.structure.gates else [asked]
     if asked.leaning:
         attempts.append(replace(asked, again=True))
     for attempt in attempts:
@@ -117,7 +96,7 @@ def horizons_of(asked: Request, duration: float | None) -> Sequence[float]:
 def _first(attempts: Sequence[Request], horizons: Sequence[float], deadline: float) -> Plan:
     """Return the first plan that can be flown, of the `attempts` with the `horizons` in turn, else the last.
 
-    Without wishes first: many keep the best plan anyway, and walls that it does not touch would lead past it.
+    Without constraints first: many keep the best plan anyway, and walls that it does not touch would lead past it.
     """
     for horizon in horizons:
         for attempt in attempts:

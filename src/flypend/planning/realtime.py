@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from flypend.compile.llvm.stagewise import lanes
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
 from flypend.planning.equilibrium import hover_under
+from flypend.planning.inequalities import HIGH, LOW, SHARED
 from flypend.planning.method import Settings
 from flypend.planning.request import Request
 from flypend.planning.scaled import size
 from flypend.planning.single import single
-from flypend.planning.wishes import HIGH, LOW, SHARED
 from flypend.plants.lag import step_timing
 
 LENGTHS = (1.0, 0.4, 0.15)
@@ -57,7 +57,7 @@ class RealTime:
 
     def __init__(self, asked: Request, states: Array, commands: Array, stage: float, planned: int, least: int) -> None:
         n, N = asked.rotors, len(commands)
-        k = single(n, asked.wishes)
+        k = single(n, asked.structure)
         self._set, self._exact, self._of_shared = Settings(barrier=BARRIER), k.exact, k.of_shared
         self._planned, self._least = planned, least
         self.states, self.commands = _numbers(*states.shape), _numbers(N, n)
@@ -167,8 +167,8 @@ class RealTime:
         self._delta[first] = 0.0
         self._forward(first, N)
         self._steps(first, N)
-        of_gaps, of_wishes = np.max(self._costate[stages]), np.max(dual[:, self._exact :], initial=0.0)
-        self._price = max(1.0, 1.2 * float(of_gaps)), max(1.0, 1.2 * float(of_wishes))
+        of_gaps, of_limits = np.max(self._costate[stages]), np.max(dual[:, self._exact :], initial=0.0)
+        self._price = max(1.0, 1.2 * float(of_gaps)), max(1.0, 1.2 * float(of_limits))
 
     def _search(self, first: int, N: int) -> bool:
         """Take the longest step that lets the merit fall."""

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
 from flypend.errors import InputError
@@ -17,10 +17,10 @@ from flypend.laws.references import Reference, check_reference, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.check import Limits, begins_touching
+from flypend.planning.constraints import Constraints, angle
+from flypend.planning.inequalities import BASE, END, Structure
 from flypend.planning.passage import NEAR, along, through
 from flypend.planning.scaled import Units
-from flypend.planning.window import Window
-from flypend.planning.wishes import BASE, END, Wishes
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
@@ -50,7 +50,7 @@ class Request:
         State and rotor forces at the start, in own units, about the target.
     limits : Limits
         What every sample of the plan must keep.
-    wishes, numbers : Wishes, (k,)
+    structure, numbers : Structure, (k,)
         The inequalities and their numbers, in own units, about the target.
     path : callable, optional
         Where the pivot is to be, m, as a function of time, s; default the target.
@@ -64,7 +64,7 @@ class Request:
     target: NDArray[np.float64]
     start: NDArray[np.float64]
     limits: Limits
-    wishes: Wishes
+    structure: Structure
     numbers: NDArray[np.float64]
     path: Reference | None = None
     again: bool = False
@@ -81,9 +81,9 @@ class Request:
         return len(self.vehicle.rotor_spins)
 
     @property
-    def wishing(self) -> bool:
+    def constrained(self) -> bool:
         """Whether there are inequalities beyond those of the machine."""
-        return self.wishes.box or self.wishes.speed or self.wishes.lean or self.wishes.gates > 0
+        return self.structure.box or self.structure.speed or self.structure.lean or self.structure.gates > 0
 
     @property
     def begins_touching(self) -> bool:
@@ -96,30 +96,34 @@ class Request:
         """Whether guesses are to lean in windows: where the rod may not fall, upright is a saddle."""
         walls = self.limits.windows
         level = all(float(np.hypot(*window.axes[2, :2])) > HATCH for window in walls)
-        return self.wishes.lean and len(walls) > 0 and level
+        return self.structure.lean and len(walls) > 0 and level
 
-    def unwished(self) -> Request:
+    def unconstrained(self) -> Request:
         """The same within the limits of the machine alone; what comes of it is still held against `limits`."""
-        mounted = self.wishes.mounted
+        mounted = self.structure.mounted
         kept = self.numbers[:BASE] if mounted is None else np.append(self.numbers[:BASE], self.numbers[-2:])
-        return replace(self, wishes=Wishes(path=self.wishes.path, mounted=mounted), numbers=kept)
+        return replace(self, structure=Structure(path=self.structure.path, mounted=mounted), numbers=kept)
 
 
 def request(
     vehicle: Vehicle,
     start: State,
-    objective: Any,
-    target: Any,
-    rotors: Any,
-    walls: Any,
-    speed: Any,
-    lean: Any,
-    clearance: Any,
-    window: Any = None,
-    waypoints: Any = None,
-    path: Any = None,
+    objective: str | Mapping[str, float],
+    target: ArrayLike,
+    rotors: ArrayLike | None = None,
+    kept: Constraints | None = None,
 ) -> Request:
-    """Check the arguments of `planning.plan`; `walls` (2, 3) are from `walls_of`. Raises InputError."""
+    """Check the arguments of `planning.plan`, and turn them into the machine's units. Raises InputError.
+
+    Parameters
+    ----------
+    vehicle, start, objective, target, rotors
+        As in `plan`.
+    kept : Constraints, optional
+        What the flight keeps, by default the limits of the machine alone.
+    """
+    kept = kept or Constraints()
+    walls, speed, lean, path = kept.walls, kept.speed, kept.lean, kept.path
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle)[:80])
     if not isinstance(start, State) or start.batch_shape:
@@ -140,8 +144,7 @@ def request(
     if lean is not None:
         lowest = np.cos(_lean(lean, start))
         numbers.append(lowest + min(TIGHTER, (float(start.y[2]) - lowest) / 2))
-    apart, windows = errors.number("clearance", clearance, at_least=0, unit="m"), windows_of(window)
-    points = np.zeros((0, 3)) if waypoints is None else errors.array("waypoints", waypoints, (None, 3))
+    apart, windows, points = kept.clearance, kept.windows, kept.points
     ends = (start, State(x=goal, y=E3))
     route = (start, *(State(x=point, y=E3) for point in points), ends[1])
     gates = [through(each, vehicle, route, goal, apart) for each in windows]
@@ -153,11 +156,11 @@ def request(
     packed[:3] -= goal
     begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
     limits = Limits(walls, speed, lean, TOLERANCE * units.length, windows, points, NEAR * units.length)
-    wishes = Wishes(
+    structure = Structure(
         box=walls is not None, speed=speed is not None, lean=lean is not None, path=path is not None,
         gates=len(windows) + len(points), mounted=mounted,
     )  # fmt: skip
-    return Request(vehicle, units, weights, goal, begin, limits, wishes, np.array(numbers), path)
+    return Request(vehicle, units, weights, goal, begin, limits, structure, np.array(numbers), path)
 
 
 def end_of(path: Any, duration: Any, target: Any) -> Any:
@@ -172,43 +175,6 @@ def end_of(path: Any, duration: Any, target: Any) -> Any:
     return sampled(path, np.array([errors.number("duration", duration, above=0, unit="s")]))[0]
 
 
-def walls_of(box: Any, floor: Any, ceiling: Any) -> Any:
-    """Return the lowest and highest corner (2, 3), m, of `box` with `floor` and `ceiling`; None for no wall.
-
-    Raises InputError.
-    """
-    walls = np.array([[-np.inf] * 3, [np.inf] * 3])
-    if box is not None:
-        try:
-            walls = np.array(box, dtype=float)
-        except (TypeError, ValueError):
-            walls = np.array(np.nan)
-        if walls.shape != (2, 3) or np.any(np.isnan(walls)):
-            raise InputError("box", "numbers of shape (2, 3)", repr(box)[:80])
-    if floor is not None:
-        walls[0, 2] = max(walls[0, 2], errors.number("floor", floor, unit="m"))
-    if ceiling is not None:
-        walls[1, 2] = min(walls[1, 2], errors.number("ceiling", ceiling, unit="m"))
-    if floor is not None and ceiling is not None and floor >= ceiling:
-        raise InputError("floor", f"a height below the ceiling, {ceiling:g} m", f"{floor:g}")
-    if np.any(walls[0] >= walls[1]):
-        field = (
-            "box"
-            if box is not None and np.any(np.diff(np.asarray(box, dtype=float), axis=0) <= 0)
-            else "floor, ceiling"
-        )
-        raise InputError(field, "a lowest corner below the highest", walls.tolist())
-    return None if np.all(np.isinf(walls)) else walls
-
-
-def windows_of(window: Any) -> tuple[Window, ...]:
-    """Return the windows in `window`: None, one, or several. Raises InputError."""
-    several = () if window is None else (window,) if isinstance(window, Window) else window
-    if not isinstance(several, (list, tuple)) or not all(isinstance(each, Window) for each in several):
-        raise InputError("window", "a Window, or several", repr(window)[:80])
-    return tuple(several)
-
-
 def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> None:
     points = np.stack([x, x + vehicle.reach * y])
     if np.any(points <= walls[0]) or np.any(points >= walls[1]):
@@ -216,27 +182,18 @@ def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> N
         raise InputError(field, f"room for pivot and rod at the {where}, from corner to corner", walls.tolist())
 
 
-def _speed(speed: Any, start: State) -> float:
-    fastest = errors.number("speed", speed, above=0, unit="m/s")
+def _speed(speed: float, start: State) -> float:
     begin = float(norm(start.x_dot))
-    if begin >= fastest:
-        raise InputError("speed", f"more than the {begin:.3g} m/s of the start", f"{fastest:g}")
-    return fastest
+    if begin >= speed:
+        raise InputError("speed", f"more than the {begin:.3g} m/s of the start", f"{speed:g}")
+    return speed
 
 
-def _lean(lean: Any, start: State) -> float:
-    most = errors.number("lean", lean, above=0, unit="rad")
-    if most > np.pi:
-        raise InputError("lean", f"at most {_angle(np.pi)}", _angle(most))
+def _lean(lean: float, start: State) -> float:
     begin = float(np.arccos(np.clip(start.y[2], -1, 1)))
-    if begin >= most:
-        raise InputError("lean", f"more than the {_angle(begin)} of the start", _angle(most))
-    return most
-
-
-def _angle(radians: float) -> str:
-    """Return an angle in both units: the command takes degrees."""
-    return f"{radians:.3g} rad ({np.degrees(radians):.4g}°)"
+    if begin >= lean:
+        raise InputError("lean", f"more than the {angle(begin)} of the start", angle(lean))
+    return lean
 
 
 def _forces(rotors: Any, low: float, high: float, n: int) -> Any:

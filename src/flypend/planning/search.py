@@ -71,7 +71,7 @@ class Found:
 
 
 class Verdict:
-    """What the lanes of a `solver` are worth after an iteration; with `soft` wishes, what is too near counts.
+    """What the lanes of a `solver` are worth after an iteration; with `soft` constraints, what is too near counts.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class Watch:
     ) -> None:
         self._jobs, self._on, self._most, self._first = jobs, np.array(on), most, soft
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
-        self._soft = jobs[0].asked.wishes.soft
+        self._soft = jobs[0].asked.structure.soft
         self._kept: tuple[Array, Array, str, int] | None = None
         self._stuck = False
 
@@ -155,7 +155,7 @@ def stages_of(horizon: float) -> tuple[int, float]:
 
 def prepared(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
-    single(asked.rotors, asked.wishes), pumping(asked.rotors)
+    single(asked.rotors, asked.structure), pumping(asked.rotors)
 
 
 def together(
@@ -171,9 +171,9 @@ def together(
     There are at `most` so many iterations. `rounds` are as in `race.Race`; by default no guess is given up where costs
     are soft at first, since the dearest may be the one that keeps away. `first` is the `soft` of `Watch`.
     """
-    jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.wishes.soft
+    jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.structure.soft
     given_up = ({} if soft else ROUNDS) if rounds is None else rounds
-    solver = Race(single(asked.rotors, asked.wishes), *guessed(jobs, horizon), given_up)
+    solver = Race(single(asked.rotors, asked.structure), *guessed(jobs, horizon), given_up)
     watch = Watch(jobs, range(WIDTH), most, first)
     while not watch.done and time.monotonic() < deadline:
         signals.poll()
@@ -187,11 +187,11 @@ def together(
 def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
     """Solve each of `jobs` on a lane of its own; a lane that is done takes the next job.
 
-    Jobs ask for the same wishes, of vehicles with as many rotors. Lanes do not see each other: what is found for a job
+    Jobs have the same structure, and vehicles as many rotors. Lanes do not see each other: what is found for a job
     does not depend on the others.
     """
     found: list[Found | None] = [None] * len(jobs)
-    soft = jobs[0].asked.wishes.soft
+    soft = jobs[0].asked.structure.soft
     first = [*jobs[:WIDTH], *[jobs[0]] * (WIDTH - len(jobs))]
     solver = _solver(first, horizon)
     watches = {lane: (lane, Watch([job], [lane])) for lane, job in enumerate(jobs[:WIDTH])}
@@ -223,7 +223,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
 
 def _solver(jobs: Sequence[Job], horizon: float) -> Solver:
     asked = jobs[0].asked
-    return Solver(kernels(asked.rotors, asked.wishes), *guessed(jobs, horizon))
+    return Solver(kernels(asked.rotors, asked.structure), *guessed(jobs, horizon))
 
 
 def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]:
@@ -239,7 +239,7 @@ def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]
         if leans(job.asked, job.style):
             states[..., lane], commands[..., lane] = leaned(job.asked, job.style, stages, h)
     places = None
-    if jobs[0].asked.wishes.path:
+    if jobs[0].asked.structure.path:
         places = lanes(stages + 1, 3)
         places[:] = np.stack([job.asked.places(h * np.arange(stages + 1, dtype=float)) for job in jobs], axis=-1)
     return Problem(stages, timing, vehicle, numbers, places), states, commands
@@ -248,7 +248,7 @@ def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]
 def _columns(job: Job, h: float) -> tuple[Any, ...]:
     """Return timing, vehicle, numbers, style, rotor limits and start of a `job`, own units."""
     asked, vehicle, units = job.asked, job.asked.vehicle, job.asked.units
-    falls = not asked.wishes.lean and vehicle.mount != "cup"
+    falls = not asked.structure.lean and vehicle.mount != "cup"
     return (
         step_timing(vehicle.rotor_lag / units.time, h), units.numbers(vehicle), asked.numbers,
         styles(vehicle, falls=falls)[:, job.style], vehicle.rotor_limits / units.force, asked.start,

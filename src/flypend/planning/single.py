@@ -21,10 +21,10 @@ from flypend.compile.llvm.matrices import BLOCK, Entry, Kept, Lazy, Row, kept, p
 from flypend.compile.llvm.stagewise import stagewise
 from flypend.compile.llvm.vector import I64, Code, Value
 from flypend.planning.barrier import Barrier
+from flypend.planning.inequalities import Structure
 from flypend.planning.kernels import Kernels
 from flypend.planning.riccati import OfStage, Shape, ToGo, ahead, before
 from flypend.planning.stage import Stage
-from flypend.planning.wishes import Wishes
 
 
 @dataclass(frozen=True)
@@ -139,28 +139,28 @@ def _at(code: Code, memory: ir.Value, first: int) -> ir.Value:
 
 
 @lru_cache(maxsize=32)
-def laid(rotors: int, wishes: Wishes) -> Rows:
-    """Return how a problem with this many `rotors`, and `wishes`, lies in memory."""
+def laid(rotors: int, structure: Structure) -> Rows:
+    """Return how a problem with this many `rotors`, and `structure`, lies in memory."""
     _, A, B = Stage(rotors).derivatives()
-    curved = Barrier(Stage(rotors), wishes).pattern
+    curved = Barrier(Stage(rotors), structure).pattern
     return Rows(Shape(A.sparsity(), B.sparsity()), curved + ca.Sparsity.diag(curved.size1()))
 
 
 @lru_cache(maxsize=32)
-def single(rotors: int, wishes: Wishes) -> Kernels:
-    """Return the compiled programs of one problem for machines with this many `rotors`, and `wishes`.
+def single(rotors: int, structure: Structure) -> Kernels:
+    """Return the compiled programs of one problem for machines with this many `rotors`, and `structure`.
 
     They come from the cache if possible.
     """
-    stage, rows = Stage(rotors), laid(rotors, wishes)
-    barrier, shape = Barrier(stage, wishes), rows.shape
+    stage, rows = Stage(rotors), laid(rotors, structure)
+    barrier, shape = Barrier(stage, structure), rows.shape
     gap, A, B = stage.derivatives()
     lengths = [rows.to_go, shape.n * rows.width, shape.n, rows.of_stage, 2, rows.to_go, shape.gains]
     one_by_one = partial(stagewise, width=1)
     return Kernels(
         shape=shape,
         inequalities=barrier.inequalities,
-        exact=wishes.exact(rotors),
+        exact=structure.exact(rotors),
         end_size=barrier.end_size,
         slopes=(shape.n * rows.width,),
         of_stage=rows.of_stage,

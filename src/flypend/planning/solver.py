@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from flypend.compile.llvm.stagewise import lanes as some_lanes
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
+from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED
 from flypend.planning.kernels import Kernels
 from flypend.planning.method import Lanes, Problem, Scratch, Settings
 from flypend.planning.stage import LEAST_ROOM
-from flypend.planning.wishes import EFFORT, HIGH, LOW, SHARED
 
 
 class Solver:
@@ -181,7 +181,7 @@ class Solver:
         self.merit, self.violation, self.end = self._value(False, self.gap)
 
     def insist(self, place: int, weight: float, on: Any) -> None:
-        """Set the number at `place` of the wishes, a `weight`, in the lanes `on`."""
+        """Set the number at `place` of the inequalities, a `weight`, in the lanes `on`."""
         self._problem.numbers[place, on] = weight
 
     def improve(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,24 +13,25 @@ from flypend.laws import inverted
 from flypend.laws.references import hover
 from flypend.model import State
 from flypend.pictures.plans import front_figure, plan_figure, strays_figure
-from flypend.planning import Plan, nmpc
+from flypend.planning import Constraints, Plan, Window, nmpc
 from flypend.studies.limit import DURATION, front, strays
 
 CELLS = 10
 Tell = Callable[[str, int, int], Any]
 
 
-def draw_plan(path: Path, plan: Plan, flown: Trajectory | None, wishes: Mapping[str, Any]) -> None:
-    """Draw to `path` a `plan` that obeys `wishes`, beside the run `flown`."""
-    save_figure(plan_figure(plan, flown, wishes["window"]), path)
+def draw_plan(path: Path, plan: Plan, flown: Trajectory | None, windows: Sequence[Window]) -> None:
+    """Draw to `path` a `plan` through `windows`, beside the run `flown`."""
+    save_figure(plan_figure(plan, flown, windows), path)
 
 
-def draw_front(path: Path, plan: Plan, start: State, wishes: Mapping[str, Any], tell: Tell) -> None:
+def draw_front(path: Path, plan: Plan, start: State, kept: Constraints, tell: Tell) -> None:
     """Draw to `path` excursion against allowed time of plans like `plan` from `start`, beside the inverted law.
 
-    The plans obey `wishes`, of which the law knows nothing but the target.
+    The plans keep the constraints `kept`, of which the law knows nothing.
     """
-    found = front(plan.vehicle, start, progress=lambda done, total: tell("plans", done, total), **wishes)
+    progress = lambda done, total: tell("plans", done, total)  # noqa: E731
+    found = front(plan.vehicle, start, progress=progress, target=plan.target, constraints=kept)
     law = simulate(plan.vehicle, inverted(hover(plan.target)), start, DURATION)
     save_figure(front_figure(found, law), path)
 

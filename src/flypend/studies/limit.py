@@ -47,22 +47,22 @@ class Front:
 
 def front(
     vehicle: Vehicle, start: State, count: int = 9, *, time_limit: float = 20.0, progress: Progress = lambda *_: None,
-    **wishes: Any,
+    **asked: Any,
 ) -> Front:  # fmt: skip
     """Return the front of `vehicle` from `start`: `count` allowed times from the shortest to the planner's own.
 
-    Each plan obeys `wishes`, further arguments of `plan`, within a `time_limit` (s). If even the shortest plan fails,
+    Each plan takes `asked`, further arguments of `plan`, within a `time_limit` (s). If even the shortest plan fails,
     it stands alone. Raises InputError as `plan` does.
     """
     errors.number("count", count, at_least=2)
-    shortest = plan(vehicle, start, "time", time_limit=time_limit, **wishes)
+    shortest = plan(vehicle, start, "time", time_limit=time_limit, **asked)
     progress(1, count + 1)
     if not shortest:
         return Front(np.array([shortest.duration]), (shortest,))
     longest = max(HORIZONS[0] * Units.of(vehicle).time, 2 * shortest.duration)
     durations, plans = np.geomspace(shortest.duration, longest, count), []
     for duration in durations:
-        plans.append(plan(vehicle, start, duration=duration, time_limit=time_limit, **wishes))
+        plans.append(plan(vehicle, start, duration=duration, time_limit=time_limit, **asked))
         progress(1 + len(plans), count + 1)
     return Front(durations, tuple(plans))
 

@@ -1,4 +1,4 @@
-"""What is wished of a plan: inequalities along the way, the cost of a stage, and its end, in a machine's own units."""
+"""Inequalities along the way, the cost of a stage, and the errors at the end, in a machine's own units."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SOFT = 0.03  # rod lengths, or weights: what is by so much too near costs its fu
 
 
 @dataclass(frozen=True)
-class Wishes:
+class Structure:
     """Which inequalities a plan obeys, beside the limits of the rotors and the ball |x|² ≤ e that its cost shrinks.
 
     Parameters
@@ -62,7 +62,7 @@ class Wishes:
 
     @property
     def soft(self) -> bool:
-        """Whether some wishes are kept by a cost that grows: those about what the machine is not to touch."""
+        """Whether some are kept by a cost that grows: those about what the machine is not to touch."""
         return self.mounted is not None or self.gates > 0
 
     def exact(self, rotors: int) -> int:
@@ -71,7 +71,7 @@ class Wishes:
 
 
 def inequalities(
-    state: Any, command: Any, shared: Any, numbers: Any, middle: Any, wishes: Wishes, machine: Scaled
+    state: Any, command: Any, shared: Any, numbers: Any, middle: Any, structure: Structure, machine: Scaled
 ) -> Any:
     """Return g (k, 1), every entry of which is to be ≥ 0.
 
@@ -82,39 +82,39 @@ def inequalities(
     shared : SX
         e, the squared radius of the ball.
     numbers : SX
-        See `Wishes.numbers`.
+        See `Structure.numbers`.
     middle : SX
         The middle of the ball, (3, 1).
-    wishes, machine
+    structure, machine
         What is wished, and the machine.
     """
     s, place = State.symbolic(state[:SIZE]), BASE
-    off = s.x - middle if wishes.path else s.x
+    off = s.x - middle if structure.path else s.x
     g = [command - numbers[LOW], numbers[HIGH] - command, shared - dot(off, off)]
-    if wishes.box:
+    if structure.box:
         reach, low, high = numbers[place], numbers[place + 1 : place + 4], numbers[place + 4 : place + 7]
         for point in (s.x, s.x + reach * s.y):
             g += [point - low, high - point]
         place += 7
-    if wishes.speed:
+    if structure.speed:
         g.append(numbers[place] - dot(s.x_dot, s.x_dot) / numbers[place])
         place += 1
-    if wishes.lean:
+    if structure.lean:
         g.append(s.y[2] - numbers[place])
     return ca.vertcat(*g)
 
 
-def nearness(state: Any, about: Any, numbers: Any, wishes: Wishes, machine: Scaled) -> Any:
+def nearness(state: Any, about: Any, numbers: Any, structure: Structure, machine: Scaled) -> Any:
     """Return by how much rod and machine are nearer than they should be to mount and frames, (k, 1), units of `SOFT`.
 
     Their squares cost the last but one of `numbers`; the last is the margin that the mount is to keep, in rod lengths
     or weights.
     """
-    first = wishes.numbers - 2 - NUMBERS * wishes.gates
-    gates = [numbers[first + NUMBERS * i : first + NUMBERS * (i + 1)] for i in range(wishes.gates)]
+    first = structure.numbers - 2 - NUMBERS * structure.gates
+    gates = [numbers[first + NUMBERS * i : first + NUMBERS * (i + 1)] for i in range(structure.gates)]
     near = [-passing(state, about, gate) for gate in gates]
-    if wishes.mounted is not None:
-        near.append(numbers[-1] - _kept(state, about, wishes.mounted, machine))
+    if structure.mounted is not None:
+        near.append(numbers[-1] - _kept(state, about, structure.mounted, machine))
     return ca.fmax(0, ca.vertcat(ca.SX(0, 1), *near) / SOFT)
 
 

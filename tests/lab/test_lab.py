@@ -11,6 +11,7 @@ import time
 import tomllib
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -619,7 +620,11 @@ class Lab:
 
     def __init__(self, *options):
         command = [sys.executable, "-m", "flypend", "lab", "--no-browser", *options]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        # Whoever runs the tests in the background has them ignore Ctrl-C.
+        heard = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+        self.process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, preexec_fn=heard
+        )
         found, said = None, ""
         while not found and (line := self.process.stdout.readline()):  # of a law in Python there is a note before
             found, said = re.search(r"http://(\S+)/", line), said + line

@@ -58,3 +58,13 @@ def test_python_and_commands_know_it(package, tmp_path):
     asked = ("compare", "--law", "tame", "--runs", "1", "--duration", "1")
     compared = call(package, tmp_path, "-m", "flypend", *asked)
     assert " tame " in compared
+
+
+@pytest.mark.parametrize("name", ["nmpc", "track", "plan_and_track"])
+def test_laws_that_plan_are_among_the_laws(name):
+    assert getattr(fp.laws, name) is getattr(fp, name)
+
+
+def test_what_is_no_law_is_no_attribute():
+    with pytest.raises(AttributeError, match="nope"):
+        _ = fp.laws.nope

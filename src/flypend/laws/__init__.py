@@ -4,6 +4,9 @@ A custom law is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wr
 Lyapunov function, a reference or a frame, build a `Law` directly.
 """
 
+import sys
+from typing import Any
+
 from flypend.laws.almost_global import almost_global
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.controller import Controller
@@ -48,3 +51,10 @@ __all__ = [
 # A law that is in the registry alone is an attribute as well; those above are what type checkers see.
 globals().update(FACTORIES)
 __all__ += [name for name in FACTORIES if name not in __all__]
+
+
+def __getattr__(name: str) -> Any:
+    """Return a law that plans, `nmpc`, `track` or `plan_and_track`: planning stands on laws, and makes them."""
+    if name not in ("nmpc", "plan_and_track", "track"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(sys.modules["flypend"], name)  # which knows where each name is defined

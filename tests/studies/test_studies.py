@@ -327,7 +327,7 @@ def test_a_law_that_is_none_is_told_in_one_line(write, name, words):
     write("law_of_wrongs", WRONG)
     with pytest.raises(fp.InputError, match=words) as error:
         law_named(name)
-    assert error.value.field == "law"
+    assert error.value.field == "--law"
     assert "\n" not in str(error.value)
 
 

@@ -219,6 +219,14 @@ def test_rotation_defect_of_a_batch_judges_each_matrix():
     close(geo.rotation_defect(batch), [0, 3 * np.sqrt(3), 2])
 
 
+@pytest.mark.parametrize("scale", [0.0, 5e-324, 1e-310, 1e-200, 1e200, 1e307])
+def test_rotation_defect_of_sizes_beyond_reason_warns_of_nothing(scale, recwarn):
+    """A file can hold such matrices; LAPACK's determinant divides by their pivots."""
+    m = np.random.default_rng(0).standard_normal((50, 3, 3)) * scale
+    assert np.all(geo.rotation_defect(m) >= 1.7)  # a zero matrix is the square root of 3 away
+    assert not recwarn.list
+
+
 def test_project_rotation_refuses_what_is_not_a_number():
     with pytest.raises(np.linalg.LinAlgError):
         geo.project_rotation(np.full((3, 3), np.nan))

@@ -6,6 +6,9 @@ A *vector* is a NumPy array of shape (..., 3) or a CasADi expression of shape (3
 (B, 3) in both (leading batch axis). A *matrix* is a NumPy array of shape (..., 3, 3) or a single CasADi
 expression of shape (3, 3): CasADi has no third axis, so batches of matrices exist in NumPy only.
 
+`Numbers` are an array or an expression of any other shape, which is told where they are used: packed states (..., 24),
+rotor forces (n,), covariances.
+
 S² has no identity element and no composition; only its embedding in R³ is used.
 """
 
@@ -19,6 +22,7 @@ import numpy as np
 Vector = Any
 Matrix = Any
 Scalar = Any
+Numbers = Any
 
 E1 = np.array([1.0, 0.0, 0.0])
 E2 = np.array([0.0, 1.0, 0.0])
@@ -30,7 +34,7 @@ def is_symbolic(value: Any) -> bool:
     return isinstance(value, ca.SX | ca.MX | ca.DM)
 
 
-def _components(v: Vector) -> tuple[Any, Any, Any]:
+def _components(v: Vector) -> tuple[Scalar, Scalar, Scalar]:
     """Return the three components of a vector, each with the batch shape."""
     if not is_symbolic(v):
         array = np.asarray(v, dtype=float)
@@ -44,7 +48,7 @@ def _components(v: Vector) -> tuple[Any, Any, Any]:
     raise ValueError(f"expected a CasADi vector of shape (3, 1) or (B, 3), got {v.shape}")
 
 
-def _vector(a: Any, b: Any, c: Any, batched: bool) -> Vector:
+def _vector(a: Scalar, b: Scalar, c: Scalar, batched: bool) -> Vector:
     """Stack three components. For CasADi expressions, `batched` selects (B, 3) instead of (3, 1)."""
     if any(is_symbolic(component) for component in (a, b, c)):
         return ca.horzcat(a, b, c) if batched else ca.vertcat(a, b, c)
@@ -156,7 +160,7 @@ def project_tangent(y: Vector, v: Vector) -> Vector:
     return v - scale(dot(y, v) / dot(y, y), y)
 
 
-def project_rotation(m: Any) -> Any:
+def project_rotation(m: Matrix) -> Matrix:
     """Nearest rotation to each matrix of shape (..., 3, 3) in the Frobenius norm (NumPy only).
 
     Raises `numpy.linalg.LinAlgError` if a matrix contains NaN or infinity.
@@ -167,14 +171,22 @@ def project_rotation(m: Any) -> Any:
     return u @ vt
 
 
-def rotation_defect(m: Any) -> Any:
-    """Distance of matrices (..., 3, 3) from SO(3): Frobenius norm of mᵀm − 1, and at least 2 unless det m > 0."""
+def rotation_defect(m: Matrix) -> Scalar:
+    """Distance of matrices (..., 3, 3) from SO(3): Frobenius norm of mᵀm − 1, and at least 2 unless det m > 0.
+
+    Infinite where numbers are too large for a square, or none.
+    """
     m = np.asarray(m, dtype=float)
-    defect = np.linalg.norm(np.swapaxes(m, -1, -2) @ m - np.eye(3), axis=(-2, -1))
-    return np.where(np.linalg.det(m) > 0, defect, np.maximum(defect, 2.0))
+    with np.errstate(over="ignore", invalid="ignore"):
+        defect = np.linalg.norm(np.swapaxes(m, -1, -2) @ m - np.eye(3), axis=(-2, -1))
+    defect = np.where(np.isnan(defect), np.inf, defect)
+    near = np.where((defect < 2)[..., None, None], m, np.eye(3))  # whose products cannot overflow
+    # Not LAPACK's determinant, which divides by pivots, and warns where these are denormal.
+    turned = np.sum(np.cross(near[..., 0, :], near[..., 1, :]) * near[..., 2, :], axis=-1) > 0
+    return np.where(turned, defect, np.maximum(defect, 2.0))
 
 
-def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
+def rotation_from_quat_xyzw(quat_xyzw: Numbers) -> Matrix:
     """Rotation matrices (..., 3, 3) of the quaternions `quat_xyzw` (..., 4), order x, y, z, w, normalised on input."""
     q = np.asarray(quat_xyzw, dtype=float)
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
@@ -183,14 +195,14 @@ def rotation_from_quat_xyzw(quat_xyzw: Any) -> Any:
     return np.eye(3) + 2 * w * skew + 2 * skew @ skew
 
 
-def rotation_from_vector(vector: Any) -> Any:
+def rotation_from_vector(vector: Vector) -> Matrix:
     """Rotation matrix (3, 3) of the rotation vector `vector` (3,), rad: exp(v̂)."""
     v = np.asarray(vector, dtype=float)
     half = np.linalg.norm(v) / 2
     return rotation_from_quat_xyzw(np.append(np.sinc(half / np.pi) / 2 * v, np.cos(half)))
 
 
-def quat_xyzw_from_rotation(m: Any) -> Any:
+def quat_xyzw_from_rotation(m: Matrix) -> Numbers:
     """Unit quaternions (..., 4), order x, y, z, w, of rotation matrices `m` (..., 3, 3); the largest entry is > 0."""
     m = np.asarray(m, dtype=float)
     i = range(3)
@@ -205,17 +217,17 @@ def quat_xyzw_from_rotation(m: Any) -> Any:
     return column / np.linalg.norm(column, axis=-1, keepdims=True)
 
 
-def random_sphere(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
+def random_sphere(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Vector:
     """Unit vectors uniform on S², shape (*size, 3), drawn from `rng`."""
     return unit(rng.standard_normal((*size, 3)))
 
 
-def random_rotation(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Any:
+def random_rotation(rng: np.random.Generator, size: tuple[int, ...] = ()) -> Matrix:
     """Rotations uniform on SO(3) (Haar measure), shape (*size, 3, 3), drawn from `rng`."""
     return rotation_from_quat_xyzw(rng.standard_normal((*size, 4)))
 
 
-def random_tangent(rng: np.random.Generator, y: Any, max_length: float) -> Any:
+def random_tangent(rng: np.random.Generator, y: Vector, max_length: float) -> Vector:
     """Tangent vectors at the unit vectors y (..., 3), uniform in a disc of radius `max_length`, drawn from `rng`."""
     y = np.asarray(y, dtype=float)
     direction = unit(project_tangent(y, rng.standard_normal(y.shape)))

@@ -11,11 +11,11 @@ from flypend.compile.numeric import as_numpy
 from flypend.compile.program import lower
 from flypend.model import equations_of_motion, total_energy
 from flypend.model.joint import CREEP, friction, on_rod, stiffness, swing
+from flypend.model.mjcf import model_xml
 from flypend.model.motion import disturbed_motion
 from flypend.plants import Plant
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rotor_step
-from flypend.plants.mujoco import model_xml
 
 ROUNDOFF = 1e-11  # sums of some ten products of order up to 1e3, eps each
 ENGINES = pytest.mark.parametrize("engine", ["equations", "mujoco"])

@@ -74,3 +74,12 @@ def test_an_impossible_rod_is_refused(change, field):
     assert refused.value.field == field
     with pytest.raises(InputError):
         uniform_rod(0.0, 1.0)
+
+
+@pytest.mark.parametrize("radius", [0.1, 0.37, 1.3])
+def test_a_disc_spins_with_the_most_inertia_that_a_body_can_have(radius):
+    """About its axis a disc has m r²/2, about a diameter m r²/4."""
+    across, along = 0.1 * radius**2 / 4, 0.1 * radius**2 / 2
+    fp.vehicle("hehn2011").replace(rod_inertia=across, rod_spin_inertia=along)
+    with pytest.raises(InputError, match="rod_spin_inertia"):
+        fp.vehicle("hehn2011").replace(rod_inertia=across, rod_spin_inertia=1.001 * along)

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import cross, dot
+from flypend.geometry import Scalar, Vector, cross, dot, is_symbolic
 from flypend.model.state import State
 
 AirEffect = Literal["rotor_drag", "inflow", "lift", "body_drag"]
@@ -88,7 +88,7 @@ def air_from(value: Any) -> Air | None:
 
 def air_wrench(
     state: State, forces: Any, vehicle: Any, effects: tuple[AirEffect, ...], ground: float | None = None
-) -> tuple[Any, Any]:
+) -> tuple[Vector, Vector]:
     """Return the air's force (3,), N, and moment (3,), N m, about the centre of mass, both in the body frame.
 
     In CasADi, e₃ up. The thrusts themselves are not included, only what air adds to them.
@@ -109,7 +109,7 @@ def air_wrench(
     """
     coefficients = {name: getattr(vehicle.air, name) if name in effects else 0.0 for name in AIR}
     drag, inflow, lift = (coefficients[name] for name in ("rotor_drag", "inflow", "lift"))
-    offset = ca.DM(vehicle.pivot_offset)
+    offset = vehicle.pivot_offset if is_symbolic(vehicle.pivot_offset) else ca.DM(vehicle.pivot_offset)
     velocity = ca.mtimes(state.R.T, state.x_dot) - cross(state.omega, offset)
     force, moment = ca.SX(3, 1), ca.SX(3, 1)
     for k, place in enumerate(vehicle.rotor_positions):
@@ -126,7 +126,7 @@ def air_wrench(
     return force, moment
 
 
-def ground_gain(height: Any, radius: float) -> Any:
+def ground_gain(height: Scalar, radius: float) -> Scalar:
     """Return the share of its thrust that a level rotor of `radius` (m) gains at a `height` (m), in CasADi."""
     q = (radius / (4 * ca.fmax(height, CLOSEST * radius))) ** 2
     return q / (1 - q)

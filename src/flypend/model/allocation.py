@@ -8,8 +8,11 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.geometry import Numbers, Scalar, Vector
+from flypend.model import Vehicle
 
-def allocate(thrust: Any, moment: Any, vehicle: Any) -> Any:
+
+def allocate(thrust: Scalar, moment: Vector, vehicle: Vehicle) -> Numbers:
     """Allocate a wrench in the e₃-up frame to rotor forces (n,) within their limits, as a CasADi expression.
 
     Unmixing yields f_i = r_i + T/n ± q, where r_i is the share of roll and pitch, T the thrust and q the share of yaw,
@@ -54,5 +57,5 @@ def allocate(thrust: Any, moment: Any, vehicle: Any) -> Any:
     return _clip(forces, low, high)  # guards against roundoff
 
 
-def _clip(value: Any, low: Any, high: Any) -> Any:
+def _clip(value: Any, low: Numbers, high: Any) -> Numbers:
     return ca.fmin(ca.fmax(value, low), high)

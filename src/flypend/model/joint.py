@@ -6,11 +6,9 @@ its spin is a constant of motion: the angular momentum S along y, of which S ẏ
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from flypend.geometry import apply, cross, dot, is_symbolic, scale
+from flypend.geometry import Scalar, Vector, apply, cross, dot, is_symbolic, scale
 from flypend.model.state import State
 from flypend.model.vehicle import Vehicle
 
@@ -18,13 +16,13 @@ from flypend.model.vehicle import Vehicle
 CREEP = 0.05
 
 
-def swing(state: State) -> Any:
+def swing(state: State) -> Vector:
     """Return the angular velocity (..., 3) of the rod relative to the vehicle, across the rod; world frame, rad/s."""
     body = apply(state.R, state.omega)
     return cross(state.y, state.y_dot) - (body - scale(dot(state.y, body), state.y))
 
 
-def friction(state: State, vehicle: Vehicle) -> Any:
+def friction(state: State, vehicle: Vehicle) -> Vector:
     """Return the torque (..., 3) of the joint on the rod, world frame, N m; the vehicle feels the opposite.
 
     With w the `swing`: −(pivot_damping + pivot_friction/√(|w|² + `CREEP`²)) w.
@@ -41,7 +39,7 @@ def stiffness(vehicle: Vehicle) -> float:
     return float(resistance * (1 / lightest + 1 / (vehicle.m * vehicle.l**2)))
 
 
-def on_rod(state: State, torque: Any, spin: float, l: Any) -> Any:
+def on_rod(state: State, torque: Vector, spin: float, l: Scalar) -> Vector:
     """Return the force P (..., 3) on the bob, at `l` (m), that with −P at the pivot is a `torque` on the rod, N.
 
     The `torque` (..., 3), N m, is across the rod. Beside it the rod's `spin` S (kg m²/s) takes S ẏ, by which its

@@ -12,23 +12,21 @@ They are those of `model.motion` for a pivot offset of zero.
 
 from __future__ import annotations
 
-from typing import Any
-
-from flypend.geometry import apply, scale
+from flypend.geometry import Scalar, Vector, apply, scale
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.vehicle import Vehicle
 
 
-def angular_acceleration(moment: Any, omega: Any, vehicle: Vehicle) -> Any:
+def angular_acceleration(moment: Vector, omega: Vector, vehicle: Vehicle) -> Vector:
     """Return ω̇ (..., 3), rad/s², at angular velocity `omega` under `moment`, N m, both in the body frame."""
     return apply(vehicle.I_inv, moment - gyroscopic_moment(vehicle.I, omega))
 
 
-def pull_on_rod(thrust: Any, z: Any, vehicle: Vehicle) -> Any:
+def pull_on_rod(thrust: Scalar, z: Vector, vehicle: Vehicle) -> Vector:
     """Return the part of b (..., 3), 1/s², that the `thrust` (N) along `z` exerts: −f z/(M l)."""
     return scale(-1 / (vehicle.M * vehicle.l) * thrust, z)
 
 
-def outside_on_rod(on_vehicle: Any, on_bob: Any, vehicle: Vehicle) -> Any:
+def outside_on_rod(on_vehicle: Vector, on_bob: Vector, vehicle: Vehicle) -> Vector:
     """Return the part of b (..., 3), 1/s², that external forces on vehicle and bob (N) exert: (F_b/m − F_v/M)/l."""
     return (on_bob / vehicle.m - on_vehicle / vehicle.M) / vehicle.l

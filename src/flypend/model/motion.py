@@ -5,11 +5,9 @@ Both functions accept NumPy batches and CasADi expressions.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from flypend.geometry import E3, apply, cross, dot, hat, hat_squared, is_symbolic, scale
+from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale
 from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment
 from flypend.model.joint import on_rod
 from flypend.model.rod import is_point, shared_out
@@ -33,10 +31,10 @@ def disturbed_motion(
     vehicle: Vehicle,
     e3: E3Direction,
     *,
-    force_on_vehicle: Any = (0.0, 0.0, 0.0),
-    force_on_bob: Any = (0.0, 0.0, 0.0),
-    pivot_offset: Any = (0.0, 0.0, 0.0),
-    joint_torque: Any = None,
+    force_on_vehicle: Vector = (0.0, 0.0, 0.0),
+    force_on_bob: Vector = (0.0, 0.0, 0.0),
+    pivot_offset: Vector = (0.0, 0.0, 0.0),
+    joint_torque: Vector = None,
     spin: float = 0.0,
 ) -> Rates:
     """Rates of `state` under `wrench` and external forces, with a joint that need not be free (`model.joint`).
@@ -117,8 +115,8 @@ def disturbed_motion(
 
 
 def _of_rigid_body(
-    vehicle: Vehicle, state: State, wrench: Wrench, offset: Any, on_vehicle: Any, on_rod: Any
-) -> tuple[Any, ...]:
+    vehicle: Vehicle, state: State, wrench: Wrench, offset: Vector, on_vehicle: Vector, on_rod: Vector
+) -> tuple[Vector, Matrix, Matrix, Vector, Vector, Vector]:
     """Return o, I, I⁻¹, the moment, F_v and F_b of the rigid body of vehicle and pivot mass, and the point bob."""
     if is_point(vehicle):
         return offset, vehicle.I, vehicle.I_inv, wrench.moment, on_vehicle, on_rod
@@ -132,6 +130,6 @@ def _of_rigid_body(
     return (1 - share) * o, I, np.linalg.inv(I), moment, on_vehicle + at_pivot, on_bob
 
 
-def _transposed(R: Any) -> Any:
+def _transposed(R: Matrix) -> Matrix:
     """Rᵀ, with leading batch axes."""
     return R.T if is_symbolic(R) else np.swapaxes(R, -1, -2)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import apply, cross, is_symbolic
+from flypend.geometry import Numbers, Scalar, Vector, apply, cross, is_symbolic
 from flypend.model.body import Body
 from flypend.model.dynamics import rod_tension
 from flypend.model.state import FLIP, E3Direction, State, Wrench
@@ -17,7 +15,7 @@ from flypend.model.vehicle import Vehicle
 ITERATIONS = 8
 
 
-def margins(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Any:
+def margins(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Numbers:
     """Return what keeps the rod on its mount, (..., k) in the order of `part_names`; a flight ends where one is < 0.
 
     On a hub, `clearances`; in a cup, the signed distance of the rod's end to the cup's cone (m) and the force of the
@@ -28,7 +26,7 @@ def margins(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> 
     return margins_of(rod_in_body(state, e3)[0], push, vehicle)
 
 
-def margins_of(rod: Any, push: Any, vehicle: Vehicle) -> Any:
+def margins_of(rod: Vector, push: Scalar, vehicle: Vehicle) -> Numbers:
     """Return `margins` for the `rod` (..., 3) in the e₃-up body frame and its `push` (...,) on the vehicle, N."""
     symbolic = is_symbolic(rod)
     if vehicle.mount == "hub":
@@ -39,7 +37,7 @@ def margins_of(rod: Any, push: Any, vehicle: Vehicle) -> Any:
     return ca.SX(0, 1) if symbolic else np.zeros((*rod.shape[:-1], 0))
 
 
-def least_margin(rod: Any, push: Any, vehicle: Vehicle) -> tuple[Any, Any, Any]:
+def least_margin(rod: Vector, push: Scalar, vehicle: Vehicle) -> tuple[Scalar, Scalar, Scalar]:
     """Return the smallest entry of `margins_of`, its place, and the clearance, the smallest distance, in CasADi.
 
     Among rotors of equal height and distance from the pivot, disc and arm in whose direction the rod points most are
@@ -60,13 +58,13 @@ def least_margin(rod: Any, push: Any, vehicle: Vehicle) -> tuple[Any, Any, Any]:
     return least, ca.if_else(disc <= arm, at, at + len(centres)), least
 
 
-def _alike(centres: Any) -> bool:
+def _alike(centres: Numbers) -> bool:
     """Whether all rotors are as high, and as far from the pivot."""
     distances = np.linalg.norm(centres, axis=1)
     return bool(np.allclose(centres[:, 2], centres[0, 2]) and np.allclose(distances, distances[0]))
 
 
-def _smallest(values: Any) -> tuple[Any, Any]:
+def _smallest(values: Numbers) -> tuple[Scalar, Scalar]:
     """Smallest entry and its place."""
     value, place = values[0], ca.SX(0)
     for i in range(1, values.numel()):
@@ -75,7 +73,7 @@ def _smallest(values: Any) -> tuple[Any, Any]:
     return value, place
 
 
-def rod_in_body(state: State, e3: E3Direction) -> tuple[Any, Any]:
+def rod_in_body(state: State, e3: E3Direction) -> tuple[Vector, Vector]:
     """Return the rod Rᵀy and its rate Rᵀẏ − ω × Rᵀy (1/s), each (..., 3), in the e₃-up body frame.
 
     `state` is in the frame `e3`, whose body frame points e₃ down along with the world's.
@@ -94,7 +92,7 @@ def part_names(vehicle: Vehicle) -> list[str]:
     return ["cone", "cup"] if vehicle.mount == "cup" else []
 
 
-def _to_cone(cosine: Any, vehicle: Vehicle) -> Any:
+def _to_cone(cosine: Scalar, vehicle: Vehicle) -> Scalar:
     """Signed distance of the rod's far end to the cone of the cup, m."""
     sine = _sqrt(_most(1 - cosine**2, 0.0))
     angle = vehicle.body.cup_angle
@@ -102,7 +100,7 @@ def _to_cone(cosine: Any, vehicle: Vehicle) -> Any:
     return _where(cosine > -np.sin(angle), inside, -vehicle.reach)  # nearest to the apex beyond
 
 
-def clearances(rod: Any, centres: Any, length: float, body: Body) -> Any:
+def clearances(rod: Vector, centres: Numbers, length: float, body: Body) -> Numbers:
     """Return the signed distances (..., 2n) from the rod to the n rotor discs, then to the n arms, m.
 
     Negative values are depths: of the rod's surface inside a disc's rim or an arm.
@@ -123,7 +121,7 @@ def clearances(rod: Any, centres: Any, length: float, body: Body) -> Any:
     return ca.vertcat(*discs, *arms) if is_symbolic(rod) else np.stack([*discs, *arms], axis=-1)
 
 
-def _to_arm(cosine: Any, body: Body) -> Any:
+def _to_arm(cosine: Scalar, body: Body) -> Scalar:
     """Signed distance to an arm at an angle of this `cosine` to the rod.
 
     Two rays from one point are closest where they begin, here at the hub's rim: 2 r sin(θ/2) apart.
@@ -132,7 +130,7 @@ def _to_arm(cosine: Any, body: Body) -> Any:
     return body.hub_radius * chord - (body.arm_radius + body.rod_radius)
 
 
-def _to_disc(rod: Any, centre: Any, length: float, body: Body) -> Any:
+def _to_disc(rod: Vector, centre: Vector, length: float, body: Body) -> Scalar:
     """Signed distance from the rod to a flat disc about `centre`, normal to the body's e₃.
 
     The distance to a convex body is convex along a line. Within the cylinder over the disc it is |height|, linear on
@@ -160,7 +158,7 @@ def _to_disc(rod: Any, centre: Any, length: float, body: Body) -> Any:
     return _where(distance > 0, distance, _least(beyond, 0.0)) - body.rod_radius
 
 
-def _cylinder(u: Any, c: Any, radius: float) -> tuple[Any, Any, Any]:
+def _cylinder(u: Vector, c: Vector, radius: float) -> tuple[Scalar, Scalar, Scalar]:
     """Where the line s u enters and leaves the cylinder over the disc, and whether it meets it."""
     level = _most(u[0] ** 2 + u[1] ** 2, 1e-18)
     middle = (u[0] * c[0] + u[1] * c[1]) / level
@@ -169,7 +167,7 @@ def _cylinder(u: Any, c: Any, radius: float) -> tuple[Any, Any, Any]:
     return middle - root, middle + root, half > 0
 
 
-def _slope(s: Any, u: Any, c: Any, radius: float) -> tuple[Any, Any]:
+def _slope(s: Scalar, u: Vector, c: Vector, radius: float) -> tuple[Scalar, Scalar]:
     """First and second derivative of half the squared distance from the point s u to the disc."""
     p = [s * u[i] - c[i] for i in range(3)]
     from_axis = _sqrt(p[0] ** 2 + p[1] ** 2 + 1e-18)
@@ -180,29 +178,29 @@ def _slope(s: Any, u: Any, c: Any, radius: float) -> tuple[Any, Any]:
     return beyond * outward + p[2] * u[2], bent + u[2] ** 2
 
 
-def _inner(rod: Any, fixed: Any) -> Any:
+def _inner(rod: Vector, fixed: Vector) -> Scalar:
     return sum((rod[i] if is_symbolic(rod) else rod[..., i]) * fixed[i] for i in range(3))
 
 
-def _clipped(value: Any, low: Any, high: Any) -> Any:
+def _clipped(value: Scalar, low: Numbers, high: Scalar) -> Scalar:
     return _least(_most(value, low), high)
 
 
-def _most(a: Any, b: Any) -> Any:
+def _most(a: Scalar, b: Scalar) -> Scalar:
     return ca.fmax(a, b) if is_symbolic(a) or is_symbolic(b) else np.maximum(a, b)
 
 
-def _least(a: Any, b: Any) -> Any:
+def _least(a: Scalar, b: Scalar) -> Scalar:
     return ca.fmin(a, b) if is_symbolic(a) or is_symbolic(b) else np.minimum(a, b)
 
 
-def _sqrt(a: Any) -> Any:
+def _sqrt(a: Scalar) -> Scalar:
     return ca.sqrt(a) if is_symbolic(a) else np.sqrt(a)
 
 
-def _where(condition: Any, yes: Any, no: Any) -> Any:
+def _where(condition: Scalar, yes: Scalar, no: Scalar) -> Scalar:
     return ca.if_else(condition, yes, no) if is_symbolic(condition) else np.where(condition, yes, no)
 
 
-def _both(a: Any, b: Any) -> Any:
+def _both(a: Scalar, b: Scalar) -> Scalar:
     return ca.logic_and(a, b) if is_symbolic(a) else a & b

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from flypend import errors
+from flypend.geometry import Vector
 from flypend.model.vehicle import Vehicle
 
 
@@ -40,7 +39,7 @@ def is_point(vehicle: Vehicle) -> bool:
     return vehicle.M is vehicle.mass or vehicle.rod_inertia == 0
 
 
-def shared_out(on_rod: Any, vehicle: Vehicle) -> tuple[Any, Any]:
+def shared_out(on_rod: Vector, vehicle: Vehicle) -> tuple[Vector, Vector]:
     """Return the parts of a force `on_rod` (..., 3), at its centre of mass, that act at the pivot and at the bob."""
     if is_point(vehicle):
         return 0 * on_rod, on_rod

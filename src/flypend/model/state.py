@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors, geometry
+from flypend.geometry import Matrix, Numbers, Scalar, Vector
 
 E3Direction = Literal["up", "down"]
 
@@ -57,12 +58,12 @@ class State:
         tangent.
     """
 
-    x: Any = (0.0, 0.0, 0.0)
-    x_dot: Any = (0.0, 0.0, 0.0)
-    R: Any = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    omega: Any = (0.0, 0.0, 0.0)
-    y: Any
-    y_dot: Any = (0.0, 0.0, 0.0)
+    x: Vector = (0.0, 0.0, 0.0)
+    x_dot: Vector = (0.0, 0.0, 0.0)
+    R: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    omega: Vector = (0.0, 0.0, 0.0)
+    y: Vector
+    y_dot: Vector = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         if geometry.is_symbolic(self.y):
@@ -79,7 +80,7 @@ class State:
             object.__setattr__(self, name, frozen)
 
     @property
-    def z(self) -> Any:
+    def z(self) -> Vector:
         """Thrust axis z = R e₃, world frame."""
         return self.R[:, 2] if geometry.is_symbolic(self.R) else self.R[..., :, 2]
 
@@ -88,7 +89,7 @@ class State:
         """Shape of the batch axes; () for a single state."""
         return tuple(self.y.shape[:-1])
 
-    def packed(self) -> Any:
+    def packed(self) -> Numbers:
         """Return the state as one vector (..., 24): x, x_dot, R in row-major order, omega, y, y_dot."""
         if geometry.is_symbolic(self.y):
             return ca.vertcat(self.x, self.x_dot, ca.vec(self.R.T), self.omega, self.y, self.y_dot)
@@ -96,7 +97,7 @@ class State:
         return np.concatenate([self.x, self.x_dot, rows, self.omega, self.y, self.y_dot], axis=-1)
 
     @classmethod
-    def symbolic(cls, packed: Any) -> Self:
+    def symbolic(cls, packed: Numbers) -> Self:
         """Build a state whose fields are slices of the CasADi vector `packed` (24, 1), without checks."""
         return cls(
             x=packed[0:3], x_dot=packed[3:6], R=ca.reshape(packed[6:15], 3, 3).T, omega=packed[15:18],
@@ -104,12 +105,12 @@ class State:
         )  # fmt: skip
 
     @classmethod
-    def from_packed(cls, packed: Any) -> Self:
+    def from_packed(cls, packed: Numbers) -> Self:
         """Build states from vectors (..., 24) in the order of `packed`. Raises InputError like the constructor."""
         return cls(**split(errors.array("packed state", packed, (SIZE,), batch=True)))
 
     @classmethod
-    def trusted(cls, packed: Any) -> Self:
+    def trusted(cls, packed: Numbers) -> Self:
         """Build states from `packed` vectors (..., 24) unchecked: integrator output, NaN after the end of a run."""
         return cls._unchecked(split(packed))
 
@@ -177,7 +178,7 @@ class State:
         )
 
 
-def split(packed: Any) -> dict[str, Any]:
+def split(packed: Numbers) -> dict[str, Any]:
     """Split packed states (..., 24) into a dict of arrays with the shapes of the fields of `State`, unchecked."""
     packed = np.asarray(packed)
     out, start = {}, 0
@@ -188,7 +189,7 @@ def split(packed: Any) -> dict[str, Any]:
     return out
 
 
-def project(packed: Any) -> tuple[Any, Any]:
+def project(packed: Numbers) -> tuple[Numbers, Numbers]:
     """Project packed states (..., 24) onto the manifold.
 
     Returns the projected vectors and the drift (..., 3) before projection: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
@@ -230,8 +231,8 @@ class Wrench:
         If the thrust is not one number and the moment not three, in numbers or in CasADi expressions.
     """
 
-    thrust: Any
-    moment: Any
+    thrust: Scalar
+    moment: Vector
 
     def __post_init__(self) -> None:
         thrust, moment = _part("wrench.thrust", self.thrust), _part("wrench.moment", self.moment)
@@ -265,7 +266,7 @@ def _part(field: str, value: Any) -> Any:
     raise errors.InputError(field, "real numbers, or CasADi expressions", repr(value)[:80])
 
 
-def seen_packed(packed: Any, e3: E3Direction) -> Any:
+def seen_packed(packed: Numbers, e3: E3Direction) -> Numbers:
     """As `State.seen` for packed states (..., 24), or (24, 1) in CasADi, `e3` being "up" or "down"."""
     return packed if e3 == "up" else packed * FLIP_PACKED
 
@@ -300,7 +301,7 @@ def _in_ball(rng: np.random.Generator, shape: tuple[int, ...], radius: float) ->
 assert tuple(field.name for field in fields(State)) == tuple(SHAPES)
 
 
-def project_symbolic(packed: Any) -> Any:
+def project_symbolic(packed: Numbers) -> Numbers:
     """Project a packed CasADi state (24, 1), close to the manifold, onto it.
 
     R takes one Newton step of the polar decomposition, R(3 − RᵀR)/2, which squares the error: 1e-8 becomes 1e-16.

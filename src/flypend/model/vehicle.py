@@ -13,8 +13,11 @@ import numpy as np
 from flypend import errors
 from flypend.errors import InputError
 from flypend.files.toml import read_toml
+from flypend.geometry import Matrix, Numbers, Vector
 from flypend.model.air import Air, air_from
+from flypend.model.bands import bands_from
 from flypend.model.body import MOUNTS, Body, MountKind, body_from
+from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
 from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
@@ -72,6 +75,11 @@ class Vehicle:
         Constant angular velocity of the rod about its own axis, rad/s, and its moment of inertia about it, kg m².
     air : Air or dict, optional
         Coefficients of the air's forces. They act on plants that name them; laws do not know them.
+    thrust_scale : float
+        Ratio of the force of every rotor to that commanded. Limits, commands and flights are in commanded force; see
+        `commanded`.
+    bands : dict, optional
+        Field → (low, high), as `flypend.identify` found them; nothing is computed with them.
 
     Raises
     ------
@@ -87,21 +95,23 @@ class Vehicle:
     rod_length: float
     rod_end: float | None = None
     rod_inertia: float = 0.0
-    inertia: Any
+    inertia: Matrix
     gravity: float = 9.81
-    rotor_positions: Any
-    rotor_spins: Any
+    rotor_positions: Numbers
+    rotor_spins: Numbers
     drag_ratio: float
-    rotor_limits: Any
+    rotor_limits: Numbers
     rotor_lag: float = 0.0
     mount: MountKind = "gimbal"
     body: Any = None
-    pivot_offset: Any = (0.0, 0.0, 0.0)
+    pivot_offset: Vector = (0.0, 0.0, 0.0)
     pivot_damping: float = 0.0
     pivot_friction: float = 0.0
     rod_spin: float = 0.0
     rod_spin_inertia: float = 0.0
     air: Any = None
+    thrust_scale: float = 1.0
+    bands: Any = None
 
     def __post_init__(self) -> None:
         def put(name: str, value: Any) -> None:
@@ -132,6 +142,8 @@ class Vehicle:
         put("body", body_from(self.body))
         put("pivot_offset", errors.array("pivot_offset", self.pivot_offset, (3,)))
         put("air", air_from(self.air))
+        put("thrust_scale", errors.number("thrust_scale", self.thrust_scale, above=0))
+        put("bands", bands_from(self.bands))
         if self.mount != "gimbal" and self.body is None:
             raise InputError("body", f"the radii of the machine's parts, for the mount {self.mount!r}", "nothing")
         rank = np.linalg.matrix_rank(self.mixing())
@@ -154,7 +166,7 @@ class Vehicle:
         return not (np.any(self.pivot_offset) or self.rubs or self.rod_spin)
 
     @property
-    def rotors_from_pivot(self) -> Any:
+    def rotors_from_pivot(self) -> Numbers:
         """Rotor positions (n, 3) relative to the pivot, body frame, m."""
         return self.rotor_positions - self.pivot_offset
 
@@ -193,7 +205,24 @@ class Vehicle:
         """Hover thrust (M + m) g, N."""
         return (self.mass + self.bob_mass) * self.gravity
 
-    def mixing(self, e3: E3Direction = "up") -> Any:
+    def commanded(self) -> Vehicle:
+        """Return the vehicle in units of commanded force, in which its `thrust_scale` is 1.
+
+        A machine whose rotors push s times what they are asked for moves under the same commands as one with masses,
+        inertias, friction and drag divided by s. Laws, flights and plans take this one; wind counts in the same unit.
+        """
+        s = self.thrust_scale
+        if s == 1.0:
+            return self
+        air = self.air
+        if air is not None:  # rotor_drag √(s f)/s
+            root = {name: getattr(air, name) / np.sqrt(s) for name in ("rotor_drag", "inflow")}
+            air = Air(**root, lift=air.lift / s, body_drag=[value / s for value in air.body_drag])
+        shared = ("mass", "bob_mass", "rod_inertia", "rod_spin_inertia", "inertia", "pivot_damping", "pivot_friction")
+        changes = {name: getattr(self, name) / s for name in shared}
+        return replace(self, **changes, air=air, thrust_scale=1.0, bands=None)
+
+    def mixing(self, e3: E3Direction = "up") -> Numbers:
         """Matrix (4, n) from rotor forces to (thrust, moment) in the body frame of `e3` ("up" or "down").
 
         For `e3` = "down" the thrust row is negative: the negative of the first row of the paper's (transfmu). The
@@ -203,11 +232,11 @@ class Vehicle:
         up = np.array([np.ones_like(x), y, -x, self.drag_ratio * self.rotor_spins])
         return up if errors.one_of("e3", e3, ("up", "down")) == "up" else np.diag([-1.0, 1.0, -1.0, -1.0]) @ up
 
-    def unmixing(self, e3: E3Direction = "up") -> Any:
+    def unmixing(self, e3: E3Direction = "up") -> Numbers:
         """Matrix (n, 4) from (thrust, moment) to rotor forces, of minimum norm for n > 4; `e3` as in `mixing`."""
         return np.linalg.pinv(self.mixing(e3))
 
-    def sharing(self) -> tuple[Any, float, Any]:
+    def sharing(self) -> tuple[Numbers, float, Numbers]:
         """Rotor forces per unit roll and pitch moment (n, 2), and per unit yaw moment as magnitude and signs (n,).
 
         Raises InputError if the rotors do not share thrust equally, or yaw as two groups of equal magnitude.
@@ -250,7 +279,31 @@ class Vehicle:
     def to_dict(self) -> dict[str, Any]:
         """Return the fields as plain numbers, lists and dicts, as in a vehicle TOML file."""
         values = {name: _plain(getattr(self, name)) for name in _FIELDS}
+        if self.thrust_scale == 1.0:
+            del values["thrust_scale"]
         return {name: value for name, value in values.items() if value is not None}
+
+    def to_mjcf(self, *, timestep: float = 1e-3, lag: bool = True) -> str:
+        """Return the machine as a model for MuJoCo (MJCF): the one that the plant "mujoco" flies. z up, SI units.
+
+        The body "vehicle" is free, with its origin in the pivot; the body "bob", which is the rod, turns about it by
+        the ball joint "pivot". The controls "rotor0", "rotor1", … are the forces of the rotors, N, within
+        `rotor_limits`. Not in the model, since MuJoCo's own joints and air differ from the package's: friction of the
+        joint, air, and the mount; geoms are to be looked at, without mass and contact. `rod_spin` belongs to a state.
+
+        Parameters
+        ----------
+        timestep : float
+            Step of the integrator (RK4), s.
+        lag : bool
+            Whether the forces follow the controls with the time constant `rotor_lag`, from 0 N on.
+
+        Raises
+        ------
+        InputError
+            If the timestep is not positive.
+        """
+        return model_xml(self, timestep=timestep, lag=self.rotor_lag if lag else 0.0, limits=True)
 
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
@@ -279,6 +332,8 @@ _REQUIRED = (
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.tolist()
+    if isinstance(value, Mapping):
+        return {name: [list(end) if isinstance(end, tuple) else end for end in ends] for name, ends in value.items()}
     return value.to_dict() if isinstance(value, Body | Air) else value
 
 

@@ -1,0 +1,81 @@
+"""`thrust_scale`: rotors that push more or less than asked, as the law believes and as the plant has it."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.errors import InputError
+from flypend.model.air import Air
+
+SCALE = 0.87
+START = fp.State(y=(0, 0.6, -0.8), x=(0.3, 0, 0))
+
+
+def test_a_scale_of_one_changes_nothing():
+    plain = fp.vehicle("hehn2011")
+    told = plain.replace(thrust_scale=1.0, bands=None)
+    assert told.commanded() is told
+    assert told == plain
+    assert told.to_dict() == plain.to_dict()
+    assert "thrust_scale" not in plain.to_dict()
+
+
+def test_a_law_that_knows_the_scale_flies_the_machine_that_has_it():
+    """Masses as weighed and rotors of that strength move as the law's vehicle does: equations that share no unit."""
+    # Rotors begin at the least force.
+    machine = fp.vehicle("hehn2011").replace(thrust_scale=SCALE, rotor_limits=(0, 3.5))
+    real = fp.Plant(strength=SCALE, mismatch={"mass": SCALE, "bob_mass": SCALE, "inertia": SCALE})
+    believed = fp.simulate(machine, fp.laws.inverted(), START, duration=3)
+    flown = fp.simulate(machine.commanded(), fp.laws.inverted(), START, duration=3, plant=real)
+    assert np.abs(believed.x - flown.x).max() < 1e-6  # roundoff, grown by 3 s of swing-up
+    ignored = fp.simulate(machine.replace(thrust_scale=1.0), fp.laws.inverted(), START, duration=3)
+    assert np.abs(believed.x - ignored.x).max() > 1e-2
+
+
+def test_the_air_acts_on_the_force_that_is_there():
+    machine = fp.vehicle("hehn2011").replace(thrust_scale=SCALE)
+    air, commanded = machine.air, machine.commanded().air
+    force, speed = 1.3, 2.0  # commanded, N; m/s
+    true = air.rotor_drag * np.sqrt(SCALE * force) * speed
+    assert commanded.rotor_drag * np.sqrt(force) * speed == pytest.approx(true / SCALE)
+    assert isinstance(commanded, Air)
+    assert np.allclose(np.array(commanded.body_drag) * SCALE, air.body_drag)
+
+
+def test_a_plan_and_a_bound_law_take_the_commanded_vehicle():
+    machine = fp.vehicle("hehn2011").replace(thrust_scale=SCALE)
+    law = fp.laws.inverted().bind(machine)
+    assert law.vehicle == machine.commanded()
+    assert law.bind(machine) is law
+    assert fp.plan(machine, fp.State(y=(0, 0, -1))).vehicle.weight == pytest.approx(machine.weight / SCALE)
+
+
+def test_bands_travel_through_toml(tmp_path):
+    from flypend.files.toml import toml_text
+
+    bands = {"rod_length": (0.55, 0.58), "inertia": ((3e-3, 3e-3, 5e-3), (4e-3, 4e-3, 6e-3)), "delay": (0.0, 0.01)}
+    machine = fp.vehicle("hehn2011").replace(bands=bands, thrust_scale=0.9)
+    file = tmp_path / "mine.toml"
+    file.write_text(toml_text(machine.to_dict()))
+    again = fp.vehicle(file)
+    assert again == machine
+    assert dict(again.bands) == bands
+    assert again.thrust_scale == 0.9
+
+
+@pytest.mark.parametrize(
+    ("bands", "said"),
+    [
+        ({"rod": (1, 2)}, "bands.rod"),
+        ({"rod_length": (2, 1)}, "low <= high"),
+        ({"rod_length": 1}, "two numbers"),
+        ({"inertia": ((1, 2, 3), (4, 5))}, "of one shape"),
+        ({"delay": (0, np.inf)}, "finite"),
+        ("all", "a table"),
+    ],
+)
+def test_bands_that_are_none_are_refused(bands, said):
+    with pytest.raises(InputError, match=said):
+        fp.vehicle("hehn2011").replace(bands=bands)
+    with pytest.raises(InputError, match="thrust_scale"):
+        fp.vehicle("hehn2011").replace(thrust_scale=0)

@@ -25,7 +25,7 @@ const worker = {
 
 await mkdir(out, { recursive: true });
 await build({
-  ...common, entryPoints: ["src/replay.js", "src/lab.js", "src/live.js"], legalComments: "inline", loader: { ".css": "text" }, outdir: out,
+  ...common, entryPoints: ["src/replay.js", "src/lab.js"], legalComments: "inline", loader: { ".css": "text" }, outdir: out,
   plugins: [worker],
 });
 await copyFile(join(here, "node_modules/three/LICENSE"), join(out, "THREE-LICENSE.txt"));

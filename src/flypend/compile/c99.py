@@ -10,6 +10,7 @@ import numpy as np
 from flypend.compile.matrices import Matrix, matrices
 from flypend.compile.program import Operation, Program
 from flypend.compile.routine import Call, Cell, Routine, stretches
+from flypend.compile.scratch import SPAN, Scratch, scratch_size
 from flypend.errors import InputError, one_of
 
 Precision = Literal["double", "float"]
@@ -43,57 +44,102 @@ def literal(value: float, precision: Precision) -> str:
     return f"{single!s}f"
 
 
+# Inlined into one function, programs would each have their part of its stack.
+_APART = "#ifdef __GNUC__\n__attribute__((noinline))\n#endif\n"
+SCRATCH = "w"  # the C array of values that are read again later
+
+
+class _Statements:
+    """The C statements of a program, in `lines`, in the order of its operations."""
+
+    def __init__(self, program: Program, inputs: Sequence[Sequence[str]], precision: Precision) -> None:
+        self.program, self.inputs, self.precision = program, inputs, precision
+        self.scratch, self.lines = Scratch(program), list[str]()
+        self._known: dict[int, tuple[str, int]] = {}  # C expressions of numbers, and where they were read or computed
+        self._truths: dict[int, str] = {}  # and of truths
+        root = "sqrt" if precision == "double" else "sqrtf"
+        self._words = {"zero": literal(0.0, precision), "one": literal(1.0, precision), "root": root}
+
+    def write(self) -> None:
+        first = {matrix.rows[0]: place for place, matrix in enumerate(self.scratch.matrices)}
+        for number, operation in enumerate(self.program.operations):
+            if number in first:
+                self._multiply(number, first[number])
+            elif number not in self.scratch.inner and operation.name not in ("input", "constant"):
+                self._compute(number, operation)
+
+    def result(self, number: int) -> str:
+        """The C expression of a number after all statements."""
+        at, place = len(self.program.operations), self.scratch.places.get(number)
+        return self._number(number, at) if place is None or self._is_near(number, at) else f"{SCRATCH}[{place}]"
+
+    def _is_near(self, number: int, at: int) -> bool:
+        return number in self._known and (number in self._truths or at - self._known[number][1] <= SPAN)
+
+    def _number(self, number: int, at: int) -> str:
+        """The C expression of a number in statement `at`."""
+        operation = self.program.operations[number]
+        if operation.name == "constant":
+            text = _constant(operation.value, self.precision)
+            return f"({text})" if text.startswith("-") else text
+        if not self._is_near(number, at):
+            if operation.name == "input":
+                name = self._defined(REAL, self.inputs[operation.arguments[0]][operation.arguments[1]])
+            else:
+                name = self._defined(REAL, f"{SCRATCH}[{self.scratch.places[number]}]")
+            self._known[number] = (name, at)
+        return self._known[number][0]
+
+    def _truth(self, number: int, at: int) -> str:
+        """The C expression of whether a number is not 0."""
+        known = self._truths.get(number)
+        return known or f"({_TRUTHS['ne'].format(self._number(number, at), self._words['zero'])})"
+
+    def _defined(self, kind: str, text: str) -> str:
+        """The name of a new constant."""
+        self.lines.append(f"const {kind} v{len(self.lines)} = {text};")
+        return f"v{len(self.lines) - 1}"
+
+    def _compute(self, number: int, operation: Operation) -> None:
+        asked = _ASKS.get(operation.name, ())
+        taken = [(self._truth if i in asked else self._number)(a, number) for i, a in enumerate(operation.arguments)]
+        text = _form(operation).format(*taken, **self._words)
+        if operation.name in _TRUTHS:
+            truth = self._truths[number] = self._defined("int", text)
+            name = f"({truth} ? {self._words['one']} : {self._words['zero']})"
+        else:
+            name = self._defined(REAL, text)
+        self._known[number] = (name, number)
+        if number in self.scratch.places:
+            self.lines.append(f"{SCRATCH}[{self.scratch.places[number]}] = {name};")
+
+    def _multiply(self, number: int, place: int) -> None:
+        """Call the function of the layer at `place`."""
+        begin, columns = self.scratch.vectors[place], self.scratch.matrices[place].columns
+        for i, column in enumerate(columns):
+            text = self._number(column, number)
+            self.lines.append(f"{SCRATCH}[{begin + i}] = {text};")
+        own = f"{self.program.name}_{place}"
+        self.lines.append(f"{own}({SCRATCH} + {begin}, {SCRATCH} + {begin + len(columns)});")
+
+
 def statements(
     program: Program, inputs: Sequence[Sequence[str]], outputs: Sequence[Sequence[str]], precision: Precision
 ) -> list[str]:
     """C statements that compute `program`: `inputs[i][j]` is the C expression of entry j of input vector i.
 
     `outputs[i][j]` receives entry j of output i, after everything has been computed: it may be an input as well.
-    Products with constant matrices are calls of the functions of `layers`. What is selected is computed in any case: no
-    branch decides how long a call takes.
+    What is needed later is kept in the array `SCRATCH` of `scratch_size(program)` numbers. That and the inputs should
+    be volatile, or a compiler keeps copies on the stack. Products with constant matrices are calls of the functions of
+    `layers`. What is selected is computed in any case: no branch decides how long a call takes.
 
     Raises InputError for an operation that needs more of the C library than the square root.
     """
-    words = {"zero": literal(0.0, precision), "one": literal(1.0, precision)}
-    words["root"] = "sqrt" if precision == "double" else "sqrtf"
-    names: dict[int, str] = {}  # C expressions of numbers
-    truths: dict[int, str] = {}  # and of truths
-
-    def truth(number: int) -> str:
-        """Whether a value is not 0, in C."""
-        return truths.get(number) or f"({_TRUTHS['ne'].format(names[number], words['zero'])})"
-
-    lines: list[str] = []
-    tables = matrices(program)
-    first = {matrix.rows[0]: place for place, matrix in enumerate(tables)}
-    looped = {number for matrix in tables for number in (*matrix.rows, *matrix.inner)}
-    for number, operation in enumerate(program.operations):
-        if number in first:
-            place = first[number]
-            matrix, own = tables[place], f"{program.name}_{place}"
-            given = ", ".join(names[column] for column in matrix.columns)
-            lines += [f"const {REAL} x{place}[{len(matrix.columns)}] = {{{given}}};"]
-            lines += [f"{REAL} y{place}[{len(matrix.rows)}];", f"{own}(x{place}, y{place});"]
-            names |= {row: f"y{place}[{i}]" for i, row in enumerate(matrix.rows)}
-        elif number in looped:
-            continue
-        elif operation.name == "input":
-            names[number] = inputs[operation.arguments[0]][operation.arguments[1]]
-        elif operation.name == "constant":
-            text = _constant(operation.value, precision)
-            names[number] = f"({text})" if text.startswith("-") else text
-        else:
-            result, form = f"v{len(lines)}", _form(operation)
-            kind, taken = REAL, [names[a] for a in operation.arguments]
-            names[number] = result
-            if operation.name in _TRUTHS:
-                kind, truths[number], names[number] = "int", result, f"({result} ? {words['one']} : {words['zero']})"
-            for i in _ASKS.get(operation.name, ()):
-                taken[i] = truth(operation.arguments[i])
-            lines.append(f"const {kind} {result} = {form.format(*taken, **words)};")
-    for wanted, numbers in zip(outputs, program.outputs, strict=True):
-        lines += [f"{place} = {names[number]};" for place, number in zip(wanted, numbers, strict=True)]
-    return lines
+    writer = _Statements(program, inputs, precision)
+    writer.write()
+    found = [[writer.result(number) for number in numbers] for numbers in program.outputs]
+    pairs = zip(outputs, found, strict=True)
+    return writer.lines + [f"{to} = {text};" for wanted, texts in pairs for to, text in zip(wanted, texts, strict=True)]
 
 
 def layers(program: Program, precision: Precision) -> list[str]:
@@ -115,7 +161,7 @@ def _layer(matrix: Matrix, name: str, precision: Precision) -> str:
         "    out[i] = sum;",
         "}",
     ]  # fmt: skip
-    return _defined(name, [f"const {REAL} *in", f"{REAL} *out"], body)
+    return _defined(name, [f"const volatile {REAL} *in", f"volatile {REAL} *out"], body)
 
 
 def _form(operation: Operation) -> str:
@@ -140,24 +186,26 @@ def reads(program: Program, vector: int) -> set[int]:
 
 
 def function(program: Program, precision: Precision) -> str:
-    """`program` as a static C function, after its `layers`, of pointers: the inputs that it reads, then its outputs.
+    """`program` as a static C function, after its `layers`, of pointers: scratch memory, inputs that it reads, outputs.
 
-    All inputs are read before any output is written, so that an output may take the place of an input.
+    All inputs are read before any output is written, so that an output may take the place of an input. A program that
+    needs no scratch memory takes none.
     """
     taken = [vector for vector in range(len(program.inputs)) if reads(program, vector)]
     inputs = [[f"in{i}[{k}]" for k in range(length)] for i, length in enumerate(program.inputs)]
     outputs = [[f"out{i}[{k}]" for k in range(len(numbers))] for i, numbers in enumerate(program.outputs)]
-    given = [f"const {REAL} *in{i}" for i in taken]
-    wanted = [f"{REAL} *out{i}" for i, numbers in enumerate(program.outputs) if numbers]
+    given = [f"volatile {REAL} *{SCRATCH}"] * bool(scratch_size(program))
+    given += [f"const volatile {REAL} *in{i}" for i in taken]
+    wanted = [f"volatile {REAL} *out{i}" for i, numbers in enumerate(program.outputs) if numbers]
     whole = _defined(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
-    return "\n\n".join([*layers(program, precision), whole])
+    return "\n\n".join([*layers(program, precision), f"{_APART}{whole}"])
 
 
-def call(program: Program, inputs: Sequence[str], outputs: Sequence[str]) -> str:
-    """The call of what `function` writes, with C expressions of pointers for all input and output vectors."""
+def call(program: Program, inputs: Sequence[str], outputs: Sequence[str], memory: str = SCRATCH) -> str:
+    """The call of what `function` writes, with C expressions of pointers for all vectors and for scratch `memory`."""
     taken = [text for vector, text in enumerate(inputs) if reads(program, vector)]
     given = [text for text, numbers in zip(outputs, program.outputs, strict=True) if numbers]
-    return f"{program.name}({', '.join([*taken, *given])});"
+    return f"{program.name}({', '.join([*[memory] * bool(scratch_size(program)), *taken, *given])});"
 
 
 def used_inputs(routine: Routine) -> list[int]:
@@ -169,49 +217,69 @@ def used_inputs(routine: Routine) -> list[int]:
     return sorted({cell.number for cell in cells if cell.memory == "input"})
 
 
-def routine_function(routine: Routine, precision: Precision) -> str:
-    """`routine` as a static C function of pointers: first the input vectors that it reads, then its outputs.
+def routine_scratch(routine: Routine) -> int:
+    """How many numbers of scratch memory the function of `routine` takes."""
+    gathered = [sum(len(cells) for cells in _gathered(routine, step).values()) for step in routine.calls]
+    return (
+        sum(routine.memories)
+        + max(gathered, default=0)
+        + max((scratch_size(program) for program in routine.programs), default=0)
+    )
 
-    The functions of its programs must stand before it. Inputs and outputs must not overlap.
+
+def routine_function(routine: Routine, precision: Precision) -> str:
+    """`routine` as a static C function of pointers: scratch memory, the input vectors that it reads, its outputs.
+
+    The functions of its programs must stand before it. Inputs, outputs and scratch memory must not overlap.
     """
-    given = [f"const {REAL} *in{i}" for i in used_inputs(routine)]
-    wanted = [f"{REAL} *out{i}" for i, cells in enumerate(routine.outputs) if cells]
-    written = sorted({number for step in routine.calls for number in step.outputs if routine.memories[number]})
-    lines = [f"{REAL} m{number}[{routine.memories[number]}];" for number in written]
-    for step in routine.calls:
-        lines += _called(routine, step, precision)
+    given = [f"volatile {REAL} *{SCRATCH}", *(f"const volatile {REAL} *in{i}" for i in used_inputs(routine))]
+    wanted = [f"volatile {REAL} *out{i}" for i, cells in enumerate(routine.outputs) if cells]
+    lines = [line for step in routine.calls for line in _called(routine, step, precision)]
     for i, cells in enumerate(routine.outputs):
-        lines += [f"out{i}[{k}] = {_cell(cell, precision)};" for k, cell in enumerate(cells)]
+        lines += [f"out{i}[{k}] = {_cell(routine, cell, precision)};" for k, cell in enumerate(cells)]
     return _defined(routine.name, [*given, *wanted], lines)
 
 
-def _called(routine: Routine, step: Call, precision: Precision) -> list[str]:
-    """The lines of one call. A vector that does not lie in one piece is put together in a block of its own."""
+def _gathered(routine: Routine, step: Call) -> dict[int, Sequence[Cell]]:
+    """The input vectors of one call that do not lie in one piece: they are put together in scratch memory."""
     program = routine.programs[step.program]
-    gathered, inputs = [], []
-    for vector, cells in enumerate(step.inputs):
-        found = stretches(cells)
-        if not reads(program, vector):
-            inputs.append("")
-        elif len(found) == 1 and found[0][0].memory != "constant":
-            inputs.append(_place(found[0][0]))
-        else:
-            values = ", ".join(_cell(cell, precision) for cell in cells)
-            gathered.append(f"const {REAL} g{vector}[{len(cells)}] = {{{values}}};")
-            inputs.append(f"g{vector}")
-    line = call(program, inputs, [f"m{number}" for number in step.outputs])
-    return ["{", *(f"    {text}" for text in (*gathered, line)), "}"] if gathered else [line]
+    pieces = {vector: stretches(cells) for vector, cells in enumerate(step.inputs) if reads(program, vector)}
+    return {
+        vector: step.inputs[vector]
+        for vector, found in pieces.items()
+        if len(found) != 1 or found[0][0].memory == "constant"
+    }
 
 
-def _place(cell: Cell) -> str:
-    base = f"{'in' if cell.memory == 'input' else 'm'}{cell.number}"
-    return f"{base} + {cell.place}" if cell.place else base
+def _called(routine: Routine, step: Call, precision: Precision) -> list[str]:
+    """The lines of one call. Scratch memory: buffers, what is put together for the call, and the program's own."""
+    program, place, lines = routine.programs[step.program], sum(routine.memories), []
+    inputs = ["" if not cells else _place(routine, cells[0]) for cells in step.inputs]
+    for vector, cells in _gathered(routine, step).items():
+        lines += [f"{SCRATCH}[{place + k}] = {_cell(routine, cell, precision)};" for k, cell in enumerate(cells)]
+        inputs[vector] = f"{SCRATCH} + {place}"
+        place += len(cells)
+    outputs = [f"{SCRATCH} + {_start(routine, number)}" for number in step.outputs]
+    return [*lines, call(program, inputs, outputs, f"{SCRATCH} + {place}")]
 
 
-def _cell(cell: Cell, precision: Precision) -> str:
+def _start(routine: Routine, number: int) -> int:
+    """Where a buffer of `routine` begins in scratch memory."""
+    return sum(routine.memories[:number])
+
+
+def _place(routine: Routine, cell: Cell) -> str:
+    if cell.memory == "call":
+        return f"{SCRATCH} + {_start(routine, cell.number) + cell.place}"
+    return f"in{cell.number} + {cell.place}" if cell.place else f"in{cell.number}"
+
+
+def _cell(routine: Routine, cell: Cell, precision: Precision) -> str:
     if cell.memory == "constant":
         return literal(cell.value, precision)
-    return f"{'in' if cell.memory == 'input' else 'm'}{cell.number}[{cell.place}]"
+    if cell.memory == "call":
+        return f"{SCRATCH}[{_start(routine, cell.number) + cell.place}]"
+    return f"in{cell.number}[{cell.place}]"
 
 
 def _defined(name: str, parameters: Sequence[str], body: Sequence[str]) -> str:

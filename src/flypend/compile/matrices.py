@@ -77,6 +77,7 @@ def _weighed(program: Program, number: int) -> tuple[float, int] | None:
 
 
 def _matrix(program: Program, rows: list[int], columns: tuple[int, ...], products: list[list[int]]) -> Matrix:
+    """Return the product (rows, inner) · (inner, columns) that the partial sums `products` of the `rows` make."""
     inner = set()
     for root, row in zip(rows, products, strict=True):
         inner |= set(row)

@@ -234,6 +234,7 @@ class _Builder:
         return self._negated(a) if name == "neg" else None
 
     def _sum(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
+        """Return what is shorter than a + b, of values `first` and `second` if constant; None if nothing is."""
         if 0.0 in (first, second):
             return b if first == 0.0 else a
         for one, other in ((a, b), (b, a)):
@@ -242,6 +243,7 @@ class _Builder:
         return None
 
     def _difference(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
+        """As `_sum`, for a − b."""
         if second == 0.0:
             return a
         if first == 0.0:
@@ -249,6 +251,7 @@ class _Builder:
         return None if (inner := self._negated(b)) is None else self.do("add", a, inner)
 
     def _product(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
+        """As `_sum`, for a b."""
         for other, value in ((b, first), (a, second)):
             if value == 0.0:
                 return self.constant(0.0)

@@ -67,9 +67,9 @@ class Sensing:
     Parameters
     ----------
     begin : Program
-        (state) → memory of the sensors at the start.
+        (state, draws) → memory of the sensors at the start; the draws are those of `tick`.
     estimate : Program
-        (state, draws) → the estimate with which the flight computer begins; the draws are those of `tick`.
+        (state, draws) → the estimate with which the flight computer begins; the same draws.
     sense : Program
         (memory, t, state, draws) → (memory, readings).
     tick : int

@@ -7,7 +7,7 @@ the constants, unrolls what they bound and compiles for the processor at hand.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from importlib import resources
@@ -23,31 +23,49 @@ from flypend.compile.llvm.target import Target
 from flypend.compile.llvm.vector import I64, Lanes
 from flypend.compile.program import Program
 
-SHORT = 64  # operations; a program of so few becomes part of the loop
+SHORT = 64  # operations; a program of so few becomes part of the loop wherever it is called
+VISIBLE = frozenset(("kernel", "context_size"))  # functions of a loop
+Definition = Callable[[Lanes, str], ir.Function]  # defines a program under a name
+Constants = dict[str, int | float | ArrayLike]
+
+
+def several(program: Program) -> Definition:
+    """Define `program`, which the loop calls in several places or rarely."""
+    short = len(program.operations) <= SHORT
+    return lambda lanes, name: define(lanes, replace(program, name=name), inline=short)
+
+
+def once(program: Program) -> Definition:
+    """Define `program`, which the loop calls in one place, as part of the loop."""
+    return lambda lanes, name: define(lanes, replace(program, name=name), inline=True)
+
+
+def apart(program: Program, *, exact: bool = False) -> Definition:
+    """Define `program` as a function whose rounding does not depend on the loop's; `exact` as in `emit.define`."""
+    return lambda lanes, name: define(lanes, replace(program, name=name), exact=exact)
 
 
 class LoopModule(ir.Module):  # type: ignore[misc]  # llvmlite has no types
     """What a loop leaves open: `programs` and `constants` by their names in the loop's source.
 
-    Integers and floats are constants of their own, anything else is an array of doubles. The function "kernel" of the
-    `loop` is the only one of its functions that stays visible. `vectors` are width, precision and target of its lanes.
+    Integers and floats are constants of their own, anything else is an array of doubles. Of the functions of the `loop`
+    those called `VISIBLE` stay so. `vectors` are width, precision and target of its lanes.
     """
 
     def __init__(
         self,
         loop: str,
         vectors: tuple[int, str, Target | None],
-        programs: Mapping[str, Program],
-        constants: Mapping[str, int | float | ArrayLike],
+        programs: Mapping[str, Definition],
+        constants: Constants,
     ) -> None:
         super().__init__("flypend")
         width, precision, target = vectors
         lanes = Lanes(self, width, precision, target=target)
         self.bitcode = file_of(loop, width, 8 * lanes.size // width, lanes.target.pointer_bits)
         self.inner = {*programs, *constants}
-        for name, program in programs.items():
-            short = len(program.operations) <= SHORT
-            define(lanes, replace(program, name=name), inline=short).linkage = "external"
+        for name, definition in programs.items():
+            definition(lanes, name).linkage = "external"
         for name, value in constants.items():
             known = _constant(value)
             variable = ir.GlobalVariable(self, known.type, name)
@@ -71,7 +89,7 @@ def linked(module: LoopModule, given: Any, target: Target) -> Any:
     loop = llvm.parse_bitcode(_bitcode(module.bitcode))
     for part in (loop, given):
         part.triple, part.data_layout = target.triple, str(target.machine.target_data)
-    inner = {part.name for part in (*loop.functions, *loop.global_variables)} - {"kernel"} | module.inner
+    inner = {part.name for part in (*loop.functions, *loop.global_variables)} - VISIBLE | module.inner
     loop.link_in(given)
     for part in (*loop.functions, *loop.global_variables):
         if part.name in inner and not part.is_declaration:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from flypend.compile.llvm.loops import LoopModule
+from flypend.compile.llvm.loops import LoopModule, several
 from flypend.compile.llvm.target import Target
 from flypend.compile.methods import Method
 from flypend.compile.problem import Problem
@@ -34,8 +34,8 @@ def kernel_module(
     """Return the module of the function "kernel" for `problem`; its arguments are `ARGUMENTS`."""
     if problem.size % STRANDS:
         raise ValueError(f"the state length must be a multiple of {STRANDS}, not {problem.size}")
-    constants = {**_sizes(problem), **_tableau(method)}
-    return LoopModule("runge_kutta", (width, precision, target), _programs(problem), constants)
+    programs = {name: several(program) for name, program in _programs(problem).items()}
+    return LoopModule("runge_kutta", (width, precision, target), programs, {**_sizes(problem), **_tableau(method)})
 
 
 def _programs(problem: Problem) -> dict[str, Program]:

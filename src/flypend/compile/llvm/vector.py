@@ -68,25 +68,12 @@ class Lanes:
         return function, Code(self, ir.IRBuilder(function.append_basic_block()))
 
 
-class Context:
-    """Memory of the caller at `address`, aligned to a cache line, which outlives a call; `size` bytes are taken."""
-
-    def __init__(self, address: ir.Value) -> None:
-        self.address, self.size = address, 0
-
-    def take(self, builder: ir.IRBuilder, size: int) -> ir.Value:
-        """Address of `size` bytes more."""
-        offset, self.size = self.size, self.size + -(-size // LINE) * LINE
-        return builder.gep(self.address, [ir.Constant(I64, offset)], source_etype=ir.IntType(8))
-
-
 class Code:
-    """Code under construction in one function, whose `context`, if it has one, outlives a call."""
+    """Code under construction in one function."""
 
-    def __init__(self, lanes: Lanes, builder: ir.IRBuilder, context: Context | None = None) -> None:
+    def __init__(self, lanes: Lanes, builder: ir.IRBuilder) -> None:
         self.lanes = lanes
         self.builder = builder
-        self.context = context
         self.flags: tuple[str, ...] = FLAGS
 
     # Memory -------------------------------------------------------------------------------------------------------
@@ -99,13 +86,6 @@ class Code:
             memory.align = LINE
             memory.type = POINTER  # make it opaque; llvmlite would insist on the allocated type
         return memory
-
-    def keep(self, length: int) -> ir.Value:
-        """Allocate `length` vectors for what a call leaves to the next: in the context, or else on the stack."""
-        if self.context is None:
-            return self.reserve(length)
-        with self.builder.goto_entry_block():
-            return self.context.take(self.builder, max(1, length) * self.lanes.size)
 
     def vector_at(self, memory: ir.Value, index: int | ir.Value, kind: ir.Type | None = None) -> ir.Value:
         """Address of vector `index` in `memory`."""

@@ -24,3 +24,7 @@ build() { # loop, lanes, bits of a number, bits of a pointer
 
 for lanes in 8x64 16x64 16x32 32x32; do build runge_kutta "${lanes%x*}" "${lanes#*x}" 64; done
 for lanes in 1x64 2x64 1x32 2x32; do build runge_kutta "${lanes%x*}" "${lanes#*x}" 32; done
+for lanes in 1 8; do build sampled "$lanes" 64 64; done
+for lanes in 1 2; do build sampled "$lanes" 64 32; done
+build worlds 8 64 64
+build normals 8 64 64

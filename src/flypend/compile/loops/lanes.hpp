@@ -32,8 +32,17 @@ static INLINE V size(V x) { return __builtin_elementwise_abs(x); }
 
 #define TEXT_OF(token) #token
 #define TEXT(macro) TEXT_OF(macro)
-extern "C" V square_root(V) __asm__("llvm.sqrt.v" TEXT(WIDTH) "f" TEXT(BITS));  // clang 14 has no other name for it
-static INLINE V root(V x) { return square_root(x); }
+// clang 14 has no other names for them. Of one lane, since x86 would pass that as an integer, it has.
+extern "C" V square_root(V) __asm__("llvm.sqrt.v" TEXT(WIDTH) "f" TEXT(BITS));
+extern "C" V nearby(V) __asm__("llvm.nearbyint.v" TEXT(WIDTH) "f" TEXT(BITS));
+static INLINE V root(V x) {
+    if constexpr (W == 1) return V{T(__builtin_sqrt(x[0]))};
+    else return square_root(x);
+}
+static INLINE V nearest(V x) {  // whole number; ties to even
+    if constexpr (W == 1) return V{T(__builtin_nearbyint(x[0]))};
+    else return nearby(x);
+}
 
 // x > 0 to a power, to a few per cent: the bit pattern of a number approximates its logarithm.
 static INLINE V power(V x, T exponent) {
@@ -60,6 +69,20 @@ static INLINE V gathered(const double *table, L place, M lanes) {
     return lanes ? result : V{};
 }
 
+// Whether an entry is infinite or NaN.
+static INLINE M undefined(const V *vector, int64_t length) {
+    V sum{};
+    for (int64_t i = 0; i < length; i++) sum += 0 * vector[i];
+    return ~(sum == 0);
+}
+
+// Whether the length of a vector exceeds a limit or is NaN.
+static INLINE M far(const V *vector, int64_t length, T limit) {
+    V sums[4] = {};  // independent partial sums hide the latency of the additions
+    UNROLLED for (int64_t i = 0; i < length; i++) sums[i % 4] += vector[i] * vector[i];
+    return ~((sums[0] + sums[1]) + (sums[2] + sums[3]) < limit * limit);
+}
+
 // The lanes of a mask, in turn: for (int64_t lane : Set(mask)) …
 struct Set {
     uint64_t left;
@@ -75,13 +98,19 @@ struct Set {
     INLINE int64_t operator*() const { return __builtin_ctzll(left); }
 };
 
+static INLINE int64_t some(int64_t length) { return length + (length == 0); }  // no array may be empty
+
+static INLINE void copy(const V *from, V *to, int64_t length) {
+    for (int64_t i = 0; i < length; i++) to[i] = from[i];
+}
+
 // One lane of vectors in memory, and rows of the caller's arrays.
 static INLINE T &entry(V *vectors, int64_t i, int64_t lane) { return ((T *)vectors)[i * W + lane]; }
 
-static INLINE void from_row(const double *row, V *vectors, int64_t lane, int64_t length) {
+template <class Number> static INLINE void from_row(const Number *row, V *vectors, int64_t lane, int64_t length) {
     for (int64_t i = 0; i < length; i++) entry(vectors, i, lane) = T(row[i]);
 }
 
-static INLINE void into_row(V *vectors, int64_t lane, double *row, int64_t length) {
-    for (int64_t i = 0; i < length; i++) row[i] = entry(vectors, i, lane);
+template <class Number> static INLINE void into_row(V *vectors, int64_t lane, Number *row, int64_t length) {
+    for (int64_t i = 0; i < length; i++) row[i] = Number(entry(vectors, i, lane));
 }

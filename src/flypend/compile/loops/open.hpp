@@ -38,8 +38,4 @@ void margin(const V *t, const V *s, const V *p, V *margin);  // > 0 where the la
 void gauges(const V *t, const V *s, const V *s_dot, V *gauges, V *first, V *second, V *tolerances);
 void values(const V *t, const V *s, const V *s_dot, V *gauges);
 void forces(const V *wrench, V *square_and_peak);  // mean square and maximum of the rotor forces
-void room(const V *before, const V *after, const V *seconds, V *bound);
-void touching(const V *before, const V *after, const V *seconds, V *distance_share_part);
 }
-
-static INLINE int64_t some(int64_t length) { return length + (length == 0); }  // no array may be empty

@@ -5,10 +5,8 @@
 // run does not depend on its neighbours.
 #include "judging.hpp"
 #include "sampling.hpp"
+#include "statuses.hpp"
 #include "touching.hpp"
-
-// How a run ends, as in `flypend.compile.llvm.runge_kutta`.
-enum { COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY, COLLIDED };
 
 // Half as many rejected steps as with SciPy's 0.9 and 10, and 3 to 7 % fewer evaluations at the same error.
 constexpr T SAFETY = 0.8, LEAST_FACTOR = 0.2, MOST_FACTOR = 5;
@@ -72,7 +70,7 @@ extern "C" void kernel(
     Judge judge{
         stages, dense, grid, before, after, tolerance, margins, curve, exact, found, open, last_out,
         V{}, V{}, V{}, V{}};
-    Touching touch{stages, dense, rod_before, rod_after, all(INFINITE), all(INFINITE)};
+    Touching touch{stages, dense, rod_before, rod_after};
     const bool judged = GAUGES > 0 && reductions;
 
     V t{}, h{}, count{};
@@ -129,7 +127,7 @@ extern "C" void kernel(
         steps[row] = int64_t(count[lane]);
         sampler.finish(lane);
         if (judged) judge.store(lane, t[lane] - begin, reductions + row * (GAUGES + 4));
-        if (TOUCHES) clearance[row] = touch.distance[lane], part[row] = int64_t(touch.part[lane]);
+        if (TOUCHES) touch.store(lane, clearance[row], part[row]);
     };
 
     for (int64_t lane = 0; lane < W; lane++) {

@@ -116,9 +116,12 @@ def final(run):
         (lambda: Plant().replace(rate=-50), "plant.rate: expected a finite number > 0 Hz, got -50"),
         (
             lambda: plant("rotor"),
-            "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean 'rotors'",
+            "plant: expected one of ideal, rotors, mujoco, hehn2011, laboratory, got 'rotor' (did you mean 'rotors'",
         ),
-        (lambda: plant(None), "plant: expected a Plant, Ideal() or one of ideal, rotors, mujoco, hehn2011, got None"),
+        (
+            lambda: plant(None),
+            "plant: expected a Plant, Ideal() or one of ideal, rotors, mujoco, hehn2011, laboratory",
+        ),
     ],
 )
 def test_what_is_out_of_range_is_refused_in_one_line(make, message):
@@ -134,7 +137,7 @@ def test_presets_and_copies():
     assert (hehn.interface, hehn.rate, hehn.delay) == ("rates", 50.0, 0.03)
     assert plant(hehn) is hehn
     assert hehn.replace(rate=100.0) == Plant(interface="rates", rate=100.0, delay=0.03)
-    assert set(PRESETS) == {"ideal", "rotors", "mujoco", "hehn2011"}
+    assert set(PRESETS) == {"ideal", "rotors", "mujoco", "hehn2011", "laboratory"}
 
 
 def test_a_plant_keeps_its_own_copies():
@@ -143,6 +146,21 @@ def test_a_plant_keeps_its_own_copies():
     factors["mass"], offset[0] = 2.0, 1.0
     assert kept.mismatch == {"mass": 1.1}
     assert kept.pivot_offset == (0.1, 0, 0)
+
+
+def test_a_centre_of_mass_that_is_off_turns_the_vehicle_and_leaves_its_parts_in_place():
+    c, offset = np.array([0.003, -0.002, 0.004]), np.array([0.01, 0.0, 0.02])
+    vehicle = VEHICLE.replace(pivot_offset=offset)
+    true = Plant(centre_of_mass=c, mismatch={"rotor_positions": 1.1}).true_vehicle(vehicle)
+    np.testing.assert_allclose(true.rotor_positions + c, 1.1 * vehicle.rotor_positions)
+    np.testing.assert_allclose(true.pivot_offset + c, offset)
+    # Equal rotor forces push at the middle of the rotors, which is at -c from where the mass is.
+    force = np.array([0.0, 0.0, 4.0])
+    turning = (Plant(centre_of_mass=c).true_vehicle(VEHICLE).mixing() @ np.ones(4))[1:]
+    np.testing.assert_allclose(turning, np.cross(-c, force), atol=1e-15)
+    both = Plant(centre_of_mass=c, pivot_offset=offset).true_vehicle(VEHICLE)
+    np.testing.assert_allclose(both.pivot_offset, offset - c)
+    assert Plant(centre_of_mass=(0, 0, 0)).true_vehicle(VEHICLE) == VEHICLE
 
 
 # Lag, hold, delay, limits ----------------------------------------------------------------------------------------

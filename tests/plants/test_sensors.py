@@ -176,7 +176,7 @@ def test_a_table_is_put_on_top_of_a_suite_and_comes_back_from_one():
         (lambda: sensors(rod=None), "sensors.rod"),
         (lambda: sensors(rod=Sensor(rate=0.0, noise=1.0)), "rate"),
         (lambda: sensors(rod=Sensor(rate=10.0)), "noise"),
-        (lambda: sensors(rod=Sensor(rate=10.0, noise=1.0, quantisation=1.0)), "joint"),
+        (lambda: sensors(rod=Sensor(rate=10.0, noise=1.0, quantisation=1.0)), "direction"),
         (lambda: sensors(rod=Sensor(rate=10.0, noise=1.0, dropouts=1.0)), "probability"),
         (lambda: sensors(rod=Sensor(rate=10.0, noise=1.0, latency=2.0)), "latency"),
         (lambda: sensors(rates="guessed"), "estimated"),

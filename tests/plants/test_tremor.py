@@ -16,7 +16,7 @@ VEHICLE = fp.vehicle("hehn2011")
 UPRIGHT = fp.State(y=(0.0, 0.0, 1.0))
 POSES = ("position", "attitude", "rod")
 MOCAP, ONBOARD = SUITES["mocap"], SUITES["onboard"]
-SLOWER = MOCAP.replace(**{name: replace(getattr(MOCAP, name), rate=100.0) for name in POSES})
+SLOWER = MOCAP.replace(**{name: replace(getattr(MOCAP, name), rate=110.0) for name in POSES})  # the calmest gains do
 PLAIN = inverted().with_gains(inverted().gains_for(VEHICLE)).bind(VEHICLE)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
-from flypend.geometry import apply
+from flypend.geometry import Numbers, Scalar, Vector, apply
 from flypend.model import Vehicle
 from flypend.model.allocation import allocate
 from flypend.model.dynamics import gyroscopic_moment
@@ -28,17 +28,17 @@ class Engine(Protocol):
     """Integrator of the motion, in the e₃-up frame."""
 
     @property
-    def packed(self) -> Any:
+    def packed(self) -> Numbers:
         """The packed state (24,)."""
 
     @property
-    def rotors(self) -> Any:
+    def rotors(self) -> Numbers:
         """The rotor forces (n,), N."""
 
-    def reset(self, packed: Any, rotors: Any) -> None:
+    def reset(self, packed: Numbers, rotors: Numbers) -> None:
         """Set the packed state (24,) and the rotor forces (n,), N."""
 
-    def step(self, command: Any, duration: float, wind: Any) -> None:
+    def step(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
 
 
@@ -60,21 +60,21 @@ class Mujoco:
         self._lost = False
 
     @property
-    def packed(self) -> Any:
+    def packed(self) -> Numbers:
         """The packed state (24,); NaN once a force has been NaN or too large for MuJoCo."""
         return np.full(SIZE, np.nan) if self._lost else self._engine.packed
 
     @property
-    def rotors(self) -> Any:
+    def rotors(self) -> Numbers:
         """The rotor forces (n,), N."""
         return self._engine.rotors
 
-    def reset(self, packed: Any, rotors: Any) -> None:
+    def reset(self, packed: Numbers, rotors: Numbers) -> None:
         """Set the packed state (24,) and the rotor forces (n,), N."""
         self._engine.reset(packed, rotors)
         self._lost = False
 
-    def step(self, command: Any, duration: float, wind: Any) -> None:
+    def step(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,), N."""
         from flypend.plants.mujoco import substeps
         from flypend.plants.mujoco_world import step_numbers
@@ -89,7 +89,7 @@ class Mujoco:
                 self._lost = True
                 return
 
-    def _prepared(self, command: Any, wind: Any, numbers: Any) -> tuple[Any, ...]:
+    def _prepared(self, command: Numbers, wind: Numbers, numbers: Numbers) -> tuple[Any, ...]:
         """Return controls and outside forces for the next step of MuJoCo."""
         engine, controls = self._engine, command
         if self._motors is not None:
@@ -144,7 +144,7 @@ class Actuation:
         if self._rates:
             self._loop = _compiled_rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
 
-    def advance(self, command: Any, duration: float, wind: Any) -> None:
+    def advance(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Hold `command` for `duration` (s) under `wind` (6,), N."""
         steps = steps_in(duration, self._plant, self._longest)
         for _ in range(steps):
@@ -157,7 +157,9 @@ def _compiled_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
     return as_numpy(rate_loop(vehicle, limits, gain))
 
 
-def rate_loop(vehicle: Any, limits: bool, gain: float, symbols: Any = None, name: str = "rate_loop") -> ca.Function:
+def rate_loop(
+    vehicle: Vehicle, limits: bool, gain: float, symbols: Numbers = None, name: str = "rate_loop"
+) -> ca.Function:
     """Rate loop (command (4,), omega (3,), symbols) → rotor forces (n,), N, as a CasADi function.
 
     `gain` is in 1/s; `limits` says whether the forces are kept within the rotor limits. The parameters of `vehicle` may
@@ -169,7 +171,7 @@ def rate_loop(vehicle: Any, limits: bool, gain: float, symbols: Any = None, name
     return ca.Function(name, inputs, [rotor_forces(command[0], moment, vehicle, limits)])
 
 
-def rotor_forces(thrust: Any, moment: Any, vehicle: Any, limits: bool) -> Any:
+def rotor_forces(thrust: Scalar, moment: Vector, vehicle: Vehicle, limits: bool) -> Numbers:
     """Rotor forces (n,), N, for a wrench, in CasADi: allocated within the limits of `vehicle`, or just unmixed."""
     if limits:
         return allocate(thrust, moment, vehicle)

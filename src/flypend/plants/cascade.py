@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E3, cross, dot, scale, unit
+from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, cross, dot, scale, unit
 from flypend.model import State, Vehicle
 from flypend.model.momenta import angular_acceleration, outside_on_rod, pull_on_rod
 from flypend.plants.lag import Ramp
@@ -21,7 +21,7 @@ from flypend.plants.lag import Ramp
 HALF_TANGENT = (1 / 2, 1 / 24, 1 / 240, 17 / 40320)
 
 
-def cascade_step(packed: Any, wrench: Ramp, outside: Any, h: Any, vehicle: Vehicle) -> Any:
+def cascade_step(packed: Numbers, wrench: Ramp, outside: Numbers, h: Scalar, vehicle: Vehicle) -> Numbers:
     """Return the state (24, 1), e₃ up, after a step, in CasADi.
 
     Parameters
@@ -54,12 +54,12 @@ def cascade_step(packed: Any, wrench: Ramp, outside: Any, h: Any, vehicle: Vehic
 class _Turned(NamedTuple):
     """The rotation after a step, and the thrust axis at its middle."""
 
-    omega: Any
-    R: Any
-    z_middle: Any
+    omega: Vector
+    R: Matrix
+    z_middle: Vector
 
 
-def _turned(s: State, moment: Ramp, h: Any, vehicle: Vehicle) -> _Turned:
+def _turned(s: State, moment: Ramp, h: Scalar, vehicle: Vehicle) -> _Turned:
     """ω by the classical Runge-Kutta method, at the middle by Hermite interpolation, and R by the Magnus series.
 
     The rotation vector of R(0)ᵀ R(t) is ∫ω + (t²/12) ω(0) × ω(t) + O(t⁵), since ω(t) is linear up to O(t²).
@@ -76,7 +76,7 @@ def _turned(s: State, moment: Ramp, h: Any, vehicle: Vehicle) -> _Turned:
     return _Turned(after, ca.mtimes(s.R, rotation_by(whole)), ca.mtimes(s.R, rotation_by(half)[:, 2]))
 
 
-def rotation_by(vector: Any) -> Any:
+def rotation_by(vector: Vector) -> Matrix:
     """Rotation matrix (3, 3) of a rotation vector, by its half tangent g = tan(θ/2) n: 1 + 2/(1 + |g|²) (ĝ + ĝ²).
 
     Orthogonal whatever the error of g, by which it turns 1e-7 rad too little at 0.5 rad and 2e-2 at 2 rad.
@@ -96,7 +96,7 @@ def rotation_by(vector: Any) -> Any:
     )
 
 
-def _swung(s: State, pulls: list[Any], h: Any) -> tuple[Any, Any]:
+def _swung(s: State, pulls: list[Any], h: Scalar) -> tuple[Vector, Vector]:
     """Rod and its rate after a step, under `pulls` b at its beginning, middle and end."""
     start, middle, end = pulls
 
@@ -113,8 +113,8 @@ def _swung(s: State, pulls: list[Any], h: Any) -> tuple[Any, Any]:
 
 
 def _carried(
-    s: State, y: Any, y_dot: Any, pulls: list[Any], acceleration: Any, h: Any, vehicle: Vehicle
-) -> tuple[Any, Any]:
+    s: State, y: Vector, y_dot: Vector, pulls: list[Any], acceleration: Vector, h: Scalar, vehicle: Vehicle
+) -> tuple[Vector, Vector]:
     """Pivot and its velocity after a step that ends with the rod at `y`, `y_dot`.
 
     The centre of mass accelerates by f z/(M+m), a multiple of each of `pulls`, and by a constant `acceleration`.

@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.llvm.stagewise import alone
+from flypend.geometry import Numbers, Scalar
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench
 from flypend.model.joint import friction
@@ -39,11 +40,11 @@ class EquationsEngine:
         self.packed: Any = np.zeros(SIZE)
         self.rotors: Any = np.zeros(len(vehicle.rotor_spins))
 
-    def reset(self, packed: Any, rotors: Any) -> None:
+    def reset(self, packed: Numbers, rotors: Numbers) -> None:
         """Set the packed state (24,) and the rotor forces (n,), N."""
         self.packed, self.rotors = np.array(packed), np.array(rotors)
 
-    def step(self, command: Any, duration: float, wind: Any) -> None:
+    def step(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
         timing = motor_timing(self._lag, self._plant, duration)
         step = _compiled_step(self._vehicle, self._moving, bool(np.any(wind)))
@@ -78,8 +79,8 @@ def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, n
 
 
 def stepped(
-    packed: Any, rotors: Any, command: Any, wind: Any, timing: Any, vehicle: Vehicle, plant: Plant
-) -> list[Any]:
+    packed: Numbers, rotors: Numbers, command: Numbers, wind: Numbers, timing: Numbers, vehicle: Vehicle, plant: Plant
+) -> list[Numbers]:
     """Return state and rotor forces after the step of `rotor_step`; without wind, `wind` is None.
 
     The numbers of `vehicle` may be symbolic.
@@ -110,7 +111,9 @@ def struck(vehicle: Vehicle) -> ca.Function:
     return ca.Function("strike", [packed, impulses], [ca.cse(ca.densify(packed + jump))])
 
 
-def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: Vehicle, plant: Plant = ROTORS) -> Any:
+def runge_kutta_step(
+    packed: Numbers, forces: Ramp, outside: Numbers, h: Scalar, vehicle: Vehicle, plant: Plant = ROTORS
+) -> Numbers:
     """Return the state (24, 1), e₃ up, after a classical Runge-Kutta step and projection onto the manifold, in CasADi.
 
     It is for whatever the cascade does not cover: a pivot beside the centre of mass or with friction, where rotation
@@ -126,28 +129,38 @@ def runge_kutta_step(packed: Any, forces: Ramp, outside: Any, h: Any, vehicle: V
         As in `EquationsEngine`.
     """
     wind = ca.SX(6, 1) if outside is None else outside
-    wrench, in_air = forces.mixed(vehicle.mixing()), plant.in_air(vehicle)
+    wrench = forces.mixed(vehicle.mixing())
 
-    def rates(s: Any, rotors: Any, acting: Any) -> Any:
-        state, on_vehicle, moment = State.symbolic(s), wind[:3], acting[1:]
-        if in_air:
-            force, turning = air_wrench(state, rotors, vehicle, plant.effects(vehicle), plant.ground)
-            on_vehicle, moment = on_vehicle + ca.mtimes(state.R, force), moment + turning
-        motion = disturbed_motion(
-            state,
-            Wrench(acting[0], moment),
-            vehicle,
-            "up",
-            force_on_vehicle=on_vehicle,
-            force_on_bob=wind[3:],
-            pivot_offset=vehicle.pivot_offset,
-            joint_torque=friction(state, vehicle) if vehicle.rubs else None,
-            spin=vehicle.rod_spin * vehicle.rod_spin_inertia,
-        )
-        return motion.packed()
+    def rates(s: Numbers, rotors: Any, acting: Numbers) -> Numbers:
+        return rates_under(s, rotors, acting, wind, vehicle, plant)
 
     k_1 = rates(packed, forces.start, wrench.start)
     k_2 = rates(packed + h / 2 * k_1, forces.mean, wrench.mean)
     k_3 = rates(packed + h / 2 * k_2, forces.mean, wrench.mean)
     k_4 = rates(packed + h * k_3, forces.end, wrench.end)
     return project_symbolic(packed + h / 6 * (k_1 + 2 * k_2 + 2 * k_3 + k_4))
+
+
+def rates_under(
+    packed: Numbers, rotors: Numbers, wrench: Numbers, wind: Numbers, vehicle: Vehicle, plant: Plant
+) -> Numbers:
+    """Return the rates (24, 1) of a state under rotor forces (n, 1) and `wind` (6, 1), N, in CasADi; e₃ up.
+
+    `wrench` (4, 1) is what the forces amount to. See `runge_kutta_step`.
+    """
+    state, on_vehicle, moment = State.symbolic(packed), wind[:3], wrench[1:]
+    if plant.in_air(vehicle):
+        force, turning = air_wrench(state, rotors, vehicle, plant.effects(vehicle), plant.ground)
+        on_vehicle, moment = on_vehicle + ca.mtimes(state.R, force), moment + turning
+    motion = disturbed_motion(
+        state,
+        Wrench(wrench[0], moment),
+        vehicle,
+        "up",
+        force_on_vehicle=on_vehicle,
+        force_on_bob=wind[3:],
+        pivot_offset=vehicle.pivot_offset,
+        joint_torque=friction(state, vehicle) if vehicle.rubs else None,
+        spin=vehicle.rod_spin * vehicle.rod_spin_inertia,
+    )
+    return motion.packed()

@@ -1,4 +1,4 @@
-"""Numbers of a sampled plant that a flight may change on its way: from knobs to the inputs of its machine code.
+"""Numbers of a sampled plant that may change during a flight: from knobs to the inputs of its machine code.
 
 A flight in pieces takes them anew with each piece; see `flypend.flight.kernels.pieces`.
 """
@@ -11,6 +11,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.geometry import Numbers, Scalar
 from flypend.model import Vehicle
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.measurement import NOISE_SIZE, WIND_SIZE, wind_numbers
@@ -73,7 +74,7 @@ def depth(plant: Sampled) -> int:
     return 2 + int(np.floor((plant.delay + SAME) * plant.rate))
 
 
-def _intervals(delay: Any, period: float, longest: float) -> list[tuple[Any, Any, Any]]:
+def _intervals(delay: Scalar, period: float, longest: float) -> list[tuple[Scalar, Scalar, Scalar]]:
     """Age, steps and duration (s) of the intervals of a tick, as `within_period` and `steps_in`; one may be empty."""
     whole = ca.floor((delay + SAME) / period)
     rest = delay - whole * period
@@ -83,24 +84,24 @@ def _intervals(delay: Any, period: float, longest: float) -> list[tuple[Any, Any
     return [(whole + 1, first, rest), (whole, second, period - rest)]
 
 
-def _count(duration: Any, longest: float) -> Any:
-    """Return the fewest steps of at most `longest` (s) in a `duration`, at least one; a page lends no ceiling."""
+def _count(duration: Scalar, longest: float) -> Scalar:
+    """Return the fewest steps of at most `longest` (s) in a `duration`, at least one; pages have no function ceil."""
     return ca.fmax(1, -ca.floor(SAME - duration / longest))
 
 
-def _timing(lag: Any, plant: Sampled, duration: Any) -> Any:
+def _timing(lag: Scalar, plant: Sampled, duration: Scalar) -> Numbers:
     """As `motor_timing`, of symbols."""
     falling = _held(lag, duration)
     return falling if plant.spin_up == 1.0 else ca.vertcat(falling, _held(plant.spin_up * lag, duration))
 
 
-def _held(lag: Any, duration: Any) -> Any:
+def _held(lag: Scalar, duration: Scalar) -> Numbers:
     while_ = ca.fmax(duration, SAME)  # of an interval that is empty nothing is used
     numbers = symbolic_timing(ca.fmax(lag, LEAST_LAG), while_)
     return ca.vertcat(while_, ca.if_else(lag > LEAST_LAG, numbers[1:], ca.DM.zeros(3)))
 
 
-def _wind(of: dict[str, Any], plant: Sampled, period: float) -> Any:
+def _wind(of: dict[str, Any], plant: Sampled, period: float) -> Numbers:
     """As `wind_numbers`, whose decay and knocks are those of `plant`."""
     still = Wind() if plant.wind is None else plant.wind
     fixed = wind_numbers(still, period)

@@ -15,32 +15,34 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
+from flypend.geometry import Numbers, Scalar
+
 TIMING_SIZE = 4
 
 
 class Ramp(NamedTuple):
     """A quantity that changes linearly over a step: its `mean`, and its `change` from beginning to end."""
 
-    mean: Any
-    change: Any
+    mean: Numbers
+    change: Numbers
 
     @property
-    def start(self) -> Any:
+    def start(self) -> Numbers:
         """Value at the beginning of the step."""
         return self.mean - self.change / 2
 
     @property
-    def end(self) -> Any:
+    def end(self) -> Numbers:
         """Value at the end of the step."""
         return self.mean + self.change / 2
 
-    def mixed(self, matrix: Any) -> Ramp:
+    def mixed(self, matrix: Numbers) -> Ramp:
         """Return the ramp of `matrix` times the quantity."""
         return Ramp(ca.mtimes(matrix, self.mean), ca.mtimes(matrix, self.change))
 
 
 @lru_cache(maxsize=256)
-def step_timing(lag: float, duration: float) -> Any:
+def step_timing(lag: float, duration: float) -> Numbers:
     """Numbers (4,) of a step of `duration` h under one command for a `lag` T (s): h, d, and the weights w and v.
 
     With the initial deviation r₀ − u from the command u, the deviation is d = e^{−h/T} of it at the end, w on average,
@@ -53,14 +55,14 @@ def step_timing(lag: float, duration: float) -> Any:
     return np.array([duration, end, mean, _change(1.0, end, mean, lag / duration)])
 
 
-def symbolic_timing(lag: Any, duration: Any, exp: Callable[[Any], Any] = ca.exp) -> Any:
+def symbolic_timing(lag: Scalar, duration: Scalar, exp: Callable[[Any], Any] = ca.exp) -> Numbers:
     """Return `step_timing` (4, 1) of a `lag` > 0 that is a CasADi expression, as may be the `duration`, s."""
     end = exp(-duration / lag)
     mean = (1 - end) * lag / duration
     return ca.vertcat(duration, end, mean, _change(1.0, end, mean, lag / duration))
 
 
-def held(rotors: Any, command: Any, timing: Any) -> tuple[Ramp, Any]:
+def held(rotors: Numbers, command: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:
     """Return the ramp of the forces `rotors` (n,) over a step under one `command` (n,), N, and their end.
 
     `timing` is the result of `step_timing`.
@@ -70,7 +72,9 @@ def held(rotors: Any, command: Any, timing: Any) -> tuple[Ramp, Any]:
     return ramp, command + timing[1] * deviation
 
 
-def held_in_turn(rotors: Any, commands: Sequence[Any], durations: Sequence[float], lag: float) -> tuple[Ramp, Any]:
+def held_in_turn(
+    rotors: Numbers, commands: Sequence[Any], durations: Sequence[float], lag: float
+) -> tuple[Ramp, Numbers]:
     """Return the ramp of the forces `rotors` (n,) over a step under several `commands`, oldest first, and their end.
 
     Integrating T ṙ = u − r over the step, once as it is and once times t, yields mean and first moment of r from those
@@ -105,6 +109,6 @@ def held_in_turn(rotors: Any, commands: Sequence[Any], durations: Sequence[float
     return Ramp(mean, 12 * moment + _change(rotors, end, mean, ratio)), end
 
 
-def _change(start: Any, end: Any, mean: Any, ratio: Any) -> Any:
+def _change(start: Numbers, end: Numbers, mean: Numbers, ratio: Scalar) -> Numbers:
     """Return the part of a ramp's change, 12 times the first moment, that the lag adds; `ratio` is T/H."""
     return 12 * ratio * (mean - (start + end) / 2)

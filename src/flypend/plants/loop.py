@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
 from flypend.model import Vehicle
-from flypend.plants.plant import AnyPlant, Sampled, sampled_plant
+from flypend.plants.plant import AnyPlant, Ideal, Sampled, sampled_plant
 from flypend.plants.tremor import calmed
 
 
@@ -20,7 +20,7 @@ class Loop:
     Parameters
     ----------
     vehicle : Vehicle
-        The nominal vehicle, which the law assumes.
+        The nominal vehicle, which the law assumes; kept in units of commanded force.
     law : BoundLaw or Controller
         The law, bound to that vehicle.
     plant : Ideal or Sampled
@@ -35,6 +35,7 @@ class Loop:
     parameters: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "vehicle", self.vehicle.commanded())
         if isinstance(self.law, BoundLaw):
             object.__setattr__(self, "law", calmed(self.law, self.plant))
 
@@ -44,6 +45,11 @@ class Loop:
         if not isinstance(self.law, BoundLaw):
             raise InputError("law", "a Law, written in symbols", self.law.name)
         return self.law
+
+    @property
+    def lag(self) -> bool:
+        """Whether the plant is ideal but for the rotors' lag."""
+        return isinstance(self.plant, Ideal) and self.plant.lag
 
     @property
     def sampled(self) -> Sampled:

@@ -6,12 +6,11 @@ The noise and wind parameters are inputs of the functions, so one compiled fligh
 from __future__ import annotations
 
 from dataclasses import astuple, fields
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import tangent_part, unit
+from flypend.geometry import Numbers, Scalar, Vector, tangent_part, unit
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
@@ -26,12 +25,12 @@ NOISE_SIZE, WIND_SIZE = 6, 12
 GUST_MEMORY = 8
 
 
-def noise_numbers(noise: Noise | None) -> Any:
+def noise_numbers(noise: Noise | None) -> Numbers:
     """Parameters (6,) of `noise` for `measurement`: its fields in declaration order."""
     return np.zeros(NOISE_SIZE) if noise is None else np.array(astuple(noise), dtype=float)
 
 
-def wind_numbers(wind: Wind | None, period: float) -> Any:
+def wind_numbers(wind: Wind | None, period: float) -> Numbers:
     """Parameters (12,) of `wind` for `gusts`, with all forces held constant over a control `period`, s.
 
     The decay of a gust over one period, the standard deviations (N) of its per-axis increments on vehicle and bob, the
@@ -79,20 +78,20 @@ def gusts(*, knocks: bool = True) -> ca.Function:
         return ca.Function("gusts", [memory, draws, numbers], [ca.vertcat(gust, memory[6:]), gust + constant])
     clock, moment = memory[6], memory[7]
     ticks = numbers[11]
-    moment = ca.if_else(clock < 1, ticks * _share(draws), moment)
+    moment = ca.if_else(clock < 1, ticks * uniform(draws), moment)
     hit = ca.logic_and(clock <= moment, moment < clock + 1)
-    knock = ca.vertcat(numbers[9] * _direction(draws[:3]), numbers[10] * _direction(draws[3:]))
+    knock = ca.vertcat(numbers[9] * direction(draws[:3]), numbers[10] * direction(draws[3:]))
     following = ca.if_else(clock + 1 < ticks, clock + 1, 0)
     outputs = [ca.vertcat(gust, following, moment), gust + constant + ca.if_else(hit, knock, 0)]
     return ca.Function("gusts", [memory, draws, numbers], outputs)
 
 
-def _share(draws: Any) -> Any:
+def uniform(draws: Numbers) -> Scalar:
     """Return a number uniform in (0, 1) from four normal ones: the share of two in the sum of squares; 0 from zeros."""
     two = ca.sumsqr(draws[:2])
     return two / ca.fmax(two + ca.sumsqr(draws[2:4]), TINY)
 
 
-def _direction(draws: Any) -> Any:
+def direction(draws: Numbers) -> Vector:
     """Return a unit vector uniform on S² from three normal numbers; 0 from zeros."""
     return draws / ca.sqrt(ca.fmax(ca.sumsqr(draws), TINY))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
+from flypend.geometry import Numbers, Scalar
 from flypend.model import Vehicle
 from flypend.plants.lag import TIMING_SIZE, Ramp, held, step_timing
 from flypend.plants.plant import Plant
@@ -22,21 +21,26 @@ def delivers(plant: Plant) -> bool:
     return plant.sag > 0 or plant.strength != 1.0
 
 
-def delivered(command: Any, vehicle: Vehicle, plant: Plant) -> Any:
+def delivered(command: Numbers, vehicle: Vehicle, plant: Plant) -> Numbers:
     """Return the forces (n,), N, at which rotors settle under a `command` (n,), N, in CasADi.
 
     At a given throttle the speed of a rotor is proportional to the voltage V, its force to V², and the current of all
-    to their power, Σ f^(3/2). So of the voltage the share `plant.sag` is lost when every rotor is asked for its most:
+    to their power, Σ f^(3/2). So the share `plant.sag` of the voltage is lost at maximum command of all rotors:
 
         (V/V₀)² u_i,   V/V₀ = 1 − sag · mean of (u_i/u_max)^(3/2)
     """
     if plant.sag > 0:
-        share = ca.fmin(ca.fmax(command / vehicle.rotor_limits[1], 0), 1)
-        load = ca.sum1(share * ca.sqrt(share)) / command.numel()
-        command = (1 - plant.sag * load) ** 2 * command
+        command = sagged(command, vehicle.rotor_limits[1], plant.sag)
     if plant.strength != 1.0:
         command = ca.DM(np.broadcast_to(plant.strength, (command.numel(),))) * command
     return command
+
+
+def sagged(command: Numbers, most: Scalar, sag: Scalar) -> Numbers:
+    """Return (V/V₀)² u_i of `delivered` for commands (n,) and their largest, `most`, N; all may be symbols."""
+    share = ca.fmin(ca.fmax(command / most, 0), 1)
+    load = ca.sum1(share * ca.sqrt(share)) / command.numel()
+    return (1 - sag * load) ** 2 * command
 
 
 def timing_size(plant: Plant) -> int:
@@ -44,7 +48,7 @@ def timing_size(plant: Plant) -> int:
     return TIMING_SIZE if plant.spin_up == 1.0 else 2 * TIMING_SIZE
 
 
-def motor_timing(lag: float, plant: Plant, duration: float) -> Any:
+def motor_timing(lag: float, plant: Plant, duration: float) -> Numbers:
     """Return `step_timing` of falling forces, whose time constant is `lag` (s), then of rising ones if it differs."""
     falling = step_timing(lag, duration)
     if plant.spin_up == 1.0:
@@ -52,7 +56,7 @@ def motor_timing(lag: float, plant: Plant, duration: float) -> Any:
     return np.concatenate([falling, step_timing(plant.spin_up * lag, duration)])
 
 
-def followed(rotors: Any, target: Any, timing: Any) -> tuple[Ramp, Any]:
+def followed(rotors: Numbers, target: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:
     """Return the ramp of the forces `rotors` (n,) over a step towards `target` (n,), N, and their end, in CasADi.
 
     `timing` is the result of `motor_timing`. A force rises or falls throughout a step, so this is exact too.

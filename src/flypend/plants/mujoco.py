@@ -32,57 +32,16 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
-from flypend.geometry import hat
+from flypend.geometry import Matrix, Numbers, Vector, hat
 from flypend.model import State, Vehicle
+from flypend.model.mjcf import model_xml
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import steps_in, within_period
 
-# Moment of inertia of the bob about its centre per m l², and its minimum in kg m²: MuJoCo rejects a moving body below
-# 1e-15. It is the relative error of the rod's moment of inertia about the pivot, and changes the state by 1e-10 after
-# 1 s of flight. It is also the only inertia about the rod's own axis, so roundoff spins the rod about that axis (to
-# 0.04 rad/s in 10 s at rates of 20 rad/s), with no effect on the motion. At 1e-15 MuJoCo warns of a singular inertia
-# matrix.
-BOB_INERTIA, LEAST_BOB_INERTIA = 4e-12, 1e-14
-
 # MuJoCo replaces a motor force that is NaN or larger than this (N) by zero, with only a warning.
 MAX_FORCE = 1e10
-
-_TEMPLATE = """\
-<mujoco model="flypend">
-  <option integrator="RK4" timestep="{timestep!r}" gravity="0 0 {gravity!r}">
-    <flag constraint="disable" contact="disable" autoreset="disable" energy="{energy}"/>
-  </option>
-  <default>
-    <geom type="capsule" mass="0" contype="0" conaffinity="0"/>
-  </default>
-  <worldbody>
-    <light pos="0 0 5" mode="track"/>
-    <body name="vehicle">
-      <freejoint/>
-      <inertial pos="{center}" mass="{mass!r}" diaginertia="{moments}" xyaxes="{axes}"/>
-{rotors}
-      <body name="bob">
-        <joint name="pivot" type="ball"/>
-        <inertial pos="0 0 {length!r}" mass="{bob_mass!r}" diaginertia="{across!r} {across!r} {i!r}"/>
-        <geom name="rod" fromto="0 0 0 0 0 {length!r}" size="{thin!r}" rgba="0.45 0.45 0.45 1"/>
-        <geom name="bob" type="sphere" pos="0 0 {length!r}" size="{thick!r}" rgba="0.84 0.37 0 1"/>
-      </body>
-    </body>
-  </worldbody>
-  <actuator>
-{motors}
-  </actuator>
-</mujoco>
-"""
-_SHOWN = re.compile(r"^ *<(geom name=|light ).*\n", flags=re.MULTILINE)
-_ROTOR = """\
-      <site name="rotor{k}" pos="{pos}"/>
-      <geom name="disc{k}" type="cylinder" pos="{pos}" size="{disc!r} {thin!r}" rgba="0 0.45 0.7 0.5"/>"""
-_ARM = '      <geom name="arm{k}" fromto="{center} {pos}" size="{thin!r}" rgba="0.2 0.2 0.2 1"/>'
-_MOTOR = '    <general name="rotor{k}" site="rotor{k}" gear="0 0 1 0 0 {torque!r}"{filter}/>'
-_FILTER = ' dyntype="filter" dynprm="{lag!r}"'
 
 # Maximum step in a flight, s. With RK4 the state error is 1e-7 after a second of tumbling. The rotor lag, a MuJoCo
 # actuator filter, is integrated with the same steps. Forces from outside, held within a step, need shorter ones: at
@@ -90,69 +49,6 @@ _FILTER = ' dyntype="filter" dynprm="{lag!r}"'
 FLIGHT_STEP, SURROUNDED_STEP = 2e-3, 0.5e-3
 # A shorter lag than this, s, is none: it moves the vehicle by less than a sample can tell.
 LEAST_LAG = 1e-4
-
-
-def model_xml(vehicle: Vehicle, *, timestep: float, lag: float = 0.0, bare: bool = False) -> str:
-    """MJCF (MuJoCo's XML) model of `vehicle` in a z-up world; its controls are the rotor forces in N.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        Vehicle parameters. Each rotor exerts a force along the body's third axis and a torque of drag_ratio · spin per
-        unit force.
-    timestep : float
-        Step of the integrator, s.
-    lag : float
-        Time constant of the rotor forces, s; 0 for none.
-    bare : bool
-        Whether to leave out what does not move the machine: geoms, light, and the energy at every step. The motion is
-        the same, bit by bit, a tenth faster.
-
-    Returns
-    -------
-    str
-        A model without contacts, damping or limits. Its geoms are for display only: no mass, no collisions.
-
-    Raises
-    ------
-    InputError
-        If the timestep is not positive.
-    """
-    timestep = errors.number("timestep", timestep, above=0, unit="s")
-    offset, places = vehicle.pivot_offset, vehicle.rotors_from_pivot
-    torques = vehicle.drag_ratio * vehicle.rotor_spins
-    moments, axes = np.linalg.eigh(vehicle.inertia)
-    moments[2] = min(moments[2], moments[0] + moments[1])  # planar body: MuJoCo tolerates no roundoff here
-    thin = 0.02 * float(np.max(np.abs(vehicle.rotor_positions)))
-    least = max(BOB_INERTIA * vehicle.bob_mass * vehicle.rod_length**2, LEAST_BOB_INERTIA)
-    center = _numbers(0.0 - offset)
-    rotors = []
-    for k, place in enumerate(places):
-        look = {"k": k, "pos": _numbers(place), "center": center, "thin": thin, "disc": 20 * thin}
-        rotors.append(_ROTOR.format(**look))
-        if np.linalg.norm(vehicle.rotor_positions[k]) > thin:  # MuJoCo rejects a capsule of zero length
-            rotors.append(_ARM.format(**look))
-    model = _TEMPLATE.format(
-        timestep=timestep,
-        gravity=-vehicle.g,
-        center=center,
-        mass=vehicle.mass,
-        moments=_numbers(moments),
-        axes=_numbers(axes[:, :2].T),
-        length=vehicle.rod_length,
-        bob_mass=vehicle.bob_mass,
-        i=max(vehicle.rod_spin_inertia, least),
-        across=vehicle.rod_inertia + least,
-        thin=thin,
-        thick=4 * thin,
-        energy="disable" if bare else "enable",
-        rotors="\n".join(rotors),
-        motors="\n".join(
-            _MOTOR.format(k=k, torque=float(torque), filter=_FILTER.format(lag=lag) if lag > 0 else "")
-            for k, torque in enumerate(torques)
-        ),
-    )
-    return _SHOWN.sub("", model) if bare else model
 
 
 class MujocoEngine:
@@ -196,7 +92,7 @@ class MujocoEngine:
         """Step of the integrator, s."""
         return float(self.model.opt.timestep)
 
-    def reset(self, packed: Any, rotors: Any = None) -> None:
+    def reset(self, packed: Numbers, rotors: Numbers = None) -> None:
         """Set the state at time 0, with the vehicle's spin of the rod about its own axis.
 
         Parameters
@@ -217,22 +113,22 @@ class MujocoEngine:
         self._rotors[:] = 0.0 if rotors is None else rotors
 
     @property
-    def packed(self) -> Any:
+    def packed(self) -> Numbers:
         """The state (24,) in the order of `State.packed`, e₃-up frame; x and x_dot refer to the pivot."""
         return self._see(self._qpos, self._qvel, self._rotors)[0]
 
     @property
-    def rotors(self) -> Any:
+    def rotors(self) -> Numbers:
         """The rotor forces (n,), N."""
         return np.array(self._rotors)
 
     def step(
         self,
-        forces: Any,
-        force_on_vehicle: Any = (0.0, 0.0, 0.0),
-        force_on_bob: Any = (0.0, 0.0, 0.0),
-        torque_on_vehicle: Any = (0.0, 0.0, 0.0),
-        joint_torque: Any = (0.0, 0.0, 0.0),
+        forces: Numbers,
+        force_on_vehicle: Vector = (0.0, 0.0, 0.0),
+        force_on_bob: Vector = (0.0, 0.0, 0.0),
+        torque_on_vehicle: Vector = (0.0, 0.0, 0.0),
+        joint_torque: Vector = (0.0, 0.0, 0.0),
     ) -> None:
         """Advance by one timestep under constant forces.
 
@@ -263,11 +159,11 @@ class MujocoEngine:
             raise InputError("forces", "finite numbers", got)
         self._advance()
 
-    def respond_within(self, lags: Any) -> None:
+    def respond_within(self, lags: Numbers) -> None:
         """Set the time constants (n,), s, of the rotors' filters, for an engine with lag."""
         self.model.actuator_dynprm[:, 0] = lags
 
-    def coordinates(self, forces: Any) -> tuple[Any, Any, Any]:
+    def coordinates(self, forces: Numbers) -> tuple[Numbers, Numbers, Numbers]:
         """Return qpos (11,), qvel (9,) and qacc (9,) under rotor forces (n,), N, and the last external forces."""
         self._forces[:] = forces
         self._mujoco.mj_forward(self.model, self.data)
@@ -282,7 +178,7 @@ class MujocoEngine:
 POSITIONS, VELOCITIES = 11, 9
 
 
-def mujoco_coordinates(packed: Any, rod_spin: float = 0.0) -> NDArray[np.float64]:
+def mujoco_coordinates(packed: Numbers, rod_spin: float = 0.0) -> NDArray[np.float64]:
     """MuJoCo's qpos (11,) and qvel (9,), concatenated, for a `packed` state (24,), e₃-up frame.
 
     The rod spins about its own axis at `rod_spin`, rad/s. Raises InputError like `State.from_packed`, and for a batch.
@@ -310,7 +206,7 @@ def seen_by_mujoco(rotors: int) -> ca.Function:
     return ca.Function("seen", [qpos, qvel, forces], [ca.cse(ca.densify(state.packed())), forces])
 
 
-def state_of(x: Any, R: Any, relative: Any, qvel: Any) -> State:
+def state_of(x: Any, R: Any, relative: Vector, qvel: Numbers) -> State:
     """Return the state, e₃ up, for the rotation R, that of the rod `relative` to it (3, 3), and qvel, in CasADi."""
     rod = R @ relative
     rates = qvel[6:9] + rod.T @ (R @ qvel[3:6])  # angular velocity of the rod, rod frame
@@ -318,7 +214,7 @@ def state_of(x: Any, R: Any, relative: Any, qvel: Any) -> State:
     return State(x=x, x_dot=qvel[:3], R=R, omega=qvel[3:6], y=rod[:, 2], y_dot=y_dot)
 
 
-def rotation_of(quat_wxyz: Any) -> Any:
+def rotation_of(quat_wxyz: Numbers) -> Matrix:
     """Rotation matrix of a quaternion, which need not be normalised."""
     w, v = quat_wxyz[0], quat_wxyz[1:]
     turn = hat(v)
@@ -409,10 +305,15 @@ class MuJoCoWorld:
                 cls._idle.append((key, world))
                 del cls._idle[:-MOST_IDLE]
 
-    def addresses(self, starts: Any) -> tuple[int, ...]:
-        """Addresses for the compiled code, and the coordinates of packed `starts` (n, 24 or more), e₃-up frame."""
+    def addresses(self, starts: Any) -> NDArray[np.int64]:
+        """Addresses for the compiled code, and the coordinates of packed `starts` (n, 24 or more), e₃-up frame.
+
+        They are those of this world until the next call.
+        """
         self._begins = np.stack([mujoco_coordinates(start[:SIZE], self._rod_spin) for start in starts])
-        return (*self._fixed, self._begins.ctypes.data, self._models_at.ctypes.data, self._filters_at.ctypes.data)
+        own = (self._begins, self._models_at, self._filters_at)
+        self._addresses = np.array([*self._fixed, *(array.ctypes.data for array in own)], dtype=np.int64)
+        return self._addresses
 
 
 @lru_cache(maxsize=1)
@@ -431,8 +332,3 @@ def _import_mujoco() -> Any:
     """Import the module mujoco. Raises InputError if it is not installed."""
     errors.require("mujoco", extra="mujoco", for_="plant")
     return importlib.import_module("mujoco")
-
-
-def _numbers(values: Any) -> str:
-    """Format an array for MJCF with full precision."""
-    return " ".join(repr(float(value)) for value in np.ravel(values))

@@ -1,4 +1,4 @@
-"""What acts on MuJoCo's vehicle beside motors and gravity, and what its motors are told, before every step.
+"""What acts on MuJoCo's vehicle besides motors and gravity, and what its motors are commanded, before every step.
 
 MuJoCo holds external forces during a step. They are those of the state half a step ahead, extrapolated with MuJoCo's
 own accelerations, which makes them of second order.
@@ -6,11 +6,10 @@ own accelerations, which makes them of second order.
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
+from flypend.geometry import Numbers
 from flypend.model import Vehicle
 from flypend.model.air import air_wrench
 from flypend.model.joint import friction
@@ -22,7 +21,7 @@ from flypend.plants.plant import Plant
 STEP_NUMBERS = 5
 
 
-def step_numbers(vehicle: Vehicle, plant: Plant, h: float) -> Any:
+def step_numbers(vehicle: Vehicle, plant: Plant, h: float) -> Numbers:
     """Return the numbers (5,) of a step of `h` seconds for the functions below.
 
     h; the time constants of falling and rising forces, s; and the shares of a deviation that they leave after h/2.

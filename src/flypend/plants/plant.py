@@ -9,12 +9,14 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.errors import InputError
 from flypend.model import Vehicle
 from flypend.model.air import AIR
 from flypend.model.joint import stiffness
+from flypend.model.state import E3Direction
 from flypend.plants.noise import Noise
 from flypend.plants.sensors import sensors_called
 
@@ -43,8 +45,8 @@ def check_seed(field: str, seed: object) -> None:
 class Wind:
     """External forces on vehicle and bob: steady wind, gusts and knocks; world frame with e₃ up, N.
 
-    Of knocks, one comes in every interval of `knock_period`, at a random moment: an impulse on the vehicle and one on
-    the bob, each of fixed size and random direction, which act for one control period.
+    A knock comes once in every interval of `knock_period`, at a random moment: an impulse on the vehicle and one on the
+    bob, each of fixed size and random direction, which act for one control period.
 
     Parameters
     ----------
@@ -99,9 +101,47 @@ _KINDS: tuple[tuple[str, Any, str], ...] = (
 
 
 @errors.named_arguments
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Ideal:
-    """The ideal plant of the theorems: continuous time, and the wrench acts as commanded."""
+    """The ideal plant of the theorems: continuous time, no limits, and the wrench acts as commanded or after a lag.
+
+    Parameters
+    ----------
+    lag : bool
+        Whether every rotor's force follows its command through the first-order lag of the vehicle, `rotor_lag`; so do
+        thrust and moment, whose commands have no limits and either sign.
+    rotors : array, optional
+        With `lag`, forces of the n rotors at the start, N: (n,) for all runs, or (runs, n) for each. Default: their
+        minimum.
+
+    Raises
+    ------
+    InputError
+        If a field is not of this kind.
+    """
+
+    lag: bool = False
+    rotors: Any = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.lag, bool):
+            raise InputError("plant.lag", "true or false", repr(self.lag))
+        if self.rotors is None:
+            return
+        if not self.lag:
+            raise InputError("plant.rotors", "nothing without lag: forces are as commanded", "forces")
+        given = np.asarray(errors.array("plant.rotors", self.rotors, (None,), batch=True))
+        # Hashable, as every plant.
+        object.__setattr__(self, "rotors", tuple(map(tuple, given.tolist())) if given.ndim > 1 else tuple(given))
+
+    def beginning(self, vehicle: Vehicle, runs: int, e3: E3Direction) -> NDArray[np.float64]:
+        """Return the wrench (runs, 4) at the start in the frame of `e3`. Raises InputError for wrong `rotors`."""
+        n = len(vehicle.rotor_spins)
+        forces = np.array(np.full(n, vehicle.rotor_limits[0]) if self.rotors is None else self.rotors)
+        if forces.shape not in ((n,), (runs, n)):
+            raise InputError("plant.rotors", f"forces of {n} rotors, or of {n} for each run", f"shape {forces.shape}")
+        found: NDArray[np.float64] = np.broadcast_to(forces, (runs, n)) @ vehicle.mixing(e3).T
+        return found
 
 
 @errors.named_arguments
@@ -117,7 +157,7 @@ class Sampled:
         Integrator of the motion: the built-in equations, or MuJoCo.
     limits : bool
         Whether commands are kept within `vehicle.rotor_limits`; priority: roll and pitch, thrust, yaw. Rotors idle at
-        their minimum before the first command acts, with or without limits.
+        their minimum until the first command acts, with or without limits.
     lag : float, optional
         Time constant of the rotors, s; 0 for none. Default: that of the vehicle.
     rate : float
@@ -127,28 +167,31 @@ class Sampled:
     noise : Noise, optional
         Measurement noise.
     spin_up : float
-        Ratio of the rotors' time constant while their force rises to the lag, with which it falls.
+        Time constant of the rotors while their force rises, over the lag, with which it falls.
     sag : float
-        Share of the battery's voltage that is lost when every rotor is asked for its largest force; forces are
+        Share of the battery's voltage that is lost when every rotor is commanded its maximum; forces are
         proportional to the square of the voltage.
     strength : float or (n,)
-        Ratio of the force of each rotor to that asked for.
+        Ratio of the force of each rotor to the commanded one.
     air : tuple of str, or "all"
         Forces of the air that act: "rotor_drag", "inflow", "lift", "body_drag"; their coefficients are those of the
         vehicle's `air`. "all" stands for those that are not zero there.
     ground : float, optional
         Height of a ground that raises the thrust of rotors close to it, m; None for none. The radius of the rotors is
-        that of the vehicle's `body`. Nothing touches the ground.
+        that of the vehicle's `body`. Nothing collides with the ground.
     sensors : Sensors, str or dict, optional
         What measures the state, or the name of a suite ("mocap", "onboard") or a table. Default "perfect": the
         flight computer measures the state itself, with `noise`.
     pivot_offset : (3,)
-        Position of the ball joint beside that of the vehicle, body frame, m. The law does not know it.
+        Offset of the ball joint, added to the vehicle's, body frame, m. The law does not know it.
+    centre_of_mass : (3,)
+        True centre of mass of the vehicle beside that which the law believes in, body frame, m; rotors and joint stay
+        where they are.
     pivot_damping, pivot_friction : float
-        Viscous (N m s) and dry friction (N m) of the joint on top of the vehicle's. The law does not know of them.
+        Viscous (N m s) and dry friction (N m) of the joint, added to the vehicle's. The law does not know of them.
     rod_spin : float
-        Angular velocity of the rod about its own axis on top of the vehicle's, rad/s. It takes a rod with a
-        `rod_spin_inertia`; the law does not know of it.
+        Angular velocity of the rod about its own axis, added to the vehicle's, rad/s. The rod must have a
+        `rod_spin_inertia`. The law does not know of it.
     mismatch : dict
         Ratio of true to nominal value for mass, bob_mass, rod_length (and rod_end with it), rod_inertia, inertia,
         rotor_positions, drag_ratio, rotor_lag.
@@ -181,6 +224,7 @@ class Sampled:
     ground: float | None = None
     sensors: Any = None
     pivot_offset: Any = (0.0, 0.0, 0.0)
+    centre_of_mass: Any = (0.0, 0.0, 0.0)
     pivot_damping: float = 0.0
     pivot_friction: float = 0.0
     rod_spin: float = 0.0
@@ -218,8 +262,9 @@ class Sampled:
         if self.sensors is not None and self.noise is not None:
             raise InputError("plant.noise", "none beside sensors, which have noise of their own", repr(self.noise))
         check_seed("plant.seed", self.seed)
-        offset = errors.array("plant.pivot_offset", self.pivot_offset, (3,))
-        object.__setattr__(self, "pivot_offset", tuple(offset.tolist()))
+        for name in ("pivot_offset", "centre_of_mass"):
+            offset = errors.array(f"plant.{name}", getattr(self, name), (3,))
+            object.__setattr__(self, name, tuple(offset.tolist()))
         errors.number("plant.pivot_damping", self.pivot_damping, at_least=0, unit="N m s")
         errors.number("plant.pivot_friction", self.pivot_friction, at_least=0, unit="N m")
         errors.number("plant.rod_spin", self.rod_spin, unit="rad/s")
@@ -244,8 +289,11 @@ class Sampled:
             changes["rod_end"] = vehicle.rod_end * self.mismatch["rod_length"]
         if self.lag is not None:
             changes["rotor_lag"] = self.lag * self.mismatch.get("rotor_lag", 1.0)
-        if any(self.pivot_offset):
-            changes["pivot_offset"] = vehicle.pivot_offset + np.array(self.pivot_offset)
+        if any(self.pivot_offset) or any(self.centre_of_mass):
+            moved = np.subtract(self.pivot_offset, self.centre_of_mass)
+            changes["pivot_offset"] = vehicle.pivot_offset + moved
+        if any(self.centre_of_mass):
+            changes["rotor_positions"] = changes.get("rotor_positions", vehicle.rotor_positions) - self.centre_of_mass
         for name in ("pivot_damping", "pivot_friction", "rod_spin"):
             if added := getattr(self, name):
                 changes[name] = getattr(vehicle, name) + added
@@ -315,12 +363,14 @@ PRESETS: Mapping[str, AnyPlant] = MappingProxyType(
         "mujoco": ROTORS.replace(engine="mujoco"),
         # Hehn and D'Andrea (2011): commands at 50 Hz, about 30 ms latency, onboard body rate control.
         "hehn2011": ROTORS.replace(interface="rates", rate=50.0, delay=0.03),
+        # A careful laboratory as one finds it: its sensors, tired motors, a battery in use, a body built by hand.
+        "laboratory": ROTORS.replace(sensors="laboratory", strength=0.93, sag=0.08, centre_of_mass=(0.003, 0.0, 0.0)),
     }
 )
 
 
 def plant(name: str | AnyPlant) -> AnyPlant:
-    """The plant called `name` ("ideal", "rotors", "mujoco", "hehn2011"), or `name` itself if it is a plant.
+    """The plant called `name` ("ideal", "rotors", "mujoco", "hehn2011", "laboratory"), or `name` if it is a plant.
 
     Raises InputError for an unknown name, and for a MuJoCo plant if MuJoCo is not installed.
     """

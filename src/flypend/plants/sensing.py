@@ -7,16 +7,21 @@ delivered as its numbers and its age: the time (s) since it was taken, negative 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from statistics import NormalDist
 from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import E3, cross, tangent_part, unit
+from flypend.compile.record import Field, Record
+from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, cross, is_symbolic, tangent_part, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
+from flypend.plants import defect_program, defects
 from flypend.plants.cascade import rotation_by
+from flypend.plants.defect_program import Defects
+from flypend.plants.defects import POSES
 from flypend.plants.measurement import GUSTS, measurement, noise_numbers
 from flypend.plants.sensors import STREAMS, Sensor, Sensors
 from flypend.plants.timing import SAME, Timing, timing
@@ -24,20 +29,73 @@ from flypend.plants.timing import SAME, Timing, timing
 # Numbers of a reading: an attitude has its matrix by rows, joint angles are given as the rod's direction in the body.
 WIDTH = {name: 9 if name == "attitude" else 3 for name in STREAMS}
 NOTHING = -1.0  # age of a reading that has not arrived
-# The tick whose draws are those of the estimate at the start.
+# The tick whose draws are those of the start: of the estimate, then of errors that last.
 START_TICK = 2**40
+ESTIMATE_DRAWS = 18
 
 
 class Moment(NamedTuple):
     """Motion at the instant of a reading, and the mean specific force (body frame, m/s²) of the last control period."""
 
     state: State
-    force: Any
+    force: Vector
 
 
-def readings_size(sensors: Sensors) -> int:
-    """Return the length of what a flight computer is given: each stream's numbers and age, in the order of STREAMS."""
-    return sum(WIDTH[name] + 1 for name in sensors.streams)
+_READINGS = {
+    "position": "position of the pivot, world, m",
+    "attitude": "rotation from body to world, by rows",
+    "rod": "unit vector from the pivot to the bob, world",
+    "gyro": "angular velocity, body, rad/s",
+    "accelerometer": "mean specific force at the centre of mass over the last control period, body, m/s^2",
+    "joints": "unit vector from the pivot to the bob, body, as the joint's angles tell it",
+    "rod_gyro": "angular velocity of the rod, y x y_dot, body, rad/s",
+}
+
+
+def readings_record(sensors: Sensors) -> Record:
+    """Return what a flight computer with `sensors` is given: what each stream reads and how old that is."""
+    fields: list[Field] = []
+    for name in sensors.streams:
+        fields.append(Field(name, WIDTH[name], _READINGS[name]))
+        fields.append(Field(f"{name}_age", 0, "seconds since it was taken; negative if nothing has arrived"))
+    return Record("readings", "What the sensors have delivered since the last control period.", tuple(fields))
+
+
+def memory_record(sensors: Sensors, period: float) -> Record:
+    """Return the memory of `sensing` at a control `period` (s): the last true state, defects, readings that wait."""
+    wrong = defect_program.record(sensors)
+    queues = [
+        Field(name, _waiting(sensors, name, period) * _entry(sensors, name), "readings under way, newest first")
+        for name in sensors.streams
+        if _waiting(sensors, name, period)
+    ]
+    of_defects = [Field.of(wrong)] * bool(wrong.fields)
+    return Record(
+        "sensors", "The sensors' own.", (Field("state", SIZE, "at the last tick, e3 up"), *of_defects, *queues)
+    )
+
+
+def _late(sensors: Sensors, name: str) -> Sensor:
+    """Return the stream `name` with the latency that it has at least, told or not."""
+    sensor = sensors.streams[name]
+    untold = sensors.untold_latency if name in POSES else 0.0
+    return replace(sensor, latency=sensor.latency + untold) if untold else sensor
+
+
+def _jitters(sensors: Sensors, name: str) -> bool:
+    return sensors.latency_jitter > 0 and name in POSES
+
+
+def _waiting(sensors: Sensors, name: str, period: float) -> int:
+    """Return the number of control ticks whose readings of the stream `name` may still be under way."""
+    when = timing(_late(sensors, name), period)
+    latest = int(np.ceil((when.whole + when.rest) + sensors.latency_jitter / period)) + 1
+    return latest if _jitters(sensors, name) else when.waiting
+
+
+def _entry(sensors: Sensors, name: str) -> int:
+    """Return how many numbers of a reading wait: what is read, its age, and its own part of the latency, if any."""
+    return WIDTH[name] + 1 + _jitters(sensors, name)
 
 
 def draws_of(sensors: Sensors) -> dict[str, tuple[list[int], int | None]]:
@@ -52,30 +110,49 @@ def draws_of(sensors: Sensors) -> dict[str, tuple[list[int], int | None]]:
     }
 
 
+def _defect_draws(sensors: Sensors) -> dict[str, list[int]]:
+    """Return which random numbers of a tick the defects use: the first that are free."""
+    used = {i for noise, lost in draws_of(sensors).values() for i in (*noise, lost)} | set(
+        range(GUSTS.start, GUSTS.stop)
+    )
+    free = (i for i in range(10**3) if i not in used)
+    return {name: [next(free) for _ in range(count)] for name, count in defects.random_numbers(sensors).items()}
+
+
 def draws_size(sensors: Sensors) -> int:
     """Return how many random numbers a tick draws at most."""
-    return 1 + max(max(*noise, lost or 0) for noise, lost in draws_of(sensors).values())
+    of_streams = max(max(*noise, lost or 0) for noise, lost in draws_of(sensors).values())
+    return 1 + max(of_streams, *(max(some) for some in _defect_draws(sensors).values()), 0)
+
+
+def start_draws(sensors: Sensors) -> int:
+    """Return how many random numbers the start draws: those of the estimate, then those of errors that last."""
+    return ESTIMATE_DRAWS + sum(defects.CONSTANT[name][0] for name in defects.drawn(sensors))
 
 
 def first_estimate(sensors: Sensors) -> ca.Function:
-    """Return (state (24,), draws (18,)) → the estimate (24,) with which a flight begins, e₃ up."""
-    state, draws = ca.SX.sym("s", SIZE), ca.SX.sym("n", 18)
-    return ca.Function("estimate", [state, draws], [measurement()(state, draws, noise_numbers(sensors.start))])
+    """Return (state (24,), draws) → the estimate (24,) with which a flight begins, e₃ up; see `start_draws`."""
+    state, draws = ca.SX.sym("s", SIZE), ca.SX.sym("n", start_draws(sensors))
+    given = draws[:ESTIMATE_DRAWS], noise_numbers(sensors.start)
+    return ca.Function("estimate", [state, draws], [measurement()(state, *given)])
 
 
-def first_memory(sensors: Sensors, period: float, state: Any) -> Any:
-    """Return the memory of `sensing` before the first tick, for a true start `state` (24, 1), in CasADi."""
+def first_memory(sensors: Sensors, period: float, state: Numbers, draws: Numbers | None = None) -> Numbers:
+    """Return the memory of `sensing` before the first tick, for a true start `state` (24, 1), in CasADi.
+
+    `draws` are those of the start, see `start_draws`; errors that last need them.
+    """
+    if draws is None and defects.drawn(sensors):
+        raise ValueError(f"draws of the start for {defects.drawn(sensors)}")
+    of_flight = ca.DM(0, 1) if draws is None else draws[ESTIMATE_DRAWS:]
     queues = [
-        np.tile(np.append(np.zeros(WIDTH[name]), NOTHING), timing(sensor, period).waiting)
-        for name, sensor in sensors.streams.items()
+        np.tile(np.append(np.zeros(WIDTH[name]), [NOTHING, 0.0][: _entry(sensors, name) - WIDTH[name]]), waiting)
+        for name in sensors.streams
+        if (waiting := _waiting(sensors, name, period))
     ]
-    return ca.vertcat(state, *(ca.DM(queue) for queue in queues))
-
-
-def memory_size(sensors: Sensors, period: float) -> int:
-    """Return the length of the memory of `sensing`: the last true state, and the readings that wait."""
-    waiting = (timing(s, period).waiting * (WIDTH[name] + 1) for name, s in sensors.streams.items())
-    return SIZE + sum(waiting)
+    state = state if is_symbolic(state) else ca.DM(state)
+    wrong = defect_program.first(sensors, State.symbolic(state).y, of_flight)
+    return ca.vertcat(state, wrong, *(ca.DM(queue) for queue in queues))
 
 
 def sensing(sensors: Sensors, vehicle: Vehicle, period: float) -> ca.Function:
@@ -90,32 +167,63 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float) -> ca.Function:
     period : float
         Control period, s.
     """
-    memory, t = ca.SX.sym("memory", memory_size(sensors, period)), ca.SX.sym("t")
+    remembers = memory_record(sensors, period)
+    memory, t = ca.SX.sym("memory", remembers.length), ca.SX.sym("t")
     packed, draws = ca.SX.sym("s", SIZE), ca.SX.sym("n", draws_size(sensors))
-    before, now = State.symbolic(memory[:SIZE]), State.symbolic(packed)
+    past = remembers.split(memory)
+    before, now = State.symbolic(past["state"]), State.symbolic(packed)
     force = _specific_force(before, now, vehicle, period)
-    kept, readings, place = [packed], [], SIZE
+    chance = {name: draws[some] for name, some in _defect_draws(sensors).items()}
+    wrong = Defects(sensors, period, t, before.y, now.y, past.get("defects", ca.SX(0, 1)), chance)
+    kept, readings = [packed, wrong.after], []
     for name, (noise, lost) in draws_of(sensors).items():
-        sensor = sensors.streams[name]
+        sensor = _late(sensors, name)
         when = timing(sensor, period)
         since = _since(sensor, when, t, period)
         moment = Moment(now if when.every else _between(before, now, since, period), force)
-        values = _READ[name](moment, sensor, draws[noise])
+        values = wrong.mistaken(name, _READ[name](moment, wrong, sensor, draws[noise]))
         if name == "accelerometer":  # no period has passed at time 0
             since = ca.if_else(t > period / 2, since, NOTHING)
         if lost is not None:
             since = ca.if_else(draws[lost] < NormalDist().inv_cdf(sensor.dropouts), NOTHING, since)
+        if (burst := wrong.lost(name)) is not None:
+            since = ca.if_else(burst, NOTHING, since)
         entry = ca.vertcat(values, since)
-        length = when.waiting * entry.numel()
-        queue = ca.vertcat(entry, memory[place : place + length])
-        kept.append(queue[:length])
-        readings.append(_delivered(ca.vertsplit(queue, entry.numel()), when, period))
-        place += length
+        if (own := wrong.jitter(name)) is not None:
+            entry = ca.vertcat(entry, own)
+        queue = ca.vertcat(entry, past.get(name, ca.SX(0, 1)))
+        kept.append(queue[: -entry.numel()])
+        entries = ca.vertsplit(queue, entry.numel())
+        found = _delivered(entries, when, period) if own is None else _jittered(entries, sensor.latency, period)
+        readings.append(_told(found, sensor.latency - sensors.streams[name].latency))
     outputs = ca.cse([ca.densify(ca.vertcat(*kept)), ca.densify(ca.vertcat(*readings))])
     return ca.Function("sense", [memory, t, packed, draws], outputs)
 
 
-def _since(sensor: Sensor, when: Timing, t: Any, period: float) -> Any:
+def _told(reading: Numbers, untold: float) -> Numbers:
+    """Return a `reading` whose age is less by what is `untold` of it, s."""
+    if not untold:
+        return reading
+    age = reading[-1]
+    return ca.vertcat(reading[:-1], ca.if_else(age >= 0, ca.fmax(age - untold, 0), NOTHING))
+
+
+def _jittered(entries: list[Any], latency: float, period: float) -> Numbers:
+    """Return numbers and age, less its own part of the latency, of the newest of `entries` that arrives at this tick.
+
+    An entry is numbers, age at its tick, and its own part; it arrives at the first tick at which it is old enough.
+    """
+    found = ca.vertcat(ca.SX.zeros(entries[0].numel() - 2), NOTHING)
+    for ticks, entry in reversed(list(enumerate(entries))):
+        *_, taken, own = ca.vertsplit(entry)
+        over = taken + ticks * period - (latency + own) + SAME * period
+        arrives = (taken >= 0) * (over >= 0) * (over < period)
+        reading = ca.vertcat(entry[:-2], ca.fmax(taken + ticks * period - own, 0))
+        found = ca.if_else(arrives, reading, found)
+    return found
+
+
+def _since(sensor: Sensor, when: Timing, t: Scalar, period: float) -> Scalar:
     """Return the time (s) from the newest reading to the tick at `t`; NOTHING if there is none since the last tick."""
     if when.every:
         return ca.SX(0.0)
@@ -123,7 +231,7 @@ def _since(sensor: Sensor, when: Timing, t: Any, period: float) -> Any:
     return ca.if_else(since < (1 - SAME) * period, since, NOTHING)
 
 
-def _delivered(entries: list[Any], when: Timing, period: float) -> Any:
+def _delivered(entries: list[Any], when: Timing, period: float) -> Numbers:
     """Return numbers and age of the reading that arrives at this tick; `entries` are those of the ticks, newest first.
 
     The reading of a tick was taken up to a period before it, so it arrives after `whole` periods if it was taken early
@@ -142,7 +250,7 @@ def _delivered(entries: list[Any], when: Timing, period: float) -> Any:
     return ca.vertcat(ca.if_else(early, found[:-1], late[:-1]), age)
 
 
-def _between(before: State, now: State, since: Any, period: float) -> State:
+def _between(before: State, now: State, since: Scalar, period: float) -> State:
     """Return the motion `since` seconds before `now`, no more than a `period` after `before`.
 
     Positions are cubic in time, rates linear.
@@ -150,7 +258,7 @@ def _between(before: State, now: State, since: Any, period: float) -> State:
     since = ca.fmax(since, 0.0)
     share = 1 - since / period
 
-    def cubic(a: Any, a_dot: Any, b: Any, b_dot: Any) -> Any:
+    def cubic(a: Vector, a_dot: Vector, b: Vector, b_dot: Vector) -> Vector:
         rise, start, end = b - a, period * a_dot, period * b_dot
         return a + share * (start + share * (3 * rise - 2 * start - end + share * (start + end - 2 * rise)))
 
@@ -167,12 +275,12 @@ def _between(before: State, now: State, since: Any, period: float) -> State:
     )
 
 
-def _specific_force(before: State, now: State, vehicle: Vehicle, period: float) -> Any:
+def _specific_force(before: State, now: State, vehicle: Vehicle, period: float) -> Vector:
     """Return the mean of ẍ + g e₃ over a period in the mean body frame, m/s²."""
     return mean_force(before.x_dot, now.x_dot, before.R, now.R, vehicle.g, period)
 
 
-def mean_force(v: Any, v_after: Any, R: Any, R_after: Any, g: Any, period: float) -> Any:
+def mean_force(v: Vector, v_after: Vector, R: Matrix, R_after: Matrix, g: Scalar, period: float) -> Vector:
     """Return the mean specific force, m/s², between two velocities and attitudes a `period` apart, in the body frame.
 
     An accelerometer that integrates measures it, and an estimator predicts it by the same formula.
@@ -183,46 +291,53 @@ def mean_force(v: Any, v_after: Any, R: Any, R_after: Any, g: Any, period: float
 # One reading each ------------------------------------------------------------------------------------------------
 
 
-def _position(moment: Moment, sensor: Sensor, draw: Any) -> Any:
-    return moment.state.x + sensor.noise * draw
+def _position(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    return _stepped(wrong.position(moment.state.x, moment.state.R) + sensor.noise * draw, sensor)
 
 
-def _attitude(moment: Moment, sensor: Sensor, draw: Any) -> Any:
-    return ca.vec((moment.state.R @ rotation_by(sensor.noise * draw)).T)
+def _attitude(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Numbers:
+    return ca.vec((wrong.attitude(moment.state.R) @ rotation_by(sensor.noise * draw)).T)
 
 
-def _rod(moment: Moment, sensor: Sensor, draw: Any) -> Any:
-    return _pointed(moment.state.y, sensor, draw)
+def _rod(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    return _pointed(wrong.rod(moment.state.y), sensor, draw)
 
 
-def _gyro(moment: Moment, sensor: Sensor, draw: Any) -> Any:
-    return moment.state.omega + sensor.noise * draw
+def _gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    return _stepped(wrong.gyro(moment.state.omega) + sensor.noise * draw, sensor)
 
 
-def _accelerometer(moment: Moment, sensor: Sensor, draw: Any) -> Any:
-    return moment.force + sensor.noise * draw
+def _accelerometer(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    return _stepped(wrong.accelerometer(moment.force) + sensor.noise * draw, sensor)
 
 
-def _joints(moment: Moment, sensor: Sensor, draw: Any) -> Any:
+def _joints(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
     """The rod's direction in the body frame, as the angles of a universal joint tell it: about x, then about y."""
     seen = moment.state.R.T @ moment.state.y
-    if not sensor.quantisation:
+    if not sensor.quantisation and not wrong.turns_joints:
         return _pointed(seen, sensor, draw)
-    roll = ca.atan2(-seen[1], seen[2]) + sensor.noise * draw[0]
-    pitch = ca.asin(ca.fmin(ca.fmax(seen[0], -1), 1)) + sensor.noise * draw[1]
-    roll, pitch = (sensor.quantisation * ca.floor(angle / sensor.quantisation + 0.5) for angle in (roll, pitch))
+    roll, pitch = ca.atan2(-seen[1], seen[2]), ca.asin(ca.fmin(ca.fmax(seen[0], -1), 1))
+    roll, pitch = wrong.joints(roll + sensor.noise * draw[0], pitch + sensor.noise * draw[1])
+    roll, pitch = (_stepped(angle, sensor) for angle in (roll, pitch))
     return ca.vertcat(ca.sin(pitch), -ca.cos(pitch) * ca.sin(roll), ca.cos(pitch) * ca.cos(roll))
 
 
-def _rod_gyro(moment: Moment, sensor: Sensor, draw: Any) -> Any:
-    return moment.state.R.T @ cross(moment.state.y, moment.state.y_dot) + sensor.noise * draw
+def _rod_gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    del wrong
+    return _stepped(moment.state.R.T @ cross(moment.state.y, moment.state.y_dot) + sensor.noise * draw, sensor)
 
 
-def _pointed(direction: Any, sensor: Sensor, draw: Any) -> Any:
+def _stepped(values: Numbers, sensor: Sensor) -> Numbers:
+    """Return `values` in steps of the sensor's quantisation."""
+    step = sensor.quantisation
+    return step * ca.floor(values / step + 0.5) if step else values
+
+
+def _pointed(direction: Vector, sensor: Sensor, draw: Numbers) -> Vector:
     return unit(direction + sensor.noise * tangent_part(direction, draw))
 
 
-_READ: dict[str, Callable[[Moment, Sensor, Any], Any]] = {
+_READ: dict[str, Callable[[Moment, Defects, Sensor, Any], Any]] = {
     "position": _position,
     "attitude": _attitude,
     "rod": _rod,

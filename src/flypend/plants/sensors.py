@@ -11,13 +11,19 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.plants import defects
 from flypend.plants.noise import Noise
 
 # What a pilot's own estimate, or that of an estimator which has run for a while, may be wrong by.
 START = Noise(x=0.02, x_dot=0.2, attitude=0.03, omega=0.05, y=0.03, y_dot=0.2)
 Rates = Literal["estimated", "differenced"]
+Error = Any  # a number, from which errors are drawn, or a vector
 # Longest latency of a reading, s; the estimator remembers the flight that long.
 LONGEST_LATENCY = 0.2
+# Bandwidth, 1/s, at which the estimator follows the force that an accelerometer tells, in hover, where what the model
+# lacks changes slowly, and how much faster for every m/s² by which the specific force departs from that of hover, where
+# wrong masses and rotors make it change with the thrust.
+FOLLOWED, FOLLOWED_MORE = 0.5, 2.0
 
 
 @errors.named_arguments
@@ -36,7 +42,8 @@ class Sensor:
     dropouts : float
         Probability that a reading never arrives.
     quantisation : float
-        Step of the readings, rad; for joint angles only.
+        Step of the readings, in the unit of the reading; for joints, of the angles. The estimator is told. Not for
+        attitude and rod.
     """
 
     rate: float
@@ -60,11 +67,11 @@ class Sensor:
         errors.number(f"{name}.noise", self.noise, at_least=0)
         errors.number(f"{name}.latency", self.latency, at_least=0, at_most=LONGEST_LATENCY, unit="s")
         errors.number(f"{name}.dropouts", self.dropouts, at_least=0)
-        errors.number(f"{name}.quantisation", self.quantisation, at_least=0, unit="rad")
+        errors.number(f"{name}.quantisation", self.quantisation, at_least=0)
         if self.dropouts >= 1:
             raise InputError(f"{name}.dropouts", "a probability below 1", f"{self.dropouts:g}")
-        if self.quantisation and not name.endswith("joints"):
-            raise InputError(f"{name}.quantisation", "0, except for joint angles", f"{self.quantisation:g}")
+        if self.quantisation and name.endswith(("attitude", "rod")):
+            raise InputError(f"{name}.quantisation", "0 for what is a direction", f"{self.quantisation:g}")
         if self.variance == 0:
             raise InputError(f"{name}.noise", "a number > 0, by which the estimator weighs readings", "0")
 
@@ -103,6 +110,43 @@ class Sensors:
         Density of the angular acceleration that the model lacks, rad/s²/√Hz.
     command_delay : float, optional
         Delay from measurement to command that the estimator assumes, s; default that of the plant.
+    gyro_bias, gyro_scale : float or (3,)
+        Error of the gyroscope that lasts, rad/s, and that of its scale per axis. Of these and all errors below that may
+        be vectors: a vector is the error of every flight; a number is a standard deviation per component, from which
+        each flight draws its own with its seed. The estimator is told of none.
+    accelerometer_bias, accelerometer_scale : float or (3,)
+        The same of the accelerometer, m/s².
+    gyro_bias_walk, accelerometer_bias_walk : float
+        Random walk of the biases, rad/s/√s and m/s²/√s.
+    imu_turned : float or (3,)
+        Rotation vector from the body to the IMU's axes, rad.
+    markers_off : float or (3,)
+        Position of the vehicle's marker body beside the pivot, body frame, m.
+    markers_turned : float or (3,)
+        Rotation vector from the body to the marker body, rad.
+    rod_markers_off : float or (2,)
+        Angles by which the direction of the rod's markers is off, in a frame that moves with the rod, rad; a marker off
+        by d at a distance a from the pivot is off by d/a.
+    joints_off : float or (2,)
+        Error of the zeros of both joint angles, rad.
+    frame_off, frame_turned : float or (3,)
+        Origin (m) and rotation vector (rad) of the world in the frame of the cameras; yaw is the third component.
+    frame_scale : float or (3,)
+        Relative error of the cameras' lengths.
+    vibration, gyro_vibration : float
+        Amplitude of a wave on each axis of accelerometer (m/s²) and gyroscope (rad/s).
+    vibration_rate : float
+        Its frequency, that of the rotors, Hz; readings at a lower rate alias it.
+    outliers : float
+        Share of the poses of a body, vehicle or rod, that are of another one.
+    outlier_off, outlier_turned : float
+        How far that one is away, m, and turned, rad, each in a random direction.
+    bursts, burst_time : float
+        Mean number of bursts per second in which cameras send nothing, and how long one lasts, s.
+    untold_latency : float
+        By how much poses are older than their age says, s.
+    latency_jitter : float
+        By how much more poses may be older, s: each frame uniformly between 0 and this.
 
     Raises
     ------
@@ -124,6 +168,30 @@ class Sensors:
     manoeuvre_error: float = 3e-3
     moment_error: float = 1.0
     command_delay: float | None = None
+    gyro_bias: Error = 0.0
+    gyro_scale: Error = 0.0
+    gyro_bias_walk: float = 0.0
+    accelerometer_bias: Error = 0.0
+    accelerometer_scale: Error = 0.0
+    accelerometer_bias_walk: float = 0.0
+    imu_turned: Error = 0.0
+    markers_off: Error = 0.0
+    markers_turned: Error = 0.0
+    rod_markers_off: Error = 0.0
+    joints_off: Error = 0.0
+    frame_off: Error = 0.0
+    frame_turned: Error = 0.0
+    frame_scale: Error = 0.0
+    vibration: float = 0.0
+    gyro_vibration: float = 0.0
+    vibration_rate: float = 170.0
+    outliers: float = 0.0
+    outlier_off: float = 0.05
+    outlier_turned: float = 0.17
+    bursts: float = 0.0
+    burst_time: float = 0.1
+    untold_latency: float = 0.0
+    latency_jitter: float = 0.0
 
     def __post_init__(self) -> None:
         for name in STREAMS:
@@ -146,6 +214,7 @@ class Sensors:
         if self.command_delay is not None:
             errors.number("sensors.command_delay", self.command_delay, at_least=0, at_most=0.5, unit="s")
         self._check_complete()
+        defects.checked(self)
 
     def _check_complete(self) -> None:
         needed = ["position", "gyro"]
@@ -162,6 +231,43 @@ class Sensors:
         """The sensors that there are, by name."""
         return {name: getattr(self, name) for name in STREAMS if getattr(self, name) is not None}
 
+    @property
+    def told(self) -> Sensors:
+        """What the estimator is told: the same without defects."""
+        return replace(self, **self._usual())
+
+    def _usual(self) -> dict[str, Any]:
+        """Return what the fields of the defects are without any."""
+        return {entry.name: entry.default for entry in fields(self) if entry.name in defects.NAMES}
+
+    def following(self, departure: Any) -> Any:
+        """Return the squared bandwidth, 1/s², at which the estimator follows the force that an accelerometer tells.
+
+        `departure` is the squared departure of the specific force from that of hover, (m/s²)².
+        """
+        return FOLLOWED**2 + FOLLOWED_MORE**2 * departure
+
+    def trust(self, period: float, departure: Any) -> Any:
+        """Return the share of the motion for which the accelerometer answers, not the model: 0 without one.
+
+        `period` is the control period, s, `departure` as in `following`.
+        What is followed more slowly than the position corrects the velocity, at the bandwidth of a Kalman filter of a
+        mass on which a force of density `force_error` acts, hardly passes its noise on.
+        """
+        if self.accelerometer is None:
+            return 0.0
+        assert self.position is not None
+        followed = self.following(departure)
+        return followed / (followed + self.force_error / np.sqrt(self.position.density(period)))
+
+    def felt(self, period: float, departure: Any = 0.0) -> Any:
+        """Return the density of the accelerometer's noise in the estimate, (m/s²)²/Hz.
+
+        `period` is the control period, s, `departure` as in `following`.
+        """
+        found = 0.0 if self.accelerometer is None else self.accelerometer.density(period)
+        return self.trust(period, departure) * found
+
     def replace(self, **changes: Any) -> Sensors:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
         errors.only_known("sensors", changes, [entry.name for entry in fields(self)])
@@ -173,30 +279,48 @@ class Sensors:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields as plain tables, without what is not there; `Sensors(**…)` takes them back."""
-        return {name: value for name, value in asdict(self).items() if value is not None}
+        usual = self._usual()
+        given = {name: value for name, value in asdict(self).items() if value is not None}
+        return {name: value for name, value in given.items() if name not in usual or value != usual[name]}
 
 
 STREAMS = ("position", "attitude", "rod", "gyro", "accelerometer", "joints", "rod_gyro")
 
 _POSE = {"rate": 200.0, "latency": 0.01}
-_GYRO = Sensor(rate=500.0, noise=2e-2)
+_LOST = {**_POSE, "dropouts": 0.05}
+_ANGLE = float(np.radians(0.5))  # per axis, so that a rotation is off by 0.9 degrees on average
+_GYRO, _ACCELEROMETER = Sensor(rate=500.0, noise=2e-2), Sensor(rate=500.0, noise=0.2)
+_MOCAP = Sensors(
+    position=Sensor(noise=1e-3, **_POSE),
+    attitude=Sensor(noise=3.5e-3, **_POSE),
+    rod=Sensor(noise=3.5e-3, **_POSE),
+    gyro=_GYRO,
+    accelerometer=_ACCELEROMETER,
+)
 SUITES: Mapping[str, Sensors | None] = MappingProxyType(
     {
         "perfect": None,
-        # Poses of vehicle and rod by cameras, and a gyroscope.
-        "mocap": Sensors(
-            position=Sensor(noise=1e-3, **_POSE),
-            attitude=Sensor(noise=3.5e-3, **_POSE),
-            rod=Sensor(noise=3.5e-3, **_POSE),
-            gyro=_GYRO,
-        ),
-        # An IMU of a hobby flight controller on a vibrating frame, encoders of 12 bits in the joint, and the position
-        # of an ultra-wideband or visual system.
+        # Poses of vehicle and rod by cameras, and the IMU of a hobby flight controller on a vibrating frame.
+        "mocap": _MOCAP,
+        "mocap-without-accelerometer": _MOCAP.replace(accelerometer=None),
+        # The same IMU, encoders of 12 bits in the joint, and the position of an ultra-wideband or visual system.
         "onboard": Sensors(
             position=Sensor(rate=100.0, noise=1e-2, latency=0.01),
             gyro=_GYRO,
-            accelerometer=Sensor(rate=500.0, noise=0.2),
+            accelerometer=_ACCELEROMETER,
             joints=Sensor(rate=500.0, noise=1e-3, quantisation=2 * np.pi / 4096),
+        ),
+        # Those of "mocap" in a careful laboratory, each flight with errors of its own.
+        "laboratory": _MOCAP.replace(
+            position=Sensor(noise=1e-3, **_LOST),
+            attitude=Sensor(noise=3.5e-3, **_LOST),
+            rod=Sensor(noise=3.5e-3, **_LOST),
+            gyro_bias=0.005,
+            imu_turned=_ANGLE,
+            markers_turned=_ANGLE,
+            rod_markers_off=_ANGLE,
+            frame_turned=_ANGLE,
+            untold_latency=0.008,
         ),
     }
 )

@@ -14,12 +14,12 @@ trembles by a seventh more.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from flypend.geometry import E3
+from flypend.geometry import E3, Numbers
 from flypend.laws import BoundLaw
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, linearise, open_loop
 from flypend.laws.lqr import solve_riccati
@@ -48,9 +48,9 @@ class Tremor(NamedTuple):
 
 
 def calmed(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
-    """Return `law` with its default gains moved as far as hover on the sensors of `plant` needs, to stand still enough.
+    """Return `law` with its default gains calmed until hover on the sensors of `plant` trembles little enough.
 
-    The law as it is, if it has no such gains, or `plant` no estimator.
+    The law is unchanged if it has no such gains, or `plant` no estimator.
     """
     if law.calmer is None:
         return law
@@ -105,13 +105,13 @@ def _tremor(law: BoundLaw, sensors: Sensors, period: float) -> Tremor:
     return Tremor(*(float(np.sqrt(np.sum(variances[part]))) for part in (PLACE, AXIS)))
 
 
-def _sylvester(A: Any, B: Any, C: Any) -> Any:
+def _sylvester(A: Numbers, B: Numbers, C: Numbers) -> Numbers:
     """Return the X of A X + X Bᵀ + C = 0, all (n, n)."""
     one = np.eye(len(A))
     return -np.linalg.solve(np.kron(A, one) + np.kron(one, B), C.ravel()).reshape(C.shape)
 
 
-def _readings(sensors: Sensors, period: float) -> tuple[Any, Any]:
+def _readings(sensors: Sensors, period: float) -> tuple[Numbers, Numbers]:
     """Return H (k, n) and the densities R (k,) of the noise of the readings of `sensors`."""
     every = np.eye(len(COORDINATES))
     joints = every[12:14].copy()  # the rod as seen from a vehicle that turns by θ: y + y × θ
@@ -125,7 +125,7 @@ def _readings(sensors: Sensors, period: float) -> tuple[Any, Any]:
     return rows, np.concatenate([np.full(len(seen[n]), s.density(period)) for n, s in streams.items()])
 
 
-def _driven(sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Any, Any]:
+def _driven(sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:
     """Return the densities (n, n) that the accelerometer's noise adds to the estimate, and those that it lacks."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     on_vehicle, on_bob = np.zeros((len(COORDINATES), 3)), np.zeros((len(COORDINATES), 3))
@@ -135,5 +135,4 @@ def _driven(sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Any, Any
     turning = np.zeros((len(COORDINATES), 3))
     turning[9:12] = np.eye(3)
     v, b, w = (G[KEPT] @ G[KEPT].T for G in (on_vehicle, on_bob, turning))
-    felt = 0.0 if sensors.accelerometer is None else sensors.accelerometer.density(period)
-    return felt * v, sensors.force_error**2 * (v + b) + sensors.moment_error**2 * w
+    return sensors.felt(period) * v, sensors.force_error**2 * (v + b) + sensors.moment_error**2 * w

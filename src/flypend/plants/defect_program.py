@@ -1,0 +1,235 @@
+"""What is wrong with sensors beyond noise: errors that last, poses of another body, losses, vibration.
+
+Each defect changes what is read, or when it arrives, and is no part of what the estimator is told. One of size 0 adds
+nothing to the program. In the frame of the cameras, with Q = exp(frame_turned^), markers at R o and
+M = exp(markers_turned^),
+
+    position = (1 + frame_scale) Q (x + R o) + frame_off,    attitude = Q R M,    rod = Q unit(y + d₁ b + d₂ y × b),
+
+where b ⊥ y moves with the rod and does not turn about it. With N = exp(imu_turned^), the IMU reads
+
+    gyro = (1 + gyro_scale) Nᵀ ω + gyro_bias + walk,
+
+plus vibration, and the accelerometer reads alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from statistics import NormalDist
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.compile.record import Field, Record
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, rotation_from_vector, tangent_part, unit
+from flypend.plants.cascade import rotation_by
+from flypend.plants.defects import CONSTANT, POSES, drawn
+from flypend.plants.measurement import direction, uniform
+from flypend.plants.sensors import Sensors
+
+ONE_FRAME = 1e-9  # keeps the probability of a burst per tick below 1, whatever the rate of control
+
+
+def record(sensors: Sensors) -> Record:
+    """Return the memory of the defects."""
+    of_flight = sum(CONSTANT[name][0] for name in drawn(sensors))
+    return Record(
+        "defects",
+        "What is wrong with the sensors in this flight.",
+        (
+            *[Field("errors", of_flight, "those drawn at the start, in the order of their declaration")]
+            * (of_flight > 0),
+            *[Field("gyro_walk", 3, "rad/s")] * (sensors.gyro_bias_walk > 0),
+            *[Field("accelerometer_walk", 3, "m/s^2")] * (sensors.accelerometer_bias_walk > 0),
+            *[Field("rod_frame", 3, "unit vector across the rod that moves with it, world")]
+            * bool(sensors.rod_markers_off),
+            *[Field("burst", 1, "how long frames are lost yet, s")] * (sensors.bursts > 0),
+        ),
+    )
+
+
+def first(sensors: Sensors, y: Vector, draws: Numbers) -> Numbers:
+    """Return the memory of the defects at the start, for a rod `y` (3,) and standard normal `draws`."""
+    sizes = [np.full(CONSTANT[name][0], getattr(sensors, name)) for name in drawn(sensors)]
+    scales = np.concatenate([*sizes, np.zeros(0)])
+    axis = ca.if_else(y[0] ** 2 < 0.5, ca.DM([1, 0, 0]), ca.DM([0, 1, 0]))
+    values = {
+        "errors": scales * draws if sizes else None,
+        "gyro_walk": np.zeros(3),
+        "accelerometer_walk": np.zeros(3),
+        "rod_frame": unit(tangent_part(y, axis)),
+        "burst": 0.0,
+    }
+    return record(sensors).join(values)
+
+
+def _carried(b: Vector, y: Vector, y_after: Vector) -> Vector:
+    """Return the unit vector `b` ⊥ `y` carried to `y_after` by the smallest rotation between the two."""
+    return unit(tangent_part(y_after, b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)))
+
+
+def _turn_about(axis: Vector, angle: float) -> Matrix:
+    """Return the rotation by `angle` (rad) about the unit vector `axis`."""
+    k = hat(axis)
+    return ca.SX.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+
+
+class Defects:
+    """The defects of `sensors` at one control tick, in CasADi.
+
+    Parameters
+    ----------
+    sensors : Sensors
+        The sensors.
+    period : float
+        Control period, s.
+    t : SX
+        Time of the tick, s.
+    y_before, y : SX (3,)
+        The rod at the tick before, and at this one, world.
+    memory : SX
+        As `record` has it.
+    draws : dict of SX
+        Standard normal numbers of this tick, as many as `random_numbers` says.
+    """
+
+    def __init__(
+        self,
+        sensors: Sensors,
+        period: float,
+        t: Scalar,
+        y_before: Vector,
+        y: Vector,
+        memory: Numbers,
+        draws: Mapping[str, Any],
+    ) -> None:
+        self._sensors, self._period, self._t, self._y, self._draws = sensors, period, t, y, draws
+        self.memory = record(sensors).split(memory)
+        self._errors = dict(self._lasting())
+        for name in ("gyro", "accelerometer"):
+            if size := getattr(sensors, f"{name}_bias_walk"):
+                self.memory[f"{name}_walk"] += size * np.sqrt(period) * draws[f"{name}_bias_walk"]
+        if sensors.rod_markers_off:
+            self.memory["rod_frame"] = _carried(self.memory["rod_frame"], y_before, y)
+        if sensors.bursts:
+            begins = self._happens("bursts", sensors.bursts * period, 0)
+            self.memory["burst"] = ca.if_else(begins, sensors.burst_time, ca.fmax(self.memory["burst"] - period, 0))
+
+    def _lasting(self) -> Iterator[tuple[str, Any]]:
+        """Yield name and value of every error that lasts and is not 0."""
+        place, of_flight = 0, drawn(self._sensors)
+        for name, (length, *_) in CONSTANT.items():
+            if name in of_flight:
+                yield name, self.memory["errors"][place : place + length]
+                place += length
+            elif value := getattr(self._sensors, name):
+                yield name, ca.DM(value)
+
+    def _happens(self, name: str, probability: float, i: int) -> Scalar:
+        return self._draws[name][i] < NormalDist().inv_cdf(min(probability, 1 - ONE_FRAME))
+
+    @property
+    def after(self) -> Numbers:
+        """The memory after this tick."""
+        return record(self._sensors).join(self.memory)
+
+    def _turn(self, name: str) -> Matrix | None:
+        if name not in self._errors:
+            return None
+        if name in drawn(self._sensors):
+            return rotation_by(self._errors[name])
+        return ca.DM(rotation_from_vector(getattr(self._sensors, name)))
+
+    # Cameras ----------------------------------------------------------------------------------------------------------
+
+    def position(self, x: Vector, R: Matrix) -> Vector:
+        """Return where cameras see a vehicle that is at `x` in attitude `R`."""
+        found = self._errors
+        if "markers_off" in found:
+            x = x + R @ found["markers_off"]
+        if (Q := self._turn("frame_turned")) is not None:
+            x = Q @ x
+        if "frame_scale" in found:
+            x = x + found["frame_scale"] * x
+        return x + found["frame_off"] if "frame_off" in found else x
+
+    def attitude(self, R: Matrix) -> Matrix:
+        """Return the attitude in which cameras see a vehicle in attitude `R`."""
+        if (Q := self._turn("frame_turned")) is not None:
+            R = Q @ R
+        M = self._turn("markers_turned")
+        return R if M is None else R @ M
+
+    def rod(self, y: Vector) -> Vector:
+        """Return the direction in which cameras see a rod along `y`."""
+        if "rod_markers_off" in self._errors:
+            off, b = self._errors["rod_markers_off"], _carried(self.memory["rod_frame"], self._y, y)
+            y = unit(y + off[0] * b + off[1] * cross(y, b))
+        Q = self._turn("frame_turned")
+        return y if Q is None else Q @ y
+
+    def mistaken(self, name: str, values: Numbers) -> Numbers:
+        """Return the `values` read of a pose, or of another body in its place."""
+        if not self._sensors.outliers or name not in POSES:
+            return values
+        draws, off, angle = self._draws["outliers"], self._sensors.outlier_off, self._sensors.outlier_turned
+        wrong = self._happens("outliers", self._sensors.outliers, 7 if name == "rod" else 0)
+        if name == "position":
+            other = values + off * direction(draws[1:4])
+        elif name == "attitude":
+            other = ca.vec((ca.reshape(values, 3, 3).T @ _turn_about(direction(draws[4:7]), angle)).T)
+        else:
+            across = unit(tangent_part(values, draws[8:11]))
+            other = np.cos(angle) * values + np.sin(angle) * across
+        return ca.if_else(wrong, other, values)
+
+    def lost(self, name: str) -> Scalar | None:
+        """Return whether a reading of the stream `name` is lost in a burst; None if there are none."""
+        return self.memory["burst"] > 0 if self._sensors.bursts and name in POSES else None
+
+    def jitter(self, name: str) -> Scalar | None:
+        """Return by how much (s) a reading of the stream `name` is later than the others; None if none is."""
+        jittered = self._sensors.latency_jitter and name in POSES
+        return self._sensors.latency_jitter * uniform(self._draws["latency_jitter"]) if jittered else None
+
+    # IMU and joints ---------------------------------------------------------------------------------------------------
+
+    def gyro(self, omega: Vector) -> Vector:
+        """Return what a gyroscope reads at an angular velocity `omega`, body frame."""
+        read = self._inertial("gyro", omega)
+        return read + self._sensors.gyro_vibration * self._wave(0) if self._sensors.gyro_vibration else read
+
+    def accelerometer(self, force: Vector) -> Vector:
+        """Return what an accelerometer reads under the mean specific `force` of the last period, body frame."""
+        read = self._inertial("accelerometer", force)
+        if not self._sensors.vibration:
+            return read
+        angle = 2 * np.pi * self._sensors.vibration_rate * self._period
+        # The mean of the wave over the period: that of its middle, less by sin(a/2)/(a/2).
+        return read + self._sensors.vibration * np.sinc(angle / (2 * np.pi)) * self._wave(-self._period / 2)
+
+    def _inertial(self, name: str, value: Vector) -> Vector:
+        if (N := self._turn("imu_turned")) is not None:
+            value = N.T @ value
+        if (scale := self._errors.get(f"{name}_scale")) is not None:
+            value = value + scale * value
+        if (bias := self._errors.get(f"{name}_bias")) is not None:
+            value = value + bias
+        return value + self.memory[f"{name}_walk"] if f"{name}_walk" in self.memory else value
+
+    def _wave(self, shift: float) -> Vector:
+        """Return a wave of amplitude 1 on each axis, `shift` s from now; thirds of a turn lie between the axes."""
+        phase = 2 * np.pi * self._sensors.vibration_rate * (self._t + shift)
+        return ca.vertcat(*(ca.sin(phase + 2 * np.pi * axis / 3) for axis in range(3)))
+
+    @property
+    def turns_joints(self) -> bool:
+        """Whether the joint angles are off."""
+        return "joints_off" in self._errors
+
+    def joints(self, roll: Scalar, pitch: Scalar) -> tuple[Scalar, Scalar]:
+        """Return the angles that the joint tells at `roll` and `pitch`, rad."""
+        off = self._errors.get("joints_off")
+        return (roll, pitch) if off is None else (roll + off[0], pitch + off[1])

@@ -8,7 +8,7 @@ import flypend as fp
 from flypend import geometry as geo
 from flypend.board.believed import Believed
 from flypend.board.command import usable_lead
-from flypend.board.observer import MEMORY, observer
+from flypend.board.observer import RECORD, observer
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.laws import Computer
@@ -195,7 +195,7 @@ def _observer(period):
     """What an observer estimates, measurement after measurement."""
     update, memory = (
         as_numpy(observer(Believed.numbers(VEHICLE), Computer(observer=BANDWIDTH), period, 4)),
-        np.zeros(MEMORY),
+        np.zeros(RECORD.length),
     )
 
     def observe(measured, rotors):

@@ -6,22 +6,24 @@ import pytest
 import scipy.stats
 
 import flypend as fp
-from flypend.board import error_state
+from flypend.board import error_state, felt
 from flypend.board.believed import Believed
 from flypend.board.computer import SteppedBoard
 from flypend.board.estimator import Filter, steady_gain
 from flypend.board.expected import Expected
+from flypend.board.history import QUANTITIES, History
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.flight.kernels import sampled_kernel
 from flypend.flight.request import Flight
+from flypend.laws import references
 from flypend.model.motion import disturbed_motion
 from flypend.plants import SUITES, Plant, Sensor, Wind
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
-from flypend.plants.sensing import WIDTH, draws_size, first_memory, readings_size, sensing
+from flypend.plants.sensing import WIDTH, draws_size, first_memory, readings_record, sensing
 
 VEHICLE = fp.vehicle("hehn2011")
 LAW = fp.laws.inverted().bind(VEHICLE)
@@ -86,6 +88,32 @@ def test_errors_move_as_the_motion_of_two_neighbours_tells(seed):
         predicted = np.asarray(covariance(np.outer(unit, unit) / size**2, state, b))
         # One Euler step of 1 ms: (h λ)²/2 with rates up to 40 1/s² and |ẏ| = 3 1/s, and the size of the error.
         np.testing.assert_allclose(predicted, np.outer(moved, moved), atol=2e-4)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_unknown_forces_drive_the_errors_that_they_drive_in_the_motion(seed):
+    """From no error: specific forces on vehicle and on bob, against the motion under each, and the rate's error."""
+    packed, b = some_state(seed)
+    state, h, densities = fp.State.trusted(packed), 1e-3, error_state.Densities(0.3, 0.7, 0.2)
+    a, B = error_state.lever(VEHICLE), np.stack([b, np.cross(state.y, b)], axis=1)
+
+    def driven(on_vehicle, on_bob):
+        """Rates of velocity and swing (5,) by such specific forces, m/s²."""
+        forces = {"force_on_vehicle": VEHICLE.M * on_vehicle, "force_on_bob": VEHICLE.m * on_bob}
+        moved = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), VEHICLE, "up", **forces)
+        return np.append(moved.x_ddot + a * moved.y_ddot, B.T @ moved.y_ddot)
+
+    rest, none, Q = driven(np.zeros(3), np.zeros(3)), np.zeros(3), np.zeros((ERRORS, ERRORS))
+    for axis in np.eye(3):
+        for density, forces in ((densities.on_vehicle, (axis, none)), (densities.on_bob, (none, axis))):
+            G = np.zeros(ERRORS)
+            G[[3, 4, 5, 11, 12]] = driven(*forces) - rest
+            Q += h * density * np.outer(G, G)
+    Q[6:9, 6:9] += h * densities.turning * np.eye(3)
+    zero = ca.SX(ERRORS, ERRORS)
+    given = (ca.DM(b), ca.SX(3, 1), VEHICLE, h, densities)
+    found = error_state.spread(zero, fp.State.symbolic(ca.SX(ca.DM(packed))), *given)
+    np.testing.assert_allclose(np.asarray(ca.DM(found)), Q, atol=1e-15)
 
 
 def test_a_covariance_of_the_start_is_that_of_its_errors():
@@ -155,8 +183,9 @@ def test_without_noise_and_errors_the_estimate_is_the_truth(suite):
     """Every expectation, latency and interpolation is right, or the estimate would leave the truth."""
     truth, estimates, _ = flown(suite, 3, 1.5, world=without_noise(suite))
     s, e = fp.State.trusted(truth), fp.State.trusted(estimates)
-    # Readings between ticks are placed linearly in time: 15 m/s² · h²/8 = 8e-6 m, and 1e-4 rad of a turn.
-    assert np.max(np.abs(s.x - e.x)) < 1e-4
+    # Readings between ticks are placed linearly in time: 15 m/s² · h²/8 = 8e-6 m, and 1e-4 rad of a turn. A gyroscope
+    # 4 ms late turns the estimate by that much, which at 2 rad/s looks as if poses came 0.1 ms late: 5 m/s of that.
+    assert np.max(np.abs(s.x - e.x)) < (5e-4 if suite is EVERYTHING else 1e-4)
     assert np.max(np.abs(s.y - e.y)) < 1e-3
     assert np.max(np.abs(s.R - e.R)) < 1e-3
     assert np.max(np.abs(s.omega - e.omega)) < 5e-2  # a gyroscope 4 ms late, through rotor moments of 200 rad/s²
@@ -183,10 +212,11 @@ def moved_back(packed, age):
 def test_sensitivities_are_those_of_the_sensors(age, at_rest, tolerance):
     """The rows of every stream, against readings of a state that is wrong by a small error."""
     suite = fp.Sensors(**dict.fromkeys(("position", "attitude", "rod", "joints", "rod_gyro"), QUIET), gyro=QUIET)
-    history = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE)).history
-    packed, tangent, readings = ca.SX.sym("s", 24), ca.SX.sym("b", 3), ca.SX.sym("r", readings_size(suite))
+    history = History(dict.fromkeys(QUANTITIES, 0), 0.002)  # nothing but straight lines
+    packed, tangent, readings = ca.SX.sym("s", 24), ca.SX.sym("b", 3), ca.SX.sym("r", readings_record(suite).length)
     estimate = fp.State.symbolic(packed)
-    rows = Expected(suite, history, readings, estimate, tangent, ca.SX.eye(3), ca.SX(0, 1)).readings(VEHICLE)
+    streams = Expected(suite, history, readings, estimate, tangent, ca.SX.eye(3), ca.SX(0, 1)).readings(VEHICLE)
+    rows = [row for stream in streams for row in stream]
     differences = ca.Function("f", [packed, tangent, readings], [ca.vertcat(*(row.difference for row in rows))])
     sensitivities = ca.Function("f", [packed, tangent, readings], [ca.vertcat(*(row.row for row in rows))])
     sense = as_numpy(sensing(suite, VEHICLE, 0.002))
@@ -224,11 +254,59 @@ def test_the_accelerometer_tells_the_force_that_accelerates_the_vehicle_so(seed)
     given = []
     for name in suite.streams:
         given += [*(felt if name == "accelerometer" else np.zeros(WIDTH[name])), 0.0]
-    past = ca.DM.zeros(history.size)  # nothing was expected
+    past = ca.DM.zeros(history.record.length)  # nothing was expected
     estimate = fp.State.symbolic(ca.DM(state.packed()))
     expected = Expected(suite, history, ca.DM(given), estimate, ca.DM.zeros(3), ca.DM.eye(3), past)
-    found = np.asarray(ca.DM(expected.force(ca.DM.zeros(3), 1.0, VEHICLE))).ravel()
+    found = np.asarray(ca.DM(expected.felt(VEHICLE)[1])).ravel()
     np.testing.assert_allclose(found, force, atol=1e-10)
+
+
+# What lasts ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_manoeuvre_tells_a_scale_of_the_thrust_from_a_force():
+    """Thrust that is 15 % weak, and a wind: both found within a second of changing thrust, each by its own."""
+    suite, rng = SUITES["mocap"], np.random.default_rng(0)
+    memory, thrust, fresh, told = (ca.SX.sym(n, k) for n, k in (("m", 8), ("f", 1), ("a", 1), ("d", 3)))
+    after = felt.corrected(memory, fresh, told, thrust, 100.0, VEHICLE, suite, 0.002)
+    step = as_numpy(ca.Function("f", [memory, fresh, told, thrust], [after]))
+    known, scale, force = np.asarray(felt.begun(VEHICLE)).ravel(), -0.15, np.array([0.3, -0.2, 0.4])
+    noise = VEHICLE.M * suite.accelerometer.noise
+    for k in range(500):
+        f = 5.0 + 4.0 * np.sin(10 * k * 0.002)
+        expected = felt.beyond(ca.DM(known), f)
+        difference = force + np.array([0, 0, scale * f]) - np.asarray(expected).ravel() + noise * rng.standard_normal(3)
+        known = np.asarray(step(known, 1.0, difference, f)).ravel()
+    # The force walks fast in a manoeuvre: 20 rad/s times 2e-3 s of noise, 0.1 N √(0.04/2) = 0.014 N, thrice.
+    assert known[3] == pytest.approx(scale, abs=0.02)
+    np.testing.assert_allclose(known[:3], force, atol=0.1)
+
+
+def test_a_wrong_body_is_left_out_and_a_true_jump_is_taken():
+    """One stream of one number: what is far off is left out until it has come PATIENCE times."""
+    row = ca.SX(1, ERRORS)
+    row[0] = 1
+    difference, P, rejected = ca.SX.sym("d"), 1e-6 * ca.SX.eye(ERRORS), ca.SX.sym("r")
+    reading = error_state.Reading(difference, row, 1e-6, ca.SX(1))
+    error, _, after = error_state.updated(P, [[reading]], rejected)
+    update = as_numpy(ca.Function("f", [difference, rejected], [error[0], after]))
+    assert update(4e-3, 0.0)[0].item() == pytest.approx(2e-3)  # below five standard deviations of 1.4 mm
+    count = 0.0
+    for _ in range(error_state.PATIENCE):
+        moved, count = (float(v.item()) for v in update(1.0, count))
+        assert moved == 0
+    assert update(1.0, count)[0].item() == pytest.approx(0.5)
+    assert update(0.0, 1.0)[1].item() == 0  # a good reading makes up for a wrong one
+
+
+def test_a_bias_of_the_gyroscope_is_found():
+    """Within four time constants of its integral, as well as what the noise of the attitude leaves of it."""
+    bias = np.array([0.03, -0.02, 0.04])
+    suite = SUITES["mocap"]
+    flight = flown(suite, 3, 8.0, world=suite.replace(gyro_bias=tuple(bias)))
+    filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE))
+    found = np.array(filtering.record.split(flight[2][-1])["bias"])
+    np.testing.assert_allclose(found, bias, atol=0.005)
 
 
 # What it claims -----------------------------------------------------------------------------------------------------
@@ -247,9 +325,9 @@ def squared(suite, records, kept=slice(None)):
     filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE))
     found = []
     for truth, estimate, memory in list(zip(*records, strict=True))[100::100]:
-        parts, P = filtering.split(memory), np.zeros((ERRORS, ERRORS))
-        P[np.tril_indices(ERRORS)] = parts.covariance
-        error = error_of(truth, estimate, np.asarray(parts.frame))
+        parts, P = filtering.record.split(memory), np.zeros((ERRORS, ERRORS))
+        P[np.tril_indices(ERRORS)] = parts["covariance"]
+        error = error_of(truth, estimate, np.asarray(parts["frame"]))
         P = (P + np.tril(P, -1).T)[kept][:, kept]
         found.append(error[kept] @ np.linalg.solve(P, error[kept]))
     return found
@@ -326,11 +404,12 @@ BOARDS = {
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
-    loop, rng = Loop(VEHICLE, LAW, BOARDS[name]), np.random.default_rng(3)
+    around = fp.laws.inverted(references.circle(radius=0.5, rate=2.0)).bind(VEHICLE)  # it matters when commands act
+    loop, rng = Loop(VEHICLE, around, BOARDS[name]), np.random.default_rng(3)
     least, start = np.full(4, VEHICLE.rotor_limits[0]), fp.State.random(rng).packed()
     stepped, made = SteppedBoard(loop, least, start), board(loop)
-    step, memory = as_numpy(made.step), initial_memory(loop, least, start)
-    assert len(memory) == made.step.numel_in(0)
+    step, memory = as_numpy(made), initial_memory(loop, least, start)
+    assert len(memory) == made.numel_in(0)
     suite, period = BOARDS[name].sensors, 1 / BOARDS[name].rate
     sense = as_numpy(sensing(suite, VEHICLE, period))
     seen = np.asarray(ca.DM(first_memory(suite, period, start))).ravel()

@@ -7,7 +7,7 @@ import pytest
 
 import flypend as fp
 from flypend.board.computer import SteppedBoard
-from flypend.board.program import board, depth, initial_memory, memory_size
+from flypend.board.program import board, initial_memory, parts
 from flypend.compile.numeric import as_numpy
 from flypend.compile.routine import lower_calls
 from flypend.plants import Plant
@@ -29,8 +29,8 @@ def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
     loop = Loop(VEHICLE, LAW, PLANTS[name])
     made, rng = board(loop), np.random.default_rng(3)
     least = np.full(4, VEHICLE.rotor_limits[0])
-    stepped, step, memory = SteppedBoard(loop, least), as_numpy(made.step), initial_memory(loop, least)
-    assert len(memory) == memory_size(loop)
+    stepped, step, memory = SteppedBoard(loop, least), as_numpy(made), initial_memory(loop, least)
+    assert len(memory) == parts(loop).memory.length == made.size1_in(0)
     for k, state in enumerate(fp.State.random(rng, 30)):
         t = k / loop.plant.rate
         command = stepped.command(t, state.packed())
@@ -62,12 +62,13 @@ def test_a_program_of_ones_own_steers_in_place_of_the_law():
 def test_it_remembers_as_many_commands_as_can_be_under_way():
     for latency, rate, commands in ((0.0, 500.0, 1), (0.024, 500.0, 12), (0.003, 100.0, 1), (0.03, 50.0, 2)):
         law = fp.laws.inverted(latency=latency, delay_reach=0).bind(VEHICLE)
-        assert depth(Loop(VEHICLE, law, Plant(rate=rate))) == commands
+        memory = parts(Loop(VEHICLE, law, Plant(rate=rate))).memory
+        assert memory.split(np.arange(memory.length))["commands"].size == 4 * commands
 
 
 def test_nothing_but_its_memory_decides_what_it_answers():
     loop = Loop(VEHICLE, LAW, Plant())
-    step, least = as_numpy(board(loop).step), np.full(4, VEHICLE.rotor_limits[0])
+    step, least = as_numpy(board(loop)), np.full(4, VEHICLE.rotor_limits[0])
     measured = np.append(0.1, fp.State(y=(0.0, 0.0998, 0.995)).packed())
     memory = initial_memory(loop, least)
     first = step(memory, measured, NONE, NONE, NONE)
@@ -78,7 +79,7 @@ def test_nothing_but_its_memory_decides_what_it_answers():
 
 def test_a_control_period_takes_a_fourth_of_the_operations_of_fourteen_steps():
     """A prediction of more steps than one must be wanted."""
-    made = lower_calls(board(Loop(VEHICLE, LAW, Plant())).step)
+    made = lower_calls(board(Loop(VEHICLE, LAW, Plant())))
     assert made.operations() < 3000
     find = next(program for program in made.programs if program.name == "find_delay")
     told = (
@@ -87,4 +88,4 @@ def test_a_control_period_takes_a_fourth_of_the_operations_of_fourteen_steps():
     )
     assert told in (Path(__file__).parents[2] / "docs" / "flight" / "engine.md").read_text(encoding="utf-8")
     slow = fp.laws.inverted(latency=0.075, delay_reach=0).bind(VEHICLE)
-    assert lower_calls(board(Loop(VEHICLE, slow, Plant())).step).operations() < 2400 + 2 * 900
+    assert lower_calls(board(Loop(VEHICLE, slow, Plant()))).operations() < 2400 + 2 * 900

@@ -7,6 +7,7 @@ from typing import Any
 
 import casadi as ca
 
+from flypend.geometry import Numbers
 from flypend.model import Vehicle
 from flypend.model.state import E3Direction
 
@@ -30,7 +31,7 @@ class Believed:
     vehicle: Any
     rotors: int
     lag: float
-    symbols: Any = field(default_factory=lambda: ca.SX(0, 1))
+    symbols: Numbers = field(default_factory=lambda: ca.SX(0, 1))
 
     @classmethod
     def numbers(cls, vehicle: Vehicle) -> Believed:
@@ -47,7 +48,7 @@ class Believed:
 class _Limited:
     """A `vehicle` whose rotor limits are the symbols `limits` (2, 1), which its own class would refuse."""
 
-    def __init__(self, vehicle: Vehicle, limits: Any) -> None:
+    def __init__(self, vehicle: Vehicle, limits: Numbers) -> None:
         self._vehicle, self.rotor_limits = vehicle, (limits[0], limits[1])
 
     def __getattr__(self, name: str) -> Any:

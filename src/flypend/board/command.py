@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.board.believed import Believed
-from flypend.geometry import apply
+from flypend.geometry import Numbers, Scalar, apply
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
@@ -84,7 +84,7 @@ def finish(loop: Loop, believed: Believed) -> ca.Function:
     return ca.Function("finish", [wrench, packed, rotors, believed.symbols], [ca.densify(command)])
 
 
-def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: Any) -> Any:
+def finished(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers, rotors: Numbers) -> Numbers:
     """Return the command for a wrench (4,), e₃ up, in CasADi; NaN for an invalid wrench, which limits would hide."""
     thrust, moment = wrench[0], wrench[1:]
     vehicle, plant = believed.vehicle, loop.sampled
@@ -99,11 +99,11 @@ def finished(loop: Loop, believed: Believed, wrench: Any, packed: Any, rotors: A
     return ca.if_else(ca.norm_1(wrench) < np.inf, command, np.nan)
 
 
-def led(wanted: Any, rotors: Any, lead: Any) -> Any:
+def led(wanted: Numbers, rotors: Numbers, lead: Scalar) -> Numbers:
     """Return commands (n,), N, that drive `rotors`, modelled forces (n,), to `wanted`; `lead` as in `Computer`."""
     return rotors + lead * (wanted - rotors)
 
 
-def idle_command(loop: Loop, rotors: Any) -> Any:
+def idle_command(loop: Loop, rotors: Numbers) -> Numbers:
     """Return the command before the first one arrives: current `rotors` (n,), N, or zero thrust and rates."""
     return np.zeros(4) if loop.sampled.interface == "rates" else rotors

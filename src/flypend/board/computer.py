@@ -11,18 +11,9 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
-from flypend.board.program import (
-    estimator,
-    filters,
-    found_delay,
-    initial_memory,
-    kept_memory,
-    known,
-    memory_size,
-    predicting,
-    remembering,
-)
+from flypend.board.program import Parts, filters, initial_memory, known, parts, predicting, remembering
 from flypend.compile.numeric import as_numpy
+from flypend.geometry import Numbers
 from flypend.laws import Controller
 from flypend.plants.loop import Loop
 
@@ -35,7 +26,7 @@ Steer = Callable[[float, Any, Any, Any], Any]
 class FlightComputer(Protocol):
     """A flight computer, called once per control period."""
 
-    def command(self, t: float, measured: Any) -> Any:
+    def command(self, t: float, measured: Numbers) -> Numbers:
         """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""
 
 
@@ -43,7 +34,7 @@ class FlightComputer(Protocol):
 class Estimating(Protocol):
     """A flight computer that estimates the state from readings of sensors."""
 
-    def estimate_from(self, estimate: Any) -> None:
+    def estimate_from(self, estimate: Numbers) -> None:
         """Begin with the `estimate` (24,) of the state, e₃ up."""
 
 
@@ -58,13 +49,12 @@ class SteppedBoard:
     the board keeps its estimator, prediction and rotor model.
     """
 
-    def __init__(self, loop: Loop, rotors: Any, estimate: Any = None, steer: Steer | None = None) -> None:
-        self._loop = loop
+    def __init__(self, loop: Loop, rotors: Numbers, estimate: Numbers = None, steer: Steer | None = None) -> None:
         self._stages = _stages(replace(loop, plant=known(loop.sampled)))
         self.law: Steer = self._stages.steer
         self._steer = steer or self.law
         memory = initial_memory(loop, np.asarray(rotors, dtype=float), estimate)
-        self._memory, self._expecting = np.split(memory, [memory_size(loop)])
+        self._memory, self._expecting = np.split(memory, [self._stages.made.own.length])
         self.predicted: tuple[Any, Any, Any] | None = None
         self.estimated: Any = None
         self.filtered: Any = None
@@ -72,9 +62,9 @@ class SteppedBoard:
     @property
     def delay(self) -> float | None:
         """The delay from measurement to command, s, that it has found; None if it does not look for it."""
-        return found_delay(self._loop, self._memory)
+        return self._stages.made.delay(self._memory)
 
-    def command(self, t: float, measured: Any) -> Any:
+    def command(self, t: float, measured: Numbers) -> Numbers:
         """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""
         stages, outside, told = self._stages, None, []
         if stages.estimating is not None:
@@ -104,13 +94,14 @@ class _Estimating(NamedTuple):
     given: int
     forces: bool
 
-    def carried(self, filtered: Any, outside: Any, command: Any, memory: Any) -> Any:
+    def carried(self, filtered: Numbers, outside: Numbers, command: Numbers, memory: Numbers) -> Numbers:
         """Return the estimator's memory a period after `filtered`, under `command` and those under way in `memory`."""
         commands = np.append(command, memory[self.first :])[: self.given]
         return self.carry(filtered, outside, commands, NONE)
 
 
 class _Stages(NamedTuple):
+    made: Parts
     predict: Callable[..., Any]
     steer: Steer
     remember: Callable[..., Any]
@@ -119,15 +110,13 @@ class _Stages(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _stages(loop: Loop) -> _Stages:
-    believed = Believed.numbers(loop.vehicle)
-    steer = _called(loop, loop.law) if isinstance(loop.law, Controller) else _compiled(loop, believed)
-    estimating, made = None, estimator(loop, believed)
-    if made is not None:
-        carry, first = made.carry(), believed.rotors + kept_memory(loop)
-        estimating = _Estimating(
-            as_numpy(made.correct()), as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled)
-        )
-    return _Stages(as_numpy(predicting(loop, believed)), steer, as_numpy(remembering(loop, believed)), estimating)
+    made, estimating = parts(loop), None
+    steer = _called(loop, loop.law) if isinstance(loop.law, Controller) else _compiled(loop, made.believed)
+    if made.estimator is not None:
+        carry, first = made.estimator.carry(), made.memory.place("commands").start
+        correct = as_numpy(made.estimator.correct())
+        estimating = _Estimating(correct, as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled))
+    return _Stages(made, as_numpy(predicting(made)), steer, as_numpy(remembering(made)), estimating)
 
 
 def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:

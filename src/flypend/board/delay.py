@@ -17,12 +17,12 @@ Were e and s filtered by themselves, errors of old estimates would be corrected 
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
 from flypend.board.believed import Believed
+from flypend.compile.record import Field, Record
+from flypend.geometry import Numbers, Scalar
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
@@ -40,8 +40,6 @@ BAND = np.pi / 2
 SPACING = 8e-3
 # Shortest delay, in control periods, so that the mean over it exists.
 LEAST = 1e-3
-# Begun or not, ticks since the newest forces remembered, delay, information, ω, moment, and the filters' states.
-OWN = 1 + 1 + 1 + 1 + 3 + 3 + 12
 WRENCH = 4
 
 
@@ -69,23 +67,31 @@ class DelayEstimator:
         self.depth = int(np.ceil(self._longest / self._spacing - 1e-9))
 
     @property
-    def size(self) -> int:
-        """Length of the memory."""
-        return OWN + self.depth * self._believed.rotors
+    def record(self) -> Record:
+        """Table of the memory."""
+        fields = (
+            Field("begun", 0, "1 once it has a measurement, else 0"),
+            Field("phase", 0, "control periods since the newest forces remembered"),
+            Field("found", 0, "the delay, s"),
+            Field("information", 0, "what the past tells of the delay, rad^2/s^5"),
+            Field("omega", 3, "angular velocity at the last measurement, body, rad/s"),
+            Field("earlier", 3, "moment that acted then, body, N m"),
+            Field("smooth", 6, "error and slope behind the first filter, rad/s^2 and rad/s^3"),
+            Field("smoother", 6, "the same behind the second"),
+            Field("past", self.depth * self._believed.rotors, "forces of the rotors, newest first, N"),
+        )
+        return Record("delay", "Estimator of the delay of the loop.", fields)
 
     @property
     def _spacing(self) -> float:
         return self._stride * self._period
 
-    def begun(self, rotors: Any) -> Any:
+    def begun(self, rotors: Numbers) -> Numbers:
         """Return the memory before the first step, for rotor forces (n,), N: numbers or CasADi symbols."""
         past = ca.repmat(rotors, self.depth, 1)
-        memory = ca.vertcat(0, 1, self._told, np.zeros(OWN - 3), past)
+        still = {field.name: np.zeros(max(field.size, 1)) for field in self.record.fields}
+        memory = self.record.join(still | {"phase": 1, "found": self._told, "past": past})
         return memory if isinstance(rotors, ca.SX) else np.asarray(ca.DM(memory)).ravel()
-
-    def delay(self, memory: Any) -> float:
-        """Return the delay, s, in a `memory`."""
-        return float(memory[2])
 
     def find(self) -> ca.Function:
         """Return (memory, ω (3,), rotors (n,), last command (n,), params) → memory, horizon, wrenches (4, 3).
@@ -94,11 +100,10 @@ class DelayEstimator:
         their ramp over it (see `plants.lag`), and the one that acts now.
         """
         b, h = self._believed, self._period
-        memory, omega = ca.SX.sym("memory", self.size), ca.SX.sym("w", 3)
+        memory, omega = ca.SX.sym("memory", self.record.length), ca.SX.sym("w", 3)
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
-        begun, phase, delay, known = (memory[i] for i in range(4))
-        before, earlier, smooth, smoother = memory[4:7], memory[7:10], memory[10:16], memory[16:OWN]
-        entries = self._entries(memory, rotors)
+        begun, phase, delay, known, before, earlier, smooth, smoother, past = self.record.split(memory).values()
+        entries = self._entries(past, rotors)
         acting, impulse, lever = (self._wrench(entries @ weights) for weights in self.weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
         expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
@@ -114,14 +119,17 @@ class DelayEstimator:
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
         next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
         phase, past = self._aged(phase, entries)
-        kept = ca.vertcat(1, phase, found, information, omega, next_earlier, smooth, smoother, ca.vec(past))
+        kept = self.record.join({
+            "begun": 1, "phase": phase, "found": found, "information": information, "omega": omega,
+            "earlier": next_earlier, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
+        })  # fmt: skip
         horizon = delay + self._lag_left
         ramp = self._extended(delay, impulse, lever, rotors, command)
         wrenches = ca.horzcat(ramp.mean, ramp.change, acting)
         outputs = [ca.densify(v) for v in (kept, horizon, wrenches)]
         return ca.Function("find_delay", [memory, omega, rotors, command, b.symbols], ca.cse(outputs))
 
-    def _extended(self, delay: Any, impulse: Any, lever: Any, rotors: Any, command: Any) -> Ramp:
+    def _extended(self, delay: Scalar, impulse: Numbers, lever: Numbers, rotors: Numbers, command: Numbers) -> Ramp:
         """Return the wrench over delay and lag left.
 
         `impulse` and `lever` are the integrals of the wrench over the last `delay` (s) and of its age times it; after
@@ -145,24 +153,25 @@ class DelayEstimator:
 
     def skipped(self) -> ca.Function:
         """Return (memory, rotors (n,)) → memory after a period without measurement: the delay stays."""
-        memory, rotors = ca.SX.sym("memory", self.size), ca.SX.sym("r", self._believed.rotors)
-        phase, past = self._aged(memory[1], self._entries(memory, rotors))
-        kept = ca.vertcat(0, phase, memory[2:OWN], ca.vec(past))
+        memory, rotors = ca.SX.sym("memory", self.record.length), ca.SX.sym("r", self._believed.rotors)
+        parts = self.record.split(memory)
+        phase, past = self._aged(parts["phase"], self._entries(parts["past"], rotors))
+        kept = self.record.join(parts | {"begun": 0, "phase": phase, "past": ca.vec(past)})
         return ca.Function("skip_delay", [memory, rotors], [ca.densify(kept)])
 
-    def _entries(self, memory: Any, rotors: Any) -> Any:
+    def _entries(self, past: Numbers, rotors: Numbers) -> Numbers:
         """Return the forces (n, k) of the rotors now and remembered, newest first."""
-        return ca.horzcat(rotors, ca.reshape(memory[OWN:], self._believed.rotors, self.depth))
+        return ca.horzcat(rotors, ca.reshape(past, self._believed.rotors, self.depth))
 
-    def _aged(self, phase: Any, entries: Any) -> tuple[Any, Any]:
+    def _aged(self, phase: Scalar, entries: Numbers) -> tuple[Scalar, Numbers]:
         """Return phase and remembered forces a period later: every `stride` periods the newest is remembered."""
         full = phase > self._stride - 0.5
         return ca.if_else(full, 1, phase + 1), ca.if_else(full, entries[:, :-1], entries[:, 1:])
 
-    def _wrench(self, rotors: Any) -> Any:
+    def _wrench(self, rotors: Numbers) -> Numbers:
         return ca.mtimes(self._believed.vehicle.mixing(), rotors)
 
-    def weights(self, age: Any, phase: Any) -> tuple[Any, Any, Any]:
+    def weights(self, age: Scalar, phase: Scalar) -> tuple[Numbers, Numbers, Numbers]:
         """Return the weights (k,) of the forces now and remembered, which are linear in between.
 
         Those of the force an `age` (s) ago, of its integral since (s), and of the integral of age times it (s²).

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 
 from flypend.board.believed import Believed
-from flypend.geometry import tangent_part
+from flypend.compile.record import Field, Record
+from flypend.geometry import Numbers, Scalar, Vector, tangent_part
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
-from flypend.plants.sensing import NOTHING, WIDTH, readings_size
+from flypend.plants.sensing import NOTHING, readings_record
 from flypend.plants.sensors import Sensors
 
-# The streams that are differenced, each with the time since its last reading in the memory after the state.
-DIFFERENCED = ("position", "rod")
+RECORD = Record(
+    "estimate",
+    "Differences of readings.",
+    (
+        Field("state", SIZE, "with e3 up"),
+        Field("since_position", 0, "seconds since the last reading; negative before the first"),
+        Field("since_rod", 0, "the same"),
+    ),
+)
 
 
 class Differences:
@@ -26,37 +32,32 @@ class Differences:
         self._period = 1 / loop.sampled.rate
         self._params = believed.symbols
         self._rotors = believed.rotors
-
-    @property
-    def size(self) -> int:
-        """Length of the memory: state (24,), and the time since the last reading of each of DIFFERENCED."""
-        return SIZE + len(DIFFERENCED)
+        self.record = RECORD
 
     def begun(self) -> ca.Function:
         """Return (rotors (n,), estimate (24,), params) → memory before the first step."""
         rotors, state = ca.SX.sym("r", self._rotors), ca.SX.sym("s", SIZE)
-        memory = ca.vertcat(state, *[NOTHING] * len(DIFFERENCED))
+        memory = RECORD.join({"state": state, "since_position": NOTHING, "since_rod": NOTHING})
         return ca.Function("estimate_begun", [rotors, state, self._params], [memory])
 
     def correct(self) -> ca.Function:
         """Return (memory, readings, params) → memory, state (24,), and no force (6,)."""
-        memory, readings = ca.SX.sym("memory", self.size), ca.SX.sym("readings", readings_size(self.sensors))
-        read, ages, place = {}, {}, 0
-        for name in self.sensors.streams:
-            read[name], ages[name] = readings[place : place + WIDTH[name]], readings[place + WIDTH[name]]
-            place += WIDTH[name] + 1
-        s = State.symbolic(memory[:SIZE])
+        record = readings_record(self.sensors)
+        memory, readings = ca.SX.sym("memory", RECORD.length), ca.SX.sym("readings", record.length)
+        kept, read = RECORD.split(memory), record.split(readings)
+        s = State.symbolic(kept["state"])
 
-        def latest(name: str, before: Any) -> Any:
-            return ca.if_else(ages[name] >= 0, read[name], before)
+        def latest(name: str, before: Numbers) -> Numbers:
+            return ca.if_else(read[f"{name}_age"] >= 0, read[name], before)
 
-        def differenced(name: str, before: Any, rate: Any, since: Any) -> tuple[Any, Any]:
-            found = (read[name] - before) / ca.fmax(since - ages[name], 1e-9)
-            again = (ages[name] >= 0) * (since >= 0)
-            return ca.if_else(again, found, rate), ca.if_else(ages[name] >= 0, ages[name], since)
+        def differenced(name: str, before: Numbers, rate: Vector) -> tuple[Vector, Scalar]:
+            since, age = kept[f"since_{name}"], read[f"{name}_age"]
+            found = (read[name] - before) / ca.fmax(since - age, 1e-9)
+            again = (age >= 0) * (since >= 0)
+            return ca.if_else(again, found, rate), ca.if_else(age >= 0, age, since)
 
-        x_dot, since_x = differenced("position", s.x, s.x_dot, memory[SIZE])
-        y_dot, since_y = differenced("rod", s.y, s.y_dot, memory[SIZE + 1])
+        x_dot, since_x = differenced("position", s.x, s.x_dot)
+        y_dot, since_y = differenced("rod", s.y, s.y_dot)
         y = latest("rod", s.y)
         state = State(
             x=latest("position", s.x),
@@ -66,12 +67,13 @@ class Differences:
             y=y,
             y_dot=tangent_part(y, y_dot),
         ).packed()
-        outputs = [ca.densify(v) for v in (ca.vertcat(state, since_x, since_y), state, ca.SX(6, 1))]
+        after = RECORD.join({"state": state, "since_position": since_x, "since_rod": since_y})
+        outputs = [ca.densify(v) for v in (after, state, ca.SX(6, 1))]
         return ca.Function("correct", [memory, readings, self._params], outputs)
 
     def carry(self) -> ca.Function:
         """Return (memory, outside, commands by age, params) → memory a control period later."""
-        memory, commands = ca.SX.sym("memory", self.size), ca.SX.sym("u", 0)
+        memory, commands = ca.SX.sym("memory", RECORD.length), ca.SX.sym("u", 0)
         outside = ca.SX.sym("outside", 6)
         since = memory[SIZE:]
         after = ca.vertcat(memory[:SIZE], ca.if_else(since >= 0, since + self._period, since))

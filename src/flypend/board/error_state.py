@@ -16,19 +16,23 @@ Error and attitude do not enter where they have no effect: the centre of mass do
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import cross, dot, hat, tangent_part, unit
-from flypend.model import State
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, tangent_part, unit
+from flypend.model import State, Vehicle
 from flypend.plants.cascade import rotation_by
 from flypend.plants.noise import Noise
 
 CENTRE, VELOCITY, TURN, ROD, SWING = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 11), slice(11, 13)
 ERRORS = 13
 COVARIANCE = ERRORS * (ERRORS + 1) // 2  # numbers of the lower triangle
+
+# Readings further off than GATE standard deviations are doubted: of 1e7 numbers with a normal distribution some six
+# are. PATIENCE such readings more than others, and they are believed: of 1 % wrong ones, one in 1e6 finds it so.
+GATE, PATIENCE = 5.0, 3
 
 
 class Reading(NamedTuple):
@@ -37,34 +41,34 @@ class Reading(NamedTuple):
     `fresh` is 1 if it has arrived and 0 if not.
     """
 
-    difference: Any
-    row: Any
+    difference: Scalar
+    row: Numbers
     variance: float
-    fresh: Any
+    fresh: Scalar
 
 
-def lever(vehicle: Any) -> Any:
+def lever(vehicle: Vehicle) -> Scalar:
     """Distance of the centre of mass from the pivot, a = m l/(M+m), m."""
     return vehicle.m * vehicle.l / (vehicle.M + vehicle.m)
 
 
-def frame(b: Any, y: Any) -> Any:
+def frame(b: Vector, y: Vector) -> Numbers:
     """Return B (3, 2) for its first column `b` (3,) at the rod `y`."""
     return ca.horzcat(b, cross(y, b))
 
 
-def carried_frame(b: Any, y: Any, y_after: Any) -> Any:
+def carried_frame(b: Vector, y: Vector, y_after: Vector) -> Vector:
     """Return the tangent vector `b` (3,) at `y` carried to `y_after` by the shortest rotation."""
     return b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)
 
 
-def any_tangent(y: Any) -> Any:
+def any_tangent(y: Vector) -> Vector:
     """Return some unit vector (3,) tangent at `y`."""
     level = ca.fabs(y[0]) < 0.7
     return unit(tangent_part(y, ca.vertcat(level, 1 - level, 0)))
 
 
-def unpacked(numbers: Any) -> Any:
+def unpacked(numbers: Numbers) -> Numbers:
     """Return the covariance (13, 13) of its `numbers` (91,), the lower triangle by rows."""
     P = ca.SX(ERRORS, ERRORS)
     for place, (i, j) in enumerate(zip(*np.tril_indices(ERRORS), strict=True)):
@@ -72,12 +76,12 @@ def unpacked(numbers: Any) -> Any:
     return P
 
 
-def packed(P: Any) -> Any:
+def packed(P: Numbers) -> Numbers:
     """Return the numbers (91,) of a covariance (13, 13)."""
     return ca.vertcat(*(P[int(i), int(j)] for i, j in zip(*np.tril_indices(ERRORS), strict=True)))
 
 
-def first_covariance(start: Noise, s: State, B: Any, vehicle: Any) -> Any:
+def first_covariance(start: Noise, s: State, B: Numbers, vehicle: Vehicle) -> Numbers:
     """Return the covariance (13, 13) of an estimate `s` with errors `start`."""
     a, y_dot = lever(vehicle), B.T @ s.y_dot
     J = ca.SX.eye(ERRORS)
@@ -89,18 +93,28 @@ def first_covariance(start: Noise, s: State, B: Any, vehicle: Any) -> Any:
     return J @ ca.diag(ca.SX(variances)) @ J.T
 
 
-def updated(P: Any, readings: Sequence[Reading]) -> tuple[Any, Any]:
-    """Return the error (13,) that `readings` tell, one by one, and its covariance (13, 13) after them."""
-    error = ca.SX(ERRORS, 1)
-    for difference, row, variance, fresh in readings:
-        seen = P @ row.T
-        gain = fresh * seen / (row @ seen + variance)
-        error = error + gain * (difference - row @ error)
-        P = unpacked(packed(P - gain @ seen.T))
-    return error, P
+def updated(P: Numbers, streams: Sequence[Sequence[Reading]], rejections: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return the error (13,) that the readings of `streams` tell, one by one, its covariance, and the `rejections`.
+
+    A number further from what is expected than GATE standard deviations is left out, unless its stream has had PATIENCE
+    more such readings of late than others: then it is the estimate that is wrong.
+    """
+    error, after = ca.SX(ERRORS, 1), []
+    for readings, rejected in zip(streams, ca.vertsplit(rejections), strict=True):
+        gate, far, arrived = rejected < PATIENCE - 0.5, ca.SX(0), ca.SX(0)
+        for difference, row, variance, fresh in readings:
+            seen = P @ row.T
+            expected, left = row @ seen + variance, difference - row @ error
+            off, arrived = fresh * (left**2 > GATE**2 * expected), fresh
+            far = ca.fmax(far, off)
+            gain = (fresh - gate * off) * seen / expected
+            error = error + gain * left
+            P = unpacked(packed(P - gain @ seen.T))
+        after.append(ca.fmin(ca.fmax(rejected + arrived * (2 * far - 1), 0), 2 * PATIENCE))
+    return error, P, ca.vertcat(*after)
 
 
-def corrected(s: State, b: Any, error: Any, vehicle: Any) -> tuple[State, Any, Any]:
+def corrected(s: State, b: Vector, error: Numbers, vehicle: Vehicle) -> tuple[State, Vector, Matrix]:
     """Return the estimate `s` and the tangent vector `b`, corrected by an `error` (13,), and the turn (3, 3)."""
     B, a = frame(b, s.y), lever(vehicle)
     turn = rotation_by(error[TURN])
@@ -120,12 +134,12 @@ class Densities(NamedTuple):
     (rad/s)²/Hz.
     """
 
-    on_vehicle: Any
-    on_bob: Any
+    on_vehicle: Scalar
+    on_bob: Scalar
     turning: float
 
 
-def spread(P: Any, s: State, b: Any, force: Any, vehicle: Any, h: float, densities: Densities) -> Any:
+def spread(P: Numbers, s: State, b: Vector, force: Vector, vehicle: Vehicle, h: float, densities: Densities) -> Numbers:
     """Return the covariance (13, 13) a time `h` (s) after `P` at the state `s`, under the vehicle's `force` (3,), N."""
     B, M, m = frame(b, s.y), vehicle.M, vehicle.m
     u, w = force / (M * vehicle.l), B.T @ s.y_dot
@@ -145,7 +159,7 @@ def spread(P: Any, s: State, b: Any, force: Any, vehicle: Any, h: float, densiti
     return F @ P @ F.T + Q
 
 
-def dot_2(a: Any, b: Any) -> Any:
+def dot_2(a: Numbers, b: Numbers) -> Scalar:
     """Inner product of two vectors (2, 1)."""
     return a[0] * b[0] + a[1] * b[1]
 
@@ -153,7 +167,7 @@ def dot_2(a: Any, b: Any) -> Any:
 # Rows of readings -------------------------------------------------------------------------------------------------
 
 
-def position_rows(b: Any, y: Any, age: Any, vehicle: Any) -> Any:
+def position_rows(b: Vector, y: Vector, age: Scalar, vehicle: Vehicle) -> Numbers:
     """Return the sensitivities (3, 13) of the pivot's position `age` seconds ago, x = c − a y."""
     B, a = frame(b, y), lever(vehicle)
     H = ca.SX(3, ERRORS)
@@ -162,28 +176,28 @@ def position_rows(b: Any, y: Any, age: Any, vehicle: Any) -> Any:
     return H
 
 
-def attitude_rows() -> Any:
+def attitude_rows() -> Numbers:
     """Return the sensitivities (3, 13) of the turn from an estimated attitude to the one read, world frame."""
     H = ca.SX(3, ERRORS)
     H[:, TURN] = ca.SX.eye(3)
     return H
 
 
-def rod_rows(age: Any) -> Any:
+def rod_rows(age: Scalar) -> Numbers:
     """Return the sensitivities (2, 13) of Bᵀ y `age` seconds ago."""
     H = ca.SX(2, ERRORS)
     H[:, ROD], H[:, SWING] = ca.SX.eye(2), -age * ca.SX.eye(2)
     return H
 
 
-def joint_rows(B: Any, y: Any, age: Any) -> Any:
+def joint_rows(B: Numbers, y: Vector, age: Scalar) -> Numbers:
     """Return the sensitivities (2, 13) of Bᵀ R̂ Rᵀ y: the rod as seen from the vehicle."""
     H = rod_rows(age)
     H[:, TURN] = B.T @ hat(y)
     return H
 
 
-def rod_rate_rows(B: Any, y: Any, y_dot: Any) -> Any:
+def rod_rate_rows(B: Numbers, y: Vector, y_dot: Vector) -> Numbers:
     """Return the sensitivities (2, 13) of Bᵀ (R̂ Rᵀ (y × ẏ) × ŷ): the rod's rate as seen from the vehicle."""
     H = ca.SX(2, ERRORS)
     H[:, SWING] = ca.SX.eye(2)
@@ -191,6 +205,6 @@ def rod_rate_rows(B: Any, y: Any, y_dot: Any) -> Any:
     return H
 
 
-def turned_by(R: Any) -> Any:
+def turned_by(R: Matrix) -> Vector:
     """Return the rotation vector (3,) of a small turn `R` (3, 3), to second order."""
     return ca.vertcat(R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]) / 2

@@ -1,60 +1,46 @@
 """The estimator on board: an error-state Kalman filter on R³ × SO(3) × S² with modelled thrust.
 
 Each control period it compares what the sensors read with what it expected then, corrects its estimate, and, once the
-command is given, moves on by a period with the board's own model of vehicle and rotors. Angular velocity and the force
-that an accelerometer adds to the modelled thrust are followed with fixed gains, the solution of their scalar Riccati
-equations; attitude, rod and centre of mass with the covariance of `error_state`.
+command is given, moves on by a period with the board's own model of vehicle and rotors. Attitude, rod and centre of
+mass have the covariance of `error_state`; the thrust's scale and force that an accelerometer adds have one of their own
+(`felt`); the angular velocity is followed with a fixed gain, the solution of its scalar Riccati equation. What corrects
+attitude and velocities again and again is put down to the gyroscope's bias and to forces that last.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from flypend.board import error_state
+from flypend.board import error_state, felt
 from flypend.board.believed import Believed
 from flypend.board.error_state import COVARIANCE, Densities
-from flypend.board.expected import Expected
-from flypend.board.history import History
+from flypend.board.expected import GATED, Expected
+from flypend.board.history import REACH, History, finds_latency
 from flypend.board.twin import Twin
-from flypend.geometry import E3, dot, norm, tangent_part
-from flypend.model import State
+from flypend.compile.record import Field, Record
+from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, dot, norm, tangent_part
+from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import Segment, within_period
-from flypend.plants.sensing import mean_force, readings_size
+from flypend.plants.sensing import mean_force, readings_record
 from flypend.plants.sensors import Sensors
 
-# Bandwidth, 1/s, at which the force that the accelerometer adds to the modelled thrust is followed. A faster one would
-# only pass on its noise: what the model lacks changes slowly, or is noise itself.
-FELT_BANDWIDTH = 0.5
-# Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last: at 0.5 the integral shakes the
-# rod. It falls with the square of the departure of the specific force from that of hover, beyond HOVERING (m/s²): what
-# is corrected in a manoeuvre is put down to the manoeuvre.
-LASTING_BANDWIDTH, HOVERING = 0.15, 0.5
-
-
-@dataclass(frozen=True)
-class Parts:
-    """The memory of a `Filter` in parts.
-
-    State (24,), e₃ up; forces of the rotors (n,), N; first vector of the rod's frame (3,); forces beyond the modelled
-    thrust: total and F_b/m − F_v/M that last (world frame, N and m/s²), and what an accelerometer felt (body frame, N);
-    product of all corrections of the attitude, by rows (9,); covariance (91,); the past.
-    """
-
-    state: Any
-    rotors: Any
-    frame: Any
-    force: Any
-    turned: Any
-    covariance: Any
-    past: Any
+# Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last. Where the attitude is measured,
+# it is FIRST in the beginning, when nothing is known of them, and falls to LASTING as the Riccati equation of a
+# constant in white noise has it. Where it is not, a tilt is confused with a force, and only a slow integral leaves the
+# claimed errors true. In a manoeuvre all fall with the square of the departure of the specific force from that of
+# hover, beyond HOVERING (m/s²): what is corrected there is put down to the manoeuvre.
+FIRST_BANDWIDTH, LASTING_BANDWIDTH, UNSEEN_BANDWIDTH, HOVERING = 1.3, 0.2, 0.15, 0.5
+# The same, 1/s, of corrections of the attitude for a bias of the gyroscope: where it is measured, and where not.
+BIAS_BANDWIDTH, UNSEEN_BIAS_BANDWIDTH = 0.5, 0.05
+# Prior standard deviation of how much older poses are than told, s, and how it walks, s/√s: cameras do not change. A
+# swing-up tells 20 ms within a tenth of a second all the same; a wider prior takes noise of slow turns for a latency.
+LATE, LATE_WALK = 0.002, 1e-4
 
 
 class Filter:
@@ -65,8 +51,7 @@ class Filter:
         self.period = 1 / loop.sampled.rate
         self.history = History.of(self.sensors, self.period)
         self._loop, self._believed = loop, believed
-        lengths = (SIZE, believed.rotors, 3, 9 if self.feels else 6, 9 if self.history.depths["attitude"] else 0)
-        self._lengths = (*lengths, COVARIANCE, self.history.size)
+        self.record = self._record()
 
     @property
     def feels(self) -> bool:
@@ -74,14 +59,39 @@ class Filter:
         return self.sensors.accelerometer is not None
 
     @property
-    def size(self) -> int:
-        """Length of the memory."""
-        return sum(self._lengths)
+    def gated(self) -> tuple[str, ...]:
+        """The streams whose readings are compared with what is expected before they are believed."""
+        return tuple(name for name in self.sensors.streams if name in GATED)
 
-    def split(self, memory: Any) -> Parts:
-        """Return the parts of a `memory`."""
-        ends = np.cumsum([0, *self._lengths])
-        return Parts(*(memory[int(a) : int(b)] for a, b in pairwise(ends)))
+    def _record(self) -> Record:
+        """Return the table of the memory."""
+        sensed = [Field.of(felt.RECORD)]
+        turned = [Field("turned", 9, "product of all corrections of the attitude, world, by rows")]
+        late = [
+            Field("late", 0, "how much older poses are than told, s"),
+            Field("late_doubt", 0, "variance of that, s^2"),
+        ]
+        past = self.history.record
+        fields = (
+            Field("state", SIZE, "the estimate, e3 up"),
+            Field("rotors", self._believed.rotors, "modelled forces of the rotors, N"),
+            Field("frame", 3, "first vector of the frame across the rod, world"),
+            Field("force", 3, "force on the whole that lasts, beyond the modelled thrust, world, N"),
+            Field("bandwidth", 0, "at which corrections are taken for forces, 1/s"),
+            Field("bias", 3, "of the gyroscope, rad/s"),
+            Field("rejections", len(self.gated), "of late by each stream of poses and angles, readings"),
+            Field("difference", 3, "of the forces that last, F_b/m - F_v/M, across the rod, world, m/s^2"),
+            *sensed * self.feels,
+            *late * finds_latency(self.sensors),
+            *turned * bool(self.history.depths["attitude"]),
+            Field(
+                "covariance",
+                COVARIANCE,
+                "of the 13 errors of centre of mass, velocity, attitude, rod and rate, lower triangle by rows",
+            ),
+            *[Field.of(past)] * bool(past.fields),
+        )
+        return Record("estimate", "Error-state Kalman filter.", fields)
 
     def begun(self) -> ca.Function:
         """Return (rotors (n,), estimate (24,), params) → memory before the first step."""
@@ -90,42 +100,87 @@ class Filter:
         b = error_state.any_tangent(s.y)
         P = error_state.first_covariance(self.sensors.start, s, error_state.frame(b, s.y), vehicle)
         rows, weight = ca.vec(s.R.T), s.R.T @ (vehicle.g * E3)
-        turned = ca.vec(ca.SX.eye(3)) if self.history.depths["attitude"] else ca.SX(0, 1)
-        memory = ca.vertcat(
-            packed, rotors, b, np.zeros(9 if self.feels else 6), turned, error_state.packed(P),
-            self.history.begun(rows, weight),
-        )  # fmt: skip
+        memory = self.record.join({
+            "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
+            "bandwidth": UNSEEN_BANDWIDTH if self.sensors.attitude is None else FIRST_BANDWIDTH,
+            "bias": np.zeros(3), "rejections": np.zeros(len(self.gated)),
+            "felt": felt.begun(vehicle), "late": 0, "late_doubt": LATE**2,
+            "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.packed(P),
+            "past": self.history.begun(rows, weight),
+        })  # fmt: skip
         return ca.Function("estimate_begun", [rotors, packed, self._believed.symbols], [ca.densify(memory)])
-
-    def rotors(self, memory: Any) -> Any:
-        """Return the modelled forces of the rotors (n,), N, in a `memory`."""
-        return memory[SIZE : SIZE + self._believed.rotors]
 
     # Correction ---------------------------------------------------------------------------------------------------
 
     def correct(self) -> ca.Function:
         """Return (memory, readings, params) → memory, state (24,), external forces on vehicle and bob (6,), e₃ up."""
-        memory, readings = ca.SX.sym("memory", self.size), ca.SX.sym("readings", readings_size(self.sensors))
-        parts, vehicle = self.split(memory), self._believed.vehicle
-        before, turned = State.symbolic(parts.state), parts.turned
-        known = ca.reshape(turned, 3, 3).T if turned.numel() else ca.SX.eye(3)
-        expected = Expected(self.sensors, self.history, readings, before, parts.frame, known, parts.past)
-        error, P = error_state.updated(error_state.unpacked(parts.covariance), expected.readings(vehicle))
-        s, b, turn = error_state.corrected(before, parts.frame, error, vehicle)
-        omega = expected.omega(self._gyro_gain())
-        s = State(x=s.x, x_dot=s.x_dot, R=s.R, omega=omega, y=s.y, y_dot=s.y_dot)
+        memory = ca.SX.sym("memory", self.record.length)
+        readings = ca.SX.sym("readings", readings_record(self.sensors).length)
+        parts, vehicle = self.record.split(memory), self._believed.vehicle
+        before, frame = State.symbolic(parts["state"]), parts["frame"]
+        known = ca.reshape(parts["turned"], 3, 3).T if "turned" in parts else ca.SX.eye(3)
+        settled = self._settled(parts["covariance"])
+        past, late = parts.get("past"), parts.get("late", 0.0)
+        expected = Expected(self.sensors, self.history, readings, before, frame, known, past, late)
+        if finds_latency(self.sensors):
+            self._find_latency(parts, expected, settled)
+        error, P, rejections = error_state.updated(
+            error_state.unpacked(parts["covariance"]), expected.readings(vehicle), parts["rejections"]
+        )
+        s, b, turn = error_state.corrected(before, frame, error, vehicle)
         limit = self._loop.law.computer.force_limit * vehicle.weight
-        thrust = ca.sum1(parts.rotors) * before.z
-        pace = LASTING_BANDWIDTH / (1 + _departure(thrust, vehicle) / HOVERING**2)
-        force, outside = _lasting(parts.force[:6], error, b, s, vehicle, pace, limit)
+        thrust = ca.sum1(parts["rotors"])
+        departure = _departure(thrust * before.z + parts["force"] + self._felt(parts, before.R), vehicle)
+        calm = 1 / (1 + departure / HOVERING**2)
+        watch = BIAS_BANDWIDTH if self.sensors.attitude is not None else UNSEEN_BIAS_BANDWIDTH * calm
+        bias = parts["bias"] - watch * settled * s.R.T @ error[error_state.TURN]
+        omega = expected.omega(bias, self._gyro_gain())
+        s = State(x=s.x, x_dot=s.x_dot, R=s.R, omega=omega, y=s.y, y_dot=s.y_dot)
+        pace = calm * parts["bandwidth"]
+        if self.sensors.attitude is not None:
+            parts["bandwidth"] -= self.period * calm * (parts["bandwidth"] ** 2 - LASTING_BANDWIDTH**2)
+        force, difference, outside = _lasting(parts["force"], parts["difference"], error, b, s, vehicle, pace, limit)
         if self.feels:
-            felt = expected.force(parts.force[6:], -np.expm1(-FELT_BANDWIDTH * self.period), vehicle)
-            force, outside = ca.vertcat(force, felt), outside + ca.vertcat(s.R @ felt, np.zeros(3))
-        if turned.numel():
-            turned = ca.vec((turn @ known).T)
-        after = ca.vertcat(s.packed(), parts.rotors, b, force, turned, error_state.packed(P), parts.past)
-        outputs = ca.cse([ca.densify(v) for v in (after, s.packed(), outside)])
+            fresh, told = expected.felt(vehicle)
+            given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
+            parts["felt"] = felt.corrected(parts["felt"], *given)
+            outside = outside + ca.vertcat(self._felt(parts, s.R), np.zeros(3))
+        parts |= {
+            "state": s.packed(), "frame": b, "force": force, "difference": difference, "bias": bias,
+            "rejections": rejections, "turned": ca.vec((turn @ known).T), "covariance": error_state.packed(P),
+        }  # fmt: skip
+        outputs = ca.cse([ca.densify(v) for v in (self.record.join(parts), s.packed(), outside)])
         return ca.Function("correct", [memory, readings, self._believed.symbols], outputs)
+
+    def _settled(self, covariance: Numbers) -> Scalar:
+        """Return the steady variance of the attitude over the present one, at most 1; 1 where it is not measured.
+
+        What is still known badly is corrected much, and that says nothing of a bias or a latency: in a Kalman filter of
+        both, the share that is put down to a bias is in this proportion.
+        """
+        attitude, gyro = self.sensors.attitude, self.sensors.gyro
+        if attitude is None:
+            return ca.SX(1)
+        assert gyro is not None
+        P = error_state.unpacked(covariance)[error_state.TURN, error_state.TURN]
+        steady = np.sqrt(gyro.density(self.period) * attitude.density(self.period))
+        return ca.fmin(3 * steady / ca.trace(P), 1)
+
+    def _find_latency(self, parts: dict[str, Any], expected: Expected, settled: Scalar) -> None:
+        """Correct in `parts` how much older poses are than told, by how far the attitude read lags behind its rate."""
+        assert self.sensors.attitude is not None
+        turn, rate = expected.lateness()
+        P = error_state.unpacked(parts["covariance"])[error_state.TURN, error_state.TURN]
+        doubt = parts["late_doubt"] + self.period * LATE_WALK**2
+        variance = doubt * dot(rate, rate) + self.sensors.attitude.variance + ca.trace(P) / 3
+        near = dot(turn, turn) < error_state.GATE**2 * variance  # another body tells nothing
+        gain = settled * expected.fresh("attitude") * near * doubt / variance
+        parts["late"] = ca.fmin(ca.fmax(parts["late"] - gain * dot(rate, turn), 0), REACH)
+        parts["late_doubt"] = doubt * (1 - gain * dot(rate, rate))
+
+    def _felt(self, parts: dict[str, Any], R: Matrix) -> Vector:
+        """Return the force (3,) that the accelerometer adds to the modelled thrust, world, N; 0 without one."""
+        return R @ felt.beyond(parts["felt"], ca.sum1(parts["rotors"])) if self.feels else ca.SX.zeros(3)
 
     # Propagation --------------------------------------------------------------------------------------------------
 
@@ -134,34 +189,37 @@ class Filter:
         segments = assumed_segments(self._loop.sampled)
         count = 1 + max(segment.age for segment in segments)
         width = 4 if self._loop.sampled.interface == "rates" else self._believed.rotors
-        memory, outside = ca.MX.sym("memory", self.size), ca.MX.sym("outside", 6)
-        acting = outside
+        memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", 6)
         commands = ca.MX.sym("commands", width * count)
         params = ca.MX.sym("params", self._believed.symbols.numel())
         twin = Twin(self._loop, self._believed, params, forces=True, name="carried")
-        state, rotors = memory[:SIZE], self.rotors(memory)
+        state, rotors = (memory[self.record.place(name)] for name in ("state", "rotors"))
         given = ca.vertsplit(commands, width)
-        state, rotors = twin.advance(state, rotors, given, segments, acting)
-        rest = self._spread()(memory, acting, state, params)
+        state, rotors = twin.advance(state, rotors, given, segments, outside)
+        rest = self._spread()(memory, outside, state, params)
         after = ca.vertcat(state, rotors, rest)
         return ca.Function("carry", [memory, outside, commands, params], [after])
 
     def _spread(self) -> ca.Function:
         """Return (memory, outside, state after, params) → the memory after state and rotors, a period later."""
-        memory, outside, after = ca.SX.sym("memory", self.size), ca.SX.sym("outside", 6), ca.SX.sym("after", SIZE)
-        parts, vehicle, h = self.split(memory), self._believed.vehicle, self.period
-        s, s_after = State.symbolic(parts.state), State.symbolic(after)
-        force = ca.sum1(parts.rotors) * s.z + outside[:3]
-        P = error_state.unpacked(parts.covariance)
-        P = error_state.spread(P, s, parts.frame, force, vehicle, h, self._densities(force))
-        b = error_state.carried_frame(parts.frame, s.y, s_after.y)
-        past = self._remembered(parts, s, s_after)
-        rest = ca.vertcat(b, parts.force, parts.turned, error_state.packed(P), past)
+        memory = ca.SX.sym("memory", self.record.length)
+        outside, after = ca.SX.sym("outside", 6), ca.SX.sym("after", SIZE)
+        parts, vehicle, h = self.record.split(memory), self._believed.vehicle, self.period
+        s, s_after = State.symbolic(parts["state"]), State.symbolic(after)
+        force = ca.sum1(parts["rotors"]) * s.z + outside[:3]
+        P = error_state.unpacked(parts["covariance"])
+        P = error_state.spread(P, s, parts["frame"], force, vehicle, h, self._densities(force + outside[3:]))
+        parts |= {
+            "frame": error_state.carried_frame(parts["frame"], s.y, s_after.y),
+            "covariance": error_state.packed(P),
+            "past": self._remembered(parts, s, s_after),
+        }
+        rest = self.record.join(parts)[self.record.place("frame").start :]
         return ca.Function("spread", [memory, outside, after, self._believed.symbols], [ca.cse(ca.densify(rest))])
 
-    def _remembered(self, parts: Parts, s: State, after: State) -> Any:
+    def _remembered(self, parts: dict[str, Any], s: State, after: State) -> Numbers:
         """Return the past a period later; newest entries are those of the period that ends now."""
-        history, past = self.history, self.history.split(parts.past)
+        history, past = self.history, self.history.split(parts.get("past"))
         entries = {
             "x": history.moved(past["x"], s.x, s.x_dot, after.x, after.x_dot),
             "y": history.moved(past["y"], s.y, s.y_dot, after.y, after.y_dot),
@@ -170,11 +228,11 @@ class Filter:
             "force": [self._expected_force(s, after), *past["force"]],
         }
         if history.depths["attitude"]:
-            turned = ca.reshape(parts.turned, 3, 3).T
+            turned = ca.reshape(parts["turned"], 3, 3).T
             entries["attitude"] = [ca.vec((turned.T @ s.R).T), *past["attitude"]]
         return history.joined(entries)
 
-    def _expected_force(self, s: State, after: State) -> Any:
+    def _expected_force(self, s: State, after: State) -> Vector:
         return mean_force(s.x_dot, after.x_dot, s.R, after.R, self._believed.vehicle.g, self.period)
 
     def _gyro_gain(self) -> float:
@@ -182,39 +240,51 @@ class Filter:
         assert gyro is not None
         return steady_gain(self.sensors.moment_error**2 / min(gyro.rate, 1 / self.period), gyro.variance)
 
-    def _densities(self, force: Any) -> Densities:
-        """Return the densities at a `force` (3,) of the vehicle on its rotors' axes, world frame, N.
+    def _densities(self, force: Vector) -> Densities:
+        """Return the densities where `force` (3,) acts on the whole beside its weight, world frame, N.
 
-        The noise of the accelerometer is part of the force that it adds. It is slower than white noise; to count it in
-        full claims too little of the height, not too much of anything.
+        The faster the accelerometer is followed, the less the model's own errors count. Its noise counts in full, but
+        what passes in hover is slower: forces that last are taken from the same corrections, which is not counted.
         """
-        sensors = self.sensors
+        sensors, departure = self.sensors, _departure(force, self._believed.vehicle)
         assert sensors.gyro is not None
-        lacking = sensors.force_error**2 + sensors.manoeuvre_error**2 * _departure(force, self._believed.vehicle)
-        felt = 0.0 if sensors.accelerometer is None else sensors.accelerometer.density(self.period)
-        return Densities(lacking + felt, lacking, sensors.gyro.density(self.period))
+        steady, lacking = sensors.force_error**2, sensors.manoeuvre_error**2 * departure
+        turning = sensors.gyro.density(self.period)
+        share = sensors.trust(self.period, departure)
+        noise = 0.0 if sensors.accelerometer is None else sensors.accelerometer.density(self.period)
+        on_vehicle = steady + (1 - share) * lacking + noise
+        return Densities(on_vehicle, steady + lacking, turning)
 
 
-def _departure(force: Any, vehicle: Any) -> Any:
+def _departure(force: Vector, vehicle: Vehicle) -> Scalar:
     """Return the squared departure, (m/s²)², of the specific force from that of hover, for the vehicle's `force`, N."""
     departure = force / (vehicle.M + vehicle.m) - vehicle.g * E3
     return dot(departure, departure)
 
 
-def _lasting(force: Any, error: Any, b: Any, s: State, vehicle: Any, pace: Any, limit: Any) -> tuple[Any, Any]:
-    """Return total force and F_b/m − F_v/M across the rod (6,) after a correction, and on vehicle and bob (6,), N.
+def _lasting(
+    total: Vector,
+    difference: Vector,
+    error: Numbers,
+    b: Vector,
+    s: State,
+    vehicle: Vehicle,
+    pace: Scalar,
+    limit: Scalar,
+) -> tuple[Vector, Vector, Numbers]:
+    """Return `total` force and `difference` across the rod, each (3,), corrected, and on vehicle and bob (6,), N.
 
     A velocity that is corrected again and again in one direction is driven by a force: the integral of the corrections.
     Forces are limited to `limit`, N.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
-    total = force[:3] + pace * (M + m) * error[error_state.VELOCITY]
+    total = total + pace * (M + m) * error[error_state.VELOCITY]
     B = error_state.frame(b, s.y)
     total = total / ca.fmax(1, norm(total) / limit)
-    difference = tangent_part(s.y, force[3:]) + pace * l * B @ error[error_state.SWING]
+    difference = tangent_part(s.y, difference) + pace * l * B @ error[error_state.SWING]
     difference = difference / ca.fmax(1, norm(difference) * m / limit)
     on_bob = m * M / (M + m) * (difference + total / M)
-    return ca.vertcat(total, difference), ca.vertcat(total - on_bob, on_bob)
+    return total, difference, ca.vertcat(total - on_bob, on_bob)
 
 
 def assumed_delay(plant: Plant) -> float:

@@ -15,6 +15,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.compile.record import Field, Record
+from flypend.geometry import Numbers, Scalar, Vector
+from flypend.plants.defects import POSES
 from flypend.plants.sensors import Sensors
 from flypend.plants.timing import timing
 
@@ -29,6 +32,22 @@ QUANTITIES: Mapping[str, tuple[int, tuple[str, ...]]] = {
     "attitude": (9, ("attitude", "joints", "rod_gyro")),
     "force": (3, ("accelerometer",)),
 }
+_WHAT = {
+    "x": "by how much acceleration has moved the pivot since, m",
+    "y": "the same of the rod",
+    "turning": "omega then less omega now, rad/s",
+    "swinging": "y_dot then less y_dot now, 1/s",
+    "attitude": "R then, without the corrections in `turned`, by rows",
+    "force": "specific force expected of the accelerometer, m/s^2",
+}
+
+# How much older than told poses may be, s.
+REACH = 0.024
+
+
+def finds_latency(sensors: Sensors) -> bool:
+    """Whether a measured attitude tells, beside the gyroscope, how much older poses of `sensors` are than told."""
+    return sensors.attitude is not None
 
 
 @dataclass(frozen=True)
@@ -50,6 +69,8 @@ class History:
     def of(cls, sensors: Sensors, period: float) -> History:
         """Return the history that the latest readings of `sensors` need at a control `period` (s)."""
         depth = {name: timing(sensor, period).depth for name, sensor in sensors.streams.items()}
+        if finds_latency(sensors):
+            depth |= {name: depth[name] + int(np.ceil(REACH / period)) for name in POSES if name in depth}
         found = {name: max(depth.get(stream, 0) for stream in streams) for name, (_, streams) in QUANTITIES.items()}
         found["force"] += "accelerometer" in depth  # that of the period that has just ended
         return cls(found, period)
@@ -60,31 +81,31 @@ class History:
         return (min(depths) + 0.5) * self.period
 
     @property
-    def size(self) -> int:
-        """Length of the memory."""
-        return sum(QUANTITIES[name][0] * depth for name, depth in self.depths.items())
+    def record(self) -> Record:
+        """Table of the memory."""
+        lengths = {name: depth * QUANTITIES[name][0] for name, depth in self.depths.items()}
+        fields = tuple(Field(name, length, _WHAT[name]) for name, length in lengths.items() if length)
+        return Record("past", "The last control periods, newest first.", fields)
 
-    def split(self, memory: Any) -> dict[str, list[Any]]:
+    def split(self, memory: Numbers) -> dict[str, list[Numbers]]:
         """Return the entries of each quantity, newest first, of a `memory`."""
-        found, place = {}, 0
-        for name, depth in self.depths.items():
-            width = QUANTITIES[name][0]
-            found[name] = [memory[place + i * width : place + (i + 1) * width] for i in range(depth)]
-            place += depth * width
+        found: dict[str, list[Any]] = {name: [] for name in self.depths}
+        for name, numbers in self.record.split(memory).items():
+            found[name] = ca.vertsplit(numbers, QUANTITIES[name][0])
         return found
 
-    def joined(self, entries: Mapping[str, Sequence[Any]]) -> Any:
+    def joined(self, entries: Mapping[str, Sequence[Any]]) -> Numbers:
         """Return the memory of `entries`, of which the oldest are dropped."""
-        return ca.vertcat(*(ca.vertcat(*entries[name][:depth]) for name, depth in self.depths.items() if depth))
+        return self.record.join({name: ca.vertcat(*some[: self.depths[name]]) for name, some in entries.items()})
 
-    def begun(self, attitude: Any, force: Any) -> Any:
+    def begun(self, attitude: Numbers, force: Vector) -> Numbers:
         """Return the memory at rest in `attitude` (9,) by rows under a specific `force` (3,), body frame, m/s²."""
         still = {"attitude": attitude, "force": force}
         return self.joined(
             {name: [still.get(name, np.zeros(QUANTITIES[name][0]))] * depth for name, depth in self.depths.items()}
         )
 
-    def at(self, entries: Sequence[Any], now: Any, age: Any) -> Any:
+    def at(self, entries: Sequence[Any], now: Numbers, age: Scalar) -> Numbers:
         """Return a quantity `age` seconds ago, from its `now` and its `entries`."""
         ticks, found = age / self.period, 0.0
         for i, entry in enumerate([now, *entries]):
@@ -92,13 +113,15 @@ class History:
             found = found + weight * entry
         return found
 
-    def moved(self, entries: Sequence[Any], begin: Any, begin_rate: Any, end: Any, end_rate: Any) -> list[Any]:
+    def moved(
+        self, entries: Sequence[Any], begin: Vector, begin_rate: Vector, end: Vector, end_rate: Vector
+    ) -> list[Vector]:
         """Return the entries of W after a period in which a quantity went from `begin` to `end`, with those rates."""
         gained = begin - end + self.period * end_rate
         change = self.period * (end_rate - begin_rate)
         return [gained, *(entry + gained + (i + 1) * change for i, entry in enumerate(entries))]
 
-    def shifted(self, entries: Sequence[Any], begin: Any, end: Any) -> list[Any]:
+    def shifted(self, entries: Sequence[Any], begin: Vector, end: Vector) -> list[Vector]:
         """Return the entries of a rate, less its present value, after a period in which it changed so."""
         change = begin - end
         return [change, *(entry + change for entry in entries)]

@@ -5,14 +5,23 @@ from __future__ import annotations
 import casadi as ca
 
 from flypend.board.believed import Believed
+from flypend.compile.record import Field, Record
 from flypend.geometry import E3, cross
 from flypend.laws import Computer
 from flypend.model import State, linear_momentum
 from flypend.model.momenta import pull_on_rod
 from flypend.model.state import SIZE
 
-# Size of the observer's memory: a flag (initialised), and six each of momentum estimates, known rates and unknowns.
-MEMORY = 1 + 3 * 6
+RECORD = Record(
+    "observer",
+    "Observer of external forces.",
+    (
+        Field("begun", 0, "1 once it has a measurement, else 0"),
+        Field("momenta", 6, "estimates of (M + m) x_dot + m l y_dot, N s, and y x y_dot, 1/s"),
+        Field("known", 6, "the part of their rates that is known, N and 1/s^2"),
+        Field("unknown", 6, "estimate of the rest, due to external forces, N and 1/s^2"),
+    ),
+)
 
 
 def observer(believed: Believed, computer: Computer, period: float, thrusts: int) -> ca.Function:
@@ -49,8 +58,8 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     vehicle, L = believed.vehicle, computer.observer
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     packed, given = ca.SX.sym("s", SIZE), ca.SX.sym("f", thrusts)
-    memory = ca.SX.sym("memory", MEMORY)
-    begun, momenta, before, estimate = ca.vertsplit(memory, [0, 1, 7, 13, 19])
+    memory = ca.SX.sym("memory", RECORD.length)
+    begun, momenta, before, estimate = RECORD.split(memory).values()
     s = State.symbolic(packed)
     measured = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
     f = ca.sum1(given)
@@ -62,6 +71,6 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     on_bob = m * M / (M + m) * (difference + total / M)
     limit = computer.force_limit * vehicle.weight
     forces = [force / ca.fmax(1, ca.norm_2(force) / limit) for force in (total - on_bob, on_bob)]
-    kept = ca.vertcat(1, following, known, unknown)
+    kept = RECORD.join({"begun": 1, "momenta": following, "known": known, "unknown": unknown})
     outputs = ca.cse([ca.densify(kept), ca.densify(ca.vertcat(*forces))])
     return ca.Function("observe", [packed, given, memory, believed.symbols], outputs)

@@ -9,7 +9,7 @@ model and its queue of commands in transit.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -22,17 +22,19 @@ from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, assumed_delay, assumed_segments
 from flypend.board.twin import Twin
+from flypend.compile.record import Field, Record
+from flypend.geometry import Numbers
 from flypend.model.state import SIZE
 from flypend.plants.lag import held, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import Segment, ahead, within_period
-from flypend.plants.sensing import readings_size
+from flypend.plants.sensing import readings_record
 
 
 @dataclass(frozen=True, eq=False)
-class Board:
-    """The flight computer of a loop.
+class Parts:
+    """What the board of `loop`, as `believed`, consists of.
 
     Parameters
     ----------
@@ -40,34 +42,87 @@ class Board:
         Vehicle, law and plant.
     believed : Believed
         The nominal vehicle of its equations.
-    reference : int
-        Length of the reference input at every step.
-    step : Function
-        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
-        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is time and
-        readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
+    estimator : Filter or Differences, optional
+        What estimates the state; None for a plant that measures the state itself.
+    finding : DelayEstimator, optional
+        What finds the delay; None if the law has no reach, or under a rate loop, whose forces the board does not know.
+    memory : Record
+        Table of the memory: `rotors`, the observer and the delay estimator if there are any, the `commands` in transit,
+        newest first, and, with an estimator, its `estimate`.
     """
 
     loop: Loop
     believed: Believed
-    reference: int
-    step: ca.Function
+    estimator: Filter | Differences | None
+    finding: DelayEstimator | None
+    memory: Record
+
+    @property
+    def own(self) -> Record:
+        """Table of the memory without that of the estimator."""
+        return self._only(*(field.name for field in self.memory.fields if field.name != "estimate"))
+
+    @property
+    def kept(self) -> Record:
+        """Table of the memory of observer and delay estimator."""
+        return self._only("observer", "delay")
+
+    def _only(self, *names: str) -> Record:
+        return replace(self.memory, fields=tuple(field for field in self.memory.fields if field.name in names))
+
+    @property
+    def observes(self) -> bool:
+        """Whether there is an observer of external forces. A `Filter` estimates them itself."""
+        return self.loop.law.computer.observer > 0 and not filters(self.loop.sampled)
+
+    def commands(self, memory: Numbers) -> list[Numbers]:
+        """Return the commands in transit in a `memory`, newest first."""
+        return ca.vertsplit(memory[self.memory.place("commands")], command_width(self.loop))  # type: ignore[no-any-return]
+
+    def delay(self, memory: Numbers) -> float | None:
+        """Return the delay, s, that the board has found, from its `memory`; None if it does not look for it."""
+        return None if self.finding is None else float(memory[self.memory.place("delay.found")].item())
+
+    @property
+    def symbols(self) -> tuple[Numbers, Numbers, Numbers]:
+        """Symbols for its own memory, a measurement (25,) and the parameters."""
+        params = ca.MX.sym("params", self.believed.symbols.numel())
+        return ca.MX.sym("memory", self.own.length), ca.MX.sym("measurement", 1 + SIZE), params
 
 
-def initial_memory(loop: Loop, rotors: Any, estimate: Any = None, believed: Believed | None = None) -> Any:
+def parts(loop: Loop, believed: Believed | None = None) -> Parts:
+    """Return what the board of `loop` consists of, as `believed`, by default the vehicle of `loop` as numbers."""
+    believed = believed or Believed.numbers(loop.vehicle)
+    found = Parts(loop, believed, estimator(loop, believed), delay_estimator(loop, believed), Record("", "", ()))
+    count, width = len(loop.vehicle.rotor_spins), command_width(loop)
+    unit = "thrust, N, and body rates, rad/s" if loop.sampled.interface == "rates" else "N"
+    records = [observing.RECORD] * found.observes + [part.record for part in (found.finding,) if part is not None]
+    fields = [
+        Field("rotors", count, "modelled forces of the rotors, N"),
+        *map(Field.of, records),
+        Field("commands", _under_way(loop) * width, f"commands in transit, newest first, {unit}"),
+    ]
+    if found.estimator is not None:
+        fields.append(Field.of(found.estimator.record))
+    return replace(found, memory=Record("memory", "What the flight computer remembers.", tuple(fields)))
+
+
+def initial_memory(loop: Loop, rotors: Numbers, estimate: Numbers = None, believed: Believed | None = None) -> Numbers:
     """Return the memory (k,) of the board of `loop` before its first step, for current rotor forces `rotors` (n,), N.
 
     Numbers or CasADi symbols. A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up, and the
     `believed` vehicle, by default that of `loop`.
     """
-    believed = believed or Believed.numbers(loop.vehicle)
-    finding = delay_estimator(loop, believed)
-    late = np.zeros(0) if finding is None else finding.begun(rotors)
-    parts = [rotors, np.zeros(observer_memory(loop)), late, *[idle_command(loop, rotors)] * depth(loop)]
-    if (filtering := estimator(loop, believed)) is not None:
-        begun = filtering.begun()(rotors, estimate, believed.symbols if believed.symbols.numel() else [])
-        parts.append(begun if isinstance(rotors, ca.SX) else begun.full().ravel())
-    return ca.vertcat(*parts) if isinstance(rotors, ca.SX) else np.concatenate(parts)
+    made = parts(loop, believed)
+    begun = {"rotors": rotors, "observer": np.zeros(observing.RECORD.length)}
+    begun["commands"] = ca.vertcat(*[idle_command(loop, rotors)] * _under_way(loop))
+    if made.finding is not None:
+        begun["delay"] = made.finding.begun(rotors)
+    if made.estimator is not None:
+        symbols = made.believed.symbols
+        begun["estimate"] = made.estimator.begun()(rotors, estimate, symbols if symbols.numel() else [])
+    memory = made.memory.join(begun)
+    return memory if isinstance(rotors, ca.SX) else memory.full().ravel()
 
 
 def known(plant: Plant) -> Plant:
@@ -92,11 +147,6 @@ def estimator(loop: Loop, believed: Believed) -> Filter | Differences | None:
     return Filter(loop, believed) if filters(loop.sampled) else Differences(loop, believed)
 
 
-def observer_memory(loop: Loop) -> int:
-    """Return the size of the observer's memory. There is none beside a `Filter`, which estimates the forces itself."""
-    return observing.MEMORY if loop.law.computer.observer > 0 and not filters(loop.sampled) else 0
-
-
 def finds_delay(loop: Loop) -> bool:
     """Whether the board of `loop` finds its delay in flight; not under a rate loop, whose forces it does not know."""
     return loop.law.computer.delay_reach > 0 and loop.sampled.interface != "rates"
@@ -116,34 +166,15 @@ def filters(plant: Plant) -> bool:
     return plant.sensors is not None and plant.sensors.rates == "estimated"
 
 
-def depth(loop: Loop) -> int:
+def _under_way(loop: Loop) -> int:
     """Return the number of commands to remember: all that are applied from now until the next one takes effect."""
     assumed = () if loop.sampled.sensors is None else assumed_segments(loop.sampled)
     return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop), *assumed)))
 
 
-def memory_size(loop: Loop) -> int:
-    """Return the size of the memory that the board keeps between steps, the estimator's excepted."""
-    return len(loop.vehicle.rotor_spins) + kept_memory(loop) + depth(loop) * command_width(loop)
-
-
-def found_delay(loop: Loop, memory: Any) -> float | None:
-    """Return the delay, s, that the board of `loop` has found, from its `memory`; None if it does not look for it."""
-    if (finding := delay_estimator(loop, Believed.numbers(loop.vehicle))) is None:
-        return None
-    first = len(loop.vehicle.rotor_spins) + observer_memory(loop)
-    return finding.delay(memory[first : first + finding.size])
-
-
-def kept_memory(loop: Loop) -> int:
-    """Return the size of the memory of observer and delay estimator, between rotors and commands."""
-    finding = delay_estimator(loop, Believed.numbers(loop.vehicle))
-    return observer_memory(loop) + (0 if finding is None else finding.size)
-
-
 def board(
     loop: Loop, believed: Believed | None = None, command: ca.Function | None = None, reference: int = 0
-) -> Board:
+) -> ca.Function:
     """Build the flight computer of `loop`.
 
     Parameters
@@ -157,33 +188,38 @@ def board(
         Replacement for `law_command`, with the same inputs; default the law about its own reference.
     reference : int
         Length of the reference input of `command`.
+
+    Returns
+    -------
+    Function
+        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
+        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is time and
+        readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
     """
-    believed = believed or Believed.numbers(loop.vehicle)
-    predict, remember = predicting(loop, believed), remembering(loop, believed)
+    made = parts(loop, believed)
+    believed, read = made.believed, SIZE if made.estimator is None else readings_record(loop.sampled.sensors).length
+    predict, remember = predicting(made), remembering(made)
     command = command or law_command(loop, believed, steering(loop.symbolic))
-    filtering, own = estimator(loop, believed), memory_size(loop)
-    size, read = (0, SIZE) if filtering is None else (filtering.size, readings_size(loop.sampled.sensors))
-    whole, measurement = ca.MX.sym("memory", own + size), ca.MX.sym("measurement", 1 + read)
+    whole, measurement = ca.MX.sym("memory", made.memory.length), ca.MX.sym("measurement", 1 + read)
     path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
     params = ca.MX.sym("params", believed.symbols.numel())
     memory, measured = whole, measurement
-    if filtering is not None:
-        memory = whole[:own]
-        corrected, state, outside = filtering.correct()(whole[own:], measurement[1:], params)
+    if made.estimator is not None:
+        memory = whole[: made.own.length]
+        estimate = whole[made.memory.place("estimate")]
+        corrected, state, outside = made.estimator.correct()(estimate, measurement[1:], params)
         measured = ca.vertcat(measurement[0], state)
     estimated = [outside] if filters(loop.sampled) else []
     kept, forces, state, rotors, horizon = predict(memory, measured, params, *estimated)
     # CasADi returns a call whose value is always 0 as a sparse vector, which would leave the last command in place.
     given = ca.densify(command(measured[0], horizon, state, rotors, forces, path, gains, params))
     after = remember(memory, kept, measured, forces, given, params)
-    if filtering is not None:
-        commands = ca.vertcat(given, *_parts(loop, memory)[2])
-        carry = filtering.carry()
+    if made.estimator is not None:
+        commands = ca.vertcat(given, memory[made.memory.place("commands")])
+        carry = made.estimator.carry()
         after = ca.vertcat(after, carry(corrected, outside, commands[: carry.size1_in(2)], params))
-    memory = whole
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
-    step = ca.Function("board", [memory, measurement, path, gains, params], [after, given], *names)
-    return Board(loop, believed, reference, step)
+    return ca.Function("board", [whole, measurement, path, gains, params], [after, given], *names)
 
 
 def _ahead(loop: Loop) -> tuple[Segment, ...]:
@@ -199,61 +235,53 @@ def _in_transit(loop: Loop) -> float:
     return 0.0 if finds_delay(loop) else loop.law.computer.latency
 
 
-def _parts(loop: Loop, memory: Any) -> tuple[Any, Any, Sequence[Any]]:
-    """Return modelled rotors, observer memory, and the commands in transit, newest first."""
-    n, k, width = len(loop.vehicle.rotor_spins), kept_memory(loop), command_width(loop)
-    ends = [0, n, n + k, *(n + k + width * (i + 1) for i in range(depth(loop)))]
-    rotors, kept, *commands = ca.vertsplit(memory, ends)
-    return rotors, kept, commands
-
-
-def predicting(loop: Loop, believed: Believed) -> ca.Function:
+def predicting(made: Parts) -> ca.Function:
     """Return (memory, measurement, params) → kept memory, forces (6,), state (24,), rotors (n,), and horizon (s).
 
     State and rotors are those after the horizon, when the next command is taken to act.
 
     With a `Filter` there is one more input, the forces (6,) that it estimates, in place of the observer.
     """
-    memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
-    params = ca.MX.sym("params", believed.symbols.numel())
-    rotors, kept, commands = _parts(loop, memory)
+    loop, believed, finding = made.loop, made.believed, made.finding
+    memory, measurement, params = made.symbols
+    before, commands = made.own.split(memory), made.commands(memory)
+    rotors = thrusts = before["rotors"]
     state, forces, horizon = measurement[1:], ca.MX(ca.DM.zeros(6)), ca.MX(loop.law.computer.latency)
     given = [ca.MX.sym("forces", 6)] if filters(loop.sampled) else []
     if given and loop.law.computer.observer > 0:
         forces = given[0]
-    observed, finding, thrusts = observer_memory(loop), delay_estimator(loop, believed), rotors
-    observer_kept, late = kept[:observed], kept[observed:]
+    kept = {}
     if finding is not None:
-        late, horizon, wrenches = finding.find()(late, state[15:18], rotors, commands[0], params)
+        kept["delay"], horizon, wrenches = finding.find()(before["delay"], state[15:18], rotors, commands[0], params)
         thrusts = wrenches[0, 2]
-    if observed:
+    if made.observes:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
-        observer_kept, forces = observe(state, thrusts, observer_kept, params)
+        kept["observer"], forces = observe(state, thrusts, before["observer"], params)
     if finding is not None:
         state = finding.carry()(state, horizon, wrenches, forces, params)
-    kept = ca.vertcat(observer_kept, late)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
     state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
-    return ca.Function("predict", [memory, measurement, params, *given], [kept, forces, state, rotors, horizon])
+    outputs = [made.kept.join(kept), forces, state, rotors, horizon]
+    return ca.Function("predict", [memory, measurement, params, *given], outputs)
 
 
-def _twin(loop: Loop, believed: Believed, params: Any) -> Twin:
+def _twin(loop: Loop, believed: Believed, params: Numbers) -> Twin:
     return Twin(loop, believed, params, forces=loop.law.computer.observer > 0)
 
 
-def remembering(loop: Loop, believed: Believed) -> ca.Function:
-    """Return (memory, observer memory, measurement, forces, command, params) → memory."""
-    memory, measurement = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("measurement", 1 + SIZE)
-    kept, forces = ca.MX.sym("kept", kept_memory(loop)), ca.MX.sym("forces", 6)
-    command, params = ca.MX.sym("command", command_width(loop)), ca.MX.sym("params", believed.symbols.numel())
-    rotors, _, commands = _parts(loop, memory)
-    under_way = [command, *commands]
+def remembering(made: Parts) -> ca.Function:
+    """Return (memory, kept memory, measurement, forces, command, params) → memory."""
+    loop, believed = made.loop, made.believed
+    memory, measurement, params = made.symbols
+    kept, forces = ca.MX.sym("kept", made.kept.length), ca.MX.sym("forces", 6)
+    command = ca.MX.sym("command", command_width(loop))
+    rotors, under_way = memory[made.own.place("rotors")], [command, *made.commands(memory)]
     if loop.sampled.interface == "rates":  # the rate loop's rotor commands depend on the rotation
         twin = _twin(loop, believed, params)
         _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), forces)
     else:
         rotors = _lagged(loop, believed, rotors, under_way)
-    after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])
+    after = ca.vertcat(rotors, kept, *under_way[:-1])
     return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])
 
 
@@ -263,21 +291,20 @@ def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     The observer restarts from its current estimates. Only for commands that are rotor forces: under a rate loop, the
     rotor forces depend on the body's rotation, which was not measured.
     """
-    memory, command = ca.MX.sym("memory", memory_size(loop)), ca.MX.sym("command", command_width(loop))
-    rotors, kept, commands = _parts(loop, memory)
-    observed, finding = observer_memory(loop), delay_estimator(loop, believed)
-    zero = ca.MX(ca.DM.zeros(1))
-    parts = [ca.vertcat(zero, kept[1:observed])] if observed else []
-    if finding is not None:
-        parts.append(finding.skipped()(kept[observed:], rotors))
-    kept = ca.vertcat(*parts)
-    under_way = [command, *commands]
-    rotors = _lagged(loop, believed, rotors, under_way)
-    after = ca.vertcat(rotors, kept, *under_way[: depth(loop)])
-    return ca.Function("unmeasured", [memory, command], [after])
+    made = parts(loop, believed)
+    memory, command = ca.MX.sym("memory", made.own.length), ca.MX.sym("command", command_width(loop))
+    after, under_way = made.own.split(memory), [command, *made.commands(memory)]
+    if made.observes:
+        after["observer"] = ca.vertcat(ca.MX(ca.DM.zeros(1)), after["observer"][1:])
+    if made.finding is not None:
+        after["delay"] = made.finding.skipped()(after["delay"], after["rotors"])
+    after |= {
+        "rotors": _lagged(loop, believed, after["rotors"], under_way), "commands": ca.vertcat(*under_way[:-1])
+    }  # fmt: skip
+    return ca.Function("unmeasured", [memory, command], [made.own.join(after)])
 
 
-def _lagged(loop: Loop, believed: Believed, rotors: Any, under_way: Sequence[Any]) -> Any:
+def _lagged(loop: Loop, believed: Believed, rotors: Numbers, under_way: Sequence[Any]) -> Numbers:
     """Return the modelled `rotors` one period later, under the rotor forces in transit."""
     for age, duration in _within(loop):
         rotors = _lag(believed, round(1e9 * duration))(rotors, under_way[age])

@@ -9,6 +9,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.board.believed import Believed
+from flypend.geometry import Numbers
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop
@@ -30,7 +31,7 @@ class Twin:
     `forces` says whether external forces act; `name` begins the names of its programs.
     """
 
-    def __init__(self, loop: Loop, believed: Believed, params: Any, *, forces: bool, name: str = "twin") -> None:
+    def __init__(self, loop: Loop, believed: Believed, params: Numbers, *, forces: bool, name: str = "twin") -> None:
         self._name = name
         self._plant, self._believed, self._params, self._forces = loop.sampled, believed, params, forces
         self._steps: dict[str, ca.Function] = {}
@@ -41,8 +42,8 @@ class Twin:
             self._loop = rate_loop(believed.vehicle, plant.limits, plant.rate_loop_gain, believed.symbols)
 
     def advance(
-        self, state: Any, rotors: Any, commands: Sequence[Any], segments: Sequence[Segment], forces: Any
-    ) -> tuple[Any, Any]:
+        self, state: Numbers, rotors: Numbers, commands: Sequence[Any], segments: Sequence[Segment], forces: Numbers
+    ) -> tuple[Numbers, Numbers]:
         """Return state (24,) and rotor forces (n,), N, after the `segments`, under `forces` (6,), N.
 
         `commands` has the commands by age.

@@ -1,0 +1,104 @@
+"""What an accelerometer feels beyond the modelled thrust: a scale of the thrust and a force, told apart.
+
+Wrong masses, weak rotors and a sagging battery act along the thrust and in proportion to it; wind and what else the
+model lacks does not. With the modelled thrust f, the accelerometer of a body with axes R tells the force
+
+    s f e₃ + d + noise,    s the scale and d the force, body axes,
+
+each period. A Kalman filter follows s and the third component of d jointly, and the two others by themselves. While f
+hardly changes, as in hover, only the sum s f + d₃ is told, and the prior shares it; a manoeuvre tells both. The walk of
+d is that of `Sensors.following`: slow in hover, where the model is better than the accelerometer, and fast in a
+manoeuvre, where it is worse, so that the motion follows what the accelerometer reads.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+
+from flypend.compile.record import Field, Record
+from flypend.geometry import Numbers, Scalar, Vector
+from flypend.model import Vehicle
+from flypend.plants.sensors import Sensors
+
+RECORD = Record(
+    "felt",
+    "What the accelerometer feels beyond the modelled thrust.",
+    (
+        Field("force", 3, "force beyond the scaled thrust, body, N"),
+        Field("scale", 0, "true over modelled thrust, less 1"),
+        Field("across", 0, "variance of each of the first two components of the force, N^2"),
+        Field("along", 0, "that of the third, N^2"),
+        Field("doubt", 0, "variance of the scale"),
+        Field("shared", 0, "covariance of scale and third component, N"),
+    ),
+)
+# Prior standard deviations of scale and of force, in weights of the vehicle.
+SCALE, FORCE = 0.1, 0.05
+# Random walk of the scale, 1/√s: a battery and warm motors take minutes, a first estimate should take a second.
+SCALE_WALK = 0.01
+# Largest scale that is believed; a motor that is lost is no scale.
+MOST_SCALE = 0.35
+
+
+def begun(vehicle: Vehicle) -> Numbers:
+    """Return the memory (8,) before the first reading, for a `vehicle` of numbers or symbols."""
+    force = (FORCE * vehicle.g * vehicle.M) ** 2
+    return RECORD.join(
+        {"force": ca.DM.zeros(3), "scale": 0, "across": force, "along": force, "doubt": SCALE**2, "shared": 0}
+    )
+
+
+def beyond(memory: Numbers, thrust: Scalar) -> Vector:
+    """Return the force (3,) beyond the modelled `thrust` (N), body axes, N."""
+    felt = RECORD.split(memory)
+    return felt["force"] + ca.vertcat(0, 0, felt["scale"] * thrust)
+
+
+def corrected(
+    memory: Numbers,
+    fresh: Scalar,
+    difference: Vector,
+    thrust: Scalar,
+    departure: Scalar,
+    vehicle: Vehicle,
+    sensors: Sensors,
+    period: float,
+) -> Numbers:
+    """Return the memory after a period.
+
+    Parameters
+    ----------
+    memory : (8,)
+        As in RECORD.
+    fresh : scalar
+        1 if the accelerometer has read, else 0.
+    difference : (3,)
+        Force that it tells beyond the one expected, body axes, N.
+    thrust : scalar
+        Modelled thrust, N.
+    departure : scalar
+        Squared departure of the specific force from that of hover, (m/s²)².
+    vehicle, sensors, period
+        The vehicle, its sensors and the control period, s.
+    """
+    felt: dict[str, Any] = RECORD.split(memory)
+    assert sensors.accelerometer is not None
+    noise = vehicle.M**2 * sensors.accelerometer.variance
+    walk = vehicle.M**2 * sensors.accelerometer.density(period) * sensors.following(departure) * period
+    across, along = felt["across"] + walk, felt["along"] + walk
+    doubt, shared = ca.fmin(felt["doubt"] + SCALE_WALK**2 * period, SCALE**2), felt["shared"]
+    gain = fresh * across / (across + noise)
+    seen, seen_by_scale = along + shared * thrust, shared + doubt * thrust
+    total = seen + thrust * seen_by_scale + noise
+    gain_along, gain_scale = fresh * seen / total, fresh * seen_by_scale / total
+    scale = felt["scale"] + gain_scale * difference[2]
+    return RECORD.join({
+        "force": felt["force"] + ca.vertcat(gain * difference[:2], gain_along * difference[2]),
+        "scale": ca.fmin(ca.fmax(scale, -MOST_SCALE), MOST_SCALE),
+        "across": (1 - gain) * across,
+        "along": along - gain_along * seen,
+        "doubt": doubt - gain_scale * seen_by_scale,
+        "shared": shared - gain_along * seen_by_scale,
+    })  # fmt: skip

@@ -264,12 +264,3 @@ def test_a_state_of_another_version_is_refused():
     rebuild, (about, *rest) = world.worlds.__reduce__()
     with pytest.raises(fp.InputError, match=r"^state\.version: "):
         rebuild(about | {"version": "0.1"}, *rest)
-
-
-@pytest.mark.filterwarnings("ignore:.*render_mode:UserWarning")  # of gymnasium's own
-@pytest.mark.parametrize("options", [{}, {"num_envs": 2, "vectorization_mode": "vector_entry_point"}])
-def test_pictures_are_refused(options):
-    make = partial(gymnasium.make_vec if options else gymnasium.make, "flypend/Balance-v0", **options)
-    assert make(render_mode=None).unwrapped.render_mode is None
-    with pytest.raises(fp.InputError, match=r"^render_mode: "):
-        make(render_mode="rgb_array")

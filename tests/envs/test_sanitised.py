@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from benchmarks.sanitised import CASES, FOUND, buffers, stepped, text
+from benchmarks.sanitised import CASES, FOUND, buffers, stepped
 
 
 @pytest.fixture(autouse=True)
@@ -25,17 +25,19 @@ def test_it_finds_an_array_that_is_a_byte_short():
 
 
 def test_it_finds_a_buffer_that_is_a_vector_short():
-    status, said = stepped("hub", steps=100, count=13, planted=str(buffers(text("hub"))[0]))
+    status, said = stepped("hub", steps=100, count=13, planted="action")
     assert status == FOUND
     assert "stack-buffer-overflow" in said
 
 
 @pytest.mark.slow
-def test_it_finds_any_buffer_that_is_a_vector_short():
+@pytest.mark.parametrize("case", ["hub", "onboard"])
+def test_it_finds_any_buffer_that_is_a_vector_short(case):
     """From the numbers of a world's beginning to what the rod touches: every access is checked."""
-    for number in buffers(text("hub")):
-        status, said = stepped("hub", steps=2000, count=13, planted=str(number))
-        assert status == FOUND, number
+    assert {"observed", "held", "begun", "draws"} < set(buffers(case))
+    for name in buffers(case):
+        status, said = stepped(case, steps=2000, count=13, planted=name)
+        assert status == FOUND, name
         assert "stack-buffer-overflow" in said
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.compile.llvm.worlds import FILTER_STRIDE
+from flypend.compile.llvm.sampled import FILTER_STRIDE
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import sampled_kernel
 from flypend.flight.request import Flight

@@ -109,7 +109,10 @@ def test_a_copy_is_checked_again_and_a_member_has_its_own_seed():
         ({"vehicle": "hehn2011"}, "vehicle: expected a Vehicle, "),
         ({"law": "inverted"}, "law: expected a Law or "),
         ({"starts": np.zeros(24)}, "starts: expected a State, "),
-        ({"plant": "rotor"}, "plant: expected one of ideal, rotors, mujoco, hehn2011, got 'rotor' (did you mean"),
+        (
+            {"plant": "rotor"},
+            "plant: expected one of ideal, rotors, mujoco, hehn2011, laboratory, got 'rotor'",
+        ),
         ({"plant": 3}, "plant: expected a Plant, Ideal() or one of ideal"),
         ({"duration": 1e7}, "duration: expected at most 20000 s"),
         ({"judge_period": 0}, "judge_period: expected a finite number > 0 s"),

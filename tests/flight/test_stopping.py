@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -52,6 +53,15 @@ def told_after(process, number, wait):
     process.send_signal(number)
     process.wait(60)
     return time.monotonic() - sent
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_another_thread_makes_all_calls(count):
+    made = []
+    calls = [lambda word, number=number: made.append(number) for number in range(count)]
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(heard, calls).result()
+    assert sorted(made) == list(range(count))
 
 
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)

@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.export.app import AIRFRAMES, limited
 from flypend.model.shipped import vehicle_names
 from flypend.plants import Plant
 
 # RotorPy at commit 9b760b8: mass, inertia, arm, thrust, yaw, drag, inflow, lift and lag per rotor speed.
 ROTORPY = {
     "crazyflie": (0.03, None, 0.043, 2.3e-8, 7.8e-10, 10.2506e-7, 7.553e-7, 0.0, 0.072),
-    "crazyflie-brushless": (
-        0.044, (3.3e-5, 3.6e-5, 5.9e-5), 0.043, 4.052e-8, 7.8e-10, 5.09e-6, 1.19e-5, 1.11e-3, 0.05,
-    ),
+    "crazyflie-brushless": (0.044, (3.3e-5, 3.6e-5, 5.9e-5), None, 4.052e-8, None, 5.09e-6, 1.19e-5, 1.11e-3, 0.05),
     "hummingbird": (0.5, (3.65e-3, 3.68e-3, 7.03e-3), 0.17, 5.57e-6, 1.36e-7, 1.19e-4, 2.32e-4, 3.39e-3, 0.005),
 }  # fmt: skip
 
@@ -29,8 +28,16 @@ def test_numbers_are_those_of_rotorpy(name):
     assert vehicle.air.lift == k_h
     if inertia is not None:
         np.testing.assert_array_equal(np.diag(vehicle.inertia), inertia)
+    if arm is not None and inertia is not None:
         assert vehicle.drag_ratio == pytest.approx(k_m / k, rel=1e-2)
         np.testing.assert_allclose(np.linalg.norm(vehicle.rotor_positions, axis=1), arm, rtol=1e-3)
+
+
+def test_the_brushless_crazyflie_has_the_arms_torque_and_forces_of_its_firmware():
+    vehicle, frame = fp.vehicle("crazyflie-brushless"), AIRFRAMES["cf21bl"]
+    assert limited(vehicle, frame) == vehicle
+    assert vehicle.drag_ratio == pytest.approx(0.00569, rel=1e-2)  # THRUST2TORQUE
+    np.testing.assert_allclose(np.abs(np.array(vehicle.rotor_positions)[:, :2]), frame.arm, rtol=1e-3)
 
 
 @pytest.mark.parametrize("name", vehicle_names())

@@ -156,7 +156,7 @@ def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(
         state[:3] -= piece["knobs"]["origin"]
         t = np.array([20 * i / loop.sampled.rate])
         V = Signals(loop.vehicle, flown, t, seen_packed(state, flown.e3)[None])["V"]
-        assert numbers[5] == pytest.approx(V[0], rel=1e-9)
+        assert numbers[6] == pytest.approx(V[0], rel=1e-9)
 
 
 # The module -----------------------------------------------------------------------------------------------------------

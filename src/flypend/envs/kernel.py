@@ -5,20 +5,20 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import fields
 from functools import cache, lru_cache
 from importlib import metadata
 from typing import Any
 
+import casadi as ca
 import numpy as np
-from llvmlite import ir
 from numpy.typing import NDArray
 
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.stepped_worlds import ARGUMENTS, INTEGERS, write_worlds
-from flypend.compile.llvm.vector import Lanes
+from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
@@ -35,14 +35,7 @@ KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARG
 @lru_cache(maxsize=32)
 def compiled(made: WorldsProblem) -> jit.Native:
     """Return the kernel of `made`, compiled or from the cache."""
-    return jit.build(f"worlds, {WIDTH} lanes: {made!r}", lambda: module(made), "kernel", KINDS)
-
-
-def module(made: WorldsProblem) -> ir.Module:
-    """Return the module with the kernel of `made`, before it is compiled."""
-    lanes = Lanes(ir.Module("flypend"), WIDTH)
-    write_worlds(lanes, made)
-    return lanes.module
+    return jit.build(f"worlds, {WIDTH} lanes: {made!r}", lambda: kernel_module(made, WIDTH), "kernel", KINDS)
 
 
 @cache
@@ -153,6 +146,7 @@ class Worlds:
         """Begin all worlds, with a seed (count,) each; world i draws the same numbers whatever surrounds it."""
         self.arrays["seeds"][: self.count] = seeds
         self.arrays["seeds"][self.count :] = seeds[-1]
+        self.terminated[:], self.truncated[:] = False, False
         self._call(fresh=1)
 
     def step(self, actions: Any) -> None:
@@ -166,6 +160,17 @@ class Worlds:
         with np.errstate(over="ignore"):  # a number beyond single precision is infinite
             mine[:] = given
         self._call(fresh=0)
+
+    @contextmanager
+    def held(self, which: NDArray[np.bool_]) -> Iterator[None]:
+        """Keep the worlds `which` (count,) as they are, whatever is done to all of them inside."""
+        worlds = np.flatnonzero(which)
+        groups, lanes = np.divmod(worlds, WIDTH)
+        own = {name: (groups, slice(None), lanes) if name == "memories" else worlds for name in self.arrays}
+        kept = {name: self.arrays[name][place] for name, place in own.items() if len(self.arrays[name])}
+        yield
+        for name, values in kept.items():
+            self.arrays[name][own[name]] = values
 
     def _call(self, fresh: int) -> None:
         addresses = {name: array.ctypes.data for name, array in self.arrays.items()}
@@ -184,12 +189,27 @@ class Worlds:
         """Return a copy of a part of the worlds' memories (count, `length`); see `WorldsProblem.places`."""
         begin = 2 + self._places[name]
         part = self.arrays["memories"][:, begin : begin + length]
-        return part.transpose(0, 2, 1).reshape(-1, length)[: self.count].copy()
+        return part.transpose(0, 2, 1).reshape(len(part) * WIDTH, length)[: self.count].copy()
 
     @property
     def states(self) -> NDArray[np.float64]:
         """States and rotor forces (count, 24 + n), a copy, e₃ up."""
         return self.part("state", 24 + self.env.rotors)
+
+    @property
+    def goals(self) -> NDArray[np.float64]:
+        """The numbers of their goals (count, k), a copy: those of `Task.goal`."""
+        return self.part("goal", self._places["estimate"] - self._places["goal"])
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Times since they began (count,), s."""
+        return self.arrays["memories"][:, 0].reshape(-1)[: self.count] / self.env.rate
+
+
+def goal_at(env: Environment, time: float, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return where the goal of `env` is (3,), m, at a `time`, s, if these `numbers` (k,) describe it."""
+    return np.array(ca.evalf(ca.SX(env.task.goal(ca.SX(time), ca.SX(numbers))[0]))).ravel()
 
 
 def _unpickled(about: Mapping[str, str], saved: bytes, *made: Any) -> Worlds:

@@ -12,7 +12,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from flypend import errors
-from flypend.compile.llvm.stepped_worlds import BOUND
+from flypend.compile.llvm.worlds import BOUND
 from flypend.envs import task as tasks
 from flypend.envs.problem import Action, Attitude, Environment
 from flypend.envs.randomise import Randomisation
@@ -27,6 +27,16 @@ TASKS: Mapping[str, Callable[..., Task]] = {
 }  # fmt: skip
 DEFAULTS: Mapping[str, Any] = {"vehicle": "hehn2011", "rate": 100.0, "randomise": Randomisation()}
 PHYSICS = ROTORS.replace(rate=1000.0)
+
+
+class UnknownArgumentError(InputError, TypeError):
+    """An argument that no environment has: in Python's words, so that libraries that try it go on without it."""
+
+    def __init__(self, field: str, expected: str = "", got: str = "") -> None:
+        if got:
+            super().__init__(field, expected, got)
+        else:  # gymnasium raises it again with another message, which is all that it gives
+            ValueError.__init__(self, field)
 
 
 def environment(
@@ -73,6 +83,7 @@ def environment(
     given = {"vehicle": vehicle, "rate": rate, "randomise": randomise}
     chosen = {**DEFAULTS, **made.defaults, **{name: value for name, value in given.items() if value is not None}}
     machine = chosen["vehicle"] if isinstance(chosen["vehicle"], Vehicle) else vehicle_named(chosen["vehicle"])
+    machine = machine.commanded()
     wanted = "cup" if made.name == "CatchInCup" and mount is None else mount
     if wanted is not None:
         machine = machine.replace(mount=wanted)
@@ -91,7 +102,11 @@ def _task(task: str | Task, about: Mapping[str, Any]) -> Task:
     made: Callable[..., Task]
     made = (lambda: task) if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)]
     common = [name for name in signature(environment).parameters if name != "about"]
-    errors.only_known("", about, [*common, *signature(made).parameters])
+    try:
+        errors.only_known("", about, [*common, *signature(made).parameters])
+    except InputError as error:
+        got = str(error.got).replace(repr(error.field), f"an unexpected keyword argument {error.field!r}", 1)
+        raise UnknownArgumentError(error.field, error.expected, got) from None
     return made(**about)
 
 
@@ -102,12 +117,6 @@ def _ranges(given: Any) -> Randomisation:
         raise InputError("randomise", "a Randomisation or a table of intervals", repr(given))
     errors.only_known("randomise", given, (entry.name for entry in fields(Randomisation)))
     return Randomisation(**given)
-
-
-def check_render_mode(mode: Any) -> None:
-    """Refuse anything but None: environments draw no pictures."""
-    if mode is not None:
-        raise InputError("render_mode", "None (trajectory() of a single environment can be drawn)", repr(mode))
 
 
 def spaces(env: Environment, seen: int) -> tuple[Box, Box]:

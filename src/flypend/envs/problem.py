@@ -235,7 +235,7 @@ class _Parts:
         """
         env, t = self.env, ca.SX.sym("t")
         lengths = [*self.lengths, self.goals]
-        estimate = self.estimates.size if self.estimates is not None and known else 0
+        estimate = self.estimates.record.length if self.estimates is not None and known else 0
         memory = ca.SX.sym("memory", sum(lengths) + estimate)
         parts = ca.vertsplit(memory, [0, *np.cumsum([*lengths, estimate]).tolist()])
         estimated = parts.pop()

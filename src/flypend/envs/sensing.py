@@ -6,8 +6,6 @@ numbers of a world's sensors are those of the flight with its seed plus 2⁶²; 
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 import numpy as np
 
@@ -15,6 +13,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import command_width, idle_command
 from flypend.board.estimator import Filter
 from flypend.compile.program import lower
+from flypend.compile.record import Field, Record
 from flypend.compile.worlds_problem import Estimating
 from flypend.errors import InputError
 from flypend.laws import Controller
@@ -22,7 +21,15 @@ from flypend.model import Vehicle, Wrench
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, memory_size, sensing
+from flypend.plants.sensing import (
+    START_TICK,
+    draws_size,
+    first_estimate,
+    first_memory,
+    memory_record,
+    sensing,
+    start_draws,
+)
 
 FORCES = 6
 # The actions are the law: the filter only asks for the limit of external forces that comes with one.
@@ -32,8 +39,7 @@ ACTIONS = Controller(name="actions", function=lambda t, state: Wrench(0.0, np.ze
 class Estimates:
     """The programs of a filter in worlds of `vehicle`, which fly as `plant` does, its rate that of the actions.
 
-    Their memory is that of the filter, which begins with the estimated state (24,) and rotor forces (n,), external
-    forces (6,), commands in transit, and what the sensors remember.
+    `record` is the table of their memory.
 
     Raises
     ------
@@ -47,14 +53,19 @@ class Estimates:
         self._loop, self._vehicle, self._plant = Loop(vehicle, ACTIONS, plant), vehicle, plant
         self._filter = Filter(self._loop, Believed.numbers(vehicle))
         self._correct, self._carry = self._filter.correct(), self._filter.carry()
-        self._width = command_width(self._loop)
-        waiting = self._carry.numel_in(2) - self._width
-        self._lengths = [self._filter.size, FORCES, waiting, memory_size(plant.sensors, 1 / plant.rate)]
-
-    @property
-    def size(self) -> int:
-        """Length of the memory."""
-        return sum(self._lengths)
+        width = command_width(self._loop)
+        self._under_way = self._carry.numel_in(2) // width - 1
+        commands = Field("commands", self._under_way * width, "commands in transit, newest first")
+        self.record = Record(
+            "sensing",
+            "What a world with sensors remembers.",
+            (
+                Field.of(self._filter.record),
+                Field("outside", FORCES, "estimated external forces on vehicle and bob, N"),
+                *[commands] * bool(self._under_way),
+                Field.of(memory_record(plant.sensors, 1 / plant.rate)),
+            ),
+        )
 
     def programs(self, asked: ca.Function) -> Estimating:
         """Return the programs; `asked` is the command (w,) of an action (m,)."""
@@ -64,33 +75,36 @@ class Estimates:
 
     def first(self) -> ca.Function:
         """(state and rotor forces (24 + n,), draws of the start) → memory before the first readings."""
-        begin, draws = ca.SX.sym("s", SIZE + len(self._vehicle.rotor_spins)), ca.SX.sym("d", 18)
+        begin, draws = (
+            ca.SX.sym("s", SIZE + len(self._vehicle.rotor_spins)),
+            ca.SX.sym("d", start_draws(self._plant.sensors)),
+        )
         state, rotors = begin[:SIZE], begin[SIZE:]
         estimate = first_estimate(self._plant.sensors)(state, draws)
         filtered = self._filter.begun()(rotors, estimate, [])
-        waiting = [idle_command(self._loop, rotors)] * (self._lengths[2] // self._width)
-        kept = first_memory(self._plant.sensors, 1 / self._plant.rate, state)
-        memory = ca.vertcat(filtered, ca.SX.zeros(FORCES), *waiting, kept)
+        commands = ca.vertcat(*[idle_command(self._loop, rotors)] * self._under_way)
+        sensors = first_memory(self._plant.sensors, 1 / self._plant.rate, state, draws)
+        memory = self.record.join(
+            {"estimate": filtered, "outside": ca.SX.zeros(FORCES), "commands": commands, "sensors": sensors}
+        )
         return ca.Function("first_estimate", [begin, draws], [ca.densify(memory)])
 
     def carry(self, asked: ca.Function) -> ca.Function:
         """(memory, action) → memory a period later, before the readings of its end."""
-        memory, action = ca.MX.sym("memory", self.size), ca.MX.sym("a", asked.numel_in(0))
-        filtered, outside, waiting, kept = self._parts(memory)
-        commands = ca.vertcat(asked(action), waiting)
-        filtered = self._carry(filtered, outside, commands, [])
-        after = ca.vertcat(filtered, outside, commands[: waiting.numel()], kept)
+        memory, action = ca.MX.sym("memory", self.record.length), ca.MX.sym("a", asked.numel_in(0))
+        parts = self.record.split(memory)
+        commands = ca.vertcat(asked(action), parts.get("commands", ca.MX(0, 1)))
+        estimate = self._carry(parts["estimate"], parts["outside"], commands, [])
+        after = self.record.join(parts | {"estimate": estimate, "commands": commands[: -asked.numel_out(0)]})
         return ca.Function("carry_estimate", [memory, action], [after])
 
     def sense(self) -> ca.Function:
         """(memory, time, state (24,), draws) → memory with the readings of that time."""
         sensors, period = self._plant.sensors, 1 / self._plant.rate
-        memory, t = ca.MX.sym("memory", self.size), ca.MX.sym("t")
+        memory, t = ca.MX.sym("memory", self.record.length), ca.MX.sym("t")
         state, draws = ca.MX.sym("s", SIZE), ca.MX.sym("d", draws_size(sensors))
-        filtered, _, waiting, kept = self._parts(memory)
-        kept, readings = sensing(sensors, self._vehicle, period)(kept, t, state, draws)
-        filtered, _, outside = self._correct(filtered, readings, [])
-        return ca.Function("sense", [memory, t, state, draws], [ca.vertcat(filtered, outside, waiting, kept)])
-
-    def _parts(self, memory: Any) -> list[Any]:
-        return ca.vertsplit(memory, np.cumsum([0, *self._lengths]).tolist())  # type: ignore[no-any-return]
+        parts = self.record.split(memory)
+        kept, readings = sensing(sensors, self._vehicle, period)(parts["sensors"], t, state, draws)
+        estimate, _, outside = self._correct(parts["estimate"], readings, [])
+        after = self.record.join(parts | {"estimate": estimate, "outside": outside, "sensors": kept})
+        return ca.Function("sense", [memory, t, state, draws], [after])

@@ -8,8 +8,9 @@ import gymnasium
 import numpy as np
 from gymnasium.error import ResetNeeded
 
-from flypend.envs.kernel import Worlds
-from flypend.envs.make import check_render_mode, environment, spaces
+from flypend.envs.kernel import Worlds, goal_at
+from flypend.envs.make import environment, spaces
+from flypend.envs.rendering import MODES, check_render_mode, picture
 from flypend.envs.state import Stateful
 from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
@@ -25,8 +26,8 @@ class World(Stateful, gymnasium.Env[Any, Any]):
     ----------
     task, arguments
         See `flypend.envs.environment`.
-    render_mode : None
-        No other is known.
+    render_mode : "rgb_array", optional
+        Makes `render` draw.
 
     Raises
     ------
@@ -36,13 +37,16 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         If it is stepped before it is reset.
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012
+    metadata = {"render_modes": list(MODES), "render_fps": 100}  # noqa: RUF012
 
-    def __init__(self, task: Any = "balance", *, render_mode: None = None, **arguments: Any) -> None:
+    def __init__(self, task: Any = "balance", *, render_mode: str | None = None, **arguments: Any) -> None:
         check_render_mode(render_mode)
         super().__init__(Worlds(environment(task, **arguments), 1))
+        self.render_mode = render_mode
+        self.metadata = type(self).metadata | {"render_fps": self.worlds.env.rate}
         self.observation_space, self.action_space = spaces(self.worlds.env, self.worlds.observations.shape[1])
         self._flown: list[Any] = []
+        self._goal = self.worlds.goals[0]
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Begin anew, with `seed`, or with a new one of the generator that the last seed started."""
@@ -52,7 +56,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         super().reset(seed=seed)
         fresh = int(self.np_random.integers(2**62)) if seed is None else seed
         self.worlds.begin(np.array([fresh], dtype=np.int64))
-        self._flown = [self.worlds.states[0]]
+        self._flown, self._goal = [self.worlds.states[0]], self.worlds.goals[0]
         return self.worlds.observations[0].copy(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
@@ -66,15 +70,30 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         seen = (worlds.last if terminated or truncated else worlds.observations)[0].copy()
         return seen, float(worlds.rewards[0]), terminated, truncated, {}
 
+    def render(self) -> Any:
+        """Return a picture (480, 480, 3) of uint8 of the present, or None without a `render_mode`.
+
+        The camera follows the vehicle along a grid of 0.5 m; a line leads to the goal. Of a world that has ended it
+        shows the last state before its end.
+        """
+        self._check_begun()
+        if self.render_mode is None:
+            return None
+        env = self.worlds.env
+        goal = goal_at(env, (len(self._flown) - 1) / env.rate, self._goal)
+        return picture(env.vehicle, self._flown[-1], goal)
+
     def _check_begun(self) -> None:
         if not self.worlds.begun:
             raise ResetNeeded("reset the world first")
 
     def _save_flown(self) -> bytes:
-        return np.array(self._flown).tobytes()
+        return np.concatenate([self._goal, *self._flown]).tobytes()
 
     def _restore_flown(self, flown: bytes) -> None:
-        self._flown = list(np.frombuffer(flown).reshape(-1, self.worlds.states.shape[1]))
+        numbers = np.frombuffer(flown)
+        self._goal, states = np.split(numbers, [len(self._goal)])
+        self._flown = list(states.reshape(-1, self.worlds.states.shape[1]))
 
     def trajectory(self) -> Trajectory:
         """Return what has been flown since the last `reset` as a run, a state per action: for pages and figures."""

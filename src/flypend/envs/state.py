@@ -26,7 +26,7 @@ class SavedState:
     worlds : bytes
         Arrays of the worlds; see `flypend.envs.kernel.Worlds`.
     flown : bytes
-        States since the last reset, of a single world.
+        The goal and the states since the last reset, of a single world.
     generator : str
         State of `np_random`, which draws the seeds of resets without one, and its seed, as JSON.
     checksum : int
@@ -72,7 +72,7 @@ class Stateful:
         a wrapped environment whole.
         """
         generator = json.dumps([self.np_random.bit_generator.state, self.np_random_seed], default=np.ndarray.tolist)
-        about = ("kind", type(self).__name__), *self.worlds.about.items()
+        about = ("kind", self._kind()), *self.worlds.about.items()
         return SavedState(about, self.worlds.save(), self._save_flown(), generator).sealed()
 
     def restore_state(self, state: SavedState) -> None:
@@ -92,8 +92,8 @@ class Stateful:
             raise InputError("state", "what save_state returned", "one that is damaged")
         about = dict(state.about)
         kind = about.pop("kind", "nothing")
-        if kind != type(self).__name__:
-            raise InputError("state.kind", type(self).__name__, kind)
+        if kind != self._kind():
+            raise InputError("state.kind", self._kind(), kind)
         numbers, seed = json.loads(state.generator)
         bits = self.np_random.bit_generator
         if numbers["bit_generator"] != bits.state["bit_generator"]:
@@ -101,6 +101,9 @@ class Stateful:
         self.worlds.restore(about, state.worlds)
         self._restore_flown(state.flown)
         bits.state, self._np_random_seed = numbers, seed
+
+    def _kind(self) -> str:
+        return type(self).__name__
 
     def _save_flown(self) -> bytes:
         return b""

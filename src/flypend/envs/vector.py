@@ -11,15 +11,16 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.envs.kernel import Worlds
-from flypend.envs.make import check_render_mode, environment, spaces
+from flypend.envs.kernel import Worlds, goal_at
+from flypend.envs.make import environment, spaces
+from flypend.envs.rendering import MODES, check_render_mode, picture
 from flypend.envs.state import Stateful
 from flypend.errors import InputError
 from flypend.plants.plant import check_seed
 
 
 class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
-    """`num_envs` worlds, which begin anew in the step in which they end.
+    """`num_envs` worlds, which begin anew in the step in which they end, unless `autoreset_mode` says otherwise.
 
     The observations of a step are then those of the new beginnings; the last ones of the worlds that have ended are in
     `infos["final_obs"]`, at the rows marked in `infos["_final_obs"]`.
@@ -37,18 +38,24 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         Number of earlier observations that follow the present one in a row, latest first.
     workers : int, optional
         Threads; default one per core.
-    render_mode : None
-        No other is known.
+    render_mode : "rgb_array", optional
+        Makes `render` draw.
+    autoreset_mode : AutoresetMode or str
+        gymnasium's: what happens to a world that ends. "SameStep": see above. "NextStep": the step returns its last
+        observation; the next one, which ignores its action, its new beginning, with reward 0. "Disabled": it waits for
+        `reset` with `options={"reset_mask": which}`.
 
     Raises
     ------
     InputError
         As `flypend.envs.environment`.
     ResetNeeded
-        If they are stepped before they are reset.
+        If worlds are stepped that are to be reset first.
     """
 
-    metadata = {"autoreset_mode": AutoresetMode.SAME_STEP, "render_modes": []}  # noqa: RUF012
+    metadata = {  # noqa: RUF012
+        "autoreset_mode": AutoresetMode.SAME_STEP, "render_modes": list(MODES), "render_fps": 100,
+    }  # fmt: skip
 
     def __init__(
         self,
@@ -58,21 +65,31 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         copy: bool = True,
         history: int = 0,
         workers: int | None = None,
-        render_mode: None = None,
+        render_mode: str | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         **arguments: Any,
     ) -> None:
         check_render_mode(render_mode)
+        self.render_mode = render_mode
+        modes = {mode.value: mode for mode in AutoresetMode}
+        named = getattr(autoreset_mode, "value", autoreset_mode)
+        self._autoreset = modes[errors.one_of("autoreset_mode", named, modes)]
         self.num_envs = errors.integer("num_envs", num_envs, 1)
         self.history = errors.integer("history", history, 0)
         threads = None if workers is None else errors.integer("workers", workers, 1)
         super().__init__(Worlds(environment(task, **arguments), self.num_envs, threads, self.history))
+        self.metadata = type(self).metadata | {"autoreset_mode": self._autoreset, "render_fps": self.worlds.env.rate}
         self.copy, self._length = copy, self.worlds.observations.shape[1]
         self.single_observation_space, self.single_action_space = spaces(self.worlds.env, self.worlds.seen.shape[1])
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin all worlds: world i with `seed` + i, or with its own of a list; without a seed, with new ones."""
+        """Begin worlds: world i with `seed` + i, or with its own of a list; without a seed, with new ones.
+
+        With a "reset_mask" (num_envs,) of bool in `options`, only those that it marks; the others stay as they are.
+        """
+        which = self._marked(options)
         several = isinstance(seed, list | tuple | np.ndarray)
         if not several and seed is not None:
             check_seed("seed", seed)
@@ -82,9 +99,10 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             fresh = self._own(seed, fresh)
         elif seed is not None:
             fresh = int(seed) + np.arange(self.num_envs)
-        self.worlds.begin(fresh)
+        with self.worlds.held(~which):
+            self.worlds.begin(fresh)
         if self.history:
-            self.worlds.seen[:] = np.tile(self.worlds.observations, 1 + self.history)
+            self.worlds.seen[which] = np.tile(self.worlds.observations[which], 1 + self.history)
         return self._given(self.worlds.seen), {}
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
@@ -92,18 +110,66 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         if not self.worlds.begun:
             raise ResetNeeded("reset the worlds first")
         worlds = self.worlds
-        worlds.step(actions)
-        over = worlds.terminated | worlds.truncated
+        if self._autoreset is AutoresetMode.SAME_STEP:
+            worlds.step(actions)
+            anew = over = worlds.terminated | worlds.truncated
+        else:
+            anew, over = self._step_and_wait(actions)
         infos: dict[str, Any] = {}
-        if over.any():
+        if self._autoreset is AutoresetMode.SAME_STEP and over.any():
             infos = {"final_obs": self._last(over), "_final_obs": over}
         if self.history:
             worlds.seen[:, self._length :] = worlds.seen[:, : -self._length].copy()
             worlds.seen[:, : self._length] = worlds.observations
-            worlds.seen[over] = np.tile(worlds.observations[over], 1 + self.history)
+            worlds.seen[anew] = np.tile(worlds.observations[anew], 1 + self.history)
         results = (worlds.rewards, worlds.terminated, worlds.truncated)
         rewards, terminated, truncated = (self._given(result) for result in results)
         return self._given(worlds.seen), rewards, terminated, truncated, infos
+
+    def _step_and_wait(self, actions: Any) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Advance the worlds that have not ended; return which begin anew by this step, and which it ends.
+
+        The kernel begins a world in the step in which it ends. Until that is to be seen, the world is held, and its
+        rows of `observations` and `last` are exchanged.
+        """
+        worlds = self.worlds
+        waiting = worlds.terminated | worlds.truncated
+        if self._autoreset is AutoresetMode.DISABLED and waiting.any():
+            raise ResetNeeded(f"worlds {np.flatnonzero(waiting).tolist()} have ended: reset them by a reset_mask")
+        with worlds.held(waiting):
+            worlds.step(actions)
+        worlds.observations[waiting], worlds.rewards[waiting] = worlds.last[waiting], 0
+        worlds.terminated[waiting], worlds.truncated[waiting] = False, False
+        over = worlds.terminated | worlds.truncated
+        worlds.observations[over], worlds.last[over] = worlds.last[over], worlds.observations[over]
+        return waiting, over
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """Return a picture of each world, as `World.render`, or None without a `render_mode`.
+
+        Of a world that has ended it shows the new beginning.
+        """
+        if self.render_mode is None:
+            return None
+        if not self.worlds.begun:
+            raise ResetNeeded("reset the worlds first")
+        worlds, env = self.worlds, self.worlds.env
+        whole = zip(worlds.states, worlds.times, worlds.goals, strict=True)
+        return tuple(picture(env.vehicle, state, goal_at(env, time, numbers)) for state, time, numbers in whole)
+
+    def _kind(self) -> str:
+        return f"VectorWorlds, {self._autoreset.value}"
+
+    def _marked(self, options: dict[str, Any] | None) -> NDArray[np.bool_]:
+        """Return which worlds (num_envs,) a reset with these options begins."""
+        if not options or "reset_mask" not in options:
+            return np.ones(self.num_envs, dtype=bool)
+        mask = options["reset_mask"]
+        if not (isinstance(mask, np.ndarray) and mask.dtype == np.bool_ and mask.shape == (self.num_envs,)):
+            raise InputError("reset_mask", f"an array ({self.num_envs},) of bool", repr(mask))
+        if not (self.worlds.begun or mask.all()):
+            raise ResetNeeded("reset all worlds first")
+        return mask
 
     def _own(self, seeds: Any, fresh: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return `seeds` (num_envs,), those that are None replaced by `fresh` ones."""

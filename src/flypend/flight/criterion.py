@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any, Literal
+from typing import Literal
 
 import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import E3, is_symbolic, norm
+from flypend.geometry import E3, Numbers, Scalar, Vector, is_symbolic, norm
 from flypend.laws.references import Reference
 from flypend.model import State, Vehicle
 from flypend.model.state import E3Direction
@@ -55,11 +55,13 @@ class Criterion:
                 errors.number(f"criterion.{entry.name}", getattr(self, entry.name), above=0)
         errors.one_of("criterion.target", self.target, ("inverted", "e3"))
 
-    def pose(self, e3: E3Direction) -> Any:
+    def pose(self, e3: E3Direction) -> Vector:
         """Return the target direction (3,) of the rod, in a frame with third axis `e3`."""
         return E3 if self.target == "e3" or e3 == "up" else -E3
 
-    def excess(self, y: Any, z: Any, distance: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any, Any]:
+    def excess(
+        self, y: Vector, z: Vector, distance: Scalar, lean: Scalar, e3: E3Direction
+    ) -> tuple[Scalar, Scalar, Scalar]:
         """Return by how much each of `PARTS` exceeds its tolerance; at most 0 within it.
 
         `y` and `z` are rod and thrust axis in the frame `e3`, `distance` (m) is from the reference, and `lean` is the
@@ -68,7 +70,7 @@ class Criterion:
         rod = norm(y - self.pose(e3)) - (self.rod + lean)
         return rod, norm(z - E3) - (self.axis + lean), distance - self.position
 
-    def squares(self, y: Any, z: Any, lean: Any, e3: E3Direction) -> tuple[Any, Any]:
+    def squares(self, y: Vector, z: Vector, lean: Scalar, e3: E3Direction) -> tuple[Scalar, Scalar]:
         """Return |y − e₃|² and |z − e₃|², each less its squared tolerance: smooth, with the sign of `excess`.
 
         `y`, `z` and `lean` are CasADi expressions; see `excess`.
@@ -77,7 +79,7 @@ class Criterion:
         return rod, ca.sumsqr(z - E3) - (self.axis + lean) ** 2
 
 
-def lean(acceleration: Any, g: float) -> Any:
+def lean(acceleration: Vector, g: float) -> Scalar:
     """Return |d − e₃|, d being the direction of `acceleration` + g e₃ (e₃ up): the lean needed to follow a reference.
 
     On a circle, rod and axis lean slightly less, since the bob's circle is smaller than the pivot's. On a horizontal
@@ -92,14 +94,14 @@ def lean(acceleration: Any, g: float) -> Any:
 
 
 def observed(
-    t: Any,
+    t: Scalar,
     state: State,
-    rotors: Any,
+    rotors: Numbers,
     vehicle: Vehicle,
     reference: Reference | None,
     criterion: Criterion,
     e3: E3Direction,
-) -> Any:
+) -> Numbers:
     """Return the CasADi values (7, 1) that `REDUCTIONS` reduce, for `state` in the frame `e3` and `rotors` (forces, N).
 
     `t` is the symbol of time, s; `reference` is the reference position of the law, None for the origin.
@@ -112,8 +114,8 @@ def observed(
 
 
 def gauged(
-    t: Any, state: State, vehicle: Vehicle, reference: Reference | None, criterion: Criterion, e3: E3Direction
-) -> tuple[Any, Any]:
+    t: Scalar, state: State, vehicle: Vehicle, reference: Reference | None, criterion: Criterion, e3: E3Direction
+) -> tuple[Numbers, Numbers]:
     """Return CasADi gauges (3, 1) of `PARTS`, smooth in time, and the tolerances (3, 1) that they are about.
 
     The gauges are |y − e₃|² and |z − e₃|² less their squared tolerances, and the squared distance. A part is within
@@ -130,7 +132,7 @@ def gauge_bounds(criterion: Criterion) -> tuple[float, float, float]:
     return 0.0, 0.0, criterion.position**2
 
 
-def _target(t: Any, vehicle: Vehicle, reference: Reference | None, e3: E3Direction) -> tuple[Any, Any]:
+def _target(t: Scalar, vehicle: Vehicle, reference: Reference | None, e3: E3Direction) -> tuple[Vector, Scalar]:
     """Return the position (3, 1) of `reference` at `t` and the lean that it requires, 0 unless it accelerates."""
     x_ref = reference(t) if reference is not None else ca.SX.zeros(3)
     velocity = ca.jacobian(x_ref, t)

@@ -52,6 +52,8 @@ class Ensemble:
         Sample times, s, if any were requested.
     samples : State, optional
         States (n, k) at these times, in the law's frame; NaN after the end of a run.
+    wrenches : (n, k, 4), optional
+        Thrust (N) and moment (N m) that act at these times, in the ideal plant with lag.
     """
 
     starts: State
@@ -70,6 +72,7 @@ class Ensemble:
     gains: Mapping[str, Any] = field(default_factory=dict)
     t: NDArray[np.float64] | None = None
     samples: State | None = None
+    wrenches: NDArray[np.float64] | None = None
 
     def __repr__(self) -> str:
         """Return law, vehicle and success rate in one line."""
@@ -217,7 +220,7 @@ def _gathered(flight: Flight, flown: Flown) -> Ensemble:
     samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
     return Ensemble(
         starts=flight.starts, final=State.trusted(flown.final), **_columns_of(flight, flown), **_about(flight),
-        samples=samples,
+        samples=samples, wrenches=flown.samples[..., SIZE:] if flight.loop.lag and samples is not None else None,
     )  # fmt: skip
 
 

@@ -46,7 +46,8 @@ class Feasibility:
     lag_ratio : float
         w T, the rotor lag relative to the time that the rod takes to fall.
     catch : float
-        θ_c, the largest lean at rest that any controller can catch, rad; the linear bound of this module.
+        θ_c, rad: in the linear model of this module no controller catches a larger lean at rest, towards the axis of
+        roll or of pitch that turns more slowly. Along a diagonal the rotors may turn the vehicle faster.
     impossible : tuple of str
         Why no controller can fly the vehicle; empty if one may.
     doubtful : tuple of str
@@ -64,6 +65,7 @@ class Feasibility:
 
 def feasibility(vehicle: Vehicle, delay: float = 0.0) -> Feasibility:
     """Return what the numbers of `vehicle` allow, for commands that act `delay` (s) after their measurement."""
+    vehicle = vehicle.commanded()
     rotors, (low, high) = len(vehicle.rotor_spins), vehicle.rotor_limits
     weight = vehicle.weight
     w = float(np.sqrt(weight / (vehicle.M * vehicle.l)))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
@@ -24,10 +25,10 @@ Margin = Callable[[float, Any], float]
 class Integration:
     """Accepted steps of one run: `knots` (n+1,), one interpolant per step, drift (n, 3) before projection."""
 
-    knots: Any
+    knots: NDArray[np.float64]
     interpolants: tuple[Callable[[Any], Any], ...]
-    start: Any
-    drift: Any
+    start: NDArray[np.float64]
+    drift: NDArray[np.float64]
     evaluations: int
     outcome: Outcome
 

@@ -18,7 +18,7 @@ from flypend.flight.kernels.web import LANES, WebModule, flown_vehicle, web_modu
 from flypend.flight.request import SAMPLE_PERIOD, Tolerances
 from flypend.flight.sampled import LEFT, NOT_FINITE
 from flypend.flight.touch import touched
-from flypend.flight.verdict import MISSED, POSES, goal
+from flypend.flight.verdict import HANGS, MISSED, POSE, goal
 from flypend.laws.closed_loop import lyapunov_function
 from flypend.model.mount import part_names
 from flypend.model.state import SIZE
@@ -63,7 +63,7 @@ def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule
         "clear": true.mount != "gimbal",
         "lyapunov": lyapunov_function(loop.vehicle, law, loop.parameters) is not None,
         "words": {
-            "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSES[law.e3],
+            "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSE, "hangs": HANGS,
             "status": np.asarray(STATUS).tolist(), "reasons": _reasons(loop),
             "touched": [[name, touched(loop.vehicle, i)] for i, name in enumerate(part_names(loop.vehicle))],
         },
@@ -73,7 +73,7 @@ def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule
 def _sampled(loop: Loop) -> dict[str, Any]:
     vehicle, plant = loop.vehicle, loop.sampled
     return {
-        "kind": "sampled", "arguments": [*sampled.ARGUMENTS, *sampled.RESUMED_ARGUMENTS],
+        "kind": "sampled", "arguments": list(sampled.ARGUMENTS),
         "plant": sum(pieces_problem(loop, goal(loop.law.e3)).inputs),
         "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)],
         "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate,

@@ -10,7 +10,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.flight.criterion import PARTS, Criterion, lean
-from flypend.geometry import norm
+from flypend.geometry import Numbers, norm
 from flypend.model import Vehicle
 
 Trajectory = Any  # flypend.Trajectory, not imported: its module judges runs for the replay
@@ -67,7 +67,7 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     errors.check_kind("run", run, "Trajectory")
     criterion = criterion or Criterion()
     distance = norm(run.x - run.x_ref)
-    excess = criterion.excess(run.y, run.z, distance, _lean(run), run.e3)
+    excess = _excess(run, criterion)
     out = [~(part <= 0) for part in excess]
     reductions = [_since(run.t, np.any(out, axis=0)), *(_last(run.t, bad) for bad in out)]
     forces = run.rotor_forces
@@ -79,8 +79,22 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     return Metrics(**{name: column[0].item() for name, column in columns.items()})
 
 
+def worst_excess(run: Trajectory, criterion: Criterion) -> Any:
+    """Return by how much the samples of `run` exceed `criterion` in their worst part (n,); at most 0 within."""
+    return np.max(_excess(run, criterion), axis=0)
+
+
+def _excess(run: Trajectory, criterion: Criterion) -> Any:
+    return criterion.excess(run.y, run.z, norm(run.x - run.x_ref), _lean(run), run.e3)
+
+
 def judged(
-    reductions: Any, status: Any, end: Any, vehicle: Vehicle, criterion: Criterion, clearance: Any = None
+    reductions: Numbers,
+    status: Numbers,
+    end: Numbers,
+    vehicle: Vehicle,
+    criterion: Criterion,
+    clearance: Numbers = None,
 ) -> dict[str, Any]:
     """Return the fields of `Metrics` as arrays (n,), from the reductions of n runs.
 
@@ -117,7 +131,7 @@ def judged(
     }
 
 
-def _lean(run: Trajectory) -> Any:
+def _lean(run: Trajectory) -> Numbers:
     """Return the lean that the reference of `run` requires; 0 in hover."""
     if len(run.t) < 3 or not np.any(run.x_ref != run.x_ref[0]):
         return 0.0
@@ -126,27 +140,27 @@ def _lean(run: Trajectory) -> Any:
     return lean(acceleration * (1.0 if run.e3 == "up" else np.array([1.0, -1.0, -1.0])), run.vehicle.g)
 
 
-def _last(t: Any, bad: Any) -> float:
+def _last(t: Numbers, bad: Numbers) -> float:
     """Return the last time at which `bad` is true; −1 if never."""
     found = np.flatnonzero(bad)
     return float(t[found[-1]]) if len(found) else -1.0
 
 
-def _since(t: Any, bad: Any) -> float:
+def _since(t: Numbers, bad: Numbers) -> float:
     """Return the first time after the last `bad` one; inf if that is the last sample."""
     found = np.flatnonzero(bad)
     place = found[-1] + 1 if len(found) else 0
     return float(t[place]) if place < len(t) else float("inf")
 
 
-def _mean(t: Any, values: Any) -> float:
+def _mean(t: Numbers, values: Numbers) -> float:
     """Return the mean of `values` (n,) over the times `t` (n,) by the trapezoidal rule; of one sample, its value."""
     if t[-1] <= t[0]:
         return float(values[-1])
     return float(np.sum(np.diff(t) * (values[1:] + values[:-1])) / (2 * (t[-1] - t[0])))
 
 
-def wilson_bounds(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[Any, Any]:
+def wilson_bounds(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[Numbers, Numbers]:
     """Return Wilson intervals (n,) of `successes` (n,) out of `runs` (n,) at `confidence`; 0 to 1 for no runs."""
     n, z = np.maximum(runs, 1), NormalDist().inv_cdf((1 + confidence) / 2)
     share = np.asarray(successes) / n

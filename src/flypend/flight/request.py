@@ -142,6 +142,7 @@ class Flight:
         if len(self.starts.batch_shape) > 1:
             raise InputError("starts", "a State with one leading batch axis", f"shape {self.starts.batch_shape}")
         put = _setter(self)
+        put("vehicle", self.vehicle.commanded())
         put("law", bound_to(self.vehicle, self.law))
         put("duration", errors.number("duration", self.duration, above=0, at_most=LONGEST, unit="s"))
         errors.check_kind("gains", self.gains, Mapping)
@@ -179,6 +180,13 @@ class Flight:
             )
         self._check_lift()
         self._check_memory()
+        if isinstance(self.plant, Ideal) and self.plant.lag:
+            if self.vehicle.rotor_lag <= 0:
+                raise InputError("vehicle.rotor_lag", "a lag > 0 s, for Ideal(lag=True)", f"{self.vehicle.rotor_lag:g}")
+            self.plant.beginning(self.vehicle, self.runs, self.law.e3)  # raises for wrong forces
+        if isinstance(self.law, BoundLaw) and self.law.uses_wrench and not self.loop.lag:
+            wanted = f"flypend.Ideal(lag=True), for {self.law.name}, which knows the rotors' lag and wrench"
+            raise InputError("plant", wanted, "another")
         if isinstance(self.plant, Sampled):
             self.plant.true_vehicle(self.vehicle)  # raises if the vehicle lacks what the plant needs
             for name, usual in (("method", "nothing"), ("precision", "'double'")):
@@ -219,7 +227,7 @@ class Flight:
     @property
     def loop(self) -> Loop:
         """The part of the request that compiled code depends on."""
-        plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else self.plant
+        plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else Ideal(lag=self.plant.lag)
         return Loop(self.vehicle, self.law, plant, tuple(self.gains))
 
     @property
@@ -234,8 +242,11 @@ class Flight:
 
     @property
     def packed(self) -> NDArray[np.float64]:
-        """The packed starts (n, 24)."""
+        """The packed starts (n, 24); in the ideal plant with lag, (n, 28) with the wrenches that act at the start."""
         found: NDArray[np.float64] = np.atleast_2d(self.starts.packed())
+        if self.loop.lag:
+            assert isinstance(self.plant, Ideal)
+            found = np.concatenate([found, self.plant.beginning(self.vehicle, self.runs, self.law.e3)], axis=1)
         return found
 
     @property
@@ -261,7 +272,10 @@ class Flight:
         if self.gains:
             assert isinstance(law, Controller)
             law = law.with_gains({name: float(value[i]) for name, value in self.gains.items()})
-        return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i)
+        plant = self.plant
+        if isinstance(plant, Ideal) and np.ndim(plant.rotors) == 2:
+            plant = replace(plant, rotors=plant.rotors[i])
+        return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i, plant=plant)
 
 
 def _setter(record: Any) -> Any:
@@ -272,7 +286,7 @@ def _setter(record: Any) -> Any:
 def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
     """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
     if isinstance(plant, Ideal) and isinstance(law, Controller):
-        return Sampled(limits=False, lag=0.0, rate=law.rate)
+        return Sampled(limits=False, lag=None if plant.lag else 0.0, rate=law.rate)
     return plant
 
 

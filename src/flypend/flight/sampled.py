@@ -23,6 +23,7 @@ from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.touch import watcher
+from flypend.geometry import Numbers
 from flypend.laws import Controller
 from flypend.model import Vehicle
 from flypend.model.state import MAX_STATE, seen_packed
@@ -31,7 +32,7 @@ from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUST_MEMORY, GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import within_period
-from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, sensing
+from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, sensing, start_draws
 
 NOT_FINITE = "the law's wrench is not a finite number"
 LEFT = f"the state left |s| < {MAX_STATE:g}"
@@ -41,18 +42,18 @@ LEFT = f"the state left |s| < {MAX_STATE:g}"
 class Samples:
     """A sampled flight at its control ticks: `t` (n,), s; `packed` (n, 24), e₃ up; `rotors` (n, k), N; `outcome`."""
 
-    t: Any
-    packed: Any
-    rotors: Any
+    t: Numbers
+    packed: Numbers
+    rotors: Numbers
     outcome: Outcome
 
-    def at(self, ticks: Any) -> Samples:
+    def at(self, ticks: Numbers) -> Samples:
         """Return the samples at the control ticks nearest to `ticks` (real numbers), without duplicates."""
         kept = distinct(np.clip(np.rint(ticks).astype(int), 0, len(self.t) - 1))
         return Samples(self.t[kept], self.packed[kept], self.rotors[kept], self.outcome)
 
 
-def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
+def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     """Fly the single start of `flight`, whose plant is sampled, step by step.
 
     `rotors` (n,) are the initial rotor forces, N; default their minimum. Every control tick is recorded.
@@ -103,20 +104,20 @@ def fly_stepwise(flight: Flight, rotors: Any = None) -> Samples:
 class Commands:
     """The commands of a flight by age in ticks, 0 for the latest; `idle` before the first."""
 
-    def __init__(self, idle: Any) -> None:
+    def __init__(self, idle: Numbers) -> None:
         self._idle = idle
         self._given: list[Any] = []
 
-    def add(self, command: Any) -> None:
+    def add(self, command: Numbers) -> None:
         """Add the command of this tick."""
         self._given.append(command)
 
-    def __getitem__(self, age: int) -> Any:
+    def __getitem__(self, age: int) -> Numbers:
         """Return the command `age` ticks before the latest."""
         return self._given[-1 - age] if age < len(self._given) else self._idle
 
 
-def flight_computer(loop: Loop, rotors: Any, estimate: Any = None) -> FlightComputer:
+def flight_computer(loop: Loop, rotors: Numbers, estimate: Numbers = None) -> FlightComputer:
     """Return the flight computer of `loop`, for initial rotor forces `rotors` (n,), N.
 
     A plant with sensors needs an `estimate` (24,) of the state at the start, e₃ up. Raises InputError for a controller
@@ -132,12 +133,15 @@ def flight_computer(loop: Loop, rotors: Any, estimate: Any = None) -> FlightComp
     return SteppedBoard(loop, rotors, estimate)
 
 
-def estimate_at_start(plant: Plant, packed: Any) -> Any:
+def estimate_at_start(plant: Plant, packed: Numbers) -> Numbers:
     """Return the estimate (24,) with which a flight from the state `packed` (24,), e₃ up, begins; None if perfect."""
     if plant.sensors is None:
         return None
-    draws = normals(plant.seed, 1, 18, first=START_TICK)[0]
-    return np.asarray(first_estimate(plant.sensors)(packed, draws)).ravel()
+    return np.asarray(first_estimate(plant.sensors)(packed, _draws_at_start(plant))).ravel()
+
+
+def _draws_at_start(plant: Plant) -> Numbers:
+    return normals(plant.seed, 1, start_draws(plant.sensors), first=START_TICK)[0]
 
 
 def number_of_ticks(duration: float, plant: Plant) -> int:
@@ -145,14 +149,14 @@ def number_of_ticks(duration: float, plant: Plant) -> int:
     return max(1, round(duration * plant.rate))
 
 
-def nearest_ticks(times: Any, plant: Plant, duration: float) -> Any:
+def nearest_ticks(times: Numbers, plant: Plant, duration: float) -> Numbers:
     """Return the control ticks (k,) nearest to `times` (s) in a flight of `duration` seconds, without duplicates."""
     return distinct(np.clip(np.rint(times * plant.rate).astype(np.int64), 0, number_of_ticks(duration, plant)))
 
 
 def _chance(
-    vehicle: Vehicle, plant: Plant, start: Any, ticks: int
-) -> tuple[Callable[[int, Any], Any], Callable[[int], Any]]:
+    vehicle: Vehicle, plant: Plant, start: Numbers, ticks: int
+) -> tuple[Callable[[int, Numbers], Numbers], Callable[[int], Numbers]]:
     """Return (tick, state) → measured state or readings, and tick → wind forces on vehicle and bob (6,), N."""
     count = PER_TICK if plant.sensors is None else max(PER_TICK, draws_size(plant.sensors))
     drawn = normals(plant.seed, ticks, count) if is_random(plant) else None
@@ -167,20 +171,20 @@ def _chance(
     blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(GUST_MEMORY)
     nothing = np.zeros(6)
 
-    def next_wind(k: int) -> Any:
+    def next_wind(k: int) -> Numbers:
         gust[:], force = blow(gust, nothing if drawn is None else drawn[k, GUSTS], numbers)
         return force
 
     return measure, next_wind
 
 
-def _sensed(vehicle: Vehicle, plant: Plant, start: Any, drawn: Any) -> Callable[[int, Any], Any]:
+def _sensed(vehicle: Vehicle, plant: Plant, start: Numbers, drawn: Numbers) -> Callable[[int, Numbers], Numbers]:
     """Return (tick, state) → readings, for the true `start` (24,) and the random numbers `drawn` (ticks, n)."""
     period, count = 1 / plant.rate, draws_size(plant.sensors)
     sense = as_numpy(sensing(plant.sensors, vehicle, period))
-    memory = np.asarray(ca.DM(first_memory(plant.sensors, period, start))).ravel()
+    memory = np.asarray(ca.DM(first_memory(plant.sensors, period, start, _draws_at_start(plant)))).ravel()
 
-    def measure(k: int, packed: Any) -> Any:
+    def measure(k: int, packed: Numbers) -> Numbers:
         nonlocal memory
         memory, readings = sense(memory, k * period, packed, drawn[k, :count])
         return readings

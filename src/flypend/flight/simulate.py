@@ -20,11 +20,12 @@ from flypend.flight.sampled import Samples, fly_stepwise
 from flypend.flight.signals import Signals
 from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
+from flypend.geometry import Numbers
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sampled
 from flypend.model import State, Vehicle
-from flypend.model.state import project, seen_packed, split
+from flypend.model.state import SIZE, project, seen_packed, split
 from flypend.plants import AnyPlant, Ideal, Sampled
 
 if TYPE_CHECKING:
@@ -104,8 +105,8 @@ def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
 
 
 def _ideal(flight: Flight, engine: str) -> Trajectory:
-    """Fly the closed loop in continuous time; the wrench acts as commanded."""
-    loop = close_loop(flight.vehicle, flight.loop.symbolic)
+    """Fly the closed loop in continuous time; the wrench acts as commanded, or after the rotors' lag."""
+    loop = close_loop(flight.vehicle, flight.loop.symbolic, lag=flight.loop.lag)
     solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop)
     wanted, end = flight.moments, solution.outcome.time
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
@@ -125,7 +126,7 @@ def _ideal(flight: Flight, engine: str) -> Trajectory:
         law=flight.law.name,
         gains=dict(flight.law.gains),
         x_ref=_reference(flight.law, t),
-        interpolant=solution,
+        interpolant=(lambda t: solution(t)[..., :SIZE]) if flight.loop.lag else solution,
     )
 
 
@@ -145,12 +146,12 @@ def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
         outputs = as_numpy(loop.outputs)
         row, threshold, reason = 4 + loop.signal_names.index(guard.signal), guard.threshold, guard.reason
 
-        def margin(t: float, s: Any) -> float:
+        def margin(t: float, s: Numbers) -> float:
             return float(outputs(t, s)[row]) - threshold
 
     exact, rates = flight.tolerances, as_numpy(loop.rates)
     return integrate(
-        rates, flight.starts.packed(), flight.duration, rtol=exact.rtol, atol=exact.absolute, margin=margin,
+        rates, flight.packed[0], flight.duration, rtol=exact.rtol, atol=exact.absolute, margin=margin,
         margin_reason=reason, touch=_touch(flight, loop),
     )  # fmt: skip
 
@@ -159,16 +160,16 @@ def _touch(flight: Flight, loop: ClosedLoop) -> Callable[[Any], tuple[float, str
     """Return what looks for a touch in the interpolant of a step, every two milliseconds; at the start, in None."""
     if flight.vehicle.mount == "gimbal":
         return lambda _: None
-    watch, start = watcher(flight.vehicle, flight.law.e3, by_rotors=False), flight.starts.packed()
+    watch, start = watcher(flight.vehicle, flight.law.e3, by_rotors=False), flight.packed[0]
     outputs = as_numpy(loop.outputs)
 
-    def state(interpolant: Any, t: float) -> Any:
+    def state(interpolant: Any, t: float) -> Numbers:
         packed = project(interpolant(t))[0]
-        return np.append(packed, outputs(t, packed)[0])
+        return np.append(packed[:SIZE], outputs(t, packed)[0])
 
     def look(interpolant: Any) -> tuple[float, str] | None:
         if interpolant is None:
-            begin = np.append(start, outputs(0.0, start)[0])
+            begin = np.append(start[:SIZE], outputs(0.0, start)[0])
             touch = watch(begin, begin, 0.0)
             return None if touch is None else (0.0, touch.reason)
         times = np.linspace(interpolant.t_old, interpolant.t, 2 + int((interpolant.t - interpolant.t_old) / LONGEST))

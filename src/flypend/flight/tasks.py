@@ -10,7 +10,7 @@ import numpy as np
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.request import Flight
-from flypend.geometry import E3
+from flypend.geometry import E3, Matrix, Numbers, Vector
 from flypend.laws import BoundLaw, Controller
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
@@ -121,14 +121,14 @@ def _free(
     raise InputError("vehicle.body", "a machine with room for its rod", f"one it touches in {MOST_DRAWS * runs} poses")
 
 
-def _directions(count: int, tilt: float) -> Any:
+def _directions(count: int, tilt: float) -> Vector:
     """Unit vectors (count, 3) at `tilt` (rad) from e₃, all around."""
     angle = 2 * np.pi * np.arange(count) / count
     level = np.sin(tilt) * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     return np.concatenate([level, np.full((count, 1), np.cos(tilt))], axis=-1)
 
 
-def _headings(angles: Any) -> Any:
+def _headings(angles: Numbers) -> Matrix:
     """Rotations (n, 3, 3) about e₃."""
     turned = np.broadcast_to(np.eye(3), (len(angles), 3, 3)).copy()
     turned[:, 0, 0] = turned[:, 1, 1] = np.cos(angles)

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.numeric import as_numpy
-from flypend.geometry import dot, unit
+from flypend.geometry import Numbers, dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, part_names, rod_in_body
 from flypend.model.state import SIZE, E3Direction
@@ -91,7 +91,7 @@ def watcher(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True)
         return lambda *_: None
     look = as_numpy(touching(vehicle, e3, by_rotors=by_rotors))
 
-    def watch(before: Any, after: Any, period: float) -> Touch | None:
+    def watch(before: Numbers, after: Numbers, period: float) -> Touch | None:
         _, share, part = look(before, after, period)
         return Touch(float(share), touched(vehicle, int(part))) if share <= 1 else None
 
@@ -107,7 +107,7 @@ def _ends(vehicle: Vehicle, e3: E3Direction, by_rotors: bool) -> tuple[Any, Any,
     before, after, period = ca.SX.sym("before", SIZE + n), ca.SX.sym("after", SIZE + n), ca.SX.sym("period")
     to_thrust = ca.DM(vehicle.mixing(e3)[:1]) if by_rotors else ca.DM(1)
 
-    def end(packed: Any) -> _End:
+    def end(packed: Numbers) -> _End:
         state = State.symbolic(packed[:SIZE])
         thrust = ca.mtimes(to_thrust, packed[SIZE:])
         return (*rod_in_body(state, e3), -rod_tension(state, Wrench(thrust, ca.SX(3, 1)), vehicle))

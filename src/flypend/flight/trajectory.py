@@ -16,7 +16,7 @@ from flypend.files.whole import whole_file
 from flypend.flight import saved
 from flypend.flight.labelled import dataframe, dataset, described, variable
 from flypend.flight.outcome import Outcome
-from flypend.geometry import cross, dot, norm
+from flypend.geometry import Matrix, Numbers, Vector, cross, dot, norm
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import margins
 from flypend.model.state import FLIP, SHAPES, E3Direction
@@ -67,24 +67,24 @@ class Trajectory:
         What was flown, for pages that fly on; not saved to files.
     """
 
-    t: Any
-    x: Any
-    x_dot: Any
-    R: Any
-    omega: Any
-    y: Any
-    y_dot: Any
-    thrust: Any
-    moment: Any
-    rotor_forces: Any
-    signals: Mapping[str, Any] = field(default_factory=dict)
-    drift: Any
+    t: Numbers
+    x: Vector
+    x_dot: Vector
+    R: Matrix
+    omega: Vector
+    y: Vector
+    y_dot: Vector
+    thrust: Numbers
+    moment: Vector
+    rotor_forces: Numbers
+    signals: Mapping[str, Numbers] = field(default_factory=dict)
+    drift: Numbers
     outcome: Outcome
     e3: E3Direction
     vehicle: Vehicle
     law: str
     gains: Mapping[str, Any]
-    x_ref: Any = None
+    x_ref: Numbers = None
     interpolant: Callable[[Any], Any] | None = None
     flight: Flight | None = None
 
@@ -101,12 +101,12 @@ class Trajectory:
         return f"<Trajectory of {self.law} on {self.vehicle.name}: {len(self.t)} samples, {self.outcome}>"
 
     @property
-    def z(self) -> Any:
+    def z(self) -> Vector:
         """Thrust axis z = R e₃, (n, 3)."""
         return self.R[..., :, 2]
 
     @property
-    def packed(self) -> Any:
+    def packed(self) -> Numbers:
         """The sampled states (n, 24) in the order of `State.packed`, exactly as integrated."""
         rows = [getattr(self, name).reshape(len(self.t), -1) for name in _STATE]
         return np.concatenate(rows, axis=1)
@@ -127,18 +127,18 @@ class Trajectory:
         return Wrench(self.thrust, self.moment)
 
     @property
-    def cone(self) -> Any:
+    def cone(self) -> Numbers:
         """Angle (n,) between the rod and the upward thrust axis, rad: 0 with the rod straight above the vehicle."""
         up = 1.0 if self.e3 == "up" else -1.0
         return np.arctan2(norm(cross(self.y, self.z)), up * dot(self.y, self.z))
 
     @property
-    def tension(self) -> Any:
+    def tension(self) -> Numbers:
         """Rod tension (n,), N, of the nominal model: negative where the vehicle pushes the rod."""
         return rod_tension(self.states, self.wrench, self.vehicle)
 
     @property
-    def clearance(self) -> Any:
+    def clearance(self) -> Numbers:
         """Signed distance (n,) of the rod to what its mount lets it touch, m; infinite on a gimbal.
 
         On a hub, from the rod's surface to the nearest rotor disc or arm; in a cup, from the bob to the cup's cone.
@@ -148,7 +148,7 @@ class Trajectory:
             found = found[:, :1]  # a force is no distance
         return np.min(found, axis=-1, initial=np.inf)
 
-    def at(self, t: Any) -> State:
+    def at(self, t: Numbers) -> State:
         """Return the state(s) at any time(s) `t` within the run, from the integrator's dense output.
 
         Raises InputError if a time is outside the run, or the run holds samples only: a sampled flight, or one loaded

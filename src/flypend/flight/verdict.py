@@ -7,12 +7,14 @@ from typing import Any
 import numpy as np
 
 from flypend.flight.criterion import Criterion
-from flypend.flight.metrics import metrics
+from flypend.flight.metrics import metrics, worst_excess
 from flypend.flight.touch import touched_part
 from flypend.model.state import E3Direction
 
-POSES = {"up": "upright", "down": "rod along e₃, which hangs,"}
+POSE = "upright"
+HANGS = "rod hangs"
 MISSED = {"rod": "rod not settled", "axis": "vehicle not level", "position": "off its reference"}
+STATES = ("done", "recovering", "failed")
 
 Run = Any  # flypend.Trajectory, not imported: its module imports this one
 
@@ -28,25 +30,44 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
     Returns
     -------
     dict
-        `words`, one line; `good`, whether it succeeded; `settling` (s) and `excursion` (m), or None; `reason` why a run
-        ended early, or ""; `part`, what the rod of a collided run touched, or None.
+        `words`, one line; `good`, whether it succeeded; `state`, one of `STATES`: "done" where the rod stands at the
+        reference, "recovering" where the goal was reached but the vehicle falls, as under laws that let the rod hang;
+        `settling` (s) and `excursion` (m), or None; `reason` why a run ended early, or ""; `part`, what the rod of a
+        collided run touched, or None; `excess` (n,), by how much the samples exceed the tolerances, at most 0 within.
     """
-    judged = metrics(run, criterion or goal(run.e3))
+    criterion = criterion or goal(run.e3)
+    judged = metrics(run, criterion)
     part = touched_part(run.vehicle, run.outcome.reason)
-    distance = f"excursion {round(judged.excursion, 2):.3g} m"
+    distance = f"excursion {_rounded(judged.excursion)} m"
     if run.outcome.status != "completed":
-        words = f"{run.outcome.status} after {run.outcome.time:.3g} s"
+        words = f"{run.outcome.status} {_moment(run.outcome.time)}"
         if part is not None:
             words += f", {run.outcome.reason}"
-    elif judged.success:
-        words = f"{POSES[run.e3]} after {judged.settling:.1f} s, {distance}"
-    else:
+    elif not judged.success:
         words = f"{MISSED.get(judged.cause, judged.cause)} during the last second, {distance}"
+    elif run.e3 == "up":
+        words = f"{POSE} after {judged.settling:.1f} s, {distance}"
+    else:
+        words = f"{HANGS} after {judged.settling:.1f} s, {_fall(float(run.x[-1, 2] - run.x[0, 2]))}"
     return {
         "words": words,
         "good": bool(judged.success),
+        "state": STATES[2] if not judged.success else STATES[0] if run.e3 == "up" else STATES[1],
         "settling": judged.settling if judged.success else None,
         "excursion": judged.excursion if np.isfinite(judged.excursion) else None,
         "reason": run.outcome.reason,
         "part": part,
+        "excess": worst_excess(run, criterion),
     }
+
+
+def _moment(time: float) -> str:
+    return f"after {time:.3g} s" if time > 0 else "at the start"
+
+
+def _fall(metres: float) -> str:
+    return f"vehicle {'fell' if metres >= 0 else 'rose'} {_rounded(abs(metres))} m"
+
+
+def _rounded(metres: float) -> str:
+    return f"{round(metres, 2):.3g}"

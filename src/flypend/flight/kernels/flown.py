@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import partial
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS
 from flypend.flight.kernels.stopping import Word, heard
+from flypend.geometry import Numbers
 from flypend.plants.loop import Loop
 
 Progress = Callable[[int, int], Any]
@@ -32,7 +34,7 @@ class Flown:
     Parameters
     ----------
     final : (n, 24)
-        Packed final states.
+        Packed final states; (n, 28) with the wrench that acts, in the ideal plant with lag.
     end : (n,)
         End time of each run, s.
     code : (n,)
@@ -40,7 +42,8 @@ class Flown:
     reductions : (n, 7), optional
         See `criterion.REDUCTIONS`.
     samples : (n, times, 24 or more), optional
-        States at the sample times, followed by rotor forces in a sampled flight; NaN after the end.
+        States at the sample times, followed by rotor forces in a sampled flight, and by the wrench that acts in the
+        ideal plant with lag; NaN after the end.
     steps : (n,), optional
         Attempted steps, in the ideal plant.
     clearance, part : (n,), optional
@@ -48,14 +51,14 @@ class Flown:
         `flypend.flight.touch`.
     """
 
-    final: Any
-    end: Any
-    code: Any
-    reductions: Any
-    samples: Any = None
-    steps: Any = None
-    clearance: Any = None
-    part: Any = None
+    final: Numbers
+    end: Numbers
+    code: Numbers
+    reductions: Numbers
+    samples: Numbers = None
+    steps: Numbers = None
+    clearance: Numbers = None
+    part: Numbers = None
 
     @classmethod
     def of_size(
@@ -83,7 +86,7 @@ class Flown:
         return len(self.end)
 
     @property
-    def status(self) -> Any:
+    def status(self) -> Numbers:
         """Status string of each run (n,)."""
         return STATUS[self.code]
 
@@ -140,7 +143,7 @@ def from_queue(
     progress(runs, runs)
 
 
-def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:
+def inputs_of(loop: Loop, given: Numbers, runs: int) -> NDArray[np.float64]:
     """Return the inputs (runs, k) of a kernel of `loop`: `given`, or by default the gains of its law."""
     names = loop.parameters
     if given is None:
@@ -149,6 +152,11 @@ def inputs_of(loop: Loop, given: Any, runs: int) -> NDArray[np.float64]:
     if values.shape != (runs, len(names)):
         raise InputError("parameters", f"an array of shape {(runs, len(names))}", f"shape {values.shape}")
     return values
+
+
+def ordered(names: Sequence[str], given: Mapping[str, Any]) -> list[Any]:
+    """Return the arguments `given` by name in the order of a kernel's `names`: numbers, and addresses of arrays."""
+    return [value if isinstance(value := given[name], Real) else address(value) for name in names]
 
 
 def address(array: Any) -> int | None:

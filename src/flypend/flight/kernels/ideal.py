@@ -1,4 +1,4 @@
-"""The kernel of the ideal plant: continuous time; the wrench acts as commanded."""
+"""The kernel of the ideal plant: continuous time; the wrench acts as commanded, or after the rotors' lag."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from flypend.compile.problem import Judging, Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import Criterion, gauge_bounds, gauged
-from flypend.flight.kernels.flown import Flown, Progress, address, from_queue, inputs_of
+from flypend.flight.kernels.flown import Flown, Progress, from_queue, inputs_of, ordered
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import distinct
 from flypend.flight.request import Flight
-from flypend.geometry import hat
+from flypend.geometry import Numbers, Vector, hat
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
 from flypend.model import State, Vehicle, lie_derivative
@@ -92,7 +92,7 @@ class IdealKernel:
 
     def fly(
         self,
-        starts: Any,
+        starts: Numbers,
         duration: float,
         *,
         rtol: float,
@@ -105,7 +105,7 @@ class IdealKernel:
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds.
+        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds; through a lag, (n, 28) with wrenches.
 
         Parameters
         ----------
@@ -133,9 +133,10 @@ class IdealKernel:
         moments = Moments.of(judge_at, keep_at)
         setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
 
-        samples = None if keep_at is None else (len(moments.kept) - 1, SIZE)
+        size = starts.shape[1]
+        samples = None if keep_at is None else (len(moments.kept) - 1, size)
         out = Flown.of_size(
-            len(starts), SIZE, samples=samples, steps=True, judged=judge, touching=self.loop.vehicle.mount != "gimbal"
+            len(starts), size, samples=samples, steps=True, judged=judge, touching=self.loop.vehicle.mount != "gimbal"
         )
 
         def fly(queue: Any, stop: Word) -> None:
@@ -167,14 +168,15 @@ def integrate(
     *,
     touching: bool = False,
 ) -> Flown:
-    """Fly one run by a compiled ideal kernel from `start` (24,), keeping the states at increasing `times`.
+    """Fly one run by a compiled ideal kernel from `start` (24,) or (28,), keeping the states at increasing `times`.
 
     `values` (1, k) are the parameter values, `setting` as in `call`. `knots` receives the number of accepted steps
     and four numbers for each: its time, and the drift (3,) before projection. `touching` says whether the rod can touch
     anything.
     """
     moments = Moments.of(keep_at=times)
-    out = Flown.of_size(1, SIZE, samples=(len(moments.kept) - 1, SIZE), steps=True, judged=False, touching=touching)
+    size = len(start)
+    out = Flown.of_size(1, size, samples=(len(moments.kept) - 1, size), steps=True, judged=False, touching=touching)
     heard([lambda stop: call(function, start[None], values, setting, moments, out, stop, knots)])
     return out
 
@@ -196,21 +198,25 @@ def call(
     `stop` is set, the call returns at its next step. Calls in several threads share the runs through one `queue` (1,),
     the index of the next run.
     """
-    queue = np.zeros(1, dtype=np.int64) if queue is None else queue
-    function(
-        address(starts), address(values), address(queue), len(starts), 0.0, *setting,
-        address(moments.kept), len(moments.kept) - 1,
-        address(moments.judged), address(moments.bins), len(moments.bins), moments.rate,
-        address(out.samples), address(out.reductions), address(out.final), address(out.end), address(out.code),
-        address(out.steps), address(knots), address(out.clearance), address(out.part), address(stop),
-    )  # fmt: skip
+    until, rtol, atol, max_steps = setting
+    given = {
+        "starts": starts, "parameters": values, "queue": np.zeros(1, dtype=np.int64) if queue is None else queue,
+        "runs": len(starts), "begin": 0.0, "until": until, "rtol": rtol, "atol": atol, "max_steps": max_steps,
+        "times": moments.kept, "time_count": len(moments.kept) - 1,
+        "judge_times": moments.judged, "bins": moments.bins, "bin_count": len(moments.bins), "bin_rate": moments.rate,
+        "samples": out.samples, "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
+        "steps": out.steps, "knots": knots, "clearance": out.clearance, "part": out.part, "stop": stop,
+    }  # fmt: skip
+    function(*ordered(ARGUMENTS, given))
 
 
 @lru_cache(maxsize=64)
 def ideal_kernel(
     loop: Loop, criterion: Criterion | None = None, *, method: str = "dop853", precision: str = "double"
 ) -> IdealKernel:
-    """Return the kernel of a `loop` in continuous time, compiled or from the cache. The loop's plant is ignored.
+    """Return the kernel of a `loop` in continuous time, compiled or from the cache.
+
+    Of the loop's plant only counts whether it is ideal with lag.
 
     Parameters
     ----------
@@ -264,21 +270,23 @@ def written(
 def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
     """Return the closed `loop` and `criterion` as programs, with the loop's parameters as inputs."""
     vehicle, law = loop.vehicle, loop.symbolic
-    symbols = symbolic_loop(vehicle, law, loop.parameters)
+    symbols = symbolic_loop(vehicle, law, loop.parameters, lag=loop.lag)
+    size = symbols.s.numel()
     inputs = [symbols.t, symbols.s, symbols.p]
     wrench = ca.vertcat(symbols.wrench.thrust, symbols.wrench.moment)
     return Problem(
         rates=lower(ca.Function("rates", inputs, [symbols.rates, ca.densify(wrench)])),
-        project=lower(_projection()),
+        project=lower(_projection(size)),
         margin=_margin(symbols, law, inputs),
-        judging=_judging(vehicle, law, criterion),
+        judging=_judging(vehicle, law, criterion, size),
+        # Entry 24 of what touches is the thrust: the first of the wrench, wherever it stands.
         touch=touch_of(vehicle, law.e3, by_rotors=False),
     )
 
 
-def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion) -> Judging:
+def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, size: int) -> Judging:
     """Return `criterion` as gauges of the state, and the rotor forces of a wrench."""
-    t, s, s_dot = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("s_dot", SIZE)
+    t, s, s_dot = ca.SX.sym("t"), ca.SX.sym("s", size), ca.SX.sym("s_dot", size)
     state, rates = State.symbolic(s), State.symbolic(s_dot)
     gauges, tolerances = gauged(t, state, vehicle, law.reference, criterion, law.e3)
     # Position, attitude and rod direction, which alone enter a gauge, have rates that the state itself holds.
@@ -295,7 +303,7 @@ def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion) -> Judging:
     )
 
 
-def _shared(matrix: NDArray[np.float64], vector: Any) -> Any:
+def _shared(matrix: NDArray[np.float64], vector: Vector) -> Numbers:
     """Return `matrix` · `vector` with one product where a column repeats a magnitude, up to roundoff."""
     rows = [ca.SX(0) for _ in matrix]
     for column, factor in zip(matrix.T, ca.vertsplit(vector), strict=True):
@@ -314,10 +322,10 @@ def _margin(symbols: SymbolicLoop, law: BoundLaw, inputs: list[Any]) -> Program 
     return lower(ca.Function("margin", inputs, [signal - law.guard.threshold]))
 
 
-def _projection() -> ca.Function:
-    """Return packed state → state projected onto the manifold, and drift (3,) before projection."""
-    packed = ca.SX.sym("s", 24)
+def _projection(size: int) -> ca.Function:
+    """Return packed state (`size`,) → state projected onto the manifold, and drift (3,) before projection."""
+    packed = ca.SX.sym("s", size)
     s = State.symbolic(packed)
     defect = s.R.T @ s.R - ca.SX.eye(3)
     drift = ca.vertcat(ca.fabs(ca.norm_2(s.y) - 1), ca.fabs(ca.dot(s.y, s.y_dot)), ca.norm_fro(defect))
-    return ca.Function("project", [packed], [project_symbolic(packed), drift])
+    return ca.Function("project", [packed], [ca.vertcat(project_symbolic(packed), packed[SIZE:]), drift])

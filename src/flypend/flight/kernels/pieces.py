@@ -22,15 +22,15 @@ from flypend.board.believed import Believed
 from flypend.board.estimator import assumed_delay
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
-from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, RESUMED_ARGUMENTS
+from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
 from flypend.compile.numeric import as_numpy
 from flypend.compile.program import lower
 from flypend.compile.sampled_problem import Resuming, SampledProblem
 from flypend.errors import InputError
 from flypend.flight.criterion import REDUCTIONS, Criterion
-from flypend.flight.kernels.flown import STATUS, address, aligned, inputs_of
-from flypend.flight.kernels.sampled import argument_kinds, sampled_problem, structure, written
+from flypend.flight.kernels.flown import STATUS, aligned, inputs_of, ordered
+from flypend.flight.kernels.sampled import ARGUMENT_KINDS, sampled_problem, structure, written
 from flypend.flight.kernels.single import sampled_outcome
 from flypend.flight.outcome import Outcome
 from flypend.model import State
@@ -99,7 +99,7 @@ def _compiled(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
     problem = pieces_problem(loop, criterion)
     code, room = jit.build_object(*written(problem, 1), native()), np.zeros(1, dtype=np.int64)
     jit.Native(code, "context_size", (ctypes.c_void_p,))(room.ctypes.data)
-    return jit.Native(code, "kernel", tuple(argument_kinds(problem))), int(room[0])
+    return jit.Native(code, "kernel", tuple(ARGUMENT_KINDS)), int(room[0])
 
 
 class PiecewiseFlight:
@@ -128,6 +128,7 @@ class PiecewiseFlight:
             "reductions": np.zeros((1, len(REDUCTIONS))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
             "status": np.zeros(1, dtype=np.int64), "clearance": np.zeros(1), "part": np.zeros(1, dtype=np.int64),
             "stop": np.zeros(1, dtype=np.int64), "context": aligned((kernel.room // 8,)),
+            "mujoco": None,
         }  # fmt: skip
         self._plant: NDArray[np.float64] = self._turn(np.concatenate(list(self._knobs.values())))
         self.tune(gains)
@@ -161,8 +162,7 @@ class PiecewiseFlight:
             "judged": np.ones_like(kept), "rows": np.arange(len(kept) + 1), "row_count": len(kept), "samples": samples,
             "impulses": errors.array("impulses", impulses, (6,))[None].copy(),
         }  # fmt: skip
-        names = ARGUMENTS + RESUMED_ARGUMENTS
-        self._kernel.function(*(given[name] if name in INTEGERS else address(given[name]) for name in names))
+        self._kernel.function(*ordered(ARGUMENTS, given))
         self.ticks = last
         flown: NDArray[np.float64] = samples[0]
         flown[kept / self._loop.sampled.rate > float(self._given["end"][0]) + 1e-9] = np.nan  # there it has ended

@@ -10,26 +10,26 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
-from llvmlite import ir
 from numpy.typing import ArrayLike, NDArray
 
 from flypend.board.believed import Believed
 from flypend.board.command import idle_command
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, arguments, write_kernel
+from flypend.compile.llvm.loops import LoopModule
+from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, kernel_module
 from flypend.compile.llvm.target import Target
-from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
 from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import REDUCTIONS, Criterion, observed
-from flypend.flight.kernels.flown import Flown, Progress, address, in_pieces, inputs_of
+from flypend.flight.kernels.flown import Flown, Progress, in_pieces, inputs_of, ordered
 from flypend.flight.kernels.stopping import Word
 from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
+from flypend.geometry import Numbers
 from flypend.model import State, Vehicle
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
@@ -42,9 +42,10 @@ from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surr
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Plant, Wind
 from flypend.plants.schedule import steps_in, within_period
-from flypend.plants.sensing import START_TICK, first_estimate, first_memory, sensing
+from flypend.plants.sensing import START_TICK, first_estimate, first_memory, sensing, start_draws
 
 WIDTH = 8
+ARGUMENT_KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
 # Runs per piece of work; MuJoCo flies them one by one, some tens of milliseconds each.
 PIECE, PIECE_MUJOCO = 4 * WIDTH, 1
 
@@ -97,14 +98,14 @@ class SampledKernel:
 
     def fly(
         self,
-        starts: Any,
+        starts: Numbers,
         duration: float,
         *,
         judge_at: ArrayLike,
         keep_at: ArrayLike | None = None,
         first_seed: int = 0,
-        parameters: Any = None,
-        rotors: Any = None,
+        parameters: Numbers = None,
+        rotors: Numbers = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -155,8 +156,17 @@ class SampledKernel:
         return flown
 
     def _call(
-        self, starts: Any, values: Any, numbers: Any, seeds: Any, count: int, ticks: Ticks, out: Flown, stop: Word
+        self,
+        starts: Numbers,
+        values: Numbers,
+        numbers: Numbers,
+        seeds: Numbers,
+        count: int,
+        ticks: Ticks,
+        out: Flown,
+        stop: Word,
     ) -> None:
+        """Fly `starts` (n, 24 + rotors), e₃ up, for `count` ticks into `out`; `seeds` (n,), `values` (n, k)."""
         if out.samples is not None:
             out.samples[...] = np.nan
         given = {
@@ -165,13 +175,13 @@ class SampledKernel:
             "rows": ticks.rows, "row_count": int(ticks.rows[-1]), "samples": out.samples,
             "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
             "clearance": out.clearance, "part": out.part, "stop": stop,
+            "context": None, "begun": 0, "impulses": None, "mujoco": None,
         }  # fmt: skip
-        passed = [given[name] if name in INTEGERS else address(given[name]) for name in ARGUMENTS]
         if self.loop.sampled.engine == "equations":
-            self.function(*passed)
+            self.function(*ordered(ARGUMENTS, given))
         else:
             with MuJoCoWorld.lent(self.loop) as world:
-                self.function(*passed, *world.addresses(starts))
+                self.function(*ordered(ARGUMENTS, given | {"mujoco": world.addresses(starts)}))
 
 
 def structure(plant: Plant) -> Plant:
@@ -191,7 +201,7 @@ def _without_lag(plant: Plant) -> dict[str, float]:
     return {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
 
 
-def plant_numbers(loop: Loop) -> Any:
+def plant_numbers(loop: Loop) -> Numbers:
     """Return the plant parameters that the machine code inputs, in the order of `SampledProblem.inputs`."""
     plant = loop.sampled
     true = plant.true_vehicle(loop.vehicle)
@@ -202,7 +212,7 @@ def plant_numbers(loop: Loop) -> Any:
     return np.concatenate([*timings, *noise, *wind])
 
 
-def _timing(true: Vehicle, plant: Plant, duration: float) -> Any:
+def _timing(true: Vehicle, plant: Plant, duration: float) -> Numbers:
     """Return the numbers of a step of `duration` (s) that the world inputs; see `Equations` and `Mujoco`."""
     if plant.engine == "equations":
         return motor_timing(true.rotor_lag, plant, duration)
@@ -253,30 +263,19 @@ def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
     problem = sampled_problem(loop, criterion)
     width = WIDTH if isinstance(problem.world, EquationsProblem) else 1
     key, module = written(problem, width)
-    return SampledKernel(loop, criterion, jit.build(key, module, "kernel", argument_kinds(problem)), key)
+    return SampledKernel(loop, criterion, jit.build(key, module, "kernel", ARGUMENT_KINDS), key)
 
 
-def written(problem: SampledProblem, width: int, target: Target | None = None) -> tuple[str, Callable[[], ir.Module]]:
+def written(problem: SampledProblem, width: int, target: Target | None = None) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` flights at a time, and what writes its module."""
-
-    def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), width, target=target)
-        write_kernel(lanes, problem)
-        return lanes.module
-
-    return f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}", module
-
-
-def argument_kinds(problem: SampledProblem) -> list[Any]:
-    """Return the ctypes types of the arguments of the kernel of `problem`."""
-    return [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in arguments(problem)]
+    key = f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}"
+    return key, lambda: kernel_module(problem, width, target)
 
 
 def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None = None) -> SampledProblem:
     """Return the flights of `loop` and `criterion` as programs; `believed` as in `flypend.board.program.board`."""
     vehicle, plant = loop.vehicle, loop.sampled
     true = plant.true_vehicle(vehicle)
-    flight_computer = board(loop, believed)
     rates = plant.interface == "rates"
     world: EquationsProblem | MujocoProblem
     if plant.engine == "equations":
@@ -287,7 +286,7 @@ def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None 
         world = MujocoProblem(seen, _is_filtered(loop), MAX_FORCE, *effects)
     on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
     return SampledProblem(
-        board=lower_calls(flight_computer.step),
+        board=lower_calls(board(loop, believed)),
         begin=_begin(loop),
         world=world,
         loop=lower(on_board) if rates else None,
@@ -314,9 +313,10 @@ def _begin(loop: Loop) -> Program:
 
 def _sensing(loop: Loop) -> Sensing:
     sensors, period, state = loop.sampled.sensors, 1 / loop.sampled.rate, ca.SX.sym("s", SIZE)
-    memory = ca.densify(first_memory(sensors, period, state))
+    draws = ca.SX.sym("n", start_draws(sensors))
+    memory = ca.densify(first_memory(sensors, period, state, draws))
     return Sensing(
-        begin=lower(ca.Function("sensors_begin", [state], [memory])),
+        begin=lower(ca.Function("sensors_begin", [state, draws], [memory])),
         estimate=lower(first_estimate(sensors)),
         sense=lower(sensing(sensors, loop.vehicle, period)),
         tick=START_TICK,

@@ -37,7 +37,7 @@ class Solution:
 
     def __init__(self, kernel: IdealKernel, flight: Flight, parameters: NDArray[np.float64] | None = None) -> None:
         self._function = kernel.function
-        self._start = np.ascontiguousarray(flight.starts.packed(), dtype=float)
+        self._start = np.ascontiguousarray(flight.packed[0], dtype=float)
         self._setting = setting_of(flight)
         self._values = inputs_of(kernel.loop, None if parameters is None else np.asarray(parameters)[None], 1)
         room = np.empty(1 + 4 * self._setting[-1])
@@ -54,7 +54,7 @@ class Solution:
         return integrate(self._function, self._start, self._values, self._setting, times, room, touching=self._touching)
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
-        """Return the states (len(t), 24) at times within the run, from the method's dense output, projected."""
+        """Return the states (len(t), 24 or 28) at times within the run, from the method's dense output, projected."""
         wanted = np.atleast_1d(np.asarray(t, dtype=float))
         times = distinct(wanted)
         samples: NDArray[np.float64] = self._fly(times).samples[0]
@@ -64,6 +64,7 @@ class Solution:
 
 
 def _judge(code: int, end: float, part: int, kernel: IdealKernel) -> Outcome:
+    """Return the outcome of a run that ended at `end` (s) with the status `code`, having touched `part`."""
     if code == runge_kutta.COLLIDED:
         return Outcome("collided", end, touched(kernel.loop.vehicle, part))
     guard = kernel.loop.symbolic.guard

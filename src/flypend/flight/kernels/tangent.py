@@ -20,6 +20,7 @@ from flypend.flight.kernels.flown import Flown, inputs_of
 from flypend.flight.kernels.ideal import Moments, call, compiled, setting_of
 from flypend.flight.kernels.stopping import heard
 from flypend.flight.request import Flight
+from flypend.geometry import Numbers
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.model.state import SIZE, project_symbolic
 from flypend.plants.loop import Loop
@@ -77,7 +78,7 @@ def tangent_problem(closed: Loop) -> Problem:
     )
 
 
-def _projection(both: Any) -> ca.Function:
+def _projection(both: Numbers) -> ca.Function:
     """Project the state onto the manifold; this would change the derivative by no more than a step's error."""
     out = ca.vertcat(project_symbolic(both[:SIZE]), both[SIZE:])
     return ca.Function("project", [both], [ca.densify(out), ca.DM.zeros(3)])

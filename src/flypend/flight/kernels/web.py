@@ -15,7 +15,7 @@ from flypend.compile.llvm.target import wasm32
 from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.wasm import module
-from flypend.flight.criterion import Criterion
+from flypend.flight.criterion import Criterion, observed
 from flypend.flight.kernels import ideal, sampled
 from flypend.flight.kernels.pieces import pieces_problem
 from flypend.flight.request import Tolerances
@@ -60,7 +60,7 @@ def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int =
 
     - for a sampled plant, which flies in pieces: "context_size", which stores the bytes of the kernel's argument
       "context", and "turned", from `flypend.plants.knobs` to the argument "plant". The kernel has the arguments
-      `ARGUMENTS` and `RESUMED_ARGUMENTS` of `flypend.compile.llvm.sampled` in that order;
+      `ARGUMENTS` of `flypend.compile.llvm.sampled`;
     - for the ideal plant, whose method and precision are those of `exact`: `row`, `own` and "strike", an impulse. The
       kernel has the arguments `ARGUMENTS` of `flypend.compile.llvm.runge_kutta`.
 
@@ -72,14 +72,15 @@ def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int =
     if isinstance(loop.plant, Ideal):
         return _ideal(loop, criterion, exact, lanes)
     written = sampled.written(pieces_problem(loop, criterion), lanes, wasm32())
-    return WebModule(*written, ("kernel", "context_size"), (lower(turned(loop.sampled)), lower(shown(loop))))
+    return WebModule(*written, ("kernel", "context_size"), (lower(turned(loop.sampled)), lower(shown(loop, criterion))))
 
 
 def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int) -> WebModule:
+    """Return the module that flies `loop` through the ideal plant in a page."""
     problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
     written = ideal.written(ideal.key_of(problem, *chosen), problem, lanes, *chosen, wasm32())
     centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
-    beside = (own(loop), row(loop), struck(centred), shown(loop))
+    beside = (own(loop), row(loop), struck(centred), shown(loop, criterion))
     return WebModule(*written, ("kernel",), tuple(lower(function) for function in beside))
 
 
@@ -106,12 +107,12 @@ def _beside(packed: ca.SX, origin: ca.SX) -> ca.SX:
     return ca.vertcat(packed[:3] - origin, packed[3:SIZE])
 
 
-def shown(loop: Loop) -> ca.Function:
+def shown(loop: Loop, criterion: Criterion) -> ca.Function:
     """Return the CasADi function (t, state and rotor forces, origin, gains) → what a page shows beside them.
 
     It is the reference position (3,) in the law's frame, m, with the law's origin at `origin` (3,), e₃ up; the thrust
-    along z = R e₃ of that frame, N; the clearance of the rod, m, infinite on a gimbal; and V, if the law has one. The
-    state is e₃ up, the gains are the parameters of `loop`.
+    along z = R e₃ of that frame, N; the clearance of the rod, m, infinite on a gimbal; the worst excess over the
+    tolerances of `criterion`; and V, if the law has one. The state is e₃ up, the gains are the parameters of `loop`.
     """
     law, true = loop.symbolic, flown_vehicle(loop)
     t, origin = ca.SX.sym("t"), ca.SX.sym("o", 3)
@@ -124,10 +125,12 @@ def shown(loop: Loop) -> ca.Function:
     if true.mount != "gimbal":
         push = -rod_tension(state, Wrench(upward, ca.SX(3, 1)), true)
         clearance = least_margin(rod_in_body(state, "up")[0], push, true)[2]
-    gains, numbers = ca.SX.sym("p", len(loop.parameters)), [place + moved, thrust, clearance]
+    own = seen_packed(_beside(packed, origin), law.e3)
+    excess = observed(t, State.symbolic(own[:SIZE]), packed[SIZE:], true, law.reference, criterion, law.e3)[0]
+    gains, numbers = ca.SX.sym("p", len(loop.parameters)), [place + moved, thrust, clearance, excess]
     lyapunov = lyapunov_function(loop.vehicle, law, loop.parameters)
     if lyapunov is not None:
-        numbers.append(lyapunov(t, seen_packed(_beside(packed, origin), law.e3), gains))
+        numbers.append(lyapunov(t, own, gains))
     return ca.Function("shown", [t, packed, origin, gains], [ca.densify(ca.vertcat(*numbers))])
 
 

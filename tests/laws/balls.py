@@ -12,7 +12,8 @@ from flint import arb, ctx
 from flypend.compile.program import interpret, lower
 from flypend.export.records import params_of, params_record
 from flypend.export.symbolic import SymbolicVehicle
-from flypend.model import State, equations_of_motion, lie_derivative
+from flypend.laws.closed_loop import WRENCH, wrench_in
+from flypend.model import State, equations_of_motion
 from flypend.model.state import SIZE
 
 BITS = 200
@@ -31,18 +32,27 @@ OPERATIONS = {
 
 
 class RateCheck:
-    """The difference of exact and claimed V̇ of `law` on `vehicle`, and the sum of the sizes of the terms of V̇."""
+    """The difference of exact and claimed V̇ of `law` on `vehicle`, and the sum of the sizes of the terms of V̇.
 
-    def __init__(self, law, vehicle):
-        self.law, self.vehicle = law.bind(vehicle), vehicle
+    Through a `lag` the wrench that acts is part of the state; the lag is a symbol, and so is the wrench.
+    """
+
+    def __init__(self, law, vehicle, *, lag=False):
+        self.law, self.vehicle, self.lag = law.bind(vehicle), vehicle, lag
         record = params_record(vehicle)
-        t, s = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+        t, s = ca.SX.sym("t"), ca.SX.sym("s", SIZE + WRENCH * lag + lag)
         p, k = ca.SX.sym("p", record.length), ca.SX.sym("k", len(self.law.numbers))
         body, state = SymbolicVehicle(p, record, vehicle), State.symbolic(s)
         gains = {name: k[i] for i, name in enumerate(self.law.numbers)}
-        control = self.law.evaluate(t, state, body, gains=gains)
-        rates = equations_of_motion(state, control.wrench, body, self.law.e3)
-        terms = [lie_derivative(term, state, rates, t) for term in control.lyapunov.values()]
+        acting = wrench_in(s[: SIZE + WRENCH]) if lag else None
+        body.rotor_lag = s[-1] if lag else None
+        control = self.law.evaluate(t, state, body, gains=gains, acting=acting)
+        rates = equations_of_motion(state, acting or control.wrench, body, self.law.e3).packed()
+        if lag:
+            command = ca.vertcat(control.wrench.thrust, control.wrench.moment)
+            rates = ca.vertcat(rates, (command - s[SIZE:-1]) / body.rotor_lag, 0)
+        flow = ca.vertcat(s, t), ca.vertcat(rates, 1)
+        terms = [ca.jtimes(term, *flow) for term in control.lyapunov.values()]
         claimed = control.signals["V_rate_claimed"]
         self.function = ca.Function("rate", [t, s, p, k], [sum(terms) - claimed, ca.vertcat(*terms)])
         self.program = lower(self.function)
@@ -58,7 +68,10 @@ class RateCheck:
         """Return the ball of the difference at a random state, over the sum of the sizes of the terms."""
         ctx.prec = BITS
         time, params, gains = self.numbers(rng)
-        vectors = [[time], random_state(rng, speed), params, gains]
+        state = random_state(rng, speed)
+        if self.lag:  # thrust of either sign, N, moments, N m, and a lag, s
+            state += [*rng.uniform(-10, 10, 1), *rng.uniform(-1, 1, 3), *rng.uniform(0.001, 1.0, 1)]
+        vectors = [[time], state, params, gains]
         entries = [[value if isinstance(value, arb) else arb(float(value)) for value in vector] for vector in vectors]
         [difference], terms = interpret(self.program, [vector.__getitem__ for vector in entries], OPERATIONS, arb)
         return difference / sum(map(abs, terms))

@@ -52,7 +52,7 @@ def test_the_c_header_says_of_each_gain_what_the_registry_says(name):
 
 def test_what_exported_code_fixes_is_marked_in_the_registry():
     law = fp.laws.inverted()
-    assert law.fixed == law.bind(VEHICLE).fixed == ("thrust_coast_share", "pump_share")
+    assert law.fixed == law.bind(VEHICLE).fixed == ("pump_share",)
     assert [gain.name for gain in law.gains.values() if gain.fixed] == list(law.fixed)
 
 

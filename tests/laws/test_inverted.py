@@ -85,9 +85,9 @@ def _rod_force(vehicle, reference, gains):
     x, x_dot, y, y_dot, z, on_vehicle, on_bob = (ca.SX.sym(name, 3) for name in ("x", "v", "y", "w", "z", "a", "b"))
     p, v, a, jerk, _ = throw.bob_reference(t, reference, vehicle, on_bob)
     e, e_dot = x + vehicle.l * y - p, x_dot + vehicle.l * y_dot - v
-    pose = throw.Pose(x[2] - reference(t)[2], np.array([1.0, 0, 0]), 1.0)
-    low = throw.low_rod(y, y_dot, z, gains)
-    F = throw.rod_force(e, e_dot, a, jerk, y, y_dot, low, pose, (on_vehicle, on_bob), vehicle, gains)
+    rod = throw.Rod(y, y_dot)
+    pose = throw.Pose(throw.low_rod(rod, z, gains), x[2] - reference(t)[2], np.array([1.0, 0, 0]), 1.0)
+    F = throw.rod_force(throw.Bob(e, e_dot, a, jerk), rod, pose, (on_vehicle, on_bob), vehicle, gains)
     outputs = [ca.densify(value) for value in (F, e, e_dot, a, jerk)]
     function = ca.Function("rod_force", [t, x, x_dot, y, y_dot, z, on_vehicle, on_bob], outputs)
     return lambda *values: [np.array(value)[:, 0] for value in function(*values)]
@@ -136,14 +136,14 @@ def test_near_upright_the_bob_does_what_its_loop_asks_and_the_rod_what_lemma_2_a
 def test_the_thrust_axis_follows_its_target_as_stated(share):
     # z̈ = −|ż|² z + u_z with u_z = ω² spring − 2 ζ ω v_e; f = F·z within what the rotors give; yaw is damped.
     vehicle, reference = _tilted(), lemniscate(0.6, 1.3)
-    law = fp.laws.inverted(reference, thrust_coast_share=share).bind(vehicle)
+    law = fp.laws.inverted(reference, pump_share=share).bind(vehicle)
     k, rng, h = SimpleNamespace(**law.gains, **law.prepared), np.random.default_rng(3), 1e-5
     force = _rod_force(vehicle, reference, k)
     t, packed, external = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("F", 6)
     wrench = law.evaluate(t, fp.State.symbolic(packed), vehicle, (external[:3], external[3:])).wrench
     function = ca.Function("law", [t, packed, external], [ca.densify(ca.vertcat(wrench.thrust, wrench.moment))])
 
-    low = _numeric(lambda y, y_dot, z: throw.low_rod(y, y_dot, z, k), (3,), (3,), (3,))
+    low = _numeric(lambda y, y_dot, z: throw.low_rod(throw.Rod(y, y_dot), z, k), (3,), (3,), (3,))
 
     def rod_after(tau, s):
         """The rod after coasting for `tau`, and its rate."""
@@ -168,7 +168,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         time, forces = rng.uniform(0, 5), (0.5 * rng.standard_normal(3), 0.05 * rng.standard_normal(3))
         f, *moment = np.array(function(time, state.packed(), np.concatenate(forces)))[:, 0]
         here = {"x": state.x, "x_dot": state.x_dot, "y": state.y, "y_dot": state.y_dot, "z": state.z}
-        F = force_after(share * k.coast_time, time, here, forces)
+        F = force_after((1 - share) * k.coast_time, time, here, forces)
         assert f == pytest.approx(np.clip(F @ state.z, 0, largest), abs=1e-12)
         seen.add("none" if f == 0 else "some")
 
@@ -185,7 +185,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         R, omega, z = state.R, state.omega, state.z
         z_dot = R @ np.cross(omega, E3)
         v_e = z_dot - np.cross(np.cross(z_d, z_d_dot), z)
-        bandwidth = k.attitude_bandwidth * (1 + k.haste * low(*rod_after(k.coast_time, here), z))
+        bandwidth = k.attitude_bandwidth * (1 + k.mounting.haste * low(*rod_after(k.coast_time, here), z))
         damping = 2 * k.attitude_damping * bandwidth
         spring = geo.tangent_part(z, z_d) / np.sqrt((1 + z @ z_d) / 2 + 0.014)
         spring += 0.03 * ((1 - z @ z_d) / 2) ** 4 * R[:, 0]
@@ -222,7 +222,7 @@ STEP = _numeric(throw.smooth_step, ())
 SOFT = _numeric(throw.soft, (3,), ())
 LIMITED = _numeric(throw.limited_force, (3,), ())
 LIFTED = _numeric(throw.lifted, (3,), ())
-COASTED = _numeric(throw.coasted, (3,), (3,), ())
+COASTED = _numeric(lambda y, y_dot, time: throw.coasted(throw.Rod(y, y_dot), time), (3,), (3,), ())
 vectors = arrays(float, 3, elements=st.floats(-1e3, 1e3))
 
 
@@ -281,8 +281,9 @@ def test_a_lifted_force_leans_no_further_than_allowed_and_is_left_alone_within(f
 def test_pumping_brings_the_energy_of_the_rod_to_its_value_upright():
     # E = |ẏ|²/2 + w² y₃ under F = (M+m) g e₃ + …: Ė = κ (1 − E/w²) ẏ · push, push = ẏ but for a nudge at rest.
     pumping, rate_of_energy = SimpleNamespace(**(vars(GAINS) | {"pump_share": 1.0})), 2 * np.sqrt(g / l)
+    aside = np.array([1.0, 0, 0])
     force = _numeric(
-        lambda A, y, y_dot: throw.pumping_force(A, y, y_dot, np.array([1.0, 0, 0]), VEHICLE, pumping), (3,), (3,), (3,)
+        lambda A, y, y_dot: throw.pumping_force(A, throw.Rod(y, y_dot), aside, VEHICLE, pumping), (3,), (3,), (3,)
     )
     w_squared = VEHICLE.weight / (M * l)
     signs = set()
@@ -291,7 +292,7 @@ def test_pumping_brings_the_energy_of_the_rod_to_its_value_upright():
         F = force(g * E3, y, y_dot)
         y_ddot = -geo.tangent_part(y, F) / (M * l) - y_dot @ y_dot * y  # (ddty)
         missing = 1 - (y_dot @ y_dot / 2 / w_squared + y[2])
-        push = y_dot + GAINS.shift * np.sqrt(w_squared) * np.array([1.0, 0, 0])
+        push = y_dot + GAINS.mounting.shift * np.sqrt(w_squared) * np.array([1.0, 0, 0])
         rate = y_dot @ y_ddot + w_squared * y_dot[2]
         circling = E3 @ np.cross(y, y_dot)  # damped besides, which costs energy
         assert rate == pytest.approx(rate_of_energy * (missing * (y_dot @ push) - 0.4 * circling**2), abs=1e-9)
@@ -319,7 +320,7 @@ def test_a_coasted_rod_is_a_rod_turned_on_with_its_speed(seed, time):
 
 
 def test_the_throw_ends_and_the_flip_is_allowed_where_the_gains_say():
-    low = _numeric(lambda y, y_dot, z: throw.low_rod(y, y_dot, z, GAINS), (3,), (3,), (3,))
+    low = _numeric(lambda y, y_dot, z: throw.low_rod(throw.Rod(y, y_dot), z, GAINS), (3,), (3,), (3,))
     allowed = _numeric(lambda y, h, v: throw.flip_permission(y, h, v, VEHICLE, GAINS), (3,), (), ())
 
     def rod(y_3):
@@ -417,7 +418,6 @@ def test_a_similar_vehicle_flies_a_similar_flight():
         ({"descent_limit": 0}, "descent_limit: expected a finite number > 0 m/s², got 0"),
         ({"pump_share": 1.1}, "pump_share: expected at most 1, got 1.1"),
         ({"rate_feedforward": 1.01}, "rate_feedforward: expected at most 1, got 1.01"),
-        ({"thrust_coast_share": 2}, "thrust_coast_share: expected at most 1, got 2"),
         ({"hanging_share": 2}, "hanging_share: expected at most 1, got 2"),
         ({"tilt_limit": 3.2}, "tilt_limit: expected at most 3.14159 rad, got 3.2"),
         ({"lead": 0.9}, "lead: expected a finite number >= 1, got 0.9"),
@@ -535,25 +535,43 @@ def test_the_proposed_gains_invert_a_vehicle_of_thirty_grams():
     assert result.percentile("excursion", 95) < 2.7  # m; with a rod of 0.5 m and 72 ms of lag
 
 
-def test_a_vehicle_too_slow_to_flip_levels_pumps_and_stands():
+def test_a_vehicle_too_slow_to_flip_levels_pumps_and_stands(monkeypatch):
     slow, starts = fp.vehicle("nayak2018"), random_starts(200, 11)
     result = fp.simulate_ensemble(slow, LAW, starts, 20.0, plant="rotors")
     assert result.rate > 0.95  # 496 of 500 on another seed: docs/laws/inverted.md
     assert result.percentile("excursion", 95) < 40  # m: it falls while it turns over
     # Negative control: the gains of an agile vehicle, scaled to this one, throw and flip in vain.
-    agile = _with(inverted_gains.AGILE, slow)
+    with monkeypatch.context() as patched:
+        patched.setattr(inverted_gains, "PUMPING", {})
+        agile = LAW.gains_for(slow)
     lost = fp.simulate_ensemble(slow, fp.laws.inverted(**agile), starts, 20.0, plant="rotors")
     assert lost.rate < 0.05
 
 
-def _with(numbers, vehicle):
-    """The gains of `vehicle` from pure `numbers`, whatever its agility."""
-    kept = inverted_gains.SLOW
-    try:
-        inverted_gains.SLOW = numbers
-        return LAW.gains_for(vehicle)
-    finally:
-        inverted_gains.SLOW = kept
+def _turning(share):
+    """The vehicle of hehn2011 with an agility of `share` of the least with which one flips its rod."""
+    slower = inverted_gains.scales(VEHICLE).agility / (share * inverted_gains.LEAST_AGILITY)
+    return VEHICLE.replace(inertia=slower * VEHICLE.I)
+
+
+def test_what_differs_for_a_vehicle_that_pumps_sets_in_where_it_turns_too_slowly():
+    pumping, flipping = (LAW.gains_for(_turning(share)) for share in (0.999, 1.001))
+    ours = LAW.gains_for(VEHICLE)
+    assert pumping.pop("form") == flipping.pop("form") == ours.pop("form")
+    different = {name for name in ours if pumping[name] != pytest.approx(flipping[name], rel=2e-3)}
+    assert different == {
+        "pump_share", "tilt_limit", "position_bandwidth", "height_bandwidth", "position_damping", "rod_bandwidth",
+        "rod_damping", "attitude_damping", "coast_time", "descent_limit", "catch_width", "catch_time", "catch_by_axis",
+    }  # fmt: skip
+    assert {name for name in ours if flipping[name] != pytest.approx(ours[name])} == {
+        "attitude_bandwidth", "coast_time"
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("share", [0.95, 1.05])
+def test_on_either_side_of_that_border_it_inverts(share):
+    result = fp.simulate_ensemble(_turning(share), LAW, random_starts(100, 11), 20.0, plant="rotors")
+    assert result.rate > 0.95
 
 
 @pytest.mark.parametrize("i", range(3))

@@ -52,10 +52,14 @@ def test_the_sign_of_the_page_drives_the_energy_to_its_value_upright_and_the_oth
 
 
 def test_the_law_has_the_sign_of_the_page():
-    vehicle, gains = fp.vehicle("nayak2018"), SimpleNamespace(shift=0.0)
+    vehicle, gains = fp.vehicle("nayak2018"), SimpleNamespace(mounting=SimpleNamespace(shift=0.0))
     y, y_dot = np.array([0.6, 0, -0.8]), np.array([0.4, 1.0, 0.3])
     force = (
-        ca.DM(throw.pumping_force(ca.DM(vehicle.g * E3), ca.DM(y), ca.DM(y_dot), ca.DM([1, 0, 0]), vehicle, gains))
+        ca.DM(
+            throw.pumping_force(
+                ca.DM(vehicle.g * E3), throw.Rod(ca.DM(y), ca.DM(y_dot)), ca.DM([1, 0, 0]), vehicle, gains
+            )
+        )
         .full()
         .ravel()
     )
@@ -66,7 +70,7 @@ def test_the_law_has_the_sign_of_the_page():
 
 def test_the_energy_upright_is_also_that_of_a_cone():
     vehicle = fp.vehicle("nayak2018")
-    w_squared, height = vehicle.weight / (vehicle.M * vehicle.l), told(r"cone y₃ = (−1)/3")[0] / 3
+    w_squared, height = vehicle.weight / (vehicle.M * vehicle.l), told(r"cone \$y_3 = (-1)/3\$")[0] / 3
     radius = np.sqrt(1 - height**2)
     y, y_dot = np.array([radius, 0, height]), np.array([0, radius * np.sqrt(w_squared / -height), 0])
     y_ddot = -w_squared * (E3 - y * height) - (y_dot @ y_dot) * y

@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from flypend.laws.passage import heading, passage_of, steered
+from flypend.laws.passage import LEVEL_FLOOR, heading, passage_of, steered
 from flypend.model.mount import clearances
 
 HUB = fp.vehicle("hehn2011").replace(mount="hub")
@@ -46,6 +46,25 @@ def test_the_heading_is_where_the_rod_will_be_seen_from_a_body_that_yaws(seed):
         # A turn by 2 atan(angle/2) instead of the angle: angle³/12 < 5e-5.
         np.testing.assert_allclose(way(state.R, rate, time), way(turned, rate, 0.0), atol=5e-5)
         assert np.linalg.norm(way(state.R, rate, time) - way(state.R, rate, 0.0)) > 1e-3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_heading_is_where_the_rod_will_be_seen_from_a_body_whose_thrust_axis_has_turned(seed):
+    """The axis takes the arms along: a rod on it appears on the other side."""
+    rng, tilt = np.random.default_rng(seed), 1e-4
+    state = fp.State.random(rng)
+    across = np.append(rng.standard_normal(2), 0.0)
+    R = state.R @ Rotation.from_rotvec(tilt * across / np.linalg.norm(across)).as_matrix()
+
+    def way(R):
+        seen = fp.State(R=R, y=state.y)
+        return np.asarray(ca.DM(heading(seen, ca.DM(state.y), ca.DM(axis), 0.0))).ravel()
+
+    axis = R[:, 2]
+    np.testing.assert_allclose(way(state.R), way(R), atol=100 * tilt**2)  # of second order; over LEVEL_FLOOR
+    now = (state.R.T @ state.y)[:2]
+    now = now / np.sqrt(now @ now + LEVEL_FLOOR**2)
+    assert np.linalg.norm(now - way(R)) > 5e-6  # from a body that does not turn
 
 
 def test_arms_need_not_be_even():

@@ -1,5 +1,6 @@
-"""Theorems A and B: the identity for V̇ in ball arithmetic, the domain, the equilibria and the guarantees."""
+"""Theorems A, B and D: the identity for V̇ in ball arithmetic, the domain, the equilibria and the guarantees."""
 
+from copy import copy
 from dataclasses import replace
 from functools import cache, partial
 
@@ -21,6 +22,7 @@ LAWS = {
     "repaired": (fp.laws.repaired(), PAPERS),
     "almost_global": (fp.laws.almost_global(), HEHN),
     "almost_global on a circle": (fp.laws.almost_global(references.circle(0.5, 1.0)), HEHN),
+    "almost_global_lag": (fp.laws.almost_global_lag(), HEHN),
 }
 SOLVED = ("repaired", "almost_global")
 NARROW = 1e-25  # relative width of a ball that says something; those here are 1e-50
@@ -28,11 +30,12 @@ NARROW = 1e-25  # relative width of a ball that says something; those here are 1
 
 @cache
 def rate_check(name):
-    return RateCheck(*LAWS[name])
+    return RateCheck(*LAWS[name], lag=name == "almost_global_lag")
 
 
 @pytest.mark.parametrize(
-    ("name", "states"), [("repaired", 300), ("almost_global", 100), ("almost_global on a circle", 5)]
+    ("name", "states"),
+    [("repaired", 300), ("almost_global", 100), ("almost_global on a circle", 5), ("almost_global_lag", 20)],
 )
 def test_the_claimed_rate_of_v_is_the_exact_one(name, states):
     check, rng = rate_check(name), np.random.default_rng(2026)
@@ -65,6 +68,21 @@ UNCANCELLED = replace(fp.laws.repaired(), control=partial(repaired_control, canc
 def test_the_balls_tell_a_claim_that_is_false(law):
     check, rng = RateCheck(law, PAPERS), np.random.default_rng(1)
     for _ in range(20):
+        ball = check(rng)
+        assert not ball.contains(0)
+        assert ball.rad() < NARROW
+
+
+def test_the_balls_tell_a_lag_that_the_law_does_not_know():
+    # The law believes another lag than that of its rotors: 1 % more.
+    def mistaken(t, state, vehicle, k, *, path, acting):
+        told = copy(vehicle)
+        object.__setattr__(told, "rotor_lag", 1.01 * vehicle.rotor_lag)
+        return fp.laws.almost_global_lag().control(t, state, told, k, path=path, acting=acting)
+
+    law, rng = replace(fp.laws.almost_global_lag(), control=mistaken), np.random.default_rng(1)
+    check = RateCheck(law, HEHN, lag=True)
+    for _ in range(3):
         ball = check(rng)
         assert not ball.contains(0)
         assert ball.rad() < NARROW

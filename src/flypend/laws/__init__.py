@@ -4,10 +4,10 @@ A custom law is a Python function, `balance(t, state, vehicle, *, k_p=4.0) -> Wr
 Lyapunov function, a reference or a frame, build a `Law` directly.
 """
 
-import sys
 from typing import Any
 
 from flypend.laws.almost_global import almost_global
+from flypend.laws.almost_global_lag import almost_global_lag
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.controller import Controller
 from flypend.laws.gain import Bounds, Gain
@@ -21,6 +21,7 @@ from flypend.laws.own import from_function
 from flypend.laws.repaired import repaired
 from flypend.laws.supervised import supervised
 from flypend.laws.theorem1 import corrected, printed
+from flypend.registry import LAWS
 
 AnyLaw = Law | BoundLaw | Controller
 
@@ -36,6 +37,7 @@ __all__ = [
     "Law",
     "LawError",
     "almost_global",
+    "almost_global_lag",
     "corrected",
     "from_function",
     "inverted",
@@ -55,6 +57,6 @@ __all__ += [name for name in FACTORIES if name not in __all__]
 
 def __getattr__(name: str) -> Any:
     """Return a law that plans, `nmpc`, `track` or `plan_and_track`: planning stands on laws, and makes them."""
-    if name not in ("nmpc", "plan_and_track", "track"):
+    if name not in LAWS:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(sys.modules["flypend"], name)  # which knows where each name is defined
+    return LAWS[name]()

@@ -1,4 +1,4 @@
-"""The inverted pendulum from almost every start, with position and with a proof: Theorem B of docs/laws/theorem.md.
+"""The inverted pendulum from almost every start, with position and a proof: Theorem B, docs/laws/theorem-proof.md.
 
 The world has e₃ up. The bob p = x + l y is a thrust vehicle whose thrust axis is the rod:
 
@@ -11,22 +11,27 @@ commanded, without limits: for rotors, see `inverted`.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, NamedTuple
 
 import casadi as ca
 
 from flypend import errors
-from flypend.geometry import E3, apply, cross, dot, norm, scale
+from flypend.geometry import E3, Scalar, Vector, apply, cross, dot, norm, scale
 from flypend.laws.almost_global_bounds import theorem_b
 from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
+from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.axis import axis_moment, axis_rate
-from flypend.laws.bound import Control, Guard
+from flypend.laws.bound import BoundLaw, Control, Guard
 from flypend.laws.gain import documented
 from flypend.laws.law import Law
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.step import Push, aim, push, share
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, lie_derivative
+
+if TYPE_CHECKING:
+    from flypend.laws.certified import CertifiedSet
 
 OUTSIDE = Guard(
     signal="domain",
@@ -64,17 +69,24 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
         e3="up",
         gains=GAINS,
         given=gains,
-        control=_control,
+        control=almost_global_control,
         guard=OUTSIDE,
         computer=computer_of,
         reference=followed,
         path=carrying(followed),
         prepare=demand_stays_upward,
         theorem=theorem_b,
+        certify=_certified,
     )
 
 
-def _least(rod: Any, axis: Any) -> Any:
+def _certified(law: BoundLaw) -> CertifiedSet:
+    from flypend.laws.certified import certified_set  # it reads this law another way
+
+    return certified_set(law)
+
+
+def _least(rod: Scalar, axis: Scalar) -> Scalar:
     """Return the lesser of 1 + c_y and 1 + c; where the first is 0, the second is not a number."""
     return ca.if_else(rod < OUTSIDE.threshold, rod, ca.fmin(rod, axis))
 
@@ -82,14 +94,15 @@ def _least(rod: Any, axis: Any) -> Any:
 class Outer(NamedTuple):
     """The outer loops: the force F (3, 1), N, the terms of their V, ζ_y, c_y, and their claimed part of V̇."""
 
-    force: Any
-    terms: tuple[Any, Any, Any]
-    rate_error: Any
-    cosine: Any
-    decay: Any
+    force: Vector
+    terms: tuple[Scalar, Scalar, Scalar]
+    rate_error: Vector
+    cosine: Scalar
+    decay: Scalar
 
 
-def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> Control:
+def almost_global_control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
+    """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `almost_global`."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     y, z, step = state.y, state.z, axis_step(k)
     outer = _outer(t, state, vehicle, k, path)
@@ -123,7 +136,7 @@ def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> C
     )
 
 
-def _outer(t: Any, state: State, vehicle: Vehicle, k: Any, path: Path) -> Outer:
+def _outer(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, path: Path) -> Outer:
     """Return position and rod: the force F that turns the rod towards A and carries the bob."""
     M, m, l, g = vehicle.M, vehicle.m, vehicle.l, vehicle.g
     y, y_dot, step = state.y, state.y_dot, rod_step(k)
@@ -147,23 +160,3 @@ def _outer(t: Any, state: State, vehicle: Vehicle, k: Any, path: Path) -> Outer:
     F = ((M + m) * a_d + M * l * dot(y_dot, y_dot)) * y - M * l * u.force  # (B6)
     terms = (U + dot(v, v) / 2, u.potential, u.kinetic)
     return Outer(F, terms, u.rate_error, aimed.cosine, u.decay - dot(v, sigma_v))
-
-
-def spring(e: Any, k: Any) -> tuple[Any, Any]:
-    """Return U, m²/s², and σ_p = ∇U (3, 1), m/s², at position error `e` of the bob, m: (B1)."""
-    sheared = ca.vertcat(e[0] + k.shear * e[2], e[1], e[2])
-    L, L_z = k.position_reach, k.height_reach
-    level = ca.sqrt(1 + (sheared[0] ** 2 + sheared[1] ** 2) / L**2)
-    upright = ca.sqrt(1 + sheared[2] ** 2 / L_z**2)
-    U = k.position_stiffness * L**2 * (level - 1) + k.height_stiffness * L_z**2 * (upright - 1)
-    pull = k.position_stiffness / level * sheared[:2]
-    lift = k.height_stiffness / upright * sheared[2]
-    return U, ca.vertcat(pull, lift + k.shear * pull[0])
-
-
-def damper(v: Any, k: Any) -> Any:
-    """Return σ_v (3, 1), m/s², at velocity error `v` of the bob, m/s: σ_v·v > 0 for v ≠ 0. (B2)."""
-    level = k.position_damping / ca.sqrt(1 + (v[0] ** 2 + v[1] ** 2) / k.position_speed**2) * v[:2]
-    upright = k.height_damping / ca.sqrt(1 + v[2] ** 2 / k.height_speed**2) * v[2]
-    b = k.fall_speed
-    return ca.vertcat(level, upright + k.fall_damping * (v[2] + b - ca.sqrt(v[2] ** 2 + b**2)))

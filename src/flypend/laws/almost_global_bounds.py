@@ -1,12 +1,13 @@
 """What Theorem B guarantees of a start: bounds on all motion and on the thrust that follow from V ≤ V(0).
 
-Each line is a triangle inequality; docs/laws/theorem.md, section 6, derives them. They hold for a reference that stands
-still, and they are conservative: the thrust flown is smaller by orders of magnitude.
+Each line is a triangle inequality; docs/laws/theorem-proof.md, section 5, derives them. They hold for a reference that
+stands still, and they are conservative: the thrust flown is smaller by orders of magnitude.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -15,9 +16,9 @@ import casadi as ca
 from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
 from flypend.laws.bound import BoundLaw
 from flypend.laws.covering import outside, signals_at
-from flypend.laws.guarantee import IDEAL, Guarantee, least_distance, least_share, rate_bound, saturated
+from flypend.laws.guarantee import IDEAL, LAGGED, Guarantee, least_distance, least_share, rate_bound, saturated
 from flypend.laws.step import Step
-from flypend.model import State
+from flypend.model import State, Vehicle
 
 MOVING = "the reference has ten bounded derivatives, and the bob's path p_ref obeys condition (C) of the theorem"
 
@@ -34,12 +35,28 @@ class Bob(NamedTuple):
 
 def theorem_b(law: BoundLaw, start: State) -> Guarantee:
     """Return what Theorem B says of `start`."""
+    return _bounded(law, start, IDEAL)
+
+
+def theorem_d(law: BoundLaw, start: State) -> Guarantee:
+    """Return what Theorem D says of `start`, V being V' with every rotor at its minimum.
+
+    V ≤ V' ≤ V'(0) bounds the motion as in Theorem B; the thrust differs from that of B by √(2 V'(0)/γ_f) at most.
+    """
+    found = _bounded(law, start, LAGGED)
+    apart = math.sqrt(2 * found.V / law.gains["thrust_weight"])
+    low, high = found.thrust
+    return replace(found, thrust=(max(0.0, low - apart), high + apart)) if found.covered else found
+
+
+def _bounded(law: BoundLaw, start: State, assumes: tuple[str, ...]) -> Guarantee:
+    """Return the bounds that follow from V ≤ V(0)."""
     found = signals_at(law, start)
     excluded = outside(law, found, {"rod_cosine": "y = -d", "axis_cosine": "z = -z_d"})
     if excluded is not None:
         return excluded
-    if law.reference is None or not _stands(law.reference):
-        return Guarantee(covered=True, V=found["V"], assumes=(*IDEAL, MOVING))
+    if law.reference is None or not stands(law.reference):
+        return Guarantee(covered=True, V=found["V"], assumes=(*assumes, MOVING))
     k, V, l = SimpleNamespace(**law.gains), found["V"], law.vehicle.l
     rod, bob = rod_step(k), bob_bounds(V, k, law.vehicle.g)
     turn = bob.rate / bob.least
@@ -51,16 +68,17 @@ def theorem_b(law: BoundLaw, start: State) -> Guarantee:
         rod_rate=rod_rate,
         speed=bob.speed + l * rod_rate,
         excursion=bob.error + 2 * l,
-        assumes=IDEAL,
+        assumes=assumes,
     )
 
 
-def _stands(reference: Any) -> bool:
+def stands(reference: Any) -> bool:
+    """Whether `reference` does not depend on time."""
     t = ca.SX.sym("t")
     return not ca.depends_on(ca.simplify(reference(t)), t)
 
 
-def bob_bounds(V: float, k: Any, g: float) -> Bob:
+def bob_bounds(V: float, k: SimpleNamespace, g: float) -> Bob:
     """Return the bounds on the outer loop while U + ½|v|² ≤ `V`, from the gains `k` and gravity `g`."""
     level = _farthest(V, k.position_stiffness, k.position_reach)
     upright = _farthest(V, k.height_stiffness, k.height_reach)
@@ -82,7 +100,7 @@ def _farthest(V: float, k: float, reach: float) -> float:
     return reach * math.sqrt((1 + V / (k * reach**2)) ** 2 - 1)
 
 
-def thrust_bounds(V: float, k: Any, vehicle: Any, bob: Bob, rod_rate: float) -> tuple[float, float]:
+def thrust_bounds(V: float, k: SimpleNamespace, vehicle: Vehicle, bob: Bob, rod_rate: float) -> tuple[float, float]:
     """Return bounds on f = |F| ς: F·y = (M+m) a_d + M l |ẏ|² from below, |F| from above, N."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     rod, axis = rod_step(k), axis_step(k)
@@ -97,7 +115,7 @@ def thrust_bounds(V: float, k: Any, vehicle: Any, bob: Bob, rod_rate: float) -> 
     return carried * least_share(near_axis, axis), most
 
 
-def _feedforward(k: Any, g: float, bob: Bob, rod: Step, rod_rate: float, near: float) -> float:
+def _feedforward(k: SimpleNamespace, g: float, bob: Bob, rod: Step, rod_rate: float, near: float) -> float:
     """Return a bound on |d/dt(ω_d × y + v_*)| along the ideal bob, 1/s²; `near` is the least 1 + c_y."""
     turn, fall, v = bob.rate / bob.least, g + bob.most, bob.speed
     swing = rod_rate + turn  # |ċ| and ½|ė| stay below it

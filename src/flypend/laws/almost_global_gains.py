@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from types import SimpleNamespace
 from typing import Any
 
 from flypend.errors import InputError
@@ -97,19 +98,22 @@ GAINS = table(
 )  # fmt: skip
 
 
-def rod_step(k: Any) -> Step:
+def rod_step(k: SimpleNamespace) -> Step:
     """Return the gains of Lemma S for the rod."""
     return Step(k.rod_stiffness, k.rod_alignment, k.rod_damping, k.rod_weight, k.rod_barrier, k.rod_fade)
 
 
-def axis_step(k: Any) -> Step:
+def axis_step(k: SimpleNamespace) -> Step:
     """Return the gains of Lemma S for the thrust axis."""
     return Step(k.axis_stiffness, k.axis_alignment, k.axis_damping, k.axis_weight, k.axis_barrier, k.axis_fade)
 
 
+COMPUTER = ("lead", "latency", "delay_reach")  # gains of the flight computer, none of the theorem's
+
+
 def computer_of(gains: Mapping[str, Any]) -> Computer:
     """Return the flight computer settings for these `gains`."""
-    return Computer(**{name: gains[name] for name in ("lead", "latency", "delay_reach")})
+    return Computer(**{name: gains[name] for name in COMPUTER})
 
 
 def demand_stays_upward(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:

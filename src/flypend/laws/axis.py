@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 
-from flypend.geometry import E3, apply, cross
+from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross
 from flypend.model import State, Vehicle
 from flypend.model.dynamics import gyroscopic_moment
 
 
-def axis_rate(state: State) -> Any:
+def axis_rate(state: State) -> Vector:
     """Return ż = R (ω × e₃) (3, 1), 1/s."""
     return apply(state.R, cross(state.omega, E3))
 
 
-def axis_moment(state: State, vehicle: Vehicle, u: Any, yaw: Any, *, turned: Any = 0.0, compensated: Any = 1.0) -> Any:
+def axis_moment(
+    state: State, vehicle: Vehicle, u: Vector, yaw: Scalar, *, turned: Scalar = 0.0, compensated: Scalar = 1.0
+) -> Vector:
     """Return the moment (3, 1), N m, under which z̈ = −|ż|² z + R `u` and ω̇₃ = `yaw`, rad/s².
 
     `u` is in the body frame and normal to e₃, 1/s²; `vehicle` has its inertia in the body frame of `state` (see
@@ -31,7 +31,7 @@ def axis_moment(state: State, vehicle: Vehicle, u: Any, yaw: Any, *, turned: Any
     return apply(vehicle.I, alpha) + compensated * gyroscopic_moment(vehicle.I, omega)
 
 
-def spun(v: Any, angle: Any) -> Any:
+def spun(v: Numbers, angle: Scalar) -> Numbers:
     """Return the plane vector (2, 1) turned by 2 atan(`angle`/2): `angle`, rad, where it is small, and below π."""
     half = angle / 2
     c, s = (1 - half**2) / (1 + half**2), 2 * half / (1 + half**2)

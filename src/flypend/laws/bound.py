@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.geometry import Numbers, Scalar, Vector
 from flypend.laws.gain import Gain, check_gain, is_number
 from flypend.laws.guarantee import Guarantee, unmodelled
 from flypend.laws.located import LawError, Located, beginning, check_finite, innermost, is_own, wrench_of
@@ -93,8 +94,8 @@ class Control:
     """
 
     wrench: Wrench
-    lyapunov: Mapping[str, Any] = field(default_factory=dict)
-    signals: Mapping[str, Any] = field(default_factory=dict)
+    lyapunov: Mapping[str, Scalar] = field(default_factory=dict)
+    signals: Mapping[str, Scalar] = field(default_factory=dict)
 
 
 @errors.named_arguments
@@ -104,7 +105,7 @@ class BoundLaw:
 
     Parameters
     ----------
-    name, e3, control, uses_forces, reference, path, check
+    name, e3, control, uses_forces, uses_wrench, reference, path, check
         As in `Law`.
     vehicle : Vehicle
         The nominal vehicle.
@@ -120,7 +121,7 @@ class BoundLaw:
         Lead, prediction and observer around the law in a sampled flight.
     fixed : tuple of str
         Gains that exported code holds as constants.
-    theorem : callable, optional
+    theorem, certify : callable, optional
         As in `Law`.
     calmer : callable, optional
         `calmer(share)` returns the law with gains this far from its defaults towards those that tremble least under
@@ -139,10 +140,12 @@ class BoundLaw:
     guard: Guard | None = None
     computer: Computer = field(default_factory=Computer)
     uses_forces: bool = False
+    uses_wrench: bool = False
     reference: Reference | None = None
     path: Path | None = None
     fixed: tuple[str, ...] = ()
     theorem: Callable[[BoundLaw, State], Guarantee] | None = None
+    certify: Callable[[BoundLaw], Any] | None = None
     check: Callable[[Mapping[str, Any]], None] | None = None
     calmer: Callable[[float], BoundLaw] | None = None
     calm: float = 0.0
@@ -156,7 +159,7 @@ class BoundLaw:
 
     def bind(self, vehicle: Vehicle) -> BoundLaw:
         """Return the law itself, already bound to `vehicle`. Raises InputError if it is bound to another vehicle."""
-        if vehicle != self.vehicle:
+        if vehicle.commanded() != self.vehicle:
             raise errors.InputError("law", f"one bound to {vehicle.name}", f"{self.name} bound to {self.vehicle.name}")
         return self
 
@@ -173,6 +176,16 @@ class BoundLaw:
         if missing:
             return Guarantee(covered=False, reason=f"outside the theorem: {missing}", V=math.inf)
         return self.theorem(self, start)
+
+    def certified_set(self) -> Any:
+        """Return the largest set {V ≤ c, |ω₃| ≤ w} that is proved to respect the rotor limits: `CertifiedSet`.
+
+        Raises InputError if the law has none, the theorem does not cover vehicle or reference, or python-flint is not
+        installed (extra "proof").
+        """
+        if self.certify is None:
+            raise errors.InputError("law", "almost_global, on its own path", self.name)
+        return self.certify(self)
 
     def calmed(self, share: float) -> BoundLaw:
         """Return the law with default gains moved by `share`, 0 to 1, to those that tremble least; given ones stay."""
@@ -200,7 +213,7 @@ class BoundLaw:
         return None if self.path is None else self._along
 
     def _along(self, path: Path) -> BoundLaw:
-        return replace(self, path=path, theorem=None)
+        return replace(self, path=path, theorem=None, certify=None)
 
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
         """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
@@ -211,20 +224,26 @@ class BoundLaw:
 
     def evaluate(
         self,
-        t: Any,
+        t: Scalar,
         state: State,
         vehicle: Vehicle,
-        forces: tuple[Any, Any] | None = None,
+        forces: tuple[Vector, Vector] | None = None,
         gains: Mapping[str, Any] | None = None,
+        acting: Wrench | None = None,
     ) -> Control:
         """Return the control for CasADi symbols `t` (s) and `state`, under external `forces` (default none).
 
         `gains` holds symbols that replace some numeric gains. `vehicle` is the law's own, or one whose constants are
-        symbols.
+        symbols. `acting` are symbols of the wrench that acts; InputError if the law takes it and there is none.
         """
+        if self.uses_wrench and acting is None:
+            wanted = f"flypend.Ideal(lag=True): {self.name} takes the wrench of rotors whose lag it knows"
+            raise errors.InputError("plant", wanted, "one in which no such wrench is known")
         given = SimpleNamespace(**{**self.prepared, **self.gains, **(gains or {})})
         known = (forces or (ca.SX.zeros(3), ca.SX.zeros(3)),) if self.uses_forces else ()
-        followed = {} if self.path is None else {"path": self.path}
+        followed: dict[str, Any] = {} if self.path is None else {"path": self.path}
+        if self.uses_wrench:
+            followed["acting"] = acting
         answer = Located(self.control, self.name) if is_own(self.control) else self.control
         control = answer(t, state, vehicle, given, *known, **followed)
         wrench = wrench_of(control, self.control, self.name)
@@ -232,28 +251,29 @@ class BoundLaw:
 
     def tried(self) -> BoundLaw:
         """Return the law itself. Raises LawError if its equations fail, or answer no finite wrench in random states."""
-        t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
-        control = self.evaluate(t, State.symbolic(packed), self.vehicle)
+        t, packed, w = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("w", 4)
+        acting = Wrench(w[0], w[1:]) if self.uses_wrench else None
+        control = self.evaluate(t, State.symbolic(packed), self.vehicle, acting=acting)
         where = beginning(innermost(self.control))
         for name, value in (*control.lyapunov.items(), *control.signals.items()):
             shape = getattr(value, "shape", ())
             if shape not in ((), (1,), (1, 1)):
                 raise LawError(where, self.name, f"its signal {name} is not one number, but of shape {shape}")
         wrench = ca.vertcat(control.wrench.thrust, control.wrench.moment)
-        function = ca.Function("tried", [t, packed], [ca.densify(wrench)])
+        function = ca.Function("tried", [t, packed, w], [ca.densify(wrench)])
         states = State.random(np.random.default_rng(0), TRIED).packed()
-        values = [np.array(function(0.0, state)).ravel() for state in states]
+        values = [np.array(function(0.0, state, np.zeros(4))).ravel() for state in states]
         check_finite(values, self.control, self.name)
         return self
 
     def upright(
         self,
-        t: Any,
-        packed: Any,
-        forces: Any = None,
+        t: Scalar,
+        packed: Numbers,
+        forces: Numbers = None,
         gains: Mapping[str, Any] | None = None,
         vehicle: Vehicle | None = None,
-    ) -> Any:
+    ) -> Numbers:
         """Return thrust and moment (4, 1) in the e₃-up frame, whatever the law's own frame.
 
         Parameters

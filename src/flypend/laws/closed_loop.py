@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import casadi as ca
 
 from flypend import errors
+from flypend.geometry import Numbers, Scalar
 from flypend.laws.bound import BoundLaw, Control
 from flypend.laws.law import Law
-from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
+from flypend.model import State, Vehicle, Wrench, equations_of_motion
 from flypend.model.state import SIZE
+
+WRENCH = 4  # entries of a wrench: thrust, N, and moment, N m
+COMMANDS = ("thrust_command", "moment_command_1", "moment_command_2", "moment_command_3")  # signals, through a lag
 
 
 @dataclass(frozen=True)
@@ -24,22 +27,23 @@ class SymbolicLoop:
     ----------
     t, s, p : SX
         Symbols: time, packed state (24, 1), and the gains that may vary between runs, in the order of `parameters`.
-    rates : SX (24, 1)
-        State derivative.
+        Through a lag, the state is followed by the wrench that acts, (28, 1).
+    rates : SX (24, 1) or (28, 1)
+        Derivative of `s`.
     wrench : Wrench
-        Commanded wrench.
+        The wrench that acts: as commanded, or the one in `s`.
     signals : dict of SX
         Signals of the law, the sum V of its Lyapunov functions, and the rates of V and of each along the loop.
     parameters : tuple of str
         Names of the gains in `p`.
     """
 
-    t: Any
-    s: Any
-    p: Any
-    rates: Any
+    t: Scalar
+    s: Numbers
+    p: Numbers
+    rates: Numbers
     wrench: Wrench
-    signals: dict[str, Any]
+    signals: dict[str, Scalar]
     parameters: tuple[str, ...]
 
 
@@ -48,7 +52,7 @@ class ClosedLoop:
     """Closed loop of `vehicle` under `law`.
 
     `rates` maps (t, state (24,)) to the state derivative; `outputs` maps the same to thrust, moment (3,) and the
-    scalars named in `signal_names`.
+    scalars named in `signal_names`. Through a lag, the state is followed by the wrench that acts, (28,).
     """
 
     vehicle: Vehicle
@@ -58,27 +62,47 @@ class ClosedLoop:
     signal_names: tuple[str, ...]
 
 
-def symbolic_loop(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> SymbolicLoop:
+def symbolic_loop(
+    vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = (), *, lag: bool = False
+) -> SymbolicLoop:
     """Build the symbolic closed loop of `vehicle` under `law`; the gains named in `parameters` are symbols too.
 
+    With `lag`, the wrench w follows the commanded one, w_c, through the rotors' lag T: T ẇ = w_c − w.
+
     Raises InputError if a parameter is not a numeric gain of the law, or does not appear in its equations (for example,
-    a weight from which a gain matrix was computed in advance).
+    a weight from which a gain matrix was computed in advance); and for a law that takes the wrench that acts, without
+    `lag`.
     """
-    return _symbolic_loop(vehicle, *_checked(vehicle, law, parameters))
+    return _symbolic_loop(vehicle, *_checked(vehicle, law, parameters), lag)
 
 
 @lru_cache(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
-def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...]) -> SymbolicLoop:
-    t, s, p, control = _output(vehicle, bound, parameters)
-    state = State.symbolic(s)
-    rates = equations_of_motion(state, control.wrench, vehicle, bound.e3)
-    lyapunov = _lyapunov(control)
-    derived = {_rate(name): lie_derivative(value, state, rates, t) for name, value in lyapunov.items()}
-    signals = {**lyapunov, **derived, **control.signals}
-    return SymbolicLoop(t, s, p, ca.densify(rates.packed()), control.wrench, signals, parameters)
+def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool) -> SymbolicLoop:
+    t, s, p, control = _output(vehicle, bound, parameters, lag)
+    state, acting, extra = State.symbolic(s), control.wrench, {}
+    if lag:
+        acting, command = wrench_in(s), control.wrench
+        extra = dict(zip(COMMANDS, _stacked(command), strict=True))
+    rates = equations_of_motion(state, acting, vehicle, bound.e3).packed()
+    if lag:
+        behind = (ca.vertcat(*_stacked(command)) - s[SIZE:]) / vehicle.rotor_lag
+        rates = ca.vertcat(rates, behind)
+    lyapunov, flow = _lyapunov(control), (ca.vertcat(s, t), ca.vertcat(rates, 1))
+    derived = {_rate(name): ca.jtimes(value, *flow) for name, value in lyapunov.items()}
+    signals = {**lyapunov, **derived, **control.signals, **extra}
+    return SymbolicLoop(t, s, p, ca.densify(rates), acting, signals, parameters)
 
 
-def _lyapunov(control: Control) -> dict[str, Any]:
+def wrench_in(s: Numbers) -> Wrench:
+    """Return the wrench that acts, from a packed state (28, 1) through a lag, in CasADi."""
+    return Wrench(s[SIZE], s[SIZE + 1 :])
+
+
+def _stacked(wrench: Wrench) -> list[Scalar]:
+    return ca.vertsplit(ca.densify(ca.vertcat(wrench.thrust, wrench.moment)))  # type: ignore[no-any-return]
+
+
+def _lyapunov(control: Control) -> dict[str, Scalar]:
     """Return the Lyapunov functions of a law by name, and their sum V if there are any."""
     return dict(control.lyapunov) | ({"V": sum(control.lyapunov.values())} if control.lyapunov else {})
 
@@ -88,11 +112,14 @@ def _rate(name: str) -> str:
 
 
 @lru_cache(maxsize=8)
-def _output(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...]) -> tuple[Any, Any, Any, Control]:
+def _output(
+    vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool = False
+) -> tuple[Scalar, Numbers, Numbers, Control]:
     """Return the symbols t, s and p of a `SymbolicLoop`, and what the law answers to them."""
-    t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("p", len(parameters))
+    t, s, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + WRENCH * lag), ca.SX.sym("p", len(parameters))
     gains = {name: p[i] for i, name in enumerate(parameters)}
-    control = bound.evaluate(t, State.symbolic(s), vehicle, gains=gains)
+    acting = wrench_in(s) if lag else None
+    control = bound.evaluate(t, State.symbolic(s), vehicle, gains=gains, acting=acting)
     check_parameters(bound.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
     return t, s, p, control
 
@@ -123,7 +150,7 @@ def _checked(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str]) -
     return bound, tuple(parameters)
 
 
-def check_parameters(law: str, wrench: Any, parameters: Sequence[str], symbols: Any) -> None:
+def check_parameters(law: str, wrench: Numbers, parameters: Sequence[str], symbols: Numbers) -> None:
     """Raise InputError for one of the `parameters` whose symbol the `wrench` of the `law` does not contain.
 
     A run would not depend on it: a weight from which a gain matrix was computed beforehand, or a number of the flight
@@ -134,10 +161,10 @@ def check_parameters(law: str, wrench: Any, parameters: Sequence[str], symbols: 
             raise errors.InputError(f"law.gains.{name}", f"a gain in the equations of {law}", "one outside them")
 
 
-def close_loop(vehicle: Vehicle, law: Law | BoundLaw) -> ClosedLoop:
-    """Build the closed loop of `vehicle` under `law` as CasADi functions."""
+def close_loop(vehicle: Vehicle, law: Law | BoundLaw, *, lag: bool = False) -> ClosedLoop:
+    """Build the closed loop of `vehicle` under `law` as CasADi functions; `lag` as in `symbolic_loop`."""
     bound = law.bind(vehicle)
-    loop = symbolic_loop(vehicle, bound)
+    loop = symbolic_loop(vehicle, bound, lag=lag)
     outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())
     rates, outputs = ca.cse([loop.rates, ca.densify(outputs)])
     return ClosedLoop(

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.geometry import Numbers
 from flypend.laws.bound import Computer
 from flypend.laws.gain import Gain, check_gain, checked, is_number, table
 from flypend.laws.located import Located, is_own, wrench_of
@@ -80,7 +81,7 @@ class Controller:
         if self.steering is None:
             return self
         steering = Located(self.steering, self.name, inner=True) if is_own(self.steering) else self.steering
-        return replace(self, function=steering(vehicle, self.gains))
+        return replace(self, function=steering(vehicle.commanded(), self.gains))
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -111,7 +112,7 @@ class Controller:
         """Return a copy with the gains `given`, checked like `Law.with_gains`; messages begin with `prefix`."""
         return replace(self, gains={**self.gains, **checked(self.table, given, prefix)})
 
-    def upright(self, t: float, packed: Any) -> NDArray[Any]:
+    def upright(self, t: float, packed: Numbers) -> NDArray[Any]:
         """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
         answer = self._answer(t, State.trusted(seen_packed(packed, self.e3)))
         wrench = wrench_of(answer, self.function, self.name).seen(self.e3)

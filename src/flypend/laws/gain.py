@@ -155,12 +155,32 @@ def check_gain(gains: Mapping[str, Gain], name: str, values: Any, prefix: str = 
     return gains[name].check_all(values, f"{prefix}.{name}".lstrip("."))
 
 
+# What is said of a law that takes nothing but gains.
+ONLY_GAINS = """
+
+    Parameters
+    ----------
+    **gains : float or str
+        Any of the gains below, in the stated unit.
+
+    {gains}
+
+    Raises
+    ------
+    InputError
+        If a gain is unknown or out of bounds.
+    """
+
+
 def documented(gains: Mapping[str, Gain]) -> Callable[[F], F]:
-    """Return a decorator that replaces the line {gains} of a docstring by the table `gains`."""
+    """Return a decorator that replaces the line {gains} of a docstring by the table `gains`.
+
+    A docstring without this line gets all of `ONLY_GAINS`.
+    """
 
     def fill(function: F) -> F:
-        lines = []
-        for line in (function.__doc__ or "").split("\n"):
+        lines, text = [], function.__doc__ or ""
+        for line in (text if "{gains}" in text else text.rstrip() + ONLY_GAINS).split("\n"):
             indent = line[: len(line) - len(line.lstrip())]
             lines += [f"{indent}{entry}" for entry in _entries(gains)] if line.strip() == "{gains}" else [line]
         function.__doc__ = "\n".join(lines)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from flypend.geometry import Scalar
 from flypend.laws.step import Step
 from flypend.model import Vehicle
 
@@ -69,6 +69,12 @@ IDEAL = (
     "no forces of the air",
 )
 
+LAGGED = (
+    "every rotor lags by the vehicle's rotor_lag, and gives its minimum at the start; its force is known",
+    "commands and forces have no limits, of either sign, and no delay",
+    *IDEAL[1:],
+)
+
 
 def least_distance(V: float, step: Step) -> float:
     """Return 1 + c at which k Ψ(c) = `V`, by bisection in its logarithm: 1 + c is never less while V falls.
@@ -100,6 +106,6 @@ def rate_bound(V: float, turn: float, force: float, gradient: float, step: Step)
     return float(turn + step.alignment + kappa * force * gradient / k + math.sqrt(2 * V / step.weight))
 
 
-def saturated(k: Any, reach: Any, size: float) -> float:
+def saturated(k: Scalar, reach: Scalar, size: float) -> float:
     """Return k r/√(1 + r²/L²) at r = `size`, for the stiffness `k` and the reach L."""
     return float(k * size / math.sqrt(1 + (size / reach) ** 2))

@@ -14,7 +14,8 @@ docs/laws/inverted.md derives it line by line.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import casadi as ca
 
@@ -25,13 +26,15 @@ from flypend.laws.bound import Control
 from flypend.laws.gain import documented
 from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer_of, go_together, scales
 from flypend.laws.law import Law
-from flypend.laws.passage import FREE, heading, passage_of, steered
+from flypend.laws.passage import FREE, Passage, heading, passage_of, steered
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.smooth import smooth_step, soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
 from flypend.laws.throw import (
+    Bob,
     Demand,
     Pose,
+    Rod,
     carrying,
     coasted,
     demand,
@@ -57,10 +60,10 @@ HUB_CONE, CUP_SHARE = 1.4, 0.8
 ANTIPODE_PUSH = 0.03
 # Largest rate demanded of the thrust axis, in units of √α: the vehicle stops from it within TURN²/2 rad.
 TURN = 1.3
-# Spins about the thrust axis, in units of the one at which turning the axis as fast as the vehicle flips takes all
-# moment there is: up to the first the gyroscopic moment is compensated; from the second on not at all, the axis moves
-# as a gyroscope's, and the rod waits, hanging, until the spin has decayed.
-CALM, SPUN = 1.0, 2.0
+# Spin about the thrust axis, in units of the one at which turning the axis as fast as the vehicle flips takes all
+# moment there is: up to one unit the gyroscopic moment is compensated; from here on not at all, the axis moves as a
+# gyroscope's, and the rod waits, hanging, until the spin has decayed.
+SPUN = 2.0
 # Rotors that follow a fast spin are at their limits, where no lead helps: the body turns on for this multiple of their
 # lag, chosen among 0.4 to 2 by how many spins of 20 to 40 rad/s recover.
 SPIN_LAG = 1.3
@@ -97,26 +100,49 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
         reference=followed,
         path=carrying(followed),
         check=go_together,
-        prepare=mounted,
+        prepare=_prepared,
         calm=calm,
     )
 
 
-def mounted(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
-    """Return what the law takes from `vehicle` besides gains.
+class Mounting(NamedTuple):
+    """What the law takes from the vehicle besides gains.
 
-    The passage and the side of the rotor plane for a hub, the cone of the force about a rod being caught, rad, and the
-    lag left after the rotors' lead, s.
+    passage : Passage, optional
+        Where the rod may cross the rotor plane of a hub; None for a rod that may pass anywhere.
+    cone : float, optional
+        Largest angle between a rod being caught and the force on the vehicle, rad; None for no limit.
+    side : float
+        1 if the side of the rotor plane on which the rod is decides whether it is too low, else 0.
+    lag_left : float
+        Lag left after the rotors' lead, s.
+    haste : float
+        Relative rise of the attitude bandwidth while the rod is thrown.
+    shift : float
+        Sideways component added to the direction demanded of a rod that hangs, which moves it off its rest.
     """
-    cones = {"gimbal": None, "hub": HUB_CONE}
-    cone = cones[vehicle.mount] if vehicle.mount in cones else CUP_SHARE * vehicle.body.cup_angle
-    lag = SPIN_LAG * vehicle.rotor_lag if gains["delay_reach"] else vehicle.rotor_lag / gains["lead"]
+
+    passage: Passage | None
+    cone: float | None
+    side: float
+    lag_left: float
+    haste: float
+    shift: float
+
+
+def _prepared(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]:
     hub = vehicle.mount == "hub"
+    cones = {"gimbal": None, "hub": HUB_CONE}
     numbers = scales(vehicle).numbers
-    return {
-        "passage": passage_of(vehicle) if hub else None, "cone": cone, "side": float(hub), "lag_left": lag,
-        "haste": numbers["haste"], "shift": numbers["shift"],
-    }  # fmt: skip
+    mounting = Mounting(
+        passage=passage_of(vehicle) if hub else None,
+        cone=cones[vehicle.mount] if vehicle.mount in cones else CUP_SHARE * vehicle.body.cup_angle,
+        side=float(hub),
+        lag_left=SPIN_LAG * vehicle.rotor_lag if gains["delay_reach"] else vehicle.rotor_lag / gains["lead"],
+        haste=numbers["haste"],
+        shift=numbers["shift"],
+    )
+    return {"mounting": mounting}
 
 
 def inverted_control(
@@ -135,29 +161,29 @@ def inverted_control(
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
     v_ref, a_ref, jerk_ref = derivatives(p_ref, t, 3)
 
-    def errors_at(y: Any, y_dot: Any) -> tuple[Any, Any]:
-        return state.x + vehicle.l * y - p_ref, state.x_dot + vehicle.l * y_dot - v_ref
+    def bob_at(rod: Rod) -> Bob:
+        return Bob(state.x + vehicle.l * rod.y - p_ref, state.x_dot + vehicle.l * rod.y_dot - v_ref, a_ref, jerk_ref)
 
-    def force(rod: tuple[Any, Any], low: Any, pose: Pose) -> Any:
-        return rod_force(*errors_at(*rod), a_ref, jerk_ref, *rod, low, pose, forces, vehicle, k)
+    def force(rod: Rod, pose: Pose) -> Any:
+        return rod_force(bob_at(rod), rod, pose, forces, vehicle, k)
 
-    # The thrust axis serves the rod after it has coasted for the time that the axis takes to turn; the thrust, after a
-    # share of that time. With a share of 1 the two forces coincide.
-    ahead = coasted(state.y, state.y_dot, k.coast_time)
-    nearer = coasted(state.y, state.y_dot, k.thrust_coast_share * k.coast_time)
-    low, steering, height = low_rod(*ahead, state.z, k), FREE, state.x[2] - x_ref[2]
-    if k.passage is not None:
-        caught = force(ahead, 0, Pose(height, E1, 1))
+    # The thrust axis serves the rod after it has coasted for the time that the axis takes to turn. So does the thrust
+    # of a vehicle that flips its rod; that of one that pumps serves the rod as it is.
+    rod = Rod(state.y, state.y_dot)
+    ahead, nearer = coasted(rod, k.coast_time), coasted(rod, (1 - k.pump_share) * k.coast_time)
+    low, steering, height = low_rod(ahead, state.z, k), FREE, state.x[2] - x_ref[2]
+    if k.mounting.passage is not None:
+        caught = force(ahead, Pose(0, height, E1, 1))
         caught = scale(1 / smooth_norm(caught, AXIS_FLOOR * vehicle.weight), caught)
-        steering = steered(state, heading(state, ahead[0], caught, k.coast_time), k.passage)
+        steering = steered(state, heading(state, ahead.y, caught, k.coast_time), k.mounting.passage)
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
     clear = ca.SX.sym("clear")
     authority, inertia = angular_authority(vehicle), vehicle.I
     turn_rate = TURN * ca.sqrt(authority)
     fast_spin = ca.fmax(inertia[0, 0], inertia[1, 1]) / inertia[2, 2] * ca.sqrt(authority)
-    calm = 1 - smooth_step(((state.omega[2] / fast_spin) ** 2 - CALM**2) / (SPUN**2 - CALM**2))
-    pose = Pose(height, steering.aside, clear)
-    present = force(nearer, low_rod(*nearer, state.z, k), pose)
+    calm = 1 - smooth_step(((state.omega[2] / fast_spin) ** 2 - 1) / (SPUN**2 - 1))
+    pose = Pose(low, height, steering.aside, clear)
+    present = force(nearer, pose._replace(low=low_rod(nearer, state.z, k)))
     f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
@@ -167,15 +193,15 @@ def inverted_control(
 
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
-        e, v = errors_at(*ahead)
-        wish = demand(e, v, a_ref, jerk_ref, *ahead, low, forces[1], vehicle, k)
+        bob = bob_at(ahead)
+        wish = demand(bob, ahead, low, forces[1], vehicle, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
-        wanted = axis(steering_force(held, low, v[2], *ahead, pose, forces, vehicle, k))
+        wanted = axis(steering_force(held, bob.v[2], ahead, pose, forces, vehicle, k))
         turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))
         wanted_dot = lie_derivative(wanted, state, rates, t) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
         wanted, wanted_dot = ca.substitute([wanted, ca.densify(wanted_dot)], list(held), list(wish))
     else:
-        wanted = axis(force(ahead, low, pose))
+        wanted = axis(force(ahead, pose))
         wanted_dot = lie_derivative(wanted, state, rates, t)
     f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
@@ -188,7 +214,7 @@ def inverted_control(
     spring = scale(1 / ca.sqrt((1 + z_d[2]) / 2 + ANTIPODE_FLOOR), tangent_part(E3, z_d))
     spring = spring + ANTIPODE_PUSH * ((1 - z_d[2]) / 2) ** 4 * E1
     # Faster while the rod is thrown: what counts then is agility, and in hover the margin against delay.
-    bandwidth = k.attitude_bandwidth * (1 + k.haste * low)
+    bandwidth = k.attitude_bandwidth * (1 + k.mounting.haste * low)
     stiffness, damping = bandwidth**2, 2 * k.attitude_damping * bandwidth
     # Turn no faster than the vehicle can stop; the bare spring would turn it at stiffness / damping per radian.
     u_z = stiffness * limited_force(spring, turn_rate * damping / stiffness) - damping * v_e
@@ -196,6 +222,6 @@ def inverted_control(
 
     # What is left of the rotors' lag turns a spinning body on before they act.
     yaw = steering.yaw - k.yaw_damping * state.omega[2]
-    moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.lag_left * state.omega[2], compensated=calm)
+    moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.mounting.lag_left * state.omega[2], compensated=calm)
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)

@@ -16,37 +16,40 @@ from flypend.laws.bound import Computer
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, table
 from flypend.model import Vehicle
 
-SEPARATION, LEAST_RATIO = 1.5, 2.0
+# Bandwidth of a loop over that of the one around it: at least this, or the law refuses to be built.
+SEPARATION = 1.5
 # Attitude over rod bandwidth, at least, where the rotors' lag limits the attitude loop.
 LEAST_SEPARATION = 1.55
-# Attitude bandwidth over the rotors' cut-off 1/lag, at most; and the shortest lag, s, that this limit assumes.
-LAG_SHARE, LEAST_LAG = 0.9, 1e-3
+# Attitude bandwidth over the rotors' cut-off 1/lag, at most.
+LAG_SHARE = 0.9
+# Attitude bandwidth, in √(g/l), at least: 3.5 times the rod's of a vehicle that pumps. In hover moments are small, so
+# the authority does not limit it.
+LEAST_ATTITUDE = 1.93
+# Share of the thrust axis's rate that is fed forward, at most this times α l/g: what is fed forward takes moment.
+FEEDFORWARD = 0.4
 # Upper limit of the default latency, s: the delay of sensors, computer and rotors of the vehicles here.
 LONGEST_LATENCY = 0.028
 
 # Dimensionless, tuned by CMA-ES for success and excursion from random starts of hehn2011 (see docs/laws/inverted.md).
 # Units: √(l/g) for times, √(g l) for speeds, l for lengths, and √α for the attitude bandwidth, where α is the
 # largest angular acceleration that the rotors can produce.
-AGILE: Mapping[str, float] = MappingProxyType(
+NUMBERS: Mapping[str, float] = MappingProxyType(
     {
         "position_bandwidth": 0.57, "height_bandwidth": 0.78, "position_damping": 0.865,
         "rod_bandwidth": 1.8, "rod_damping": 0.48, "attitude_bandwidth": 1.365, "attitude_damping": 0.855,
-        "rate_feedforward": 0.66, "coast": 1.28, "thrust_coast": 1.0, "latency": 0.52, "lead": 2.6,
+        "rate_feedforward": 0.66, "coast": 1.28, "latency": 0.52, "lead": 2.6,
         "throw_speed": 0.50, "flip_speed": 0.29, "flip_by_rod": 0.87, "flip_by_height": 0.72,
         "hanging_share": 0.77, "catch_time": 0.27, "catch_within": 0.092, "catch_width": 0.137, "catch_by_axis": 0.18,
         "descent": 0.55, "tilt_limit": 3.1, "pump_share": 0.0, "haste": 0.32, "shift": 0.12, "yaw_damping": 5.0,
     }
 )  # fmt: skip
-# For a vehicle that turns too slowly to flip its rod, tuned likewise on nayak2018: it levels, pumps and catches.
-SLOW: Mapping[str, float] = MappingProxyType(
+# What differs for a vehicle that turns too slowly to throw and flip its rod: it levels, pumps and catches. Tuned on
+# nayak2018; each of the other numbers costs nothing there (`python -m benchmarks.constants`).
+PUMPING: Mapping[str, float] = MappingProxyType(
     {
-        **AGILE,
-        "position_bandwidth": 0.30, "height_bandwidth": 0.25, "position_damping": 0.79, "rod_bandwidth": 0.55,
-        "rod_damping": 0.63, "attitude_bandwidth": 2.4, "attitude_damping": 0.71,
-        "rate_feedforward": 0.26, "coast": 1.11, "thrust_coast": 0.0, "throw_speed": 0.046, "flip_speed": 0.51,
-        "flip_by_rod": 0.84, "flip_by_height": 0.46, "hanging_share": 0.64, "catch_within": 0.12, "catch_width": 0.37,
-        "catch_time": 0.0, "catch_by_axis": 0.0, "descent": 0.152,
-        "tilt_limit": 0.80, "pump_share": 1.0, "haste": 0.0, "shift": 0.03, "latency": 0.53, "lead": 2.1,
+        "pump_share": 1.0, "tilt_limit": 0.65, "position_bandwidth": 0.30, "height_bandwidth": 0.30,
+        "position_damping": 0.79, "rod_bandwidth": 0.55, "rod_damping": 0.63, "attitude_damping": 0.71, "coast": 1.11,
+        "descent": 0.152, "catch_width": 0.37, "catch_time": 0.0, "catch_by_axis": 0.0, "haste": 0.0,
     }
 )  # fmt: skip
 # On a hub the rod is caught as long as it is above the rotor plane, in a cup always: 1 − y₃ is at most 2. On a hub it
@@ -66,26 +69,34 @@ MOUNTED: Mapping[str, Mapping[str, float]] = MappingProxyType(
 # What an agile vehicle gains phase with, and loses excursion: gains with which hover trembles less where the state is
 # estimated from noisy readings. Tuned on hehn2011 with motion capture at 100 Hz.
 CALM: Mapping[str, float] = MappingProxyType({"rod_damping": 0.6, "rate_feedforward": 0.8, "coast": 1.47})
-# A vehicle is agile if α l/g reaches this.
-LEAST_AGILITY = 5.5
+# A vehicle is agile, and flips its rod, if α l/g reaches the first, and the second times the rotors' thrust in weights:
+# it turns over before it has fallen, or flown, too far.
+LEAST_AGILITY, LEAST_PER_POWER = 5.5, 2.0
 
 
 class Scales(NamedTuple):
     """Natural units of a vehicle's gains.
 
-    √(l/g) in s, √(g l) in m/s, the square root of the angular authority in rad/s, and whether the vehicle is agile.
+    √(l/g) in s, √(g l) in m/s, the square root of the angular authority α in rad/s, `agility` α l/g, the rotors'
+    `power` in weights, and the mount.
     """
 
     time: float
     speed: float
     turn: float
-    agile: bool
+    agility: float
+    power: float
     mount: str
 
     @property
+    def agile(self) -> bool:
+        """Whether the vehicle throws and flips its rod; if not, it levels and pumps."""
+        return self.agility >= max(LEAST_AGILITY, LEAST_PER_POWER * self.power)
+
+    @property
     def numbers(self) -> Mapping[str, float]:
-        """Dimensionless gains for a vehicle of this class and mount."""
-        return {**(AGILE if self.agile else SLOW), **MOUNTED.get(self.mount, {})}
+        """Dimensionless gains for a vehicle of this agility and mount."""
+        return {**NUMBERS, **({} if self.agile else PUMPING), **MOUNTED.get(self.mount, {})}
 
 
 @lru_cache(maxsize=256)
@@ -98,7 +109,8 @@ def scales(vehicle: Vehicle) -> Scales:
         time=np.sqrt(vehicle.l / vehicle.g),
         speed=np.sqrt(vehicle.g * vehicle.l),
         turn=np.sqrt(authority),
-        agile=authority * vehicle.l >= LEAST_AGILITY * vehicle.g,
+        agility=authority * vehicle.l / vehicle.g,
+        power=vehicle.rotor_limits[1] * len(vehicle.rotor_spins) / vehicle.weight,
         mount=vehicle.mount,
     )
 
@@ -115,10 +127,10 @@ def angular_authority(vehicle: Any) -> Any:
 
 
 def _attitude_bandwidth(vehicle: Vehicle) -> float:
-    """Return what the authority allows; at least what balancing needs (small moments), at most what the lag allows."""
+    """Return what the authority allows; at least what balancing needs, at most what the lag allows."""
     s = scales(vehicle)
-    wanted = max(s.numbers["attitude_bandwidth"] * s.turn, LEAST_RATIO * s.numbers["rod_bandwidth"] / s.time)
-    return float(min(wanted, LAG_SHARE / max(vehicle.rotor_lag, LEAST_LAG)))
+    wanted = max(s.numbers["attitude_bandwidth"] * s.turn, LEAST_ATTITUDE / s.time)
+    return float(min(wanted, LAG_SHARE / vehicle.rotor_lag) if vehicle.rotor_lag else wanted)
 
 
 def _rod_bandwidth(vehicle: Vehicle) -> float:
@@ -191,16 +203,14 @@ GAINS = table(
             "Largest commanded tilt of the thrust axis from e₃; near π for no limit", ANGLE,
         ),
         Gain(
-            "rate_feedforward", _number("rate_feedforward"), "",
+            "rate_feedforward",
+            lambda v: min(scales(v).numbers["rate_feedforward"], FEEDFORWARD * scales(v).agility), "",
             "Share of the desired thrust axis's rate that is fed forward", SHARE,
         ),
         Gain(
             "coast_time", lambda v: scales(v).numbers["coast"] / _attitude_bandwidth(v), "s",
-            "The desired thrust axis is computed for the rod predicted this far ahead", POSITIVE, label="look ahead",
-        ),
-        Gain(
-            "thrust_coast_share", _number("thrust_coast"), "",
-            "The thrust is computed for the rod predicted this share of coast_time ahead", SHARE, fixed=True,
+            "The desired thrust axis is computed for the rod predicted this far ahead; the thrust, for 1 - pump_share "
+            "of this time", POSITIVE, label="look ahead",
         ),
         Gain(
             "throw_speed", _speed("throw_speed"), "m/s", "Upward speed demanded of the bob while the rod hangs",
@@ -219,7 +229,7 @@ GAINS = table(
         ),
         Gain(
             "pump_share", _number("pump_share"), "",
-            "Share of energy-based swing-up while the rod is low; for a vehicle too slow to throw and flip",
+            "Share of energy-based swing-up while the rod is low: 1 for a vehicle too slow to throw and flip, else 0",
             SHARE, fixed=True,
         ),
         Gain(

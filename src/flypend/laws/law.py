@@ -47,6 +47,9 @@ class Law:
         Lead, prediction and observer around the law in a sampled flight, or a function of the gains that returns them.
     uses_forces : bool
         Whether the law compensates external forces.
+    uses_wrench : bool
+        Whether `control` takes the wrench that acts, as the keyword argument `acting`: rotors with lag give another
+        than commanded. Such a law flies in `Ideal(lag=True)` only.
     reference : callable, optional
         Pivot position (3, 1) to hold or follow, as a CasADi function of time; None for none.
     path : callable, optional
@@ -59,6 +62,8 @@ class Law:
         Gains that determine the amount of computation; exported code holds them as constants.
     theorem : callable, optional
         `theorem(bound, start)` returns what is proved of a start: see `BoundLaw.guarantee`. None for a law without one.
+    certify : callable, optional
+        `certify(bound)` returns the set that rotor limits allow: see `BoundLaw.certified_set`. None for a law without.
     calm : callable, optional
         `calm(vehicle, share)` returns the gains, by name, that tremble less where the state is estimated from noisy
         readings; `share` 0 means the defaults, 1 the calmest. None for a law without such gains.
@@ -72,12 +77,14 @@ class Law:
     guard: Guard | Callable[[Values], Guard | None] | None = None
     computer: Computer | Callable[[Values], Computer] = field(default_factory=Computer)
     uses_forces: bool = False
+    uses_wrench: bool = False
     reference: Reference | None = None
     path: Path | None = None
     prepare: Callable[[Vehicle, Values], Values] | None = None
     check: Callable[[Values], None] | None = None
     fixed: tuple[str, ...] = ()
     theorem: Callable[[BoundLaw, State], Guarantee] | None = None
+    certify: Callable[[BoundLaw], Any] | None = None
     calm: Callable[[Vehicle, float], Values] | None = None
     _bound: dict[Vehicle, BoundLaw] = field(default_factory=dict, init=False, repr=False)
 
@@ -147,6 +154,7 @@ class Law:
 
         Raises InputError if gains are inconsistent.
         """
+        vehicle = vehicle.commanded()
         if vehicle not in self._bound:
             self._bound[vehicle] = self._bind(vehicle)
         return self._bound[vehicle]
@@ -164,10 +172,12 @@ class Law:
             guard=self.guard(gains) if callable(self.guard) else self.guard,
             computer=self.computer(gains) if callable(self.computer) else self.computer,
             uses_forces=self.uses_forces,
+            uses_wrench=self.uses_wrench,
             reference=self.reference,
             path=self.path,
             fixed=self.fixed,
             theorem=self.theorem,
+            certify=self.certify,
             check=self.check,
             calmer=self._calmer(vehicle),
         )

@@ -8,13 +8,14 @@ from __future__ import annotations
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import casadi as ca
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.geometry import norm
+from flypend.geometry import Scalar, Vector, norm
 from flypend.laws.bound import Control
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, documented, table
 from flypend.laws.inverted_gains import computer_of
@@ -63,7 +64,9 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
     """
     followed = reference or hover()
 
-    def control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
+    def control(
+        t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector]
+    ) -> Control:
         return learned_control(t, state, vehicle, k.network, forces, followed)
 
     return Law(
@@ -102,7 +105,7 @@ def _shipped(name: str) -> Policy:
 
 
 def learned_control(
-    t: Any, state: State, vehicle: Any, network: Policy, forces: tuple[Any, Any], reference: Reference
+    t: Scalar, state: State, vehicle: Vehicle, network: Policy, forces: tuple[Vector, Vector], reference: Reference
 ) -> Control:
     """Evaluate the `network` for symbols `t` (s) and `state` of `vehicle` about its `reference`.
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.geometry import E3, cross, hat, project_tangent, rotation_from_vector, unit
+from flypend.geometry import E3, Numbers, Vector, cross, hat, project_tangent, rotation_from_vector, unit
 from flypend.laws.bound import BoundLaw
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion
@@ -60,7 +60,7 @@ class Linearisation:
     acceleration: Any
 
     @property
-    def eigenvalues(self) -> Any:
+    def eigenvalues(self) -> Numbers:
         """Eigenvalues of A, 1/s, in descending order of real part."""
         values = np.linalg.eigvals(self.A).astype(complex)
         return values[np.lexsort((values.imag, -values.real))]
@@ -147,7 +147,7 @@ def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) ->
     return Linearisation(at=state, A=A, acceleration=velocity[3:6])
 
 
-def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> tuple[Any, Any]:
+def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> tuple[Numbers, Numbers]:
     """Return A (16, 16) and B (16, 4) of ξ̇ = A ξ + B (δf, δτ) about the equilibrium `at` of `vehicle` under `wrench`.
 
     Parameters
@@ -177,7 +177,7 @@ def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> t
     return A, P @ F_u
 
 
-def tangent_basis(at: State) -> Any:
+def tangent_basis(at: State) -> Numbers:
     """Return E = ∂s/∂ξ (24, 16), whose columns span the tangent space at the single state `at`.
 
     If the rod moves, ẏ changes with y: b moves y, and −(b·ẏ) y keeps ẏ tangent.
@@ -192,7 +192,7 @@ def tangent_basis(at: State) -> Any:
     return E
 
 
-def retract(at: State, xi: Any) -> State:
+def retract(at: State, xi: Numbers) -> State:
     """Return the state with coordinates `xi` (16,), |ξ_y| < 1, about a single state `at` with ω = 0 and ẏ = 0."""
     b, xi = _plane(at.y), np.asarray(xi, dtype=float)
     height = np.sqrt(1 - xi[12:14] @ xi[12:14])
@@ -206,7 +206,7 @@ def retract(at: State, xi: Any) -> State:
     )
 
 
-def _plane(y: Any) -> Any:
+def _plane(y: Vector) -> Numbers:
     """Return b₁ and b₂ (2, 3). b₁ is the axis least aligned with `y` (up to roundoff), projected normal to `y`."""
     b_1 = unit(project_tangent(y, np.eye(3)[np.argmin(np.abs(y).round(9))]))
     return np.stack([b_1, cross(y, b_1)])
@@ -222,7 +222,7 @@ def _closed_loop(law: BoundLaw, vehicle: Vehicle) -> ca.Function:
     return ca.Function("closed_loop", [packed], ca.cse(now))
 
 
-def _on_tangent_space(rates: ca.Function, state: State) -> tuple[Any, Any]:
+def _on_tangent_space(rates: ca.Function, state: State) -> tuple[Numbers, Numbers]:
     """Return velocity ξ̇ (16,) and A at `state`, with R, ω, y and ẏ assumed at rest."""
     F, F_s, F_t = (np.array(value) for value in rates(state.packed()))
     if not all(np.all(np.isfinite(value)) for value in (F, F_s, F_t)):

@@ -12,6 +12,7 @@ work far from hover; it serves to show that.
 from __future__ import annotations
 
 from functools import lru_cache
+from types import SimpleNamespace
 from typing import Any
 
 import casadi as ca
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.geometry import E3, apply, cross, dot, is_symbolic, norm, scale
+from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
 from flypend.laws.gain import POSITIVE, Gain, documented, table
 from flypend.laws.law import Law
@@ -38,6 +39,7 @@ ENTRIES = [
 
 
 def _deviation(name: str, default: float, unit: str, doc: str, label: str) -> Gain:
+    """Return the gain that is the largest acceptable deviation of this name, in `unit`."""
     return Gain(name, default, unit, f"Largest acceptable {doc}", POSITIVE, label=label)
 
 
@@ -93,18 +95,19 @@ def lqr(reference: Reference | None = None, **gains: float) -> Law:
     )
 
 
-def _control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> Control:
+def _control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
+    """Evaluate the law for symbols `t` (s) and `state`, with its gain matrix k.K (4, 16)."""
     return lqr_control(t, state, vehicle, k.K, path)
 
 
-def by_matrix(K: Any) -> Law:
+def by_matrix(K: Numbers) -> Law:
     """Build the regulator about hover at the origin with gain matrix `K` (4, 16); its gains are the entries K_i_j.
 
     They may vary from run to run. The column of the heading is zero and not among the gains.
     """
     followed = hover()
 
-    def control(t: Any, state: State, vehicle: Vehicle, k: Any, *, path: Path) -> Control:
+    def control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
         matrix = ca.SX.zeros(4, len(COORDINATES))
         for name, i, j in ENTRIES:
             matrix[i, j] = getattr(k, name)
@@ -114,12 +117,12 @@ def by_matrix(K: Any) -> Law:
     return Law(name="lqr", e3="up", gains=gains, control=control, reference=followed, path=carrying(followed))
 
 
-def entries(K: Any) -> dict[str, float]:
+def entries(K: Numbers) -> dict[str, float]:
     """Return the entries of `K` (4, 16) by name, without the column of the heading."""
     return {name: float(K[i, j]) for name, i, j in ENTRIES}
 
 
-def gain_matrix(vehicle: Vehicle, deviations: Any) -> Any:
+def gain_matrix(vehicle: Vehicle, deviations: Any) -> Numbers:
     """Return K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its heading column is zero."""
     if vehicle.gravity == 0:
         raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
@@ -161,11 +164,11 @@ def solve_riccati(A: Matrix, B: Matrix, Q: Matrix, R: Matrix) -> Matrix:
 
 
 @lru_cache(maxsize=16)
-def _about_hover(vehicle: Vehicle) -> tuple[Any, Any]:
+def _about_hover(vehicle: Vehicle) -> tuple[Numbers, Numbers]:
     return open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
 
 
-def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
+def weights(vehicle: Vehicle, deviations: Any) -> tuple[Numbers, Numbers]:
     """Return Q (16, 16) and R (4, 4) of `vehicle` for the `deviations` of `lqr`, by Bryson's rule."""
     d = deviations
     state = [
@@ -178,7 +181,7 @@ def weights(vehicle: Vehicle, deviations: Any) -> tuple[Any, Any]:
     return np.diag(1 / np.array(state) ** 2), np.diag(1 / wrench**2)
 
 
-def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, path: Path) -> Control:
+def lqr_control(t: Scalar, state: State, vehicle: Vehicle, K: Numbers, path: Path) -> Control:
     """Evaluate the law with gain matrix `K` (4, 16) for symbols `t` (s) and `state` of `vehicle`, along `path`.
 
     The reference wrench is the one that moves rod and vehicle along the path; in hover it is the weight.
@@ -199,7 +202,9 @@ def lqr_control(t: Any, state: State, vehicle: Vehicle, K: Any, path: Path) -> C
     )
 
 
-def errors_of(state: State, x_ref: Any, v_ref: Any, z_ref: Any, omega_ref: Any, y_ref: Any, y_ref_dot: Any) -> Any:
+def errors_of(
+    state: State, x_ref: Vector, v_ref: Vector, z_ref: Vector, omega_ref: Vector, y_ref: Vector, y_ref_dot: Vector
+) -> Numbers:
     """Return ξ (16, 1) of any `state` about a reference near inverted hover; smooth, and independent of the heading.
 
     With h(e) the first two components of Rᵀ(e₁, e₂, 0), the horizontal part of e in the body frame,
@@ -228,7 +233,7 @@ def errors_of(state: State, x_ref: Any, v_ref: Any, z_ref: Any, omega_ref: Any, 
     return ca.vertcat(seen(e), e[2], seen(v), v[2], tilt, rates)
 
 
-def flat_reference(t: Any, path: Path, vehicle: Vehicle) -> tuple[Any, Any, Any, Any, Any]:
+def flat_reference(t: Scalar, path: Path, vehicle: Vehicle) -> tuple[Vector, Vector, Vector, Vector, Scalar]:
     """Return pivot position and velocity, rod, thrust axis and thrust with which `vehicle` follows `path` at `t`.
 
     The thrust vector is F = M (ẍ + g e₃) + m (p̈ + g e₃), with p = x + l y the bob.

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend.geometry import E1, apply
+from flypend.geometry import E1, Numbers, Scalar, Vector, apply
 from flypend.laws.axis import spun
 from flypend.laws.smooth import smooth_step
 from flypend.model import State, Vehicle
@@ -50,9 +50,9 @@ class Steering(NamedTuple):
     an arm; and the `yaw` acceleration that opens a gap, rad/s².
     """
 
-    aside: Any
-    clear: Any
-    yaw: Any
+    aside: Vector
+    clear: Scalar
+    yaw: Scalar
 
 
 # The steering of a vehicle whose rod may pass anywhere.
@@ -72,7 +72,7 @@ def passage_of(vehicle: Vehicle) -> Passage:
     return Passage(arms, np.append(gap, 0.0), power, least, most, yaw_authority(vehicle))
 
 
-def _unit(bearing: Any) -> Any:
+def _unit(bearing: Numbers) -> Numbers:
     return np.stack([np.cos(bearing), np.sin(bearing)], axis=-1)
 
 
@@ -84,7 +84,7 @@ def yaw_authority(vehicle: Vehicle) -> float:
     return float(vehicle.drag_ratio * count * min(hover - low, high - hover) / vehicle.inertia[2, 2])
 
 
-def heading(state: State, rod: Any, axis: Any, time: Any) -> Any:
+def heading(state: State, rod: Vector, axis: Vector, time: Scalar) -> Numbers:
     """Return (2, 1), of length 1 at most: where the `rod` will cross the rotor plane, in the body frame in `time` s.
 
     The thrust axis turns to `axis` within the plane of both, and takes the arms along. So the rod will appear in that
@@ -96,7 +96,7 @@ def heading(state: State, rod: Any, axis: Any, time: Any) -> Any:
     return spun(way, -time * state.omega[2])
 
 
-def _power(value: Any, exponent: int) -> Any:
+def _power(value: Scalar, exponent: int) -> Scalar:
     """Return `value` to a natural `exponent`, by products: exported C calls no library."""
     if exponent == 0:
         return 1.0
@@ -104,7 +104,7 @@ def _power(value: Any, exponent: int) -> Any:
     return half * half * value if exponent % 2 else half * half
 
 
-def steered(state: State, way: Any, passage: Passage) -> Steering:
+def steered(state: State, way: Numbers, passage: Passage) -> Steering:
     """Return the steering of a rod that heads along `way` (2, 1), as from `heading`."""
     crowding: Any = 0
     push: Any = 0

@@ -24,7 +24,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
-from flypend.geometry import E3
+from flypend.geometry import E3, Numbers, Scalar, Vector
 from flypend.model import State
 
 FEATURES = 18
@@ -87,13 +87,13 @@ class Policy:
         """Number of weights."""
         return sum(array.size for array in self.arrays.values())
 
-    def network(self, phi: Any) -> Any:
+    def network(self, phi: Numbers) -> Numbers:
         """Return N(φ) (n, 1) for `phi` (18, 1), in CasADi."""
         hidden = activation(_layer(self.W_1, self.b_1, phi))
         hidden = activation(_layer(self.W_2, self.b_2, hidden))
         return ca.mtimes(_constant(self.D), phi) + ca.mtimes(_constant(self.W_3), hidden)
 
-    def asked(self, phi: Any) -> Any:
+    def asked(self, phi: Numbers) -> Numbers:
         """Return N(φ) − N(φ₀) (n, 1) for `phi` (18, 1), in CasADi."""
         at_hover = ca.DM(ca.evalf(ca.densify(self.network(ca.SX(ca.DM(HOVER))))))
         return self.network(phi) - at_hover
@@ -111,16 +111,16 @@ def _constant(values: Any) -> Any:
     return ca.DM(np.asarray(values, dtype=float))
 
 
-def _layer(W: Matrix, b: Matrix, v: Any) -> Any:
+def _layer(W: Matrix, b: Matrix, v: Numbers) -> Any:
     return ca.mtimes(_constant(W), v) + _constant(b)
 
 
-def activation(v: Any) -> Any:
+def activation(v: Numbers) -> Numbers:
     """Return a(v) = v/√(1 + v²), entry by entry: no library function, and smooth."""
     return v / ca.sqrt(1 + v**2)
 
 
-def features(state: State, x: Any, x_dot: Any, length: Any, time: Any) -> Any:
+def features(state: State, x: Vector, x_dot: Vector, length: Scalar, time: Scalar) -> Numbers:
     """Return φ (18, 1) of a `state` with e₃ up, in CasADi.
 
     `x`, `x_dot` are relative to the reference; `length` is that of the rod, m, and `time` √(l/g), s.
@@ -131,7 +131,7 @@ def features(state: State, x: Any, x_dot: Any, length: Any, time: Any) -> Any:
     return ca.densify(ca.vertcat(seen[:, 0], seen[:, 1], seen[:, 2], state.omega * time, seen[:, 3], seen[:, 4]))
 
 
-def shares(v: Any, hover: Any) -> Any:
+def shares(v: Numbers, hover: Scalar) -> Numbers:
     """Return the shares (n, 1) of their range, 0 to 1, that the rotors are asked for: `hover` where `v` is 0."""
     level = 2 * hover - 1
     return (1 + activation(v + level / ca.sqrt(1 - level**2))) / 2

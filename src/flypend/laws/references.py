@@ -10,11 +10,12 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.geometry import Numbers, Scalar, Vector
 
-Reference = Callable[[Any], Any]
+Reference = Callable[[Scalar], Vector]
 # A path of the whole system: (t, vehicle, external force on the bob) → positions of pivot and bob, and rod direction,
 # each (3, 1) and a function of time.
-Path = Callable[[Any, Any, Any], tuple[Any, Any, Any]]
+Path = Callable[[Scalar, Any, Vector], tuple[Vector, Vector, Vector]]
 
 
 def hover(x: Any = (0.0, 0.0, 0.0)) -> Reference:
@@ -67,7 +68,7 @@ def check_reference(reference: Any, field: str = "reference") -> None:
         raise InputError(field, f"{what}, of CasADi's functions", "one that gives NaN")
 
 
-def sampled(reference: Reference, t: Any) -> Any:
+def sampled(reference: Reference, t: Numbers) -> Numbers:
     """Return the positions (n, 3), m, of `reference` at times `t` (n,), s."""
     time = ca.SX.sym("t")
     function = ca.Function("reference", [time], [ca.densify(reference(time))])

@@ -1,6 +1,6 @@
 """Theorem 1 repaired: the rod hangs and the thrust axis settles along gravity, from almost every start, with a proof.
 
-The paper's frame: e₃ along gravity, f < 0. docs/laws/theorem.md, Theorem A. Against the paper's law
+The paper's frame: e₃ along gravity, f < 0. docs/laws/theorem-proof.md, Theorem A. Against the paper's law
 
 - k_p is constant, and the damping of f_p stays below it: |σ| < D k_p, so f_p never vanishes (defects 4 and 10);
 - Lemma S stands for Lemma 2 and beta: the direction error is damped itself, and the cross term is cancelled without a
@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from types import SimpleNamespace
 
 import casadi as ca
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.geometry import E3, apply, cross, dot, norm, scale
+from flypend.geometry import E3, Scalar, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
 from flypend.laws.covering import outside, signals_at
@@ -34,7 +34,7 @@ OUTSIDE = Guard(
 )
 
 
-def stiffness(vehicle: Vehicle) -> Any:
+def stiffness(vehicle: Vehicle) -> Scalar:
     """Return k_p = (M+m)g/(Ml), 1/s²: the square of the frequency at which the rod swings under its own weight."""
     return (vehicle.M + vehicle.m) * vehicle.g / (vehicle.M * vehicle.l)
 
@@ -89,7 +89,9 @@ def repaired(**gains: float) -> Law:
     )
 
 
-def repaired_control(t: Any, state: State, vehicle: Vehicle, k: Any, *, cancelled: float = 1.0) -> Control:
+def repaired_control(
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, cancelled: float = 1.0
+) -> Control:
     """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `repaired`.
 
     `cancelled` is the share of the cross term that v_* cancels: 1 in the theorem, less only to show what it is for.
@@ -128,7 +130,7 @@ def repaired_control(t: Any, state: State, vehicle: Vehicle, k: Any, *, cancelle
     )
 
 
-def axis_step(k: Any) -> Step:
+def axis_step(k: SimpleNamespace) -> Step:
     """Return the gains of Lemma S for the thrust axis."""
     return Step(k.k_1, k.k_e, k.k_2, k.axis_weight, k.axis_barrier)
 

@@ -13,16 +13,16 @@ the function V = V_X + k Ψ(c) + ½ρ|ζ|² obeys, wherever φ ≠ −d,
 
     V̇ = −Q_X − k k_e g |e|² − ρ k_w |ζ|²                                                                       (S4)
 
-Ψ grows without bound as φ approaches −d, so no solution gets there. docs/laws/theorem.md has the proof.
+Ψ grows without bound as φ approaches −d, so no solution gets there. docs/laws/theorem-proof.md has the proof.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import cross, dot, scale, tangent_part
+from flypend.geometry import Scalar, Vector, cross, dot, scale, tangent_part
 
 
 class Step(NamedTuple):
@@ -36,38 +36,38 @@ class Step(NamedTuple):
     fade       χ: ς is 1 for χ = 1, and fades to 0 at φ = −d for χ = ½
     """
 
-    stiffness: Any
-    alignment: Any
-    damping: Any
-    weight: Any
-    barrier: Any
-    fade: Any = 1.0
+    stiffness: Scalar
+    alignment: Scalar
+    damping: Scalar
+    weight: Scalar
+    barrier: Scalar
+    fade: Scalar = 1.0
 
 
 class Aim(NamedTuple):
     """Direction error e (3, 1), its cosine c, and the rate ω_d × φ + v_* (3, 1), 1/s, that φ should have."""
 
-    error: Any
-    cosine: Any
-    rate: Any
+    error: Vector
+    cosine: Scalar
+    rate: Vector
 
 
 class Push(NamedTuple):
     """The force u (3, 1), 1/s², ζ (3, 1), the two terms that the step adds to V, and what it adds to V̇."""
 
-    force: Any
-    rate_error: Any
-    potential: Any
-    kinetic: Any
-    decay: Any
+    force: Vector
+    rate_error: Vector
+    potential: Scalar
+    kinetic: Scalar
+    decay: Scalar
 
 
-def share(c: Any, step: Step) -> Any:
+def share(c: Scalar, step: Step) -> Scalar:
     """Return ς(c) = c + χ (1 − c) ≥ 0, which is 1 at c = 1."""
     return c + step.fade * (1 - c)
 
 
-def aim(phi: Any, target: Any, turn: Any, force: Any, gradient: Any, step: Step) -> Aim:
+def aim(phi: Vector, target: Vector, turn: Vector, force: Scalar, gradient: Vector, step: Step) -> Aim:
     """Return the rate that `phi` should have, (S1): its Lie derivative is the feedforward of `push`.
 
     Parameters
@@ -89,7 +89,7 @@ def aim(phi: Any, target: Any, turn: Any, force: Any, gradient: Any, step: Step)
     return Aim(e, c, cross(turn, phi) + step.alignment * e + cancelling)
 
 
-def push(phi: Any, phi_dot: Any, aimed: Aim, feedforward: Any, step: Step) -> Push:
+def push(phi: Vector, phi_dot: Vector, aimed: Aim, feedforward: Vector, step: Step) -> Push:
     """Return the force u, (S3), and the terms of V and V̇, (S4).
 
     `phi`, `phi_dot`: φ and φ̇; `feedforward`: d/dt of `aimed.rate` along the closed loop, (3, 1), 1/s². Not

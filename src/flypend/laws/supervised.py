@@ -1,18 +1,20 @@
 """A supervisor: the inverted law first, the almost global law from a given time on, for good.
 
 A law has no memory of having handed over; time has. From every state in which the first law leaves the system inside
-the domain of Theorem B, the second converges: docs/laws/theorem.md, section 8.
+the domain of Theorem B, the second converges: docs/laws/theorem-appendix.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import casadi as ca
 
 from flypend import errors
+from flypend.geometry import Scalar, Vector
 from flypend.laws.almost_global import almost_global
 from flypend.laws.bound import Control
 from flypend.laws.gain import NOT_NEGATIVE, Bounds, Gain, documented, table
@@ -77,7 +79,8 @@ def _both(reference: Reference, vehicle: Vehicle, gains: Mapping[str, Any]) -> M
     return {"first": inverted(reference).bind(vehicle), "second": almost_global(reference).bind(vehicle)}
 
 
-def _control(t: Any, state: State, vehicle: Vehicle, k: Any, forces: tuple[Any, Any]) -> Control:
+def _control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector]) -> Control:
+    """Evaluate both laws for symbols `t` (s) and `state`; `forces` (3, 1), N, on vehicle and bob go to the first."""
     first = k.first.evaluate(t, state, vehicle, forces).wrench
     second = k.second.evaluate(t, state, vehicle)
     early = t < k.handover

@@ -8,12 +8,13 @@ what it claims (docs/paper/errata.md); and `corrected`, with three defects fixed
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import casadi as ca
 
 from flypend import errors
-from flypend.geometry import E3, apply, cross, dot, hat_squared, norm, scale, smooth_norm, transport_derivative
+from flypend.geometry import E3, Scalar, apply, cross, dot, hat_squared, norm, scale, smooth_norm, transport_derivative
 from flypend.laws.bound import Control, Guard
 from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, Gain, documented, table
 from flypend.laws.law import Law
@@ -34,42 +35,34 @@ PAPER_GAINS = (
 )
 
 
-def theorem_1(
-    t: Any,
-    state: State,
-    vehicle: Vehicle,
-    *,
-    k_d: Any,
-    k_1: Any,
-    k_2: Any,
-    damping_sign: int,
-    speed_floor: float,
-    beta_floor: float | None,
-    yaw_damping: float = 0.0,
-) -> Control:
-    """Evaluate the law of Theorem 1 for symbols `t` (s) and `state`, and a `vehicle`.
+class Version(NamedTuple):
+    """What distinguishes the law as printed from the corrected one.
 
-    Parameters
-    ----------
-    t, state, vehicle
-        As in `Law`.
-    k_d, k_1, k_2
-        Gains: damping of the rod (1/s), stiffness (1/s²) and damping (1/s) of the thrust axis.
-    damping_sign
+    damping_sign : int
         Sign of k_d ẏ in (fpeqn): +1 as printed, −1 corrected.
-    speed_floor
-        s in √(|ẏ|² + s²), rad/s, which replaces |ẏ| in (kpeqn).
-    beta_floor
+    beta_floor : float, optional
         ε in beta = −|f_p| ⟨ẏ, z − z_d⟩ v_e / (|v_e|² + ε²), 1/s; 0 gives the minimum-norm solution, None drops beta.
-    yaw_damping
+    yaw_damping : float
         Third component of I⁻¹mu, which is free, over ω₃, 1/s.
+    """
+
+    damping_sign: int
+    beta_floor: Scalar | None
+    yaw_damping: Scalar = 0.0
+
+
+def theorem_1(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, version: Version) -> Control:
+    """Evaluate a `version` of the law for symbols `t` (s) and `state`, and a `vehicle`.
+
+    Of the gains `k` it takes those of PAPER_GAINS and `speed_floor`, s in √(|ẏ|² + s²), rad/s, which replaces |ẏ| in
+    (kpeqn).
     """
     M, m, l, g = vehicle.M, vehicle.m, vehicle.l, vehicle.g
     y, y_dot, omega, z = state.y, state.y_dot, state.omega, state.z
     z_dot = apply(state.R, cross(omega, E3))
 
-    k_p = (M + m) * g / (M * l * (1 + smooth_norm(y_dot, speed_floor)))  # (kpeqn)
-    f_p = k_p * E3 + damping_sign * k_d * y_dot  # (fpeqn)
+    k_p = (M + m) * g / (M * l * (1 + smooth_norm(y_dot, k.speed_floor)))  # (kpeqn)
+    f_p = k_p * E3 + version.damping_sign * k.k_d * y_dot  # (fpeqn)
     f = -M * l * norm(f_p)  # (setf)
     z_d = scale(1 / norm(f_p), f_p)  # (zdes)
 
@@ -81,27 +74,27 @@ def theorem_1(
 
     v_e = velocity_error(z, z_dot, z_d, z_d_dot)
     u_fb = (
-        -k_1 * hat_squared(z, z_d) - k_2 * v_e + transport_derivative(z, z_dot, z_d, z_d_dot, z_d_ddot)
+        -k.k_1 * hat_squared(z, z_d) - k.k_2 * v_e + transport_derivative(z, z_dot, z_d, z_d_dot, z_d_ddot)
     )  # (ufb) without its last term
-    if beta_floor is not None:
-        beta = scale(-norm(f_p) * dot(y_dot, z - z_d) / (dot(v_e, v_e) + beta_floor**2), v_e)  # (weqn)
+    if version.beta_floor is not None:
+        beta = scale(-norm(f_p) * dot(y_dot, z - z_d) / (dot(v_e, v_e) + version.beta_floor**2), v_e)  # (weqn)
         u_fb = u_fb - hat_squared(z, beta)  # (ufb)
 
     # (setmu): {I⁻¹mu}^ e₃ = (ω̂² + {I⁻¹(Iω × ω)}^) e₃ + Rᵀ(|ż|² z − u_fb) =: b, i.e. a × e₃ = b for a = I⁻¹mu.
     body = vehicle.seen("down")
     free = apply(body.I_inv, cross(apply(body.I, omega), omega))
     b = hat_squared(omega, E3) + cross(free, E3) + apply(state.R.T, scale(dot(z_dot, z_dot), z) - u_fb)
-    a = ca.vertcat(-b[1], b[0], yaw_damping * omega[2])  # e₃ × b, plus the component that (setmu) leaves free
+    a = ca.vertcat(-b[1], b[0], version.yaw_damping * omega[2])  # e₃ × b, plus the component that (setmu) leaves free
     mu = apply(body.I, a)
 
     v_1 = k_p * (1 - dot(y, E3)) + dot(y_dot, y_dot) / 2
-    v_2 = k_1 * (1 - dot(z, z_d)) + dot(v_e, v_e) / 2
+    v_2 = k.k_1 * (1 - dot(z, z_d)) + dot(v_e, v_e) / 2
     return Control(
         wrench=Wrench(f, -mu),  # (Rfin): the applied moment is −mu
         lyapunov={"V_1": v_1, "V_2": v_2},
         signals={
             "velocity_error": norm(v_e),
-            "V_rate_claimed": -k_d * dot(y_dot, y_dot) - k_2 * dot(v_e, v_e),
+            "V_rate_claimed": -k.k_d * dot(y_dot, y_dot) - k.k_2 * dot(v_e, v_e),
             "k_p": k_p,
         },
     )
@@ -124,28 +117,12 @@ PRINTED = table(
 @errors.named_arguments
 @documented(PRINTED)
 def printed(**gains: float | str) -> Law:
-    """Build Theorem 1 with the printed damping sign and the minimum-norm beta, in the paper's frame (e₃ along gravity).
-
-    Parameters
-    ----------
-    **gains : float or str
-        Any of the gains below, in the stated unit.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds.
-    """
+    """Build Theorem 1 as printed: damping sign and minimum-norm beta are its own, e₃ points along gravity."""
     return Law(name="printed", e3="down", gains=PRINTED, given=gains, control=_as_printed, guard=_printed_guard)
 
 
-def _as_printed(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
-    return theorem_1(
-        t, state, vehicle, k_d=k.k_d, k_1=k.k_1, k_2=k.k_2, damping_sign=+1, speed_floor=k.speed_floor,
-        beta_floor=0.0 if k.beta == "minimum-norm" else None,
-    )  # fmt: skip
+def _as_printed(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
+    return theorem_1(t, state, vehicle, k, Version(+1, 0.0 if k.beta == "minimum-norm" else None))
 
 
 def _printed_guard(gains: Mapping[str, Any]) -> Guard | None:
@@ -178,27 +155,13 @@ def corrected(**gains: float | str) -> Law:
 
     The paper's five experiments converge, and so do most random starts. Some run away: the rod spins ever faster
     (docs/paper/errata.md, defect 9).
-
-    Parameters
-    ----------
-    **gains : float or str
-        Any of the gains below, in the stated unit.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds.
     """
     return Law(name="corrected", e3="down", gains=CORRECTED, given=gains, control=_as_corrected, guard=_corrected_guard)
 
 
-def _as_corrected(t: Any, state: State, vehicle: Vehicle, k: Any) -> Control:
-    return theorem_1(
-        t, state, vehicle, k_d=k.k_d, k_1=k.k_1, k_2=k.k_2, damping_sign=-1, speed_floor=k.speed_floor,
-        beta_floor=k.beta_floor if k.beta == "regularized" else None, yaw_damping=k.yaw_damping,
-    )  # fmt: skip
+def _as_corrected(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
+    beta_floor = k.beta_floor if k.beta == "regularized" else None
+    return theorem_1(t, state, vehicle, k, Version(-1, beta_floor, k.yaw_damping))
 
 
 def _corrected_guard(gains: Mapping[str, Any]) -> Guard | None:

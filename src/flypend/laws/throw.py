@@ -25,6 +25,47 @@ FLIP_WIDTH = 0.2
 THRUST_SHARE = 0.993
 
 
+class Rod(NamedTuple):
+    """The rod: direction `y` (3, 1) and its rate `y_dot` (3, 1), 1/s."""
+
+    y: Any
+    y_dot: Any
+
+
+class Bob(NamedTuple):
+    """The bob about its reference, each (3, 1).
+
+    Errors `e`, m, and `v`, m/s; the reference's acceleration `a_ref`, m/s², and its rate `jerk_ref`, m/s³.
+    """
+
+    e: Any
+    v: Any
+    a_ref: Any
+    jerk_ref: Any
+
+
+class Pose(NamedTuple):
+    """Vehicle and rod as the loops of bob and rod see them.
+
+    `low` is 1 to throw the rod and 0 to catch it, see `low_rod`; `height` is the pivot's above its reference, m;
+    `aside` (3, 1) and `clear` are as in `passage.Steering`.
+    """
+
+    low: Any
+    height: Any
+    aside: Any
+    clear: Any
+
+
+class Demand(NamedTuple):
+    """The bob's demand on the rod, each (3, 1): A, its direction d = A/|A|, Ȧ, and ω_d = d × ḋ."""
+
+    A: Any
+    d: Any
+    A_dot: Any
+    omega_d: Any
+
+
 def carrying(reference: Reference) -> Path:
     """Return the path of the balanced bob with the pivot at `reference`(t).
 
@@ -89,126 +130,71 @@ def flip_permission(y: Any, height: Any, climb: Any, vehicle: Vehicle, k: Any) -
     return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / width)
 
 
-def low_rod(y: Any, y_dot: Any, z: Any, k: Any) -> Any:
-    """Return 1 where the rod `y` is too low to be caught, and exactly 0 near upright, to leave the equilibrium alone.
+def low_rod(rod: Rod, z: Any, k: Any) -> Any:
+    """Return 1 where the `rod` is too low to be caught, and exactly 0 near upright, to leave the equilibrium alone.
 
     What counts is the lean 1 − y₃ after coasting for a while, plus z·P_y e₃: a thrust axis on the side to which the rod
-    leans is half way to catching it. With `side`, also on which side of the rotor plane the rod is.
+    leans is half way to catching it. With `mounting.side`, also on which side of the rotor plane the rod is.
     """
-    ahead, _ = coasted(y, y_dot, k.catch_time)
+    y = rod.y
+    ahead = coasted(rod, k.catch_time).y
     along = dot(y, z)
-    lean = 1 - ahead[2] + k.catch_by_axis * (z[2] - y[2] * along) - k.side * along * (1 - y[2])
+    lean = 1 - ahead[2] + k.catch_by_axis * (z[2] - y[2] * along) - k.mounting.side * along * (1 - y[2])
     return smooth_step((lean - k.catch_within) / k.catch_width)
 
 
-def rod_force(
-    e: Any,
-    v: Any,
-    a_ref: Any,
-    jerk_ref: Any,
-    y: Any,
-    y_dot: Any,
-    low: Any,
-    pose: Pose,
-    on: tuple[Any, Any],
-    vehicle: Vehicle,
-    k: Any,
-) -> Any:
-    """Return the force on the quadrotor (3, 1), N, that controls rod and bob.
+def rod_force(bob: Bob, rod: Rod, pose: Pose, forces: tuple[Any, Any], vehicle: Vehicle, k: Any) -> Any:
+    """Return the force on the quadrotor (3, 1), N, that controls `rod` and `bob`.
 
-    Parameters
-    ----------
-    e, v : SX (3, 1)
-        Position and velocity error of the bob, m, m/s.
-    a_ref, jerk_ref : SX (3, 1)
-        Acceleration of the bob's reference, m/s², and its rate, m/s³.
-    y, y_dot : SX (3, 1)
-        Rod direction and its rate.
-    low : SX
-        1 to throw the rod, 0 to catch it; see `low_rod`.
-    pose : Pose
-        Where the vehicle is, and how its body lies to the rod.
-    on : (SX, SX)
-        External forces on vehicle and bob, N.
-    vehicle, k
-        Vehicle and gains.
-    """  # fmt: skip
-    wish = demand(e, v, a_ref, jerk_ref, y, y_dot, low, on[1], vehicle, k)
-    return steering_force(wish, low, v[2], y, y_dot, pose, on, vehicle, k)
-
-
-class Pose(NamedTuple):
-    """The vehicle as the rod's loops see it.
-
-    The `height` of the pivot above its reference, m; `aside` (3, 1) and `clear` as in `passage.Steering`.
+    `forces` are the external ones on vehicle and bob, each (3, 1), N; `k` has the gains.
     """
-
-    height: Any
-    aside: Any
-    clear: Any
+    wish = demand(bob, rod, pose.low, forces[1], vehicle, k)
+    return steering_force(wish, bob.v[2], rod, pose, forces, vehicle, k)
 
 
-class Demand(NamedTuple):
-    """The bob's demand on the rod, each (3, 1): A, its direction d = A/|A|, Ȧ, and ω_d = d × ḋ."""
-
-    A: Any
-    d: Any
-    A_dot: Any
-    omega_d: Any
-
-
-def demand(
-    e: Any, v: Any, a_ref: Any, jerk_ref: Any, y: Any, y_dot: Any, low: Any, on_bob: Any, vehicle: Vehicle, k: Any
-) -> Demand:
+def demand(bob: Bob, rod: Rod, low: Any, on_bob: Any, vehicle: Vehicle, k: Any) -> Demand:
     """Return A, d = A/|A|, Ȧ, the Lie derivative along the ideal bob, p̈ = (A·y) y − g e₃ + F_b/m, and ω_d = d × Ȧ/|A|.
 
-    The errors are expressions themselves, so the derivative is taken with respect to fresh symbols. Other arguments
-    as in `rod_force`; `on_bob` is F_b, N.
+    The errors are expressions themselves, so the derivative is taken with respect to fresh symbols. `low` as in `Pose`;
+    `on_bob` (3, 1) is F_b, N.
     """
     weight = vehicle.g * E3 - on_bob / vehicle.m
-    at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
-    asked = weight + at[2] + bob_acceleration(at[0], at[1], low, vehicle.g, k)
-    rates = ca.vertcat(at[1], scale(dot(asked, at[3]), at[3]) - weight - at[2], jerk_ref, y_dot)
+    e, v, a, y = at = [ca.SX.sym(name, 3) for name in ("e", "v", "a", "y")]
+    asked = weight + a + bob_acceleration(e, v, low, vehicle.g, k)
+    rates = ca.vertcat(v, scale(dot(asked, y), y) - weight - a, bob.jerk_ref, rod.y_dot)
     rate = ca.jtimes(asked, ca.vertcat(*at), rates)
-    A, A_dot = ca.substitute([asked, rate], at, [ca.densify(value) for value in (e, v, a_ref, y)])
+    A, A_dot = ca.substitute([asked, rate], at, [ca.densify(value) for value in (bob.e, bob.v, bob.a_ref, rod.y)])
     per_length = 1 / norm(A)
     d = scale(per_length, A)
     return Demand(A, d, A_dot, cross(d, scale(per_length, A_dot)))  # ḋ = P_d Ȧ/|A|, and d × P_d = d ×
 
 
 def steering_force(
-    wish: Demand,
-    low: Any,
-    climb: Any,
-    y: Any,
-    y_dot: Any,
-    pose: Pose,
-    on: tuple[Any, Any],
-    vehicle: Vehicle,
-    k: Any,
+    wish: Demand, climb: Any, rod: Rod, pose: Pose, forces: tuple[Any, Any], vehicle: Vehicle, k: Any
 ) -> Any:
-    """Return the force on the quadrotor (3, 1), N, that turns the rod to `wish`, with the bob rising at `climb` m/s.
+    """Return the force on the quadrotor (3, 1), N, that turns the `rod` to `wish`, with the bob rising at `climb` m/s.
 
     Other arguments as in `rod_force`.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
-    on_vehicle, on_bob = on
+    (y, y_dot), (on_vehicle, on_bob) = rod, forces
     A, d, _, omega_d = wish
 
     # Rod on S²: Lemma 2 towards d without the acceleration of d; the stiffness has the opposite sign until a flip is
     # permitted.
     v_e = y_dot - cross(omega_d, y)  # τ(y, d) ḋ = ω_d × y
-    share = 1 - low * (1 - pose.clear * flip_permission(y, pose.height, climb, vehicle, k)) * (1 + k.hanging_share)
-    pull = tangent_part(y, d + k.shift * low * pose.aside)
+    permitted = pose.clear * flip_permission(y, pose.height, climb, vehicle, k)
+    share = 1 - pose.low * (1 - permitted) * (1 + k.hanging_share)
+    pull = tangent_part(y, d + k.mounting.shift * pose.low * pose.aside)
     u = share * k.rod_bandwidth**2 * pull - 2 * k.rod_damping * k.rod_bandwidth * v_e
     u = u + scale(dot(y, omega_d), cross(y, y_dot))
 
     difference = on_bob / m - on_vehicle / M
     F = -M * l * u + scale((M + m) * dot(A, y) + M * l * dot(y_dot, y_dot), y) + M * difference
-    if k.cone is not None:
-        F = F + scale((1 - low) * missing_along(F, y, k.cone), y)
-    swing = k.pump_share * low
-    F = (1 - swing) * F + swing * pumping_force(A, y, y_dot, pose.aside, vehicle, k)
+    if k.mounting.cone is not None:
+        F = F + scale((1 - pose.low) * missing_along(F, y, k.mounting.cone), y)
+    swing = k.pump_share * pose.low
+    F = (1 - swing) * F + swing * pumping_force(A, rod, pose.aside, vehicle, k)
     return limited_force(F, THRUST_SHARE * largest_thrust(vehicle))
 
 
@@ -219,7 +205,7 @@ def missing_along(F: Any, y: Any, cone: Any) -> Any:
     return ca.fmax(across / ca.tan(cone) - along, 0)
 
 
-def pumping_force(A: Any, y: Any, y_dot: Any, aside: Any, vehicle: Vehicle, k: Any) -> Any:
+def pumping_force(A: Any, rod: Rod, aside: Any, vehicle: Vehicle, k: Any) -> Any:
     """Return the force on the quadrotor (3, 1), N, that meets the demand `A` and pumps the rod's energy.
 
     Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy
@@ -228,9 +214,10 @@ def pumping_force(A: Any, y: Any, y_dot: Any, aside: Any, vehicle: Vehicle, k: A
     besides, so that it swings through the vertical in the end.
     """
     M, m, l = vehicle.M, vehicle.m, vehicle.l
+    y, y_dot = rod
     w_squared = vehicle.weight / (M * l)
     missing = 1 - (dot(y_dot, y_dot) / 2 / w_squared + y[2])
-    push = y_dot + k.shift * ca.sqrt(w_squared) * aside  # moves it off the hanging rest, a common start
+    push = y_dot + k.mounting.shift * ca.sqrt(w_squared) * aside  # moves it off the hanging rest, a common start
     circling = scale(dot(E3, cross(y, y_dot)), cross(E3, y))
     rate = PUMP_RATE * ca.sqrt(vehicle.g / l)
     return (M + m) * A - M * l * rate * (scale(missing, push) - CIRCLING * circling)
@@ -253,10 +240,11 @@ def lifted(F: Any, tilt: Any) -> Any:
     return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
 
 
-def coasted(y: Any, y_dot: Any, time: Any) -> tuple[Any, Any]:
-    """Return rod direction and rate after coasting for `time` s: y + time ẏ projected onto S², and its velocity."""
+def coasted(rod: Rod, time: Any) -> Rod:
+    """Return the `rod` after coasting for `time` s: y + time ẏ projected onto S², and its velocity."""
+    y, y_dot = rod
     factor = 1 / norm_of_sum(y_dot, time)
-    return scale(factor, y + time * y_dot), scale(factor, y_dot - scale(time * dot(y_dot, y_dot), y))
+    return Rod(scale(factor, y + time * y_dot), scale(factor, y_dot - scale(time * dot(y_dot, y_dot), y)))
 
 
 def norm_of_sum(y_dot: Any, time: Any) -> Any:

@@ -1,0 +1,235 @@
+"""Theorem C: the chart is the law, Taylor models contain it, certificates hold, and wrong ones are rejected."""
+
+import copy
+import json
+import subprocess
+import sys
+from functools import cache
+from types import SimpleNamespace
+
+import casadi as ca
+import numpy as np
+import pytest
+from balls import BITS, OPERATIONS
+from flint import arb, arb_mat, ctx
+
+import flypend as fp
+from flypend.compile.program import interpret, lower
+from flypend.export.records import params_of, params_record
+from flypend.export.symbolic import SymbolicVehicle
+from flypend.geometry import E3, cross, dot, rotation_from_vector
+from flypend.laws import certificate, references
+from flypend.laws.certified import _run, _state, chart_function, differs
+from flypend.laws.chart import SIZE, law_at
+from flypend.model import State
+
+HEHN = fp.vehicle("hehn2011")
+
+
+@cache
+def found(name="hehn2011"):
+    return fp.laws.almost_global().bind(fp.vehicle(name)).certified_set()
+
+
+@pytest.mark.parametrize(("name", "least"), [("hehn2011", 2e-2), ("crazyflie", 2e-2), ("nayak2018", 4e-3)])
+def test_the_set_is_as_large_as_promised_and_its_certificate_is_proved(name, least):
+    certified = found(name)
+    assert certified.c >= least
+    assert certificate.check(certified.certificate) == ""
+    assert differs(certified.certificate, certified.law) == ""
+    assert certificate.check(certified.certificate | {"c": 1.1 * certified.c})  # c is the largest within 5 %
+
+
+def test_in_the_chart_the_law_is_the_law_and_v_a_sum_of_blocks():
+    """In ball arithmetic with vehicle and gains as symbols, at random points, at any heading and yaw rate."""
+    ctx.prec = BITS
+    law = fp.laws.almost_global().bind(HEHN)
+    record = params_record(HEHN)
+    xi, p, k = ca.SX.sym("xi", SIZE), ca.SX.sym("p", record.length), ca.SX.sym("k", len(law.numbers))
+    turn, spin = ca.SX.sym("turn"), ca.SX.sym("spin")
+    body, gains = SymbolicVehicle(p, record, HEHN), {name: k[i] for i, name in enumerate(law.numbers)}
+    K = SimpleNamespace(**gains)
+    own = law_at(xi, K, body.M, body.m, body.l, body.g)
+
+    across = cross(E3, own.axis)
+    hat = ca.skew(across)
+    half = 1 + turn**2
+    heading = ca.vertcat(
+        ca.horzcat(1 - turn**2, -2 * turn, 0) / half, ca.horzcat(2 * turn, 1 - turn**2, 0) / half, ca.horzcat(0, 0, 1)
+    )
+    R = (ca.SX.eye(3) + hat + hat @ hat / (1 + own.axis[2])) @ heading
+    flat = R.T @ own.axis_rate
+    omega = ca.vertcat(-flat[1], flat[0], spin)
+    state = State(
+        x=own.bob + body.l * (E3 - own.rod), x_dot=own.bob_rate - body.l * own.rod_rate, R=R, omega=omega, y=own.rod,
+        y_dot=own.rod_rate,
+    )  # fmt: skip
+    # The law differentiates by the state, so it is evaluated on symbols, into which the state of the chart goes.
+    s, t = ca.SX.sym("s", 24), ca.SX.sym("t")
+    control = law.evaluate(t, State.symbolic(s), body, gains=gains)
+    alpha = ca.vertcat(cross(E3, R.T @ own.push)[:2], -K.yaw_damping * spin)
+    alpha += spin * cross(omega, E3)
+    moment = body.I @ alpha + cross(omega, body.I @ omega)
+
+    def block(i, stiffness, reach, size):
+        return stiffness * reach**2 * (ca.sqrt(1 + ca.sumsqr(xi[i : i + size]) / reach**2) - 1)
+
+    def step(i, weight, stiffness, barrier):
+        c = ca.sqrt(1 - ca.sumsqr(xi[i : i + 2]))
+        psi = (1 - barrier) * (1 - c) - 2 * barrier * ca.log((1 + c) / 2)
+        return weight * stiffness * psi + weight * ca.sumsqr(xi[i + 2 : i + 4]) / 2
+
+    V = block(0, K.position_stiffness, K.position_reach, 2) + block(2, K.height_stiffness, K.height_reach, 1)
+    V += ca.sumsqr(xi[3:6]) / 2 + step(6, K.rod_weight, K.rod_stiffness, K.rod_barrier)
+    V += step(10, K.axis_weight, K.axis_stiffness, K.axis_barrier)
+    wanted = ca.vertcat(control.wrench.thrust, control.wrench.moment, sum(control.lyapunov.values()))
+    law_on = ca.Function("law", [s, p, k], [ca.densify(wanted)])
+    at = ca.Function("at", [xi, p, k, turn, spin], [state.packed(), ca.densify(ca.vertcat(own.thrust, moment, V))])
+    chart, exact, rng = lower(at), lower(law_on), np.random.default_rng(3)
+    for _ in range(5):
+        point = [arb(float(value)) for value in rng.uniform(-0.15, 0.15, SIZE)]
+        numbers = [
+            [arb(float(value)) for value in values * np.exp(rng.uniform(-0.2, 0.2, np.shape(values)))]
+            for values in (np.array(params_of(HEHN)), np.array(list(law.numbers.values())))
+        ]
+        free = [[arb(float(rng.normal()))] for _ in range(2)]
+        place, answer = interpret(chart, [v.__getitem__ for v in (point, *numbers, *free)], OPERATIONS, arb)
+        [truth] = interpret(exact, [v.__getitem__ for v in (place, *numbers)], OPERATIONS, arb)
+        for one, two in zip(answer, truth, strict=True):
+            assert (one - two).contains(0)
+            assert (one - two).rad() < 1e-25
+
+
+def test_taylor_models_contain_what_the_program_answers():
+    made, rng = found().certificate, np.random.default_rng(1)
+    numbers = list(made["numbers"].values())
+    ctx.prec = 53
+    c = arb(made["c"])
+    sizes = [float(size) for size in certificate.radii({k: arb(v) for k, v in made["numbers"].items()}, c)]
+    models = certificate.evaluated(made, c)
+    used = 0.0
+    for i in range(100):
+        x = rng.normal(size=SIZE)
+        x *= (1.0 if i % 3 else rng.random()) / np.linalg.norm(x)
+        row = arb_mat([x.tolist()])
+        for model, value in zip(models, _run(made, x * sizes, numbers), strict=True):
+            told = model.a + (model.l * row.transpose())[0, 0] + (row * model.Q * row.transpose())[0, 0]
+            apart = abs(float(told.mid()) - value)
+            assert apart <= float(model.r.mid()) + 1e-9 * (1 + abs(value))  # roundoff of `_run`
+            used = max(used, apart / float(model.r.mid()))
+    assert used > 1e-4  # the remainders are not empty words
+
+
+def test_a_file_is_checked_by_a_program_of_its_own(tmp_path):
+    path = tmp_path / "set.json"
+    found().save(path)
+    run = subprocess.run(
+        [sys.executable, "-m", "flypend.laws.certificate", str(path)], capture_output=True, text=True, check=False
+    )
+    assert (run.returncode, run.stdout.split(":")[0]) == (0, "proved")
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"c": 1.0}))
+    run = subprocess.run(
+        [sys.executable, "-m", "flypend.laws.certificate", str(path)], capture_output=True, text=True, check=False
+    )
+    assert (run.returncode, run.stdout.split(":")[0]) == (1, "not proved")
+    with pytest.raises(fp.InputError, match=r"^path: expected a file name ending in \.json"):
+        found().save(tmp_path / "set.txt")
+
+
+def test_wrong_certificates_are_rejected():
+    good, law = found().certificate, found().law
+    hover = HEHN.weight / 4
+    for change in (
+        {"limits": [good["limits"][0], hover + 0.05]},
+        {"limits": [hover - 0.05, good["limits"][1]]},
+        {"c": 1.0},
+        {"w": 10.0},
+        {"c": -1.0},
+        {"format": "another"},
+    ):
+        assert certificate.check(good | change), change
+    for name in ("axis_stiffness", "rod_damping", "height_reach", "yaw_damping"):
+        wrong = copy.deepcopy(good)
+        wrong["numbers"][name] *= 1.01
+        assert differs(wrong, law) == "its numbers is not that of the law"
+    # A changed sign is told wherever it changes what the program answers.
+    rng, changed, numbers = np.random.default_rng(0), 0, list(good["numbers"].values())
+    point = rng.uniform(-0.4, 0.4, SIZE)
+    right = _run(good, point, numbers)
+    signs = [i for i, (name, _, _) in enumerate(good["operations"]) if name in ("add", "sub")]
+    for i in rng.choice(signs, 20, replace=False):
+        wrong = copy.deepcopy(good)
+        wrong["operations"][i][0] = "sub" if wrong["operations"][i][0] == "add" else "add"
+        apart = np.max(np.abs(_run(wrong, point, numbers) - right))
+        assert bool(differs(wrong, law)) == (apart > 0)
+        changed += apart > 0
+    assert changed > 15
+
+
+def edge_states(certified, runs, seed):
+    """States with V between 0.9 and 1 c, of random direction in the chart and random heading."""
+    made, rng, out = certified.certificate, np.random.default_rng(seed), []
+    ctx.prec = 53
+    sizes = [float(size) for size in certificate.radii({k: arb(v) for k, v in made["numbers"].items()}, arb(made["c"]))]
+    numbers = list(made["numbers"].values())
+    chart = chart_function(tuple(made["numbers"]))
+    for _ in range(runs):
+        x = rng.normal(size=SIZE)
+        x *= 0.99 / np.linalg.norm(x)
+        asked, place = (np.array(part).ravel() for part in chart(x * sizes, numbers))
+        state = _state(place, asked[4:7], certified.law)
+        turn = rotation_from_vector((0, 0, rng.uniform(-np.pi, np.pi)))
+        flat = turn.T @ state.omega + (0, 0, rng.uniform(-1, 1) * certified.yaw_rate)
+        out.append(State(x=state.x, x_dot=state.x_dot, R=state.R @ turn, omega=flat, y=state.y, y_dot=state.y_dot))
+    return State.trusted(np.stack([state.packed() for state in out]))
+
+
+def test_flights_from_the_edge_stay_inside_and_within_the_limits():
+    certified = found()
+    starts = edge_states(certified, 12, 5)
+    low, high = HEHN.rotor_limits
+    reached = []
+    for i in range(12):
+        assert certified.contains(starts[i])
+        run = fp.simulate(HEHN, certified.law, starts[i], 4.0, plant="ideal", times=np.linspace(0, 4, 81))
+        assert np.all(run.rotor_forces > low)
+        assert np.all(run.rotor_forces < high)
+        assert np.all(np.diff(run.signals["V"]) <= 1e-9 * certified.c)
+        reached.append(run.signals["V"][0] / certified.c)
+        assert certified.contains(State.trusted(run.packed)).all()
+    assert max(reached) > 0.9  # the ellipsoid is hardly larger than the set
+
+
+def test_what_the_set_contains_and_how_far_it_reaches():
+    certified = found()
+    assert certified.contains(fp.State(y=E3))
+    assert not certified.contains(fp.State(y=-E3))
+    assert not certified.contains(fp.State(y=E3, omega=(0, 0, 1.01 * certified.yaw_rate)))
+    batch = fp.State(y=np.stack([E3, -E3]))
+    np.testing.assert_array_equal(certified.contains(batch), [True, False])
+    for share, inside in ((0.999, True), (1.001, False)):
+        far = share * certified.extent["speed"]
+        # Only the bob's speed: rod and axis turned as they should be is what the chart does.
+        x = np.zeros(SIZE)
+        x[4] = far
+        made = certified.certificate
+        asked, place = (
+            np.array(part).ravel() for part in chart_function(tuple(made["numbers"]))(x, list(made["numbers"].values()))
+        )
+        state = _state(place, asked[4:7], certified.law)
+        assert dot(state.y, E3) < 1
+        assert certified.contains(state) == inside
+
+
+def test_where_no_set_can_be_certified():
+    with pytest.raises(fp.InputError, match=r"^law: expected almost_global, on its own path"):
+        fp.laws.inverted().bind(HEHN).certified_set()
+    with pytest.raises(fp.InputError, match=r"^law\.vehicle: expected one that the theorem models"):
+        fp.laws.almost_global().bind(HEHN.replace(mount="hub")).certified_set()
+    with pytest.raises(fp.InputError, match=r"^law\.reference: expected one at rest"):
+        fp.laws.almost_global(references.circle(0.5, 1.0)).bind(HEHN).certified_set()
+    with pytest.raises(fp.InputError, match=r"^vehicle\.rotor_limits: expected forces beyond those of hover"):
+        fp.laws.almost_global().bind(HEHN.replace(rotor_limits=(0.08, 1.0))).certified_set()
+    law = fp.laws.almost_global().bind(HEHN)
+    with pytest.raises(fp.InputError, match=r"^law: "):
+        law.along(law.path).certified_set()

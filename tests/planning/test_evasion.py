@@ -6,8 +6,8 @@ import pytest
 import flypend as fp
 from flypend.flight.tasks import task_starts
 from flypend.model.state import SIZE
-from flypend.planning.evasion import commands, evasion, room
-from flypend.planning.nominal import stepping
+from flypend.planning.fallback import commands, evasion, room
+from flypend.planning.feedback import stepping
 
 HUB = fp.vehicle("hehn2011").replace(mount="hub")
 WAIT = 0.054  # s

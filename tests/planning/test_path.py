@@ -30,7 +30,7 @@ def circle():
 
 
 def test_a_circle_is_kept_to_where_the_law_drops_the_rod(circle):
-    assert circle.status == "optimal"
+    assert circle.status == "converged"
     assert np.min(circle.y[:, 2]) > 0
     off = norm(circle.x - np.array([twice_around(t).full()[:, 0] for t in circle.t]))
     assert np.max(off) == pytest.approx(circle.excursion, rel=1e-12)

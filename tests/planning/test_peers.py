@@ -8,7 +8,7 @@ import pytest
 import flypend as fp
 from benchmarks.planned_peers import BROKEN, Shooting
 from flypend.planning.constraints import Constraints
-from flypend.planning.request import request
+from flypend.planning.problem import request
 
 
 def test_a_plan_keeps_the_constraints_of_its_peers() -> None:

@@ -7,9 +7,8 @@ import pytest
 
 import flypend as fp
 from flypend.geometry import norm
-from flypend.planning.check import Limits, broken
-from flypend.planning.scaled import Units
-from flypend.planning.stage import LEAST_ROOM
+from flypend.planning.constraints import broken
+from flypend.planning.dynamics import LEAST_ROOM, Units
 from flypend.plants.equations import EquationsEngine
 
 HEHN = fp.vehicle("hehn2011")
@@ -32,7 +31,8 @@ def check_end(plan):
 
 
 def test_a_swing_up_ends_in_hover_and_hardly_moves(swing_up):
-    assert swing_up.status == "optimal"
+    assert swing_up.status == "converged"
+    assert 1 <= swing_up.agreeing < swing_up.guesses == 8  # of hanging, guesses lead to several plans
     check_end(swing_up)
     # The pivot moves by a sixth of the rod's length; the inverted law, tuned for this, by more than a length.
     assert swing_up.excursion < 0.1
@@ -149,7 +149,7 @@ def test_the_rod_stays_on_its_mount(mount):
         assert np.all(plan.trajectory.tension <= 0)
     # Without the wish the rod goes where it must not.
     free = plan_of(HEHN, start)
-    assert broken(free.packed, free.rotor_forces, vehicle, Limits(None, None, None, 0.0))
+    assert broken(free.packed, free.rotor_forces, vehicle, fp.Constraints())
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from flypend.compile.numeric import as_numpy
-from flypend.planning.riccati import Shape, backward, forward, packed_cost, packed_to_go, solved
+from flypend.planning.riccati import Layout, backward, forward, solved
 
 N, M, STAGES = 4, 2, 3
 
@@ -18,7 +18,8 @@ def definite(rng, size):
 @pytest.fixture(scope="module")
 def problem():
     rng = np.random.default_rng(7)
-    dense = Shape(ca.Sparsity.dense(N, N), ca.Sparsity.dense(N, M))
+    square = ca.Sparsity.dense(N, N)
+    dense = Layout(square, ca.Sparsity.dense(N, M), square)
     stages = [
         {
             "A": rng.normal(size=(N, N)), "B": rng.normal(size=(N, M)), "d": rng.normal(size=N), "Q": definite(rng, N),
@@ -35,19 +36,19 @@ def column(values):
     return np.array(ca.DM(values)).ravel()
 
 
-def by_recursion(shape, stages, end):
-    back, ahead = as_numpy(backward(shape)), as_numpy(forward(shape))
-    V = column(packed_to_go(ca.DM(end["P"]), *(ca.DM(end[name]) for name in ("p", "p_e", "c", "g", "v"))))
+def by_recursion(layout, stages, end):
+    back, ahead = as_numpy(backward(layout)), as_numpy(forward(layout))
+    V = column(ca.evalf(layout.to_go(*(ca.SX(ca.DM(end[name])) for name in ("P", "p", "p_e", "c", "g", "v")))))
     to_go, gains = [V], []
     for s in reversed(stages):
-        cost = column(packed_cost(*(ca.DM(s[name]) for name in ("Q", "R", "q", "q_e", "r", "c", "g"))))
-        V, gain = back(V, s["A"].ravel("F"), s["B"].ravel("F"), s["d"], cost, np.zeros(2))
+        cost = column(ca.evalf(layout.cost(*(ca.SX(ca.DM(s[name])) for name in ("Q", "R", "q", "q_e", "r", "c", "g")))))
+        V, gain = back(V, np.hstack([s["A"], s["B"]]).ravel("F"), s["d"], cost, np.zeros(2))
         to_go.insert(0, V)
         gains.insert(0, gain)
     c, g, v = to_go[0][-3:]
     epsilon, delta, found = -g / c, np.zeros(N), []
     for s, gain, after in zip(stages, gains, to_go[1:], strict=True):
-        delta, upsilon, _ = ahead(delta, epsilon, s["A"].ravel("F"), s["B"].ravel("F"), s["d"], gain, after)
+        delta, upsilon, _ = ahead(delta, epsilon, np.hstack([s["A"], s["B"]]).ravel("F"), s["d"], gain, after)
         found += [*upsilon, *delta]
     return np.append(found, epsilon), v - g**2 / (2 * c)
 

@@ -6,9 +6,8 @@ import pytest
 import flypend as fp
 from flypend.compile.numeric import as_numpy
 from flypend.model.state import SIZE
+from flypend.planning.dynamics import Stage, Units
 from flypend.planning.feedback import deviation, regulator
-from flypend.planning.scaled import Units
-from flypend.planning.stage import Stage
 from flypend.planning.tracking import Tracker
 from flypend.plants.lag import step_timing
 

@@ -7,7 +7,7 @@ import pytest
 
 import flypend as fp
 from flypend.geometry import norm
-from flypend.planning import passage
+from flypend.planning.window import NEAR
 
 HEHN = fp.vehicle("hehn2011")
 HOVER = {"rotors": np.full(4, HEHN.weight / 4), "target": (1.5, 0, 0)}
@@ -120,7 +120,7 @@ def test_waypoints_are_passed_in_order():
     plan = plan_of(HEHN, START, "effort", waypoints=points, lean=1.5, **HOVER)
     assert plan
     distance = norm(plan.x[:, None] - points)
-    assert np.all(np.min(distance, axis=0) < passage.NEAR * HEHN.l)
+    assert np.all(np.min(distance, axis=0) < NEAR * HEHN.l)
     assert np.all(np.diff(np.argmin(distance, axis=0)) > 0)
     assert np.min(plan.y[:, 2]) > 0
 

@@ -1,20 +1,46 @@
-"""`Constraints`: what a flight keeps, for `plan`, `plan_ensemble`, `plan_and_track` and `nmpc` alike."""
+"""`Constraints`: what a flight keeps, and whether its states keep it: the last word before a plan may be flown."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any, TypedDict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, TypedDict
 
+import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.flight.touch import touched
+from flypend.geometry import norm
 from flypend.laws.references import Reference, check_reference
-from flypend.planning.window import Window
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.mount import margins
+from flypend.model.state import SIZE
+from flypend.planning.window import NEAR, Window
 
 Array = NDArray[np.float64]
+
+
+CLEARANCE = 0.01  # m
+TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
+OWN_TOLERANCE = 1e-3  # the same of `Constraints.keep`, in its unit
+
+
+class Motion(NamedTuple):
+    """What a constraint of one's own is a function of: CasADi expressions in SI units, world frame with e₃ up."""
+
+    x: Any  # (3, 1), m: position of the pivot
+    x_dot: Any  # (3, 1), m/s
+    R: Any  # (3, 3): rotation from body to world
+    omega: Any  # (3, 1), body frame, rad/s
+    y: Any  # (3, 1): direction of the rod, from the pivot to the bob
+    y_dot: Any  # (3, 1), 1/s
+    rotor_forces: Any  # (n, 1), N
+
+
+Keep = Callable[[Motion], Any]
 
 
 class Keywords(TypedDict, total=False):
@@ -28,7 +54,11 @@ class Keywords(TypedDict, total=False):
     window: Window | Sequence[Window] | None
     waypoints: ArrayLike | None
     path: Reference | None
-    clearance: float
+    clearance: float | None
+    keep: Keep | None
+
+
+FIELDS = tuple(Keywords.__annotations__)
 
 
 @errors.named_arguments
@@ -54,8 +84,25 @@ class Constraints:
     path : callable, optional
         Where the pivot is to be, m, as a function of time, with CasADi's functions (see `laws.references`): circles,
         figures of eight. The excursion is measured from it. It takes the `duration` of the plan, and ends in hover.
-    clearance : float
-        Distance that the rod of a hub or cup keeps from what it can touch, and the machine from a window's frame, m.
+    clearance : float, optional
+        Distance that the rod of a hub or cup keeps from what it can touch, and the machine from a window's frame, m;
+        default 0.01.
+    keep : callable, optional
+        A constraint of one's own: a function of `m`, with m.x, m.x_dot, m.R, m.omega, m.y, m.y_dot as in `State` and
+        m.rotor_forces (N), that gives a CasADi expression, or several, each to stay ≥ 0. It is kept to a thousandth of
+        its unit, so best of the order of one; smooth where the flight may go, and positive at the start and in hover at
+        the target.
+
+    Attributes
+    ----------
+    given : dict
+        The fields that were named, as they were.
+    walls : (2, 3), optional
+        Lowest and highest corner, m, of the box with floor and ceiling; None without a wall.
+    windows : tuple of Window
+        The windows, none or several.
+    points : (k, 3)
+        The waypoints, m, none or several.
 
     Raises
     ------
@@ -71,29 +118,33 @@ class Constraints:
     window: Window | Sequence[Window] | None = None
     waypoints: ArrayLike | None = None
     path: Reference | None = None
-    clearance: float = 0.01
+    clearance: float | None = None
+    keep: Keep | None = None
+    given: dict[str, Any] = field(init=False, repr=False)
+    walls: Array | None = field(init=False, repr=False)
+    windows: tuple[Window, ...] = field(init=False, repr=False)
+    points: Array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        errors.number("clearance", self.clearance, at_least=0, unit="m")
-        for name in ("floor", "ceiling"):
-            if getattr(self, name) is not None:
-                errors.number(name, getattr(self, name), unit="m")
+        given = {name: value for name in FIELDS if (value := getattr(self, name)) is not None}
+        apart = errors.number("clearance", given.get("clearance", CLEARANCE), at_least=0, unit="m")
+        for height in ("floor", "ceiling"):
+            if height in given:
+                errors.number(height, given[height], unit="m")
         if self.speed is not None:
             errors.number("speed", self.speed, above=0, unit="m/s")
         if self.lean is not None and errors.number("lean", self.lean, above=0, unit="rad") > np.pi:
             raise InputError("lean", f"at most {angle(np.pi)}", angle(self.lean))
         check_reference(self.path, "path")
-        _ = self.windows, self.points, self.walls  # each raises if it is wrong
+        if self.keep is not None:
+            kept_function(self.keep, 4)
+        points = np.zeros((0, 3)) if self.waypoints is None else errors.array("waypoints", self.waypoints, (None, 3))
+        walls, windows = self._walls(), _several(self.window)
+        found = {"given": given, "walls": walls, "windows": windows, "points": points, "clearance": apart}
+        for name, value in found.items():
+            object.__setattr__(self, name, value)
 
-    @property
-    def given(self) -> dict[str, Any]:
-        """The fields that differ from their defaults, by name."""
-        values = {field.name: (getattr(self, field.name), field.default) for field in fields(self)}
-        return {name: value for name, (value, default) in values.items() if value is not default}
-
-    @property
-    def walls(self) -> Array | None:
-        """Lowest and highest corner (2, 3), m, of the box with floor and ceiling; None without a wall."""
+    def _walls(self) -> Array | None:
         walls = np.array([[-np.inf] * 3, [np.inf] * 3])
         if self.box is not None:
             try:
@@ -112,18 +163,31 @@ class Constraints:
             raise InputError("floor, ceiling", "a lowest corner below the highest", walls.tolist())
         return None if np.all(np.isinf(walls)) else walls
 
-    @property
-    def windows(self) -> tuple[Window, ...]:
-        """The windows, none or several."""
-        several = () if self.window is None else (self.window,) if isinstance(self.window, Window) else self.window
-        if not isinstance(several, list | tuple) or not all(isinstance(each, Window) for each in several):
-            raise InputError("window", "a Window, or several", repr(self.window)[:80])
-        return tuple(several)
 
-    @property
-    def points(self) -> Array:
-        """The waypoints (k, 3), m, none or several."""
-        return np.zeros((0, 3)) if self.waypoints is None else errors.array("waypoints", self.waypoints, (None, 3))
+def kept_function(keep: Keep, rotors: int) -> ca.Function:
+    """Return `keep` of a vehicle with so many `rotors` as (packed state (24,), rotor forces, N) → values (k, 1).
+
+    Raises InputError unless it gives expressions of what it is given.
+    """
+    packed, forces = ca.SX.sym("s", SIZE), ca.SX.sym("f", rotors)
+    s, what = State.symbolic(packed), "a function of a Motion that gives CasADi expressions"
+    try:
+        values = keep(Motion(s.x, s.x_dot, s.R, s.omega, s.y, s.y_dot, forces))
+        values = ca.vertcat(*values) if isinstance(values, list | tuple) else ca.SX(values)
+        function = ca.Function("keep", [packed, forces], [ca.densify(ca.vec(values))])
+    except Exception as error:
+        raise InputError("keep", what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
+    if not values.numel():
+        raise InputError("keep", what, "one that gives none")
+    return function
+
+
+def _several(window: Any) -> tuple[Window, ...]:
+    """Return windows, none or several, of the field `window`. Raises InputError."""
+    several = () if window is None else (window,) if isinstance(window, Window) else window
+    if not isinstance(several, list | tuple) or not all(isinstance(each, Window) for each in several):
+        raise InputError("window", "a Window, or several", repr(window)[:80])
+    return tuple(several)
 
 
 def gathered(function: str, constraints: Constraints | None, keywords: Mapping[str, Any]) -> Constraints:
@@ -131,13 +195,65 @@ def gathered(function: str, constraints: Constraints | None, keywords: Mapping[s
 
     Raises InputError if a field is unknown or given in both ways.
     """
-    errors.only_known(function, keywords, [field.name for field in fields(Constraints)])
+    errors.only_known(function, keywords, FIELDS)
+    given = {} if constraints is None else constraints.given
     for name in keywords:
-        if constraints is not None and name in constraints.given:
+        if name in given:
             raise InputError(name, "one value, by itself or in constraints", "two")
-    return replace(constraints or Constraints(), **keywords)
+    return Constraints(**given, **keywords)
 
 
 def angle(radians: float) -> str:
     """Return an angle in both units: the command takes degrees."""
     return f"{radians:.3g} rad ({np.degrees(radians):.4g}°)"
+
+
+def broken(packed: Array, rotor_forces: Array, vehicle: Vehicle, kept: Constraints) -> str:
+    """Return what the states `packed` (n, 24) with `rotor_forces` (n, k) of `vehicle` break most of `kept`; or "".
+
+    A length or, in m/s, a speed or, in rad, an angle may be exceeded by `TOLERANCE`, what is one's own by
+    `OWN_TOLERANCE`. The mount's limits count too: what
+    the rod touches ends a flight.
+    """
+    state, tolerance = State.trusted(packed), TOLERANCE * vehicle.l
+    if kept.walls is not None:
+        points = np.stack([state.x, state.x + vehicle.reach * state.y])
+        out = float(np.max(np.maximum(kept.walls[0] - points, points - kept.walls[1])))
+        if out > tolerance:
+            return f"the box is left by {out:.3g} m"
+    if kept.speed is not None and (over := float(np.max(norm(state.x_dot))) - kept.speed) > tolerance:
+        return f"the speed is exceeded by {over:.3g} m/s"
+    if kept.lean is not None and (over := float(np.max(np.arccos(state.y[:, 2]))) - kept.lean) > tolerance:
+        return f"the rod leans {over:.3g} rad too far"
+    for window in kept.windows:
+        if (room := float(np.min(window.room(state, vehicle)))) < 0:
+            return f"the frame of a window is {-room:.3g} m too near"
+    for point in kept.points:
+        if (off := float(np.min(norm(state.x - point)))) > NEAR * vehicle.l:
+            return f"a waypoint is missed by {off:.3g} m"
+    return _own_broken(packed, rotor_forces, kept) or _touched(state, rotor_forces, vehicle)
+
+
+def _own_broken(packed: Array, rotor_forces: Array, kept: Constraints) -> str:
+    """Return by how much a constraint of one's own is broken; or ""."""
+    if kept.keep is None:
+        return ""
+    values = np.array(kept_function(kept.keep, rotor_forces.shape[1])(packed.T, rotor_forces.T))
+    lacking = -float(np.min(values))
+    return "" if lacking <= OWN_TOLERANCE else f"keep is broken by {lacking:.3g}"  # NaN breaks it, too
+
+
+def begins_touching(packed: Array, rotor_forces: Array, vehicle: Vehicle) -> str:
+    """Return what the rod touches at the first of the states `packed` (n, 24), from where no plan leads; or ""."""
+    found = _touched(State.trusted(packed[:1]), rotor_forces[:1], vehicle)
+    return found and f"{found} at the start"
+
+
+def _touched(state: State, rotor_forces: Array, vehicle: Vehicle) -> str:
+    """Return what the rod of `vehicle` touches most in a batch of states with `rotor_forces` (n, k); or ""."""
+    if vehicle.mount == "gimbal":
+        return ""
+    wrench = rotor_forces @ vehicle.mixing().T
+    found = margins(state, Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
+    least = np.min(found, axis=0)
+    return touched(vehicle, int(np.argmin(least))) if np.min(least) < 0 else ""

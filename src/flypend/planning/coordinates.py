@@ -11,8 +11,6 @@ apart are no neighbours. The basis jumps where y₃ changes sign, but it belongs
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 
 from flypend.geometry import cross, dot, scale, vee
@@ -25,7 +23,7 @@ POSITION, VELOCITY, ATTITUDE, SPIN, ROD, SWING = (
 )  # fmt: skip
 
 
-def retract(state: Any, delta: Any) -> Any:
+def retract(state: ca.SX, delta: ca.SX) -> ca.SX:
     """Return the state (24 + n, 1) with coordinates `delta` (16 + n, 1) about `state` (24 + n, 1), in CasADi."""
     s = State.symbolic(state[:SIZE])
     b = plane(s.y)
@@ -45,7 +43,7 @@ def retract(state: Any, delta: Any) -> Any:
     return ca.vertcat(moved.packed(), state[SIZE:] + delta[MOTION:])
 
 
-def local(state: Any, other: Any) -> Any:
+def local(state: ca.SX, other: ca.SX) -> ca.SX:
     """Return the coordinates (16 + n, 1) of the state `other` about `state`, both (24 + n, 1): `retract` inverted."""
     s, o = State.symbolic(state[:SIZE]), State.symbolic(other[:SIZE])
     b = plane(s.y)
@@ -59,23 +57,23 @@ def local(state: Any, other: Any) -> Any:
     )
 
 
-def between(a: Any, b: Any) -> Any:
+def between(a: ca.SX, b: ca.SX) -> ca.SX:
     """Return the vector v normal to the unit vectors `a` and `b` (3, 1) with c(v) a = b; infinite for antipodes."""
     return scale(2 / (1 + dot(a, b)), cross(a, b))
 
 
-def turned(v: Any, w: Any) -> Any:
+def turned(v: ca.SX, w: ca.SX) -> ca.SX:
     """Return c(v) w: `w` (3, 1) turned by 2 atan(|v|/2) about `v` (3, 1)."""
     across = cross(v, w)
     return w + scale(1 / (1 + dot(v, v) / 4), across + cross(v, across) / 2)
 
 
-def cayley(v: Any) -> Any:
+def cayley(v: ca.SX) -> ca.SX:
     """Return the rotation matrix c(v) (3, 3)."""
     return ca.horzcat(*(turned(v, ca.SX(column)) for column in ca.horzsplit(ca.DM.eye(3))))
 
 
-def plane(y: Any) -> Any:
+def plane(y: ca.SX) -> ca.SX:
     """Return an orthonormal basis (3, 2) of the plane normal to the unit vector `y` (3, 1); right-handed with it.
 
     After Duff et al., Building an orthonormal basis, revisited (2017).

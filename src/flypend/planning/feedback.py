@@ -1,4 +1,4 @@
-"""Feedback along a plan: the time-varying linear-quadratic regulator on the tangent space.
+"""Feedback along a plan: the time-varying linear-quadratic regulator on the tangent space, and what it commands.
 
 It minimises Σ |δ|² + |υ|², deviations in units of the largest acceptable ones (Bryson's rule), along the linearised
 plan and then for ever in hover, whose cost to go the recursion begins with. No limit enters: where the plan holds a
@@ -8,22 +8,24 @@ rotor at its limit, feedback acts one way only.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend.compile.llvm.stagewise import lanes
+from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross, unit
-from flypend.model import State
+from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turned
+from flypend.planning.dynamics import Units
 from flypend.planning.inequalities import Structure
+from flypend.planning.programs import programs
 from flypend.planning.result import Plan
-from flypend.planning.scaled import Units, size
-from flypend.planning.single import laid, single
+from flypend.planning.solver import Scratch, one_lane
+from flypend.plants.equations import rotor_step
 from flypend.plants.lag import step_timing
 
 # Largest acceptable deviations, own units: position, velocity, attitude, spin, rod, its rate; heading; command.
@@ -34,6 +36,7 @@ TINY = 1e-12  # keeps a heading finite that does not exist, or is half a turn aw
 HOVER_STAGES = 300  # after so many the cost to go of hover has settled: 25 √(l/g)
 
 Array = NDArray[np.float64]
+STILL = np.zeros(6)
 
 
 @dataclass(frozen=True)
@@ -42,23 +45,12 @@ class Feedback:
 
     The command at a deviation is commands[k] − gains[k] · deviation, with the `deviation` from the nominal state in SI
     units: 18 + n numbers, rod and rate as vectors of the world, so that no basis is needed.
-
-    Parameters
-    ----------
-    stage : float
-        Duration of a stage, s.
-    states : (stages + 1, 24 + n)
-        Nominal states and rotor forces; the last is hover.
-    commands : (stages + 1, n)
-        Nominal commands, N.
-    gains : (stages + 1, n, 18 + n)
-        Gains.
     """
 
-    stage: float
-    states: Array
-    commands: Array
-    gains: Array
+    stage: float  # s
+    states: Array  # (stages + 1, 24 + n): with rotor forces; the last is hover
+    commands: Array  # (stages + 1, n), N
+    gains: Array  # (stages + 1, n, 18 + n)
 
 
 def regulator(plan: Plan) -> Feedback:
@@ -84,22 +76,16 @@ def _hover(plan: Plan) -> Array:
     return np.append(State(x=plan.target, R=R, y=E3).packed(), share)
 
 
-def _gains(vehicle: Any, units: Units, states: Array, commands: Array, h: float) -> Array:
+def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: float) -> Array:
     """Return the gains (stages, n, 18 + n) of the regulator in SI units, by one recursion from zero cost to go."""
     n, count = commands.shape[1], len(commands)
-    compiled, one = single(n, Structure()), partial(lanes, width=1)
-    shape = compiled.shape
-    own, forces, timing, numbers = one(count + 1, SIZE + n), one(count, n), one(4), one(size(n))
-    own[:] = (states / units.states(n))[..., None]
-    forces[:] = (commands / units.force)[..., None]
-    timing[:] = step_timing(vehicle.rotor_lag / units.time, h)[:, None]
-    numbers[:] = units.numbers(vehicle)[:, None]
-    F, d = one(count, *compiled.slopes), one(count, shape.n)
-    compiled.linearised(count, own, own[1:], forces, timing, numbers, d, F)
-    cost, to_go, found = one(count, compiled.of_stage), one(count + 1, compiled.to_go), one(count, shape.gains)
-    cost[:] = _cost(n)[:, None]
-    compiled.backward(count, to_go[1:], F, d, cost, one(2), to_go, found)
-    K = -found[:, : n * shape.n, 0].reshape(count, n, shape.n)
+    compiled, w = programs(n, Structure(), lanes=False), Scratch(programs(n, Structure(), lanes=False), count, 1)
+    own, forces = one_lane(states / units.states(n)), one_lane(commands / units.force)
+    timing = one_lane(np.array(step_timing(vehicle.rotor_lag / units.time, h)))
+    compiled.linearised(count, own, own[1:], forces, timing, one_lane(units.numbers(vehicle)), w.d, w.slopes)
+    w.cost[:] = _cost(n)[:, None]
+    compiled.backward(count, w.to_go[1:], w.slopes, w.d, w.cost, one_lane(np.zeros(2)), w.to_go, w.gains)
+    K = -w.gains[:, : n * (MOTION + n), 0].reshape(count, n, MOTION + n)
     b = np.array(_planes().map(count)(states[:-1, 18:21].T)).reshape(3, count, 2).transpose(1, 0, 2)
     whole = np.concatenate(
         [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
@@ -123,7 +109,8 @@ def _cost(n: int) -> Array:
     none = np.zeros(MOTION + n)
     R = np.full(n, 1 / COMMAND**2)
     # Nothing depends on the shared parameter; its curvature only must not vanish.
-    cost = laid(n, Structure()).cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
+    layout = programs(n, Structure(), lanes=False).layout
+    cost = layout.cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
     return np.array(ca.DM(ca.evalf(cost))).ravel()
 
 
@@ -170,3 +157,48 @@ def hovering(rotors: int) -> ca.Function:
     off = deviation(rotors)(nominal, ca.vertcat(home, state[SIZE:]))
     off[ATTITUDE.stop - 1] += ca.fmin(ca.fmax(heading, -MOST_HEADING), MOST_HEADING)
     return ca.Function("hovering", [nominal, state], [off])
+
+
+class Follower:
+    """The feedback of a `vehicle` along a nominal flight; its last stage is held for ever."""
+
+    def __init__(self, feedback: Feedback, vehicle: Vehicle) -> None:
+        self.feedback = feedback
+        (self._deviation, self._hovering), self.stepped = _deviations(len(vehicle.rotor_spins)), stepping(vehicle)
+        self._limits = vehicle.rotor_limits
+
+    def command(self, t: float, state: Array, rotors: Array) -> tuple[Array, Array]:
+        """Return the command (n,), N, at `t` (s) for a `state` (24,) and `rotors` (n,), and the deviation (18 + n,)."""
+        wanted, nominal, k = self.nominal(t)
+        deviation = self._hovering if k == len(self.feedback.commands) - 1 else self._deviation
+        off = deviation(nominal, np.append(state, rotors))
+        return np.clip(wanted - self.feedback.gains[k] @ off, *self._limits), off
+
+    def nominal(self, t: float) -> tuple[Array, Array, int]:
+        """Return the nominal command and state (24 + n,) at `t` (s), and the number of the stage."""
+        f = self.feedback
+        k = min(int(t / f.stage + 1e-9), len(f.commands) - 1)
+        into = t - k * f.stage
+        if k == len(f.commands) - 1 or into < 1e-9:
+            return f.commands[k], f.states[k], k
+        return f.commands[k], self.stepped(f.states[k, :SIZE], f.states[k, SIZE:], f.commands[k], into), k
+
+
+@lru_cache(maxsize=16)
+def stepping(vehicle: Vehicle) -> Any:
+    """Return (state, rotors, command, duration, forces) → state and rotor forces (24 + n,), a step of the plant later.
+
+    A duration is in s; `forces` (6,), N, are those from outside.
+    """
+    step, lag = as_numpy(rotor_step(vehicle)), vehicle.rotor_lag
+
+    def stepped(state: Array, rotors: Array, command: Array, duration: float, forces: Array = STILL) -> Array:
+        return np.append(*step(state, rotors, command, forces, step_timing(lag, round(duration, 9))))
+
+    return stepped
+
+
+@lru_cache(maxsize=4)
+def _deviations(rotors: int) -> tuple[Any, Any]:
+    """Return the deviations from a nominal state, and from hover with any heading."""
+    return as_numpy(deviation(rotors)), as_numpy(hovering(rotors))

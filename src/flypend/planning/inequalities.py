@@ -1,9 +1,13 @@
-"""Inequalities along the way, the cost of a stage, and the errors at the end, in a machine's own units."""
+"""Inequalities along the way, the cost of a stage and the errors at the end, in own units; and their barrier.
+
+Each inequality g ≥ 0 has a slack s > 0 and a multiplier z > 0: g = s and s z = μ. Eliminating their steps leaves in
+the Newton step the curvature Jᵀ(z/s)J and the gradient −Jᵀ(μ/s − (z/s)(g − s)), with J the derivative of g. Of the
+curvature of g itself the part is kept that is convex whatever the state: that of distances and speeds.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import casadi as ca
 
@@ -11,8 +15,10 @@ from flypend.geometry import E3, cross, dot
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE
-from flypend.planning.passage import NUMBERS, passing
-from flypend.planning.scaled import Scaled
+from flypend.planning.coordinates import MOTION, POSITION, VELOCITY, retract
+from flypend.planning.dynamics import Scaled, Stage
+from flypend.planning.riccati import Layout
+from flypend.planning.window import NUMBERS, passing
 
 # Tolerances at the end, in own units.
 END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot": 0.03, "rotors": 0.15}
@@ -20,44 +26,30 @@ END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot
 # Places of the numbers that every plan has: weights of the shared parameter and of effort, rotor limits, and the
 # tolerance of the spin about the thrust axis at the end.
 SHARED, EFFORT, LOW, HIGH, YAW, BASE = 0, 1, 2, 3, 4, 5
+OWN = 6  # numbers of a constraint of one's own: the target, m, and the units of length, time and force
 DIFFERENCE = 1e-4
 SOFT = 0.03  # rod lengths, or weights: what is by so much too near costs its full weight
 
 
 @dataclass(frozen=True)
 class Structure:
-    """Which inequalities a plan obeys, beside the limits of the rotors and the ball |x|² ≤ e that its cost shrinks.
+    """Which inequalities a plan obeys, beside the limits of the rotors and the ball |x|² ≤ e that its cost shrinks."""
 
-    Parameters
-    ----------
-    box : bool
-        Whether pivot and far end of the rod stay in a box.
-    speed : bool
-        Whether the speed of the pivot is limited.
-    lean : bool
-        Whether the lean of the rod is limited.
-    path : bool
-        Whether the ball is about a place that moves from stage to stage, not about the target.
-    gates : int
-        Number of windows to fly through and waypoints to pass.
-    mounted : Vehicle, optional
-        A vehicle whose mount limits the rod; None for a gimbal.
-    """
-
-    box: bool = False
-    speed: bool = False
-    lean: bool = False
-    path: bool = False
-    gates: int = 0
-    mounted: Vehicle | None = None
+    box: bool = False  # pivot and far end of the rod stay in a box
+    speed: bool = False  # the speed of the pivot is limited
+    lean: bool = False  # the lean of the rod is limited
+    path: bool = False  # the ball is about a place that moves from stage to stage, not about the target
+    gates: int = 0  # windows to fly through and waypoints to pass
+    keep: str = ""  # a function of one's own, of `constraints.kept_function`, as CasADi writes it
+    mounted: Vehicle | None = None  # a vehicle whose mount limits the rod; None for a gimbal
 
     @property
     def numbers(self) -> int:
-        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, lowest y₃, then `soft` ones.
+        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, lowest y₃, `OWN`, `soft` ones.
 
         These are the gates, the weight of being too near, and the margin of the mount.
         """
-        hard = BASE + 7 * self.box + self.speed + self.lean
+        hard = BASE + 7 * self.box + self.speed + self.lean + OWN * (self.keep != "")
         return hard + NUMBERS * self.gates + 2 * self.soft
 
     @property
@@ -71,8 +63,8 @@ class Structure:
 
 
 def inequalities(
-    state: Any, command: Any, shared: Any, numbers: Any, middle: Any, structure: Structure, machine: Scaled
-) -> Any:
+    state: ca.SX, command: ca.SX, shared: ca.SX, numbers: ca.SX, middle: ca.SX, structure: Structure, machine: Scaled
+) -> ca.SX:
     """Return g (k, 1), every entry of which is to be ≥ 0.
 
     Parameters
@@ -101,10 +93,24 @@ def inequalities(
         place += 1
     if structure.lean:
         g.append(s.y[2] - numbers[place])
+        place += 1
+    if structure.keep:
+        g.append(_own(state, numbers[place : place + OWN], structure.keep))
     return ca.vertcat(*g)
 
 
-def nearness(state: Any, about: Any, numbers: Any, structure: Structure, machine: Scaled) -> Any:
+def _own(state: ca.SX, numbers: ca.SX, keep: str) -> ca.SX:
+    """Return the values (k, 1) of the function that is written in `keep` at a `state` in own units."""
+    target, (length, time, force) = numbers[:3], ca.vertsplit(numbers[3:])
+    s = State.symbolic(state[:SIZE])
+    packed = State(
+        x=target + length * s.x, x_dot=length / time * s.x_dot, R=s.R, omega=s.omega / time, y=s.y, y_dot=s.y_dot / time
+    ).packed()
+    values: ca.SX = ca.Function.deserialize(keep)(packed, force * state[SIZE:])
+    return values
+
+
+def nearness(state: ca.SX, about: ca.SX, numbers: ca.SX, structure: Structure, machine: Scaled) -> ca.SX:
     """Return by how much rod and machine are nearer than they should be to mount and frames, (k, 1), units of `SOFT`.
 
     Their squares cost the last but one of `numbers`; the last is the margin that the mount is to keep, in rod lengths
@@ -118,14 +124,14 @@ def nearness(state: Any, about: Any, numbers: Any, structure: Structure, machine
     return ca.fmax(0, ca.vertcat(ca.SX(0, 1), *near) / SOFT)
 
 
-def _kept(state: Any, about: Any, mounted: Vehicle, machine: Scaled) -> Any:
+def _kept(state: ca.SX, about: ca.SX, mounted: Vehicle, machine: Scaled) -> ca.SX:
     """Return the least of `model.mount.margins`, in rod lengths or weights, linear in `state` about `about`.
 
     Its own derivatives do not exist everywhere, differences do.
     """
     here, there = (_held_by(place, machine) for place in (state, about))
 
-    def margin(held: Any) -> Any:
+    def margin(held: ca.SX) -> ca.SX:
         return least_margin(held[:3], held[3] * mounted.l, mounted)[0] / mounted.l
 
     slopes = []
@@ -135,7 +141,7 @@ def _kept(state: Any, about: Any, mounted: Vehicle, machine: Scaled) -> Any:
     return margin(there) + ca.dot(ca.vertcat(*slopes), here - there)
 
 
-def _held_by(state: Any, machine: Scaled) -> Any:
+def _held_by(state: ca.SX, machine: Scaled) -> ca.SX:
     """Return the rod in the body frame (3,) and its push on the vehicle, in weights."""
     s = State.symbolic(state[:SIZE])
     thrust = ca.mtimes(machine.mixing()[0, :], state[SIZE:])
@@ -143,12 +149,12 @@ def _held_by(state: Any, machine: Scaled) -> Any:
     return ca.vertcat(rod_in_body(s, "up")[0], -tension)
 
 
-def running_cost(command: Any, numbers: Any) -> Any:
+def running_cost(command: ca.SX, numbers: ca.SX) -> ca.SX:
     """Return the cost of a stage: half the squared deviation of the commands from hover, weighted."""
     return numbers[EFFORT] * ca.sumsqr(command - 1) / 2
 
 
-def end_errors(state: Any, numbers: Any) -> Any:
+def end_errors(state: ca.SX, numbers: ca.SX) -> ca.SX:
     """Return the errors of the last state about inverted hover, in units of their tolerances."""
     s = State.symbolic(state[:SIZE])
     return ca.vertcat(
@@ -163,10 +169,119 @@ def end_errors(state: Any, numbers: Any) -> Any:
     )
 
 
-def _lean(a: Any) -> Any:
+def _lean(a: ca.SX) -> ca.SX:
     """Return the error (3, 1) of a unit vector from e₃: the double tangent of half its angle, and 1 − a₃.
 
     The tangent is kept finite upside down, where it vanishes and 1 − a₃ is 2; near e₃ that is of second order.
     """
     level = 2 * cross(a, ca.SX(ca.DM(E3)))[:2] / (1.05 + a[2])
     return ca.vertcat(level, 1 - a[2])
+
+
+class Barrier:
+    """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared."""
+
+    def __init__(self, stage: Stage, structure: Structure) -> None:
+        n = stage.rotors
+        self._stage, self._state, self._exact = stage, stage.before, structure.exact(n)
+        self._moves = [ca.SX.sym("delta", MOTION + n), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
+        delta, upsilon, epsilon = self._moves
+        shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", structure.numbers)
+        here, command, place = retract(stage.before, delta), stage.command + upsilon, ca.SX.sym("place", 3)
+        self._g = inequalities(here, command, shared + epsilon, numbers, place, structure, stage.machine)
+        self._J = [ca.jacobian(self._g, move) for move in self._moves]
+        self._near = nearness(here, stage.before, numbers, structure, stage.machine)
+        self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers)
+        self.inequalities, self.end_size = int(self._g.numel()), int(self._end.numel())
+        self._of_own = ca.Function.deserialize(structure.keep).numel_out() if structure.keep else 0
+        self._slack, self._dual = ca.SX.sym("s", self.inequalities), ca.SX.sym("z", self.inequalities)
+        self._mu, self._numbers = ca.SX.sym("mu"), numbers
+        self._weight = numbers[-2] if structure.soft else 0
+        self._point = [stage.before, stage.command, shared, numbers, stage.machine.numbers]
+        self._place = [place] if structure.path else []
+
+    def _function(self, name: str, inputs: list[ca.SX], *outputs: ca.SX) -> ca.Function:
+        """Return a function of `inputs`, with all moves zero."""
+        still = [ca.SX.zeros(move.shape) for move in self._moves]
+        return ca.Function(name, inputs, ca.cse([ca.densify(v) for v in ca.substitute(outputs, self._moves, still)]))
+
+    def values(self) -> ca.Function:
+        """Return (*point, trial slack, μ, *place) → (merit, violation) of the stage, and slack.
+
+        A point is (state, command, shared parameter, numbers, vehicle), and there is a place, where the pivot is to be,
+        only with a path. The slack of an exact inequality is g, that of another the larger of g and the trial slack:
+        what lies above g is the violation.
+        """
+        k, g = self._exact, self._g
+        slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
+        merit = self._cost + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
+        summary = ca.vertcat(merit, ca.sum1(slack[k:] - g[k:]) if k < g.numel() else 0)
+        return self._function("values", [*self._point, self._slack, self._mu, *self._place], summary, slack)
+
+    def terms(self, layout: Layout) -> ca.Function:
+        """Return (*point, slack, dual, μ, *place) → cost of the linear-quadratic problem, as in its `layout`."""
+        s, z, (delta, upsilon, _) = self._slack, self._dual, self._moves
+        push = self._mu / s - z / s * (self._g - s)
+        J_x, J_u, J_e = self._J
+        weight = ca.diag(z / s)
+        N_x = ca.jacobian(self._near, delta)
+        r = ca.gradient(self._cost, upsilon)
+        R = ca.diag(ca.jacobian(r, upsilon) + ca.mtimes([J_u.T, weight, J_u]))
+        cost = layout.cost(
+            self._curvature(),
+            R,
+            self._weight * ca.mtimes(N_x.T, self._near) - ca.mtimes(J_x.T, push),
+            ca.mtimes([J_x.T, weight, J_e]),
+            r - ca.mtimes(J_u.T, push),
+            ca.mtimes([J_e.T, weight, J_e]),
+            -ca.mtimes(J_e.T, push),
+        )
+        return self._function("terms", [*self._point, s, z, self._mu, *self._place], cost)
+
+    @property
+    def pattern(self) -> ca.Sparsity:
+        """Pattern of Q."""
+        return self._curvature().sparsity()
+
+    def _curvature(self) -> ca.SX:
+        """Return Q (16 + n, 16 + n), sparse."""
+        J_x, N_x = self._J[0], ca.jacobian(self._near, self._moves[0])
+        kept = ca.mtimes([J_x.T, ca.diag(self._dual / self._slack), J_x]) + self._bent()
+        return self._weight * ca.mtimes(N_x.T, N_x) + kept
+
+    def _bent(self) -> ca.SX:
+        """Return the curvature of −zᵀg in position and velocity, but not of one's own g, which may have any sign."""
+        delta, ours = self._moves[0], self.inequalities - self._of_own
+        H, _ = ca.hessian(-ca.dot(self._dual[:ours], self._g[:ours]), delta)
+        kept = ca.SX(*H.shape)
+        for part in (POSITION, VELOCITY):
+            kept[part, part] = H[part, part]
+        return kept
+
+    def steps(self) -> ca.Function:
+        """Return (*point, slack, dual, μ, δ, υ, ε, *place) → steps of slack and dual, and shares that they take.
+
+        The shares (2,) are the largest: max(−Δs/s) of inequalities that are not exact, and max(−Δz/z).
+        """
+        s, z, k = self._slack, self._dual, self._exact
+        given = [ca.SX.sym(f"move_{i}", move.numel()) for i, move in enumerate(self._moves)]
+        along = sum(ca.mtimes(J, move) for J, move in zip(self._J, given, strict=True))
+        ds = along + self._g - s
+        dz = self._mu / s - z - z / s * ds
+        shares = ca.vertcat(_largest(-ds[k:] / s[k:]), _largest(-dz / z))
+        return self._function("steps", [*self._point, s, z, self._mu, *given, *self._place], ds, dz, shares)
+
+    def end(self, layout: Layout) -> ca.Function:
+        """Return (state, numbers, weight, offset) → end errors h, and ½ weight |h + offset|² to go."""
+        h, weight, offset = self._end, ca.SX.sym("weight"), ca.SX.sym("offset", self.end_size)
+        J = ca.jacobian(h, self._moves[0])
+        P, p = weight * ca.mtimes(J.T, J), weight * ca.mtimes(J.T, h + offset)
+        cost = layout.to_go(P, p, ca.SX.zeros(p.numel()), 0, self._numbers[SHARED], 0)
+        return self._function("end", [self._state, self._numbers, weight, offset], h, cost)
+
+
+def _largest(values: ca.SX) -> ca.SX:
+    largest = ca.SX(0)
+    for i in range(values.numel()):
+        largest = ca.fmax(largest, values[i])
+    return largest

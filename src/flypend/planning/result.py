@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.compile.numeric import as_numpy
+from flypend.flight.metrics import wilson
 from flypend.flight.outcome import Outcome
 from flypend.flight.saved import write
 from flypend.flight.trajectory import Trajectory
@@ -20,8 +22,8 @@ from flypend.geometry import norm
 from flypend.laws.references import Reference, hover, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, split
-from flypend.planning import saved
-from flypend.planning.saved import Status
+from flypend.planning import files
+from flypend.planning.files import Status
 from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, held, step_timing
@@ -58,16 +60,20 @@ class Plan:
         Rotor forces commanded, N, each held for `stage` seconds.
     stage : float
         Duration of a stage, s.
-    status : "optimal", "feasible" or "failed"
-        Whether it ends in hover and keeps all limits, and if so whether its solver had converged.
+    status : "converged", "feasible" or "failed"
+        Whether it ends in hover and keeps all limits, and if so whether its solver had converged. That is an optimum
+        among neighbours: other guesses may lead to others, of which this is the best.
     reason : str
-        Why it failed, or is not optimal; empty for an optimal plan.
+        Why it failed, or has not converged; else empty.
     solve_time : float
         Processor time that the solver took, s.
     iterations : int
         Iterations of the solver.
     guess : int
         The style of the guess that led here.
+    guesses, agreeing : int
+        From how many guesses it is the best, and how many of them, itself included, came within 1 % of its cost. The
+        fewer agree, the likelier is a better plan from yet another guess.
     """
 
     vehicle: Vehicle
@@ -83,6 +89,8 @@ class Plan:
     solve_time: float
     iterations: int
     guess: int
+    guesses: int
+    agreeing: int
     path: Reference | None = None
     windows: tuple[Window, ...] = ()
 
@@ -95,7 +103,8 @@ class Plan:
         """Duration, excursion, status and what it took, in one line."""
         why = f" ({self.reason})" if self.reason else ""
         reached = f"{self.duration:.2f} s, excursion {self.excursion:.3f} m"
-        return f"{self.status}{why}: {reached}, solved in {1e3 * self.solve_time:.0f} ms"
+        among = f", best of {self.guesses} guesses ({self.agreeing} within 1 %)" if self else ""
+        return f"{self.status}{why}: {reached}{among}, solved in {1e3 * self.solve_time:.0f} ms"
 
     def __bool__(self) -> bool:
         """Whether the plan can be flown: False if it failed."""
@@ -161,7 +170,7 @@ class Plan:
         The file is written atomically. Raises InputError if it is not writable, or the plan is none that could be
         loaded: with arrays of different length, or numbers that are not finite.
         """
-        write(path, *saved.content(self))
+        write(path, *files.content(self))
 
     @cached_property
     def end_error(self) -> float:
@@ -180,6 +189,73 @@ class Plan:
                 state, rotors = step(state, rotors, command, timing)
         off = state - self.packed[-1]
         return float(max(norm(off[0:3]), norm(off[18:21])))
+
+
+@errors.named_arguments
+@dataclass(frozen=True, eq=False)
+class PlanEnsemble:
+    """Plans of one vehicle from n starts.
+
+    Parameters
+    ----------
+    plans : tuple of Plan
+        A plan for each start, in order.
+    """
+
+    plans: tuple[Plan, ...]
+
+    def __len__(self) -> int:
+        """Number of plans."""
+        return len(self.plans)
+
+    def __iter__(self) -> Iterator[Plan]:
+        """Iterate over the plans."""
+        return iter(self.plans)
+
+    def __getitem__(self, i: int) -> Plan:
+        """Return the plan from start i."""
+        return self.plans[i]
+
+    def __repr__(self) -> str:
+        """Return vehicle, share of plans that can be flown, and excursion in one line."""
+        low, high = self.interval
+        found = f"{int(np.sum(self.success))} of {len(self)} planned (95 %: {100 * low:.1f} to {100 * high:.1f} %)"
+        middle, most = (self.percentile("excursion", q) for q in (50, 95))
+        return f"<Plans for {self.plans[0].vehicle.name}: {found}, excursion {middle:.3f} / {most:.3f} m>"
+
+    @property
+    def success(self) -> NDArray[np.bool_]:
+        """Which plans can be flown, (n,)."""
+        return np.array([bool(plan) for plan in self.plans])
+
+    @property
+    def excursion(self) -> NDArray[np.float64]:
+        """Excursions (n,), m; NaN where there is no plan."""
+        return np.array([plan.excursion if plan else np.nan for plan in self.plans])
+
+    @property
+    def duration(self) -> NDArray[np.float64]:
+        """Durations (n,), s; NaN where there is no plan."""
+        return np.array([plan.duration if plan else np.nan for plan in self.plans])
+
+    @property
+    def solve_time(self) -> NDArray[np.float64]:
+        """Processor time of each plan (n,), s, all its guesses included."""
+        return np.array([plan.solve_time for plan in self.plans])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson interval of the share of plans that can be flown, 95 %."""
+        return wilson(int(np.sum(self.success)), len(self))
+
+    def percentile(self, name: str, q: float) -> float:
+        """Return percentile `q` of the property `name` where it is finite; NaN if there are none.
+
+        It is "excursion", "duration" or "solve_time".
+        """
+        values = getattr(self, errors.one_of("name", name, ("excursion", "duration", "solve_time")))
+        values = values[np.isfinite(values)]
+        return float(np.percentile(values, q)) if len(values) else float("nan")
 
 
 def _independent_step(vehicle: Vehicle) -> Any:
@@ -201,4 +277,4 @@ def load_plan(path: str | Path) -> Plan:
 
     Raises InputError if the file holds none: every number and name is checked, whether or not it has a digest.
     """
-    return Plan(**saved.fields_of(path))
+    return Plan(**files.fields_of(path))

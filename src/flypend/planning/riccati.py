@@ -4,27 +4,42 @@ With deviations δ of the state, υ of the command and ε of a parameter that al
 
     δ⁺ = A δ + B υ + d,     cost ½ δᵀQδ + ½ υᵀRυ + (q + ε q_e)ᵀδ + rᵀυ + ½ c ε² + g ε,
 
-and the cost to go is ½ δᵀPδ + (p + ε p_e)ᵀδ + ½ c ε² + g ε + v. A and B are sparse, P and Q symmetric, R diagonal. A
-cost to go is packed as the upper triangle of P, row by row, p, p_e, c, g, v; the cost of a stage as the upper triangle
-of Q, column by column, R, q, q_e, r, c, g.
+and the cost to go is ½ δᵀPδ + (p + ε p_e)ᵀδ + ½ c ε² + g ε + v. A, B and Q are sparse, P and Q symmetric, R diagonal.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from functools import reduce
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from operator import add
 from typing import Any, NamedTuple
 
 import casadi as ca
 
 
-class Shape(NamedTuple):
-    """Patterns of A (n, n) and B (n, k)."""
+@dataclass(frozen=True)
+class Layout:
+    """How a problem with n coordinates and m commands lies in memory.
+
+    Rows have n + m numbers and end with a multiple of `block`. A stage is the rows of F = [A B]; of its cost there are
+    the rows [q r] and [q_e 0], R, c, g, and what of Q is not zero; of a cost to go the rows of P, p and p_e, and c, g,
+    v. Where a row has more than n numbers that mean something, the rest is of no account. With a `block` of 1 only what
+    is not zero of F is there, and the upper triangle of P, both column by column.
+
+    Parameters
+    ----------
+    A, B, Q : Sparsity
+        Patterns (n, n), (n, m) and (n, n).
+    block : int
+        Numbers in a block.
+    """
 
     A: ca.Sparsity
     B: ca.Sparsity
+    Q: ca.Sparsity
+    block: int = 1
 
     @property
     def n(self) -> int:
@@ -32,55 +47,96 @@ class Shape(NamedTuple):
         return int(self.A.size1())
 
     @property
-    def k(self) -> int:
+    def m(self) -> int:
         """Length of a command."""
         return int(self.B.size2())
 
     @property
-    def to_go(self) -> int:
-        """Length of a packed cost to go."""
-        return self.n * (self.n + 1) // 2 + 2 * self.n + 3
+    def width(self) -> int:
+        """Length of a row."""
+        return self._padded(self.n + self.m)
+
+    @property
+    def of_slopes(self) -> int:
+        """Length of F."""
+        return int(self.F.nnz()) if self.block == 1 else self.n * self.width
 
     @property
     def of_stage(self) -> int:
-        """Length of the packed cost of a stage."""
-        return sum(self.parts)
+        """Length of the cost of a stage."""
+        return self._padded(2 * self.width + self.m + 2 + self.Q.nnz())
 
     @property
-    def parts(self) -> tuple[int, ...]:
-        """Lengths of the parts of the cost of a stage."""
-        return (self.n * (self.n + 1) // 2, self.k, self.n, self.n, self.k, 1, 1)
+    def of_shared(self) -> int:
+        """Place of c, g and v in a cost to go."""
+        return self._of_P + 2 * self.width
 
     @property
-    def gains(self) -> int:
+    def of_to_go(self) -> int:
+        """Length of a cost to go."""
+        return self._padded(self.of_shared + 3)
+
+    @property
+    def of_gains(self) -> int:
         """Length of the gains of a stage: rows of K, k and k_e."""
-        return self.k * (self.n + 2)
+        return self.m * (self.n + 2)
+
+    @property
+    def F(self) -> ca.Sparsity:
+        """Pattern of [A B]."""
+        return ca.horzcat(ca.DM(self.A), ca.DM(self.B)).sparsity()
 
     @property
     def filled(self) -> list[list[int]]:
-        """The rows that are not zero of each column of [A B]."""
-        pattern = ca.horzcat(ca.DM(self.A), ca.DM(self.B)).sparsity()
-        return [pattern.row()[a:b] for a, b in pairwise(pattern.colind())]
+        """The rows that are not zero of each column of F."""
+        return [self.F.row()[a:b] for a, b in pairwise(self.F.colind())]
+
+    def slopes(self, A: ca.SX, B: ca.SX) -> ca.SX:
+        """Return [A B], of `A` (n, n) and `B` (n, m) in CasADi, as it lies in memory."""
+        F = ca.horzcat(A, B)
+        return ca.vertcat(*(ca.project(F, self.F).nonzeros() if self.block == 1 else map(self._row, ca.vertsplit(F))))
+
+    def cost(self, Q: ca.SX, R: ca.SX, q: ca.SX, q_e: ca.SX, r: ca.SX, c: ca.SX, g: ca.SX) -> ca.SX:
+        """Return the cost of a stage as it lies in memory; `R` (m, 1) is the diagonal, vectors are columns."""
+        rows = self._row(ca.horzcat(q.T, r.T)), self._row(q_e.T)
+        return _to_length(ca.vertcat(*rows, R, c, g, *ca.project(Q, self.Q).nonzeros()), self.of_stage)
+
+    def to_go(self, P: ca.SX, p: ca.SX, p_e: ca.SX, c: ca.SX, g: ca.SX, v: ca.SX) -> ca.SX:
+        """Return a cost to go as it lies in memory; `p` and `p_e` are columns (n, 1)."""
+        P = ca.densify(P)
+        rows = ca.triu(P).nonzeros() if self.block == 1 else map(self._row, ca.vertsplit(P))
+        return _to_length(ca.vertcat(*rows, self._row(p.T), self._row(p_e.T), c, g, v), self.of_to_go)
+
+    def slopes_in(self, memory: ca.SX) -> ca.SX:
+        """Return F (n, n + m), sparse, of what lies in `memory`."""
+        if self.block == 1:
+            return ca.SX(self.F, memory)
+        return ca.project(ca.reshape(memory, self.width, self.n).T[:, : self.n + self.m], self.F)
+
+    def to_go_in(self, memory: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
+        """Return P (n, n), p and p_e (n, 1) of the cost to go that lies in `memory`."""
+        n, w, first = self.n, self.width, self._of_P
+        if self.block == 1:
+            upper = ca.SX(ca.Sparsity.upper(n), memory[:first])
+            P = upper + ca.triu(upper, False).T
+        else:
+            P = ca.reshape(memory[:first], w, n).T[:, :n]
+        return P, memory[first : first + n], memory[first + w : first + w + n]
+
+    @property
+    def _of_P(self) -> int:
+        return self.n * (self.n + 1) // 2 if self.block == 1 else self.n * self.width
+
+    def _padded(self, length: int) -> int:
+        return -(-length // self.block) * self.block
+
+    def _row(self, values: ca.SX) -> ca.SX:
+        """Return `values` (1, k) as a column of the length of a row."""
+        return _to_length(ca.densify(values).T, self.width)
 
 
-def packed_to_go(P: Any, p: Any, p_e: Any, c: Any, g: Any, v: Any) -> Any:
-    """Return a packed cost to go; see this module's head."""
-    return ca.vertcat(*(P[i, j] for i in range(P.size1()) for j in range(i, P.size1())), p, p_e, c, g, v)
-
-
-def _unpacked(V: Any, n: int) -> tuple[Any, Any, Any]:
-    """Return P, p and p_e of a packed cost to go."""
-    P, place = ca.SX(n, n), 0
-    for i in range(n):
-        for j in range(i, n):
-            P[i, j] = P[j, i] = V[place]
-            place += 1
-    return P, V[place : place + n], V[place + n : place + 2 * n]
-
-
-def packed_cost(Q: Any, R: Any, q: Any, q_e: Any, r: Any, c: Any, g: Any) -> Any:
-    """Return the packed cost of a stage, from Q and the diagonal of R; see this module's head."""
-    return ca.vertcat(*(Q[i, j] for j in range(Q.size1()) for i in range(j + 1)), R, q, q_e, r, c, g)
+def _to_length(values: ca.SX, length: int) -> ca.SX:
+    return ca.vertcat(ca.densify(values), ca.SX.zeros(length - values.numel()))
 
 
 class ToGo(NamedTuple):
@@ -161,55 +217,48 @@ def _sum(terms: Iterable[Any]) -> Any:
     return reduce(add, terms)
 
 
-def backward(shape: Shape) -> ca.Function:
-    """Return (cost to go after, A, B, d, cost, damping) → cost to go before, and gains.
+def backward(layout: Layout) -> ca.Function:
+    """Return (cost to go after, F, d, cost, damping) → cost to go before, and gains, as they lie in memory.
 
     Gains are the rows of K, then k and k_e; see `before`. `damping` (2,) is added to the diagonals of Q and R.
     """
-    n, m = shape.n, shape.k
-    V, cost, damping = ca.SX.sym("V", shape.to_go), ca.SX.sym("cost", shape.of_stage), ca.SX.sym("damping", 2)
-    A, B, d = ca.SX.sym("A", shape.A), ca.SX.sym("B", shape.B), ca.SX.sym("d", n)
-    P, p, p_e = _unpacked(V, n)
-    Q, R, q, q_e, r, c, g = ca.vertsplit(cost, [0, *accumulate(shape.parts)])
-    upper = ca.SX(ca.Sparsity.upper(n), Q)
-    H = ca.diagcat(upper + ca.triu(upper, False).T + damping[0] * ca.SX.eye(n), ca.diag(R + damping[1]))
-    stage = OfStage(
-        ca.vertsplit(ca.horzcat(A, B)), d, ca.vertsplit(H), ca.horzcat(q.T, r.T), ca.horzcat(q_e.T, ca.SX(1, m)), c, g
-    )
-    found, gains = before(ToGo(ca.vertsplit(P), p.T, p_e.T, *ca.vertsplit(V[-3:])), stage, shape.filled)
-    packed = packed_to_go(
+    n, m, w = layout.n, layout.m, layout.width
+    V, memory, d = ca.SX.sym("V", layout.of_to_go), ca.SX.sym("F", layout.of_slopes), ca.SX.sym("d", n)
+    cost, damping = ca.SX.sym("cost", layout.of_stage), ca.SX.sym("damping", 2)
+    h, h_e, R, c, g, Q = ca.vertsplit(cost, [0, w, 2 * w, 2 * w + m, 2 * w + m + 1, 2 * w + m + 2, cost.numel()])
+    H = ca.diagcat(ca.SX(layout.Q, Q[: layout.Q.nnz()]) + damping[0] * ca.SX.eye(n), ca.diag(R + damping[1]))
+    stage = OfStage(ca.vertsplit(layout.slopes_in(memory)), d, ca.vertsplit(H), h[: n + m].T, h_e[: n + m].T, c, g)
+    P, p, p_e = layout.to_go_in(V)
+    shared = ca.vertsplit(V[layout.of_shared : layout.of_shared + 3])
+    found, gains = before(ToGo(ca.vertsplit(P), p.T, p_e.T, *shared), stage, layout.filled)
+    here = layout.to_go(
         ca.vertcat(*found.P)[:, :n], found.p[:n].T, found.p_e[:n].T, found.c, found.g, found.v
     )  # fmt: skip
-    inputs = [V, ca.vertcat(*A.nonzeros()), ca.vertcat(*B.nonzeros()), d, cost, damping]
     rows = ca.vertcat(*(row[:n].T for row in gains.K), *gains.k, *gains.k_e)
-    return ca.Function("backward", inputs, [ca.densify(packed), ca.densify(rows)])
+    return ca.Function("backward", [V, memory, d, cost, damping], [ca.densify(here), ca.densify(rows)])
 
 
-def forward(shape: Shape) -> ca.Function:
-    """Return (δ, ε, A, B, d, gains, cost to go after) → δ⁺, υ, and the largest of the costate P δ⁺ + p + p_e ε."""
-    V, A, B = ca.SX.sym("V", shape.to_go), ca.SX.sym("A", shape.A), ca.SX.sym("B", shape.B)
-    given = [ca.vertcat(*A.nonzeros()), ca.vertcat(*B.nonzeros())]
-    return ahead(shape, A, B, given, V, _unpacked(V, shape.n))
-
-
-def ahead(shape: Shape, A: Any, B: Any, given: Sequence[Any], V: Any, to_go: tuple[Any, Any, Any]) -> ca.Function:
-    """Return `forward` for A and B in the inputs `given`, and P, p and p_e `to_go` in the input V."""
-    delta, epsilon, d = ca.SX.sym("delta", shape.n), ca.SX.sym("epsilon"), ca.SX.sym("d", shape.n)
-    gains, (P, p, p_e) = ca.SX.sym("gains", shape.gains), to_go
-    K, k, k_e = unpacked_gains(gains, shape.n, shape.k)
+def forward(layout: Layout) -> ca.Function:
+    """Return (δ, ε, F, d, gains, cost to go after) → δ⁺, υ, and the largest of the costate P δ⁺ + p + p_e ε."""
+    n, m = layout.n, layout.m
+    delta, epsilon, d = ca.SX.sym("delta", n), ca.SX.sym("epsilon"), ca.SX.sym("d", n)
+    memory, gains, V = (ca.SX.sym(*named) for named in (
+        ("F", layout.of_slopes), ("gains", layout.of_gains), ("V", layout.of_to_go)
+    ))  # fmt: skip
+    F, (P, p, p_e), (K, k, k_e) = layout.slopes_in(memory), layout.to_go_in(V), unpacked_gains(gains, n, m)
     upsilon = ca.mtimes(K, delta) + k + k_e * epsilon
-    after = ca.mtimes(A, delta) + ca.mtimes(B, upsilon) + d
-    costate = ca.fabs(ca.mtimes(P, after) + p + p_e * epsilon)
-    inputs = [delta, epsilon, *given, d, gains, V]
-    return ca.Function("forward", inputs, [ca.densify(after), ca.densify(upsilon), ca.mmax(costate)])
+    after = ca.mtimes(F[:, :n], delta) + ca.mtimes(F[:, n:], upsilon) + d
+    costate = ca.mmax(ca.fabs(ca.mtimes(P, after) + p + p_e * epsilon))
+    outputs = [ca.densify(after), ca.densify(upsilon), costate]
+    return ca.Function("forward", [delta, epsilon, memory, d, gains, V], outputs)
 
 
-def unpacked_gains(gains: Any, n: int, m: int) -> tuple[Any, Any, Any]:
+def unpacked_gains(gains: ca.SX, n: int, m: int) -> tuple[ca.SX, ca.SX, ca.SX]:
     """Return K (m, n), k and k_e (m, 1) of packed `gains`, in CasADi."""
     return ca.reshape(gains[: n * m], n, m).T, gains[n * m : (n + 1) * m], gains[(n + 1) * m :]
 
 
-def solved(S: Any, right: Any) -> Any:
+def solved(S: ca.SX, right: ca.SX) -> ca.SX:
     """Return S⁻¹ `right` for a symmetric positive definite `S` (m, m), by its factors L D Lᵀ, in CasADi."""
     m = S.size1()
     return ca.vertcat(*divided(*factors([[S[i, j] for j in range(m)] for i in range(m)]), ca.vertsplit(right)))

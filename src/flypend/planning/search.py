@@ -1,10 +1,11 @@
-"""The search for plans: guesses on the lanes of a solver, watched until they settle."""
+"""The search for a plan: guesses that race each other, or one per lane, watched until they settle."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -13,25 +14,88 @@ from numpy.typing import NDArray
 from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
-from flypend.planning.guesses import pumping, styles
-from flypend.planning.kernels import kernels
-from flypend.planning.leaning import leaned, leans
-from flypend.planning.method import Problem
-from flypend.planning.race import ROUNDS, Race
-from flypend.planning.request import STAGES_PER_UNIT, TOLERANCE, Request
-from flypend.planning.single import single
-from flypend.planning.solver import Solver
+from flypend.planning.constraints import TOLERANCE
+from flypend.planning.guess import leaned, leans, pumping, styles
+from flypend.planning.problem import STAGES_PER_UNIT, Request
+from flypend.planning.programs import Programs, programs
+from flypend.planning.solver import Measures, Problem, Scratch, Solver, one_lane
 from flypend.plants.lag import step_timing
 
+# After so many iterations so many go on, those of least cost. One of 160 random starts costs 5 % more for it.
+ROUNDS: Mapping[int, int] = MappingProxyType({6: 4})
+
+Array = NDArray[np.float64]
+
+
+NEVER = np.full(1, np.inf)
+LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True))  # of a guess that is given up
 MOST_ITERATIONS = 80
 # Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
 SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
+SAME = 0.01  # share by which costs of guesses differ that lead to the same plan
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
 NOT_REACHED, NOT_KEPT = "inverted hover is not reached", "a wish is not kept"
 UNFINISHED = "the solver had not converged"
 
-Array = NDArray[np.float64]
+
+class Race:
+    """Solvers of one problem each, which are seen as the lanes of one; those given up are stuck, and cost infinity.
+
+    Parameters
+    ----------
+    compiled : Programs
+        The programs of a single problem.
+    problem, states, commands : Problem, (stages + 1, 24 + n, lanes), (stages, n, lanes)
+        As in `Solver`.
+    rounds : dict
+        See `ROUNDS`.
+    """
+
+    def __init__(
+        self, compiled: Programs, problem: Problem, states: Array, commands: Array, rounds: Mapping[int, int] = ROUNDS
+    ) -> None:
+        scratch, arrays = Scratch(compiled, problem.stages, 1), (*problem.arrays, states, commands)
+        self._solvers = []
+        for i in range(states.shape[-1]):
+            *own, begin, steered = (one_lane(values[..., i]) for values in arrays)
+            self._solvers.append(Solver(compiled, Problem(problem.stages, *own), begin, steered, scratch=scratch))
+        self._running = list(range(len(self._solvers)))
+        self._iterations, self._rounds = 0, rounds
+
+    def improve(self) -> None:
+        """Do one iteration of each that is not given up."""
+        for i in self._running:
+            self._solvers[i].improve()
+        self._iterations += 1
+        if self._iterations in self._rounds:
+            cost = np.nan_to_num(self.measures.cost[self._running], nan=np.inf)
+            best = np.argsort(cost, kind="stable")[: self._rounds[self._iterations]]
+            self._running = sorted(self._running[i] for i in best)
+
+    def insist(self, place: int, weight: float, on: Any) -> None:
+        """See `Solver`."""
+        for i in on:
+            self._solvers[i].insist(place, weight, slice(None))
+
+    def iterate(self, lane: int) -> tuple[Array, Array]:
+        """See `Solver`."""
+        return self._solvers[lane].iterate(0)
+
+    @property
+    def measures(self) -> Measures:
+        """See `Solver`."""
+        some = [solver.measures if i in self._running else LOST for i, solver in enumerate(self._solvers)]
+        return Measures(*(np.concatenate(parts) for parts in zip(*some, strict=True)))
+
+
+def work(rounds: Mapping[int, int], guesses: int, iterations: int) -> int:
+    """Return how many iterations of single guesses so many `iterations` of a race are."""
+    done = 0
+    for i in range(iterations):
+        guesses = rounds.get(i, guesses)
+        done += guesses
+    return done
 
 
 @dataclass(frozen=True)
@@ -44,48 +108,39 @@ class Job:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What came of one or several guesses, in own units.
+    """What came of one or several guesses: the best iterate, in own units."""
 
-    Parameters
-    ----------
-    states, commands : (stages + 1, 24 + n), (stages, n)
-        The best iterate.
-    cost : float
-        Its cost; infinite if it cannot be flown.
-    lacks, unfinished : str
-        Why it cannot be flown, and whether the solver had not converged; empty if not.
-    style, iterations : int
-        The style of its guess, and the iterations of the solver.
-    spent : float
-        Processor time, s: of every iteration, an equal part for each guess that was being solved.
-    """
-
-    states: Array
-    commands: Array
-    cost: float
-    lacks: str
-    unfinished: str
-    style: int
+    states: Array  # (stages + 1, 24 + n)
+    commands: Array  # (stages, n)
+    cost: float  # infinite if it cannot be flown
+    lacks: str  # why it cannot be flown; empty if it can
+    unfinished: str  # whether the solver had not converged; empty if it had
+    style: int  # of its guess
+    guesses: int  # of so many it is the best,
+    agreeing: int  # and so many of them came within `SAME` of its cost, itself included
     iterations: int
-    spent: float
+    spent: float  # processor time, s: of every iteration, an equal part for each guess that was being solved
 
 
 class Verdict:
-    """What the lanes of a `solver` are worth after an iteration; with `soft` constraints, what is too near counts.
+    """What lanes are worth by their `measures`; with `soft` constraints, what is too near counts.
 
     Attributes
     ----------
     cost, lacks : (lanes,)
         The cost, infinite for what cannot be flown; and how far it is from that, in tolerances.
-    arrives, stuck : (lanes,)
-        Whether it reaches hover, whatever it breaks on the way; and whether it cannot be improved.
+    arrives : (lanes,)
+        Whether it reaches hover, whatever it breaks on the way.
+    barrier, stuck : (lanes,)
+        See `solver.Measures`.
     """
 
-    def __init__(self, solver: Solver | Race, soft: bool) -> None:
-        cost, violation = (solver.cost if soft else solver.value), solver.violation
-        self.arrives, self.stuck = (solver.end <= 1) & (solver.gap <= CLOSED), solver.stuck
+    def __init__(self, measures: Measures, soft: bool) -> None:
+        cost, violation = (measures.cost if soft else measures.value), measures.violation
+        self.arrives, self.stuck = (measures.end <= 1) & (measures.gap <= CLOSED), measures.stuck
+        self.barrier = measures.barrier
         self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
-        lacks = np.maximum(solver.end, 1) + violation / TOLERANCE + solver.gap / CLOSED
+        lacks = np.maximum(measures.end, 1) + violation / TOLERANCE + measures.gap / CLOSED
         self.lacks = np.where(np.isfinite(lacks), lacks, np.inf)
 
     def of(self, on: Any) -> tuple[float, int, str]:
@@ -108,6 +163,7 @@ class Watch:
     ) -> None:
         self._jobs, self._on, self._most, self._first = jobs, np.array(on), most, soft
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
+        self._agreeing = 0
         self._soft = jobs[0].asked.structure.soft
         self._kept: tuple[Array, Array, str, int] | None = None
         self._stuck = False
@@ -129,10 +185,11 @@ class Watch:
         score, place, lacks = verdict.of(self._on)
         lane = int(self._on[place])
         settled = np.isfinite(self._best) and score > (1 - STEADY) * self._best
-        self._steady = self._steady + 1 if settled and solver.barrier[lane] <= STEADY_BARRIER else 0
+        self._steady = self._steady + 1 if settled and verdict.barrier[lane] <= STEADY_BARRIER else 0
         if self._kept is None or not score > self._best:
             self._kept = *solver.iterate(lane), lacks, place
         self._best = min(self._best, score)
+        self._agreeing = agreeing(verdict.cost[self._on])
         self._iterations += 1
         self._spent += spent
         self._stuck = bool(np.all(verdict.stuck[self._on]))
@@ -143,8 +200,15 @@ class Watch:
         states, commands, lacks, place = self._kept or none
         unfinished = "" if self._steady >= STEADY_FOR else UNFINISHED
         return Found(
-            states, commands, self._best, lacks, unfinished, self._jobs[place].style, self._iterations, self._spent
-        )
+            states, commands, self._best, lacks, unfinished, self._jobs[place].style, len(self._on),
+            self._agreeing, self._iterations, self._spent,
+        )  # fmt: skip
+
+
+def agreeing(costs: Array) -> int:
+    """Return how many of `costs`, infinite for what cannot be flown, are within `SAME` of the least."""
+    least = np.min(costs)
+    return int(np.sum(costs <= (1 + SAME) * least)) if np.isfinite(least) else 0
 
 
 def stages_of(horizon: float) -> tuple[int, float]:
@@ -155,7 +219,7 @@ def stages_of(horizon: float) -> tuple[int, float]:
 
 def prepared(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
-    single(asked.rotors, asked.structure), pumping(asked.rotors)
+    programs(asked.rotors, asked.structure, lanes=False), pumping(asked.rotors)
 
 
 def together(
@@ -166,21 +230,22 @@ def together(
     rounds: Mapping[int, int] | None = None,
     first: float = SOFT_FIRST,
 ) -> Found:
-    """Solve from all styles of guesses, until the best is steady or the `deadline` (monotonic) is over.
+    """Solve from all styles of guesses, until the best is steady or the `deadline` is over.
 
-    There are at `most` so many iterations. `rounds` are as in `race.Race`; by default no guess is given up where costs
-    are soft at first, since the dearest may be the one that keeps away. `first` is the `soft` of `Watch`.
+    It is of the processor time of this thread, s. There are at `most` so many iterations. `rounds` are as in `Race`; by
+    default no guess is given up where costs are soft at first, since the dearest may be the one that keeps away.
+    `first` is the `soft` of `Watch`.
     """
     jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.structure.soft
     given_up = ({} if soft else ROUNDS) if rounds is None else rounds
-    solver = Race(single(asked.rotors, asked.structure), *guessed(jobs, horizon), given_up)
+    solver = Race(programs(asked.rotors, asked.structure, lanes=False), *guessed(jobs, horizon), given_up)
     watch = Watch(jobs, range(WIDTH), most, first)
-    while not watch.done and time.monotonic() < deadline:
+    while not watch.done and time.thread_time() < deadline:
         signals.poll()
         begin = time.thread_time()
         watch.before(solver)
         solver.improve()
-        watch.after(solver, Verdict(solver, soft), time.thread_time() - begin)
+        watch.after(solver, Verdict(solver.measures, soft), time.thread_time() - begin)
     return watch.found(solver)
 
 
@@ -203,7 +268,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
         for _, watch in watches.values():
             watch.before(solver)
         solver.improve()
-        verdict, spent = Verdict(solver, soft), (time.thread_time() - begin) / len(watches)
+        verdict, spent = Verdict(solver.measures, soft), (time.thread_time() - begin) / len(watches)
         for lane, (place, watch) in list(watches.items()):
             watch.after(solver, verdict, spent)
             if not watch.done:
@@ -223,7 +288,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
 
 def _solver(jobs: Sequence[Job], horizon: float) -> Solver:
     asked = jobs[0].asked
-    return Solver(kernels(asked.rotors, asked.structure), *guessed(jobs, horizon))
+    return Solver(programs(asked.rotors, asked.structure, lanes=True), *guessed(jobs, horizon))
 
 
 def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]:

@@ -7,18 +7,109 @@ length α leaves 1 − α of them. docs/planning/limit.md derives it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from flypend.compile.llvm.stagewise import lanes as some_lanes
+from flypend.model.state import SIZE
 from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
+from flypend.planning.dynamics import LEAST_ROOM
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED
-from flypend.planning.kernels import Kernels
-from flypend.planning.method import Lanes, Problem, Scratch, Settings
-from flypend.planning.stage import LEAST_ROOM
+from flypend.planning.programs import Programs
+
+Lanes = NDArray[np.float64]
+MISSED = 0.5  # tolerances at the end, above which its weight grows
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Numbers of the method, in the machine's own units, in which the cost is of order one."""
+
+    barrier: float = 1e-3  # first μ,
+    least_barrier: float = 1e-6  # last,
+    cooling: float = 0.8  # and its factor after a good step
+    damping: float = 3e-3  # of commands: first,
+    least_damping: float = 1e-6  # least,
+    most_damping: float = 1e6  # and largest
+    state_damping: float = 0.1  # of states, as a share of that of commands
+    worse: float = 8.0  # factor of the damping after a step that failed,
+    better: float = 1 / 3  # and after a long one
+    shrinks: tuple[float, ...] = (0.4,) * 7  # factors of the step length, in turn, while the merit does not fall
+    room: float = 0.9  # largest share of the room to a limit that one step takes
+    turn: float = 2.0  # largest change of attitude or rod in one step, rad
+    spread: float = 100.0  # largest ratio between a multiplier and μ/s, either way
+    end_weight: float = 0.005  # of the squared errors at the end: first,
+    most_end_weight: float = 50.0  # largest,
+    end_growth: float = 1.3  # and its factor per iteration while they are too large at a barrier
+    end_barrier: float = 1e-4  # below this
+    relief: float = 1e-4  # barrier down to which a large e costs its logarithm, so that it does not outweigh the end
+    inside: float = 0.02  # share of the range of a command by which guesses keep away from its limits
+    margin: tuple[float, float] = (0.05, 0.05)  # of the ball beyond the farthest state: share of its square, and least
+
+
+DEFAULT = Settings()
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is to be planned, one problem per lane, in each machine's own units."""
+
+    stages: int
+    timing: Lanes  # of a stage, (4, lanes); see `plants.lag.step_timing`
+    vehicle: Lanes  # numbers of the machines, (k, lanes); see `dynamics.Units.numbers`
+    numbers: Lanes  # of the inequalities, (j, lanes); see `inequalities.Structure.numbers`
+    places: Lanes | None = None  # (stages + 1, 3, lanes): where the pivot is to be, with a path; else the origin
+
+    @property
+    def arrays(self) -> tuple[Lanes, ...]:
+        """What differs between lanes."""
+        own = (self.timing, self.vehicle, self.numbers)
+        return own if self.places is None else (*own, self.places)
+
+
+def one_lane(values: Lanes) -> Lanes:
+    """Return a copy of `values` with a last axis of one lane."""
+    own = some_lanes(*values.shape, width=1)
+    own[..., 0] = values
+    return own
+
+
+class Scratch:
+    """What an iteration of a solver writes before it reads it, for a number of `stages` on `width` lanes.
+
+    Solvers that take turns share it: then it stays in the processor's cache.
+    """
+
+    def __init__(self, programs: Programs, stages: int, width: int) -> None:
+        layout, k, of = programs.layout, programs.inequalities, partial(some_lanes, stages, width=width)
+        one_more = partial(some_lanes, stages + 1, width=width)
+        self.slopes, self.d, self.cost = of(layout.of_slopes), of(layout.n), of(layout.of_stage)
+        self.to_go, self.gains, self.summary = one_more(layout.of_to_go), of(layout.of_gains), of(2)
+        self.delta, self.upsilon = one_more(layout.n), of(layout.m)
+        self.costate, self.s_step, self.z_step, self.shares = of(1), of(k), of(k), of(2)
+        self.new_states, self.new_commands = one_more(SIZE + layout.m), of(layout.m)
+        self.trial, self.new_slack = of(k), of(k)
+
+
+class Measures(NamedTuple):
+    """What the lanes of a solver have come to, (lanes,) each.
+
+    `cost` is the merit with the weight of e as it was asked for, `value` excursion and effort with their weights,
+    `violation` what inequalities lack, `gap` the sum of all gaps, `end` the largest error there in tolerances, and
+    `barrier` is μ. Lanes that are `stuck` cannot be improved any more, whatever the damping.
+    """
+
+    cost: Lanes
+    value: Lanes
+    violation: Lanes
+    gap: Lanes
+    end: Lanes
+    barrier: Lanes
+    stuck: NDArray[np.bool_]
 
 
 class Solver:
@@ -26,7 +117,7 @@ class Solver:
 
     Parameters
     ----------
-    kernels : Kernels
+    programs : Programs
         The compiled programs, for one problem or for as many as there are lanes.
     problem : Problem
         The problem.
@@ -45,47 +136,44 @@ class Solver:
         The best so far.
     merit, violation, gap, end : (lanes,)
         Merit, sum of what inequalities lack, sum of all gaps, and largest error at the end in tolerances.
-    cost : (lanes,)
-        The merit with the weight of e as it was asked for.
-    promise : (lanes,)
-        By how much the linear-quadratic problem expected the merit to fall at the last step.
+    shared : (lanes,)
+        The squared radius e of the ball.
     """
 
     def __init__(
-        self, kernels: Kernels, problem: Problem, states: Lanes, commands: Lanes, settings: Settings | None = None,
+        self, programs: Programs, problem: Problem, states: Lanes, commands: Lanes, settings: Settings = DEFAULT,
         scratch: Scratch | None = None,
     ) -> None:  # fmt: skip
-        self._k, self._problem = kernels, problem
-        self._set = settings = settings or Settings()
-        N, k, self.width = problem.stages, kernels.inequalities, states.shape[-1]
-        lanes = partial(some_lanes, width=self.width)
+        self._k, self._problem, self._set = programs, problem, settings
+        self._of_shared = programs.layout.of_shared
+        N, k, width = problem.stages, programs.inequalities, states.shape[-1]
+        lanes = partial(some_lanes, width=width)
         self.states, self.commands = states, commands
         self._limits, self._asked = lanes(3), lanes(1)
         self._mu, self._shared, self._length = lanes(1), lanes(1), lanes(1)
-        self._damping, self._weight, self._offset = lanes(2), lanes(1), lanes(kernels.end_size)
-        self._slack, self._dual = lanes(N, k), lanes(N, k)
-        self._epsilon, self._new_shared, self._errors = lanes(1), lanes(1), lanes(1, kernels.end_size)
-        self._price, self._w = np.ones((2, self.width)), scratch or Scratch(kernels, N, self.width)
-        self.merit, self.violation, self.gap, self.end, self.promise = (np.full(self.width, np.inf) for _ in range(5))
+        self._damping, self._weight, self._offset = lanes(2), lanes(1), lanes(programs.end_size)
+        self._slack, self._dual, self._hover = lanes(N, k), lanes(N, k), lanes(1, states.shape[1])
+        self._epsilon, self._new_shared, self._errors = lanes(1), lanes(1), lanes(programs.end_size)
+        self._price, self._w = np.ones((2, width)), scratch or Scratch(programs, N, width)
+        self.merit, self.violation, self.gap, self.end = (np.full(width, np.inf) for _ in range(4))
         self._connect()
         self._begin(slice(None))
 
     def _connect(self) -> None:
         """Give the programs the arrays that they work on."""
-        k, p, w, N = self._k, self._problem, self._w, self._problem.stages
+        k, p, w = self._k, self._problem, self._w
         here = (self.states, self.commands, self._shared, p.numbers, p.vehicle)
         there = (w.new_states, w.new_commands, self._new_shared, p.numbers, p.vehicle)
         moves, places = (w.delta, w.upsilon, self._epsilon), () if p.places is None else (p.places,)
-        slack, dual, to_go, d, slopes = self._slack, self._dual, w.to_go, w.d, w.slopes
-        at_end = (p.numbers, self._weight, self._offset, self._errors)
+        slack, dual, to_go, d, F = self._slack, self._dual, w.to_go, w.d, w.slopes
+        at_end = (p.numbers, self._weight, self._offset, self._errors, to_go)
         self._linearise = k.linearised.on(
-            self.states, self.states[1:], self.commands, p.timing, p.vehicle, d, *slopes
+            self.states, self.states[1:], self.commands, p.timing, p.vehicle, d, F
         )  # fmt: skip
         self._add_terms = k.terms.on(*here, slack, dual, self._mu, *places, w.cost)
-        self._add_end = k.end.on(self.states[N:], *at_end, to_go[N:])
-        self._back = k.backward.on(to_go[1:], *slopes, d, w.cost, self._damping, to_go, w.gains)
+        self._back = k.backward.on(to_go[1:], F, d, w.cost, self._damping, to_go, w.gains)
         self._ahead = k.forward.on(
-            w.delta, self._epsilon, *slopes, d, w.gains, to_go[1:], w.delta[1:], w.upsilon, w.costate
+            w.delta, self._epsilon, F, d, w.gains, to_go[1:], w.delta[1:], w.upsilon, w.costate
         )  # fmt: skip
         self._along = k.steps.on(
             *here, slack, dual, self._mu, *moves, *places, w.s_step, w.z_step, w.shares
@@ -94,16 +182,12 @@ class Solver:
             self.states, self.commands, d, w.gains, w.new_states, self._length, self._epsilon, self._limits,
             p.timing, p.vehicle, w.new_states[1:], w.new_commands,
         )  # fmt: skip
-        self._measured = (
-            (
-                k.values.on(*here, slack, self._mu, *places, w.summary, slack),
-                k.end.on(self.states[N:], *at_end, w.end),
-            ),
-            (
-                k.values.on(*there, w.trial, self._mu, *places, w.summary, w.new_slack),
-                k.end.on(w.new_states[N:], *at_end, w.end),
-            ),
+        self._values = (
+            k.values.on(*here, slack, self._mu, *places, w.summary, slack),
+            k.values.on(*there, w.trial, self._mu, *places, w.summary, w.new_slack),
         )
+        self._ends = k.end.on(self.states, *at_end), k.end.on(w.new_states, *at_end)
+        self._end_in_hover = k.end.on(self._hover, *at_end)
 
     def take(self, lane: int, problem: Problem, states: Lanes, commands: Lanes, source: int) -> None:
         """Begin another problem on a `lane`: that on the lane `source` of `problem`, `states` and `commands`."""
@@ -114,24 +198,22 @@ class Solver:
 
     def _begin(self, on: Any) -> None:
         """Begin on the lanes `on`, with the guessed states and commands that are there."""
-        settings, numbers = self._set, self._problem.numbers
+        settings, numbers, whole = self._set, self._problem.numbers, slice(0, self._problem.stages)
+        low, high = numbers[LOW, on], numbers[HIGH, on]
         self._asked[0, on] = numbers[SHARED, on]
-        self._limits[0, on], self._limits[1, on], self._limits[2, on] = (
-            numbers[LOW, on],
-            numbers[HIGH, on],
-            settings.room,
-        )
-        inside = 0.02 * (numbers[HIGH, on] - numbers[LOW, on])
-        low, high = numbers[LOW, on] + inside, numbers[HIGH, on] - inside
-        self.commands[..., on] = np.clip(self.commands[..., on], low, high)
+        self._limits[0, on], self._limits[1, on], self._limits[2, on] = low, high, settings.room
+        inside = settings.inside * (high - low)
+        self.commands[..., on] = np.clip(self.commands[..., on], low + inside, high - inside)
         self._mu[..., on], self._weight[..., on], self._offset[..., on] = settings.barrier, settings.end_weight, 0.0
         self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
-        self._shared[0, on] = 1.05 * np.max(self._squared(self.states), axis=0)[on] + 0.05
+        self._shared[0, on] = 0.0
+        self._fit(whole, on)
         self._slack[..., on], self._price[:, on] = 0.1, 1.0
         for measured in (self.merit, self.violation, self.gap, self.end):
             measured[on] = np.inf
         # In the other lanes slacks are what they were.
-        self._value(False, 0.0)
+        with np.errstate(all="ignore"):
+            self._value(whole, new=False, gap=0.0)
         self._dual[..., on] = self._mu[..., on] / self._slack[..., on]
 
     def iterate(self, lane: int) -> tuple[Lanes, Lanes]:
@@ -139,156 +221,153 @@ class Solver:
         return self.states[:, :, lane].copy(), self.commands[:, :, lane].copy()
 
     @property
-    def excursion(self) -> Lanes:
-        """Largest distance of the pivot from where it is to be, at the stages, (lanes,)."""
-        distance: Lanes = np.sqrt(np.max(self._squared(self.states), axis=0))
-        return distance
-
-    @property
-    def barrier(self) -> Lanes:
-        """The barrier parameter μ, (lanes,)."""
-        mu: Lanes = self._mu[0]
-        return mu
-
-    @property
-    def cost(self) -> Lanes:
+    def shared(self) -> Lanes:
         """See the class."""
-        own: Lanes = self.merit + (self._asked[0] - self._problem.numbers[SHARED]) * self._shared[0]
-        return own
+        radius: Lanes = self._shared[0]
+        return radius
 
     @property
-    def value(self) -> Lanes:
-        """Excursion and effort with their weights, (lanes,)."""
-        own: Lanes = self._asked[0] * self.excursion**2 + self.effort
-        return own
-
-    @property
-    def stuck(self) -> NDArray[np.bool_]:
-        """Which lanes cannot be improved any more, whatever the damping, (lanes,)."""
-        stuck: NDArray[np.bool_] = self._damping[1] >= self._set.most_damping
-        return stuck
-
-    @property
-    def effort(self) -> Lanes:
-        """Sum over the stages of the cost of the commands, (lanes,)."""
-        own: Lanes = self._problem.numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2
-        return own
-
-    def measure(self) -> None:
-        """Measure violation, gap and end of the states and commands as they are."""
-        self._linearise(0, self._problem.stages)
-        self.gap = np.sum(np.abs(self._w.d), axis=(0, 1))
-        self.merit, self.violation, self.end = self._value(False, self.gap)
+    def measures(self) -> Measures:
+        """What the lanes have come to."""
+        numbers, asked = self._problem.numbers, self._asked[0]
+        cost = self.merit + (asked - numbers[SHARED]) * self._shared[0]
+        excursion = np.sqrt(np.max(self._squared(self.states, slice(None)), axis=0))
+        value = asked * excursion**2 + numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2
+        stuck = self._damping[1] >= self._set.most_damping
+        return Measures(cost, value, self.violation, self.gap, self.end, self._mu[0], stuck)
 
     def insist(self, place: int, weight: float, on: Any) -> None:
         """Set the number at `place` of the inequalities, a `weight`, in the lanes `on`."""
         self._problem.numbers[place, on] = weight
 
+    def aim(self, outside: Lanes, hover: Lanes) -> None:
+        """Let forces `outside` (6, lanes) act, weights, and let `hover` (24 + n, lanes) under them be the end."""
+        self._problem.vehicle[-6:], self._hover[0] = outside, hover
+        self._end_in_hover(0, 1)
+        np.negative(self._errors, out=self._offset)
+
+    def restart(self, stages: slice, state: Lanes) -> None:
+        """Let `stages` begin at `state` (24 + n, lanes): the ball holds all states, and slacks are theirs."""
+        self.states[stages.start] = state
+        self._fit(stages, slice(None))
+        self._values[False](stages.start, stages.stop - stages.start)
+
     def improve(self) -> None:
-        """Do one iteration."""
-        k, p, N = self._k, self._problem, self._problem.stages
-        early = np.minimum(1.0, self._mu[0] / self._set.relief)
-        p.numbers[SHARED] = self._asked[0] / (1 + early * self._shared[0])
-        self._linearise(0, N)
-        self._add_terms(0, N)
-        self._add_end(0, 1)
-        self._back(0, N)
-        c, g, v = self._w.to_go[0, k.of_shared : k.of_shared + 3]
-        self._epsilon[0] = -g / c
-        self.promise = g * g / (2 * c) - v
-        self._ahead(0, N)
-        self._along(0, N)
-        self.gap = np.sum(np.abs(self._w.d), axis=(0, 1))
-        self._price = self._prices()
-        self.merit, self.violation, self.end = self._value(False, self.gap)
-        self._search()
+        """Do one iteration on all stages, and adapt damping, barrier and weights to its step."""
+        whole, early = slice(0, self._problem.stages), np.minimum(1.0, self._mu[0] / self._set.relief)
+        self._problem.numbers[SHARED] = self._asked[0] / (1 + early * self._shared[0])
+        self._adapt(self.step(whole)[0])
 
-    def _prices(self) -> Lanes:
-        """Return the prices (2, lanes) of gaps and violations: above all multipliers, so that neither is worth it."""
-        dual = np.max(self._dual[:, self._k.exact :], axis=(0, 1), initial=0.0)
-        return np.maximum(1.0, 1.2 * np.array([np.max(self._w.costate, axis=(0, 1)), dual]))
+    def step(self, stages: slice) -> tuple[Lanes, Lanes]:
+        """Take a step on some `stages`; return its length (lanes,), 0 where the merit did not fall, and the most."""
+        with np.errstate(all="ignore"):
+            self._solve(stages)
+            return self._search(stages)
 
-    def _search(self) -> None:
-        """Shorten the step until the merit falls, lane by lane, and take it."""
-        settings = self._set
-        turns = np.max(np.abs(self._w.delta[:, TURNS]), axis=(0, 1))
-        used = np.max(self._w.shares, axis=0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            longest, dual_length = np.fmin(1.0, settings.room / used)
-            length = np.fmin(longest, settings.turn / turns)
-        found = np.zeros(self.width, dtype=bool)
-        for _ in range(settings.attempts):
-            self._fly(length)
+    def _solve(self, stages: slice) -> None:
+        """Solve the linear-quadratic problem about what is known."""
+        first, N, w, spread = stages.start, stages.stop - stages.start, self._w, self._set.spread
+        middle, dual = self._mu / self._slack[stages], self._dual[stages]
+        np.maximum(dual, middle / spread, out=dual)
+        np.minimum(dual, middle * spread, out=dual)
+        self._linearise(first, N)
+        self._add_terms(first, N)
+        self._ends[False](first + N, 1)
+        self._back(first, N)
+        c, g = w.to_go[first, self._of_shared : self._of_shared + 2]
+        self._epsilon[0], w.delta[first] = -g / c, 0.0
+        self._ahead(first, N)
+        self._along(first, N)
+        self.gap = np.abs(w.d[stages]).sum(axis=(0, 1))
+        # Above all multipliers, so that neither gaps nor violations are worth it.
+        self._price[0] = w.costate[stages].max(axis=(0, 1))
+        self._price[1] = dual[:, self._k.exact :].max(axis=(0, 1), initial=0.0)
+        self._price = np.maximum(1.0, 1.2 * self._price)
+        self.merit, self.violation, self.end = self._value(stages, new=False, gap=self.gap)
+
+    def _search(self, stages: slice) -> tuple[Lanes, Lanes]:
+        """Shorten the step until the merit falls, lane by lane, and take it. Returns as `step`."""
+        settings, w = self._set, self._w
+        after = slice(stages.start, stages.stop + 1)
+        turns = np.maximum(*(np.abs(w.delta[after, turning]).max(axis=(0, 1)) for turning in (ATTITUDE, ROD)))
+        longest, dual_length = np.fmin(1.0, settings.room / w.shares[stages].max(axis=0))
+        length = most = np.fmin(longest, settings.turn / turns)
+        found = np.zeros(len(length), dtype=bool)
+        for factor in (1.0, *settings.shrinks):
+            length = np.where(found, length, factor * length)
+            self._fly(stages, length)
             gap = (1 - length) * self.gap
-            merit, violation, end = self._value(True, gap)
+            merit, violation, end = self._value(stages, new=True, gap=gap)
             found |= merit < self.merit
-            if np.all(found):
+            if found.all():
                 break
-            length = np.where(found, length, settings.shrink * length)
         pairs = (
-            (self.states, self._w.new_states), (self.commands, self._w.new_commands), (self._shared, self._new_shared),
-            (self._slack, self._w.new_slack),
+            (self.states[after], w.new_states[after]), (self.commands[stages], w.new_commands[stages]),
+            (self._shared, self._new_shared), (self._slack[stages], w.new_slack[stages]),
+            (self._dual[stages], self._dual[stages] + dual_length * w.z_step[stages]),
+            (self.merit, merit), (self.violation, violation), (self.gap, gap), (self.end, end),
         )  # fmt: skip
         for old, new in pairs:
             np.copyto(old, new, where=found)
-        self.merit, self.violation = np.where(found, merit, self.merit), np.where(found, violation, self.violation)
-        self.gap, self.end = np.where(found, gap, self.gap), np.where(found, end, self.end)
-        self._dual += np.where(found, dual_length, 0.0) * self._w.z_step
-        self._adapt(np.where(found, length, 0.0))
+        return np.where(found, length, 0.0), most
 
-    def _fly(self, length: Lanes) -> None:
+    def _fly(self, stages: slice, length: Lanes) -> None:
         """Fly a step of this `length` (lanes,) into the new states and commands, with trial values of the slacks."""
-        k, N = self._k, self._problem.stages
-        self._w.new_states[0], self._length[0] = self.states[0], length
-        self._roll(0, N)
+        exact, first, w, slack = self._k.exact, stages.start, self._w, self._slack[stages]
+        w.new_states[first], self._length[0] = self.states[first], length
+        self._roll(first, stages.stop - first)
         # The ball grows if need be, so that its slack keeps the same share as those of the commands.
-        room = np.maximum((1 - self._set.room) * self._slack[:, k.exact - 1], LEAST_ROOM)
-        kept = self._squared(self._w.new_states[:N]) + room
-        self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], np.max(kept, axis=0))
-        self._w.trial[:, k.exact :] = self._slack[:, k.exact :] + length * self._w.s_step[:, k.exact :]
+        room = np.maximum((1 - self._set.room) * slack[:, exact - 1], LEAST_ROOM)
+        kept = self._squared(w.new_states, stages) + room
+        self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], kept.max(axis=0))
+        w.trial[stages, exact:] = slack[:, exact:] + length * w.s_step[stages, exact:]
 
-    def _value(self, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes]:
+    def _value(self, stages: slice, *, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes]:
         """Return merit, violation and largest error at the end, each (lanes,), and write the slacks.
 
         They are those of the `new` states and commands, or of the old ones.
         """
         p, shared = self._problem, self._new_shared if new else self._shared
-        values, end = self._measured[new]
-        values(0, p.stages)
-        end(0, 1)
-        own, violation = np.sum(self._w.summary, axis=0)
-        with np.errstate(over="ignore", invalid="ignore"):
-            missed = np.sum((self._errors[0] + self._offset) ** 2, axis=0)
-            merit = p.numbers[SHARED] * shared[0] + own + self._weight[0] * missed / 2
-            merit += self._price[0] * gap + self._price[1] * violation
-        return merit, violation, np.max(np.abs(self._errors[0]), axis=0)
+        self._values[new](stages.start, stages.stop - stages.start)
+        self._ends[new](stages.stop, 1)
+        own, violation = self._w.summary[stages].sum(axis=0)
+        missed = ((self._errors + self._offset) ** 2).sum(axis=0)
+        merit = p.numbers[SHARED] * shared[0] + own + self._weight[0] * missed / 2
+        merit += self._price[0] * gap + self._price[1] * violation
+        return merit, violation, np.abs(self._errors).max(axis=0)
 
     def _adapt(self, length: Lanes) -> None:
-        """Adapt damping and barrier to the `length` of the step, and keep the multipliers near μ/s."""
+        """Adapt damping, barrier and weight of the end to the `length` of the step."""
         settings = self._set
         damping = self._damping[1]
         damping = np.where(length >= 0.5, settings.better * damping, damping)
         damping = np.where(length < 0.2, settings.worse * damping, damping)
-        self._damp(np.clip(damping, settings.least_damping, settings.most_damping))
+        self.damp(np.clip(damping, settings.least_damping, settings.most_damping))
         cooled = np.maximum(settings.cooling * self._mu[0], settings.least_barrier)
         self._mu[0] = np.where(length >= 0.3, cooled, self._mu[0])
         missed = (self.end > MISSED) & (self._mu[0] <= settings.end_barrier)
         grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
         self._weight[0] = np.where(missed, grown, self._weight[0])
-        middle = self._mu / self._slack
-        np.clip(self._dual, middle / settings.spread, middle * settings.spread, out=self._dual)
 
-    def _squared(self, states: Lanes) -> Lanes:
-        """Return the squared distances (k, lanes) of the pivot from where it is to be, at the first k stages."""
-        places, x = self._problem.places, states[:, POSITION]
-        x = x if places is None else x - places[: len(x)]
-        distances: Lanes = np.sum(x * x, axis=1)
+    def _squared(self, states: Lanes, stages: slice) -> Lanes:
+        """Return the squared distances (k, lanes) of the pivot from where it is to be, at the beginning of `stages`."""
+        places, x = self._problem.places, states[stages, POSITION]
+        x = x if places is None else x - places[stages]
+        distances: Lanes = (x * x).sum(axis=1)
         return distances
 
-    def _damp(self, damping: Lanes) -> None:
+    def _fit(self, stages: slice, on: Any) -> None:
+        """Let the ball hold all states of `stages`, in the lanes `on`."""
+        (share, more), after = self._set.margin, slice(stages.start, stages.stop + 1)
+        most = self._squared(self.states, after).max(axis=0)[on]
+        self._shared[0, on] = np.maximum(self._shared[0, on], (1 + share) * most + more)
+
+    @property
+    def damping(self) -> Lanes:
+        """Damping of the commands, (lanes,)."""
+        own: Lanes = self._damping[1]
+        return own
+
+    def damp(self, damping: Lanes) -> None:
+        """Set the `damping` (lanes,) of commands, and of states in proportion."""
         self._damping[:] = self._set.state_damping * damping, damping
-
-
-MISSED = 0.5  # tolerances at the end, above which its weight grows
-# Coordinates that turn: attitude and rod.
-TURNS = [*range(ATTITUDE.start, ATTITUDE.stop), *range(ROD.start, ROD.stop)]

@@ -1,27 +1,105 @@
-"""`track`: a controller that flies a plan with feedback, and gives way to another law if it is thrown off."""
+"""`track` and `plan_and_track`: controllers that fly a plan with feedback, and give way to a law if thrown off."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from functools import lru_cache, partial
+from typing import Any, Unpack
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
+from flypend.board.computer import FlightComputer, SteppedBoard
 from flypend.errors import InputError
-from flypend.laws import Computer, Controller, Law, inverted
+from flypend.laws import BoundLaw, Computer, Controller, Law, inverted
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
-from flypend.planning.boards import Boards
-from flypend.planning.feedback import Feedback, regulator
-from flypend.planning.nominal import Follower
+from flypend.planning.constraints import Constraints, Keywords, gathered
+from flypend.planning.dynamics import Units
+from flypend.planning.feedback import Feedback, Follower, regulator
+from flypend.planning.planner import plan
+from flypend.planning.problem import weights_of
 from flypend.planning.result import Plan
-from flypend.planning.scaled import Units
 from flypend.plants.loop import Loop
 
+Array = NDArray[np.float64]
+
+PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
 # The plan is left when the rod is this far from where it should be, rad, or the pivot, rod lengths.
 FAR_ROD, FAR_PIVOT = 0.8, 1.5
+
+
+class Boards(ABC):
+    """The flight computer of a planned flight: two boards, each of which is told every measurement and every command.
+
+    One predicts for the plan, the other flies the law, which so takes over as if it had always flown. Both find their
+    delay if the law's does, and use the same estimator.
+
+    Parameters
+    ----------
+    loop : Loop
+        The closed loop that is flown.
+    law : Law
+        What flies where no plan does.
+    latency : float
+        Delay that the plan's board begins with, s.
+    rotors : (n,)
+        Initial rotor forces, N.
+
+    Attributes
+    ----------
+    off : (3,)
+        What is added to the position, m, that the law is shown.
+    """
+
+    def __init__(self, loop: Loop, law: Law, latency: float, rotors: ArrayLike) -> None:
+        if loop.sampled.interface != "wrench":
+            raise InputError("plant.interface", "wrench: a plan commands rotor forces", loop.sampled.interface)
+        self._by_law, self._latency = replace(loop, law=law.bind(loop.vehicle)), latency
+        self._rotors, self.off = np.asarray(rotors, dtype=float), np.zeros(3)
+        if loop.sampled.sensors is None:
+            self.estimate_from(None)
+
+    def estimate_from(self, estimate: Array | None) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up."""
+        by_plan = replace(self._by_law, law=for_plans(self._by_law.law, self._latency))
+        self._for_plan = SteppedBoard(by_plan, self._rotors, estimate, self._steer)
+        self._for_law = SteppedBoard(self._by_law, self._rotors, estimate, self._or_law)
+
+    def command(self, t: float, measured: Any) -> Array:
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
+        self._measured = t, measured
+        found: Array = self._for_plan.command(t, measured)
+        return found
+
+    @abstractmethod
+    def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
+        """Return the command (n,), N, that acts at `t` (s); None if the law flies.
+
+        `state` (24,), `rotors` (n,) and `forces` (6,) from outside, N, are those predicted for then.
+        """
+
+    def _steer(self, *predicted: Any) -> Array:
+        self._given = self.planned(*predicted)
+        found: Array = self._for_law.command(*self._measured)
+        return found
+
+    def _or_law(self, t: float, state: Array, rotors: Array, forces: Array) -> Array:
+        if self._given is not None:
+            return self._given
+        shown = state.copy()
+        shown[:3] += self.off
+        found: Array = self._for_law.law(t, shown, rotors, forces)
+        return found
+
+
+@lru_cache(maxsize=16)
+def for_plans(law: BoundLaw, latency: float) -> BoundLaw:
+    """Return `law` on a board that predicts over a `latency` (s) and what it finds, but not over the rotors' lag."""
+    return replace(law, computer=replace(law.computer, latency=latency, lead=1.0, models_lag=True))
 
 
 @errors.named_arguments
@@ -46,7 +124,7 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     """
     if not isinstance(plan, Plan) or not plan:
         raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
-    law = fallback(otherwise, hover(plan.target))
+    law = fallback_law(otherwise, hover(plan.target))
     feedback = regulator(plan)
     return Controller(
         name="track",
@@ -58,7 +136,7 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     )
 
 
-def fallback(otherwise: Any, reference: Reference) -> Law:
+def fallback_law(otherwise: Any, reference: Reference) -> Law:
     """Return the law that flies where no plan does, `otherwise`, or the inverted law about `reference`.
 
     Raises InputError if it is no law in symbols.
@@ -77,8 +155,8 @@ def rotors_only(name: str) -> Callable[[float, State], Wrench]:
     return refuse
 
 
-class Tracker:
-    """The flight computer of a tracked plan: a `feedback` on a board of its own, and the law's, which takes over.
+class Tracker(Boards):
+    """The flight computer of a tracked plan.
 
     Parameters
     ----------
@@ -86,12 +164,8 @@ class Tracker:
         The plan with its gains.
     vehicle : Vehicle
         The vehicle of the plan.
-    law : Law
-        What takes over.
-    loop : Loop
-        The closed loop that is flown.
-    rotors : (n,)
-        Initial rotor forces, N.
+    law, loop, rotors : Law, Loop, (n,)
+        As for `Boards`; the law takes over once the flight is too far from the plan.
 
     Attributes
     ----------
@@ -99,32 +173,111 @@ class Tracker:
         Whether the plan is still followed.
     """
 
-    def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: Any) -> None:
-        if loop.sampled.interface != "wrench":
-            raise InputError("plant.interface", "wrench: a plan commands rotor forces", loop.sampled.interface)
+    def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: ArrayLike) -> None:
+        super().__init__(loop, law, loop.law.computer.latency, rotors)
         if loop.vehicle != vehicle:
-            raise InputError(
-                "vehicle", f"that of the plan, {vehicle.name}; Plant(mismatch=…) changes it", loop.vehicle.name
-            )
-        self._loop = replace(loop, law=law.bind(vehicle))
-        self._latency, self._rotors = loop.law.computer.latency, np.asarray(rotors, dtype=float)
+            wanted = f"that of the plan, {vehicle.name}; Plant(mismatch=…) changes it"
+            raise InputError("vehicle", wanted, loop.vehicle.name)
         self._follower, self._far = Follower(feedback, vehicle), FAR_PIVOT * Units.of(vehicle).length
         self.following = True
-        if loop.sampled.sensors is None:
-            self.estimate_from(None)
 
-    def estimate_from(self, estimate: Any) -> None:
-        """Begin with the `estimate` (24,) of the state, e₃ up."""
-        self._boards = Boards(self._loop, self._latency, self._followed, self._rotors, estimate)
-
-    def command(self, t: float, measured: Any) -> Any:
-        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
-        return self._boards.command(t, measured)
-
-    def _followed(self, t: float, state: Any, rotors: Any, _: Any) -> Any:
-        """Return the command (n,), N, at `t` (s) for state and rotors then; None once they are far from the plan."""
+    def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
+        """See `Boards`; None once the state is far from the plan."""
         if not self.following:
             return None
         command, off = self._follower.command(t, state, rotors)
         self.following = bool(np.linalg.norm(off[12:15]) < FAR_ROD and np.linalg.norm(off[:3]) < self._far)
         return command if self.following else None
+
+
+@errors.named_arguments
+def plan_and_track(
+    objective: str | Mapping[str, float] = "excursion",
+    *,
+    target: ArrayLike = (0.0, 0.0, 0.0),
+    latency: float = 0.0,
+    otherwise: Law | None = None,
+    duration: float | None = None,
+    constraints: Constraints | None = None,
+    **keywords: Unpack[Keywords],
+) -> Controller:
+    """Return a controller that plans a flight from its first measurement, tracks the plan, and hovers.
+
+    It flies, compares and is judged like a law, and plans for whatever vehicle it is told. Planning takes no time in
+    the flight.
+
+    Parameters
+    ----------
+    objective, target
+        As in `plan`.
+    latency : float
+        As in `track`.
+    otherwise : Law, optional
+        The law that flies where there is no plan, or takes over once a flight is too far from it; default the inverted
+        law about the target.
+    duration, constraints, **keywords
+        As in `plan`, except a path.
+
+    Raises
+    ------
+    InputError
+        If objective, constraints or `otherwise` are none; other errors of `plan` come when a flight begins.
+    """
+    weights_of(objective)
+    kept = gathered("plan_and_track", constraints, keywords)
+    if kept.path is not None:
+        raise InputError("path", "nothing: flights begin where they are thrown", repr(kept.path)[:80])
+    goal = errors.array("target", target, (3,))
+    asked = partial(plan, objective=objective, duration=duration, target=goal, constraints=kept, time_limit=PATIENT)
+    law = fallback_law(otherwise, hover(goal))
+    return Controller(
+        name="plan",
+        function=rotors_only("plan"),
+        reference=hover(goal),
+        computer=Computer(latency=latency),
+        flight_computer=lambda loop, rotors: Autopilot(asked, law, loop, rotors),
+        because="it plans each flight and follows a table",
+    )
+
+
+class Autopilot:
+    """The flight computer that plans with `asked` (vehicle, start) at its first command, and then tracks.
+
+    Parameters
+    ----------
+    asked : callable
+        (vehicle, start, rotors=) → plan.
+    law : Law
+        What flies without a plan.
+    loop : Loop
+        The closed loop that is flown.
+    rotors : (n,)
+        Initial rotor forces, N.
+    """
+
+    def __init__(self, asked: Any, law: Law, loop: Loop, rotors: Any) -> None:
+        self._asked, self._law, self._loop, self._rotors = asked, law, loop, np.asarray(rotors, dtype=float)
+        self._flies: FlightComputer | None = None
+        self._begin, self._estimate = 0.0, None
+
+    def estimate_from(self, estimate: Any) -> None:
+        """Begin with the `estimate` (24,) of the state, e₃ up, and plan from there."""
+        self._estimate = estimate
+
+    def command(self, t: float, measured: Any) -> Any:
+        """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
+        if self._flies is None:
+            self._flies, self._begin = self._planned(measured if self._estimate is None else self._estimate), t
+        return self._flies.command(t - self._begin, measured)
+
+    def _planned(self, state: Any) -> FlightComputer:
+        """Return what flies from a `state` (24,) on."""
+        vehicle = self._loop.vehicle
+        forces = np.clip(self._rotors, *vehicle.rotor_limits)
+        found = self._asked(vehicle, State.trusted(np.array(state)), rotors=forces)
+        if not found:
+            return SteppedBoard(replace(self._loop, law=self._law.bind(vehicle)), self._rotors, self._estimate)
+        tracker = Tracker(regulator(found), vehicle, self._law, self._loop, self._rotors)
+        if self._estimate is not None:
+            tracker.estimate_from(self._estimate)
+        return tracker

@@ -1,23 +1,48 @@
-"""`Window`: an opening in a wall to fly through, and how much room a machine leaves in it."""
+"""`Window`: an opening in a wall to fly through; how much room a machine leaves in it; the funnel that leads there.
+
+A wall with a hole allows what is not convex. About each window, with coordinates (u, v) along the wall and s across it,
+every point of the machine keeps
+
+    u² ≤ b_u² + k_u max(0, s² − d²),   v² ≤ b_v² + k_v max(0, s² − d²),
+
+a funnel on either side of a neck of half width b and half depth d. It leads a flight that would hit the wall towards
+the opening; and as start and end are on different sides, the flight passes through. A waypoint is a small window for
+the pivot alone.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
+import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.geometry import cross, norm
+from flypend.geometry import E3, cross, dot, norm
 from flypend.model import State, Vehicle
+from flypend.model.state import SIZE
+from flypend.planning.dynamics import Units
 
 RIM = 24  # corners of the polygons that stand for discs
 STEEP = 1e-3  # least sine between the normal and what is up in the window
 TINY = 1e-12
 
 Array = NDArray[np.float64]
+# Centre, axes; half widths, slopes and half depth of the neck; reach, and radius and height of the body.
+NUMBERS = 3 + 9 + 2 + 2 + 1 + 3
+ROWS = 10
+SLOPE = 4.0  # k: about 63° between the funnel and the normal, far away
+ROOM = 1.3  # factor of a slope that start or end needs
+NECK = 0.15  # rod lengths: the funnel's half depth beyond the wall's, for what is between two stages
+INSET = 3e-3  # rod lengths, by which the neck is narrower than the opening, likewise
+NEAR = 0.05  # rod lengths, within which a flight passes a waypoint
+NECK_OF_POINT = 0.05  # rod lengths: half depth of its gate
+LEVEL = 1e-4  # keeps the direction finite in which a body normal to an axis extends most
 
 
 @errors.named_arguments
@@ -137,3 +162,134 @@ def _edges(states: State, vehicle: Vehicle) -> tuple[Array, Array, Array]:
     last = np.concatenate([x + vehicle.reach * states.y[:, None, :], x + end @ np.swapaxes(R, -1, -2)], axis=1)
     thick = np.concatenate([[body.rod_radius], np.full(len(centres), body.arm_radius), np.zeros(len(corners))])
     return first, last, thick
+
+
+def passing(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
+    """Return g (ROWS, 1), of which all are ≥ 0 in the funnel of a window; in rod lengths, as distances near its edge.
+
+    Parameters
+    ----------
+    state : SX
+        State (24 + n, 1); of the rod both ends and the worst point between count, of the body those farthest out.
+    about : SX
+        The state about which derivatives are taken: there the place on the rod is found that counts.
+    numbers : SX
+        Of the window, (NUMBERS, 1); see `through`.
+    """
+    half, slope, depth = numbers[12:14], numbers[14:16], numbers[16]
+
+    def room(axis: int, point: ca.SX) -> ca.SX:
+        beyond = ca.fmax(0, point[2] ** 2 - depth**2)
+        return (half[axis] ** 2 + slope[axis] * beyond - point[axis] ** 2) / (2 * half[axis])
+
+    return ca.vertcat(*(room(axis, point) for axis, point in _points(state, about, numbers)))
+
+
+def _points(state: ca.SX, about: ca.SX, numbers: ca.SX) -> list[tuple[int, ca.SX]]:
+    """Return pairs (axis, point about the centre along the axes) of the points that count."""
+    axes = ca.reshape(numbers[3:12], 3, 3).T
+    reach, radius, height = numbers[17], numbers[18], numbers[19]
+    s, held = State.symbolic(state[:SIZE]), State.symbolic(about[:SIZE])
+
+    def seen(point: ca.SX) -> ca.SX:
+        return ca.mtimes(axes, point - numbers[:3])
+
+    pivot, tip = seen(s.x), seen(s.x + reach * s.y)
+    first, run = seen(held.x), reach * ca.mtimes(axes, held.y)
+    middle, found = seen(s.x + height * s.z), []
+    for axis in (0, 1):
+        share = _worst(first, run, axis, numbers[14 + axis])
+        e = axes[axis, :].T
+        level = e - dot(e, s.z) * s.z
+        out = radius * ca.mtimes(axes, level) / ca.sqrt(dot(level, level) + LEVEL)
+        found += [(axis, p) for p in (pivot, tip, (1 - share) * pivot + share * tip, middle + out, middle - out)]
+    return found
+
+
+def _worst(first: ca.SX, run: ca.SX, axis: int, slope: ca.SX) -> ca.SX:
+    """Return the share of a segment from `first` by `run` at which slope s² − a² is least, a being along `axis`."""
+    curvature = slope * run[2] ** 2 - run[axis] ** 2
+    still = -(slope * first[2] * run[2] - first[axis] * run[axis]) / ca.fmax(curvature, LEVEL)
+    return ca.fmin(ca.fmax(still, 0), 1)
+
+
+def through(window: Window, vehicle: Vehicle, route: Sequence[State], target: Array, clearance: float) -> Array:
+    """Return the numbers (NUMBERS,) of a `window` for `passing`, in own units about the `target`.
+
+    Parameters
+    ----------
+    window, vehicle
+        The window, and the vehicle, of which the funnel keeps `clearance` (m) from the frame.
+    route : sequence of State
+        Start, waypoints and end, which are to be in the funnel, start and end on different sides of the wall.
+    target : (3,)
+        The target, m.
+
+    Raises
+    ------
+    InputError
+        If the opening is too small for the rod alone, start and end are on one side, or something is in the wall.
+    """
+    radius, height, margin = body_of(vehicle)
+    near = margin + clearance + INSET * vehicle.l
+    if np.any(window.halves <= near):
+        told = f"{window.width:g} m by {window.height:g} m"
+        raise InputError("window", f"an opening of more than {2 * near:.3g} m, for rod and clearance", told)
+    sides = [window.inside(end.x)[2] for end in (route[0], route[-1])]
+    if sides[0] * sides[1] >= 0:
+        told = " and ".join(f"{side:+.3g} m" for side in sides)
+        raise InputError("window", "one between start and target", f"both on one side of the wall, {told} from it")
+    neck = np.array([*(window.halves - near), window.depth / 2 + margin + NECK * vehicle.l])
+    return _numbers(window, neck, np.array([vehicle.reach, radius, height]), route, target, Units.of(vehicle), "window")
+
+
+def along(points: Array, vehicle: Vehicle, ends: Sequence[State], target: Array) -> list[Array]:
+    """Return the numbers (NUMBERS,) for `passing` of gates about each of the `points` (k, 3), m, for the pivot alone.
+
+    A gate is normal to the line from the point before to that after it, `ends` being the first and the last; its size
+    keeps the pivot within `NEAR` of the point. Raises InputError if a point is not between those before and after it.
+    """
+    path = np.array([ends[0].x, *points, ends[1].x])
+    route, side = [State(x=x, y=E3) for x in path], np.sqrt(2) * NEAR * vehicle.l
+    neck, found = np.array([side / 2, side / 2, NECK_OF_POINT * vehicle.l]), []
+    for i in range(1, len(path) - 1):
+        way = path[i + 1] - path[i - 1]
+        distances = (path - path[i]) @ way
+        if not (np.all(distances[:i] < 0) and np.all(distances[i + 1 :] > 0)):
+            raise InputError(
+                "waypoints", "points that follow each other from start to target without a turn back", path[i].tolist()
+            )
+        gate = Window(path[i], side, side, way, np.eye(3)[np.argmin(np.abs(way))])
+        found.append(_numbers(gate, neck, np.zeros(3), route, target, Units.of(vehicle), "waypoints"))
+    return found
+
+
+def _numbers(
+    gate: Window, neck: Array, body: Array, route: Sequence[State], target: Array, units: Units, name: str
+) -> Array:
+    """Return the numbers of a `gate`; `neck` (3,) are its half sizes and depth, `body` (3,) the last numbers, m.
+
+    The funnel is as steep as it must be to hold the `route`. Raises InputError in `name` if no funnel does.
+    """
+    slopes, length = np.full(2, SLOPE), units.length
+    place, axes = (gate.centre - target) / length, gate.axes.ravel()
+    own = np.concatenate([place, axes, neck[:2] / length, slopes, neck[2:] / length, body / length])
+    for state in route:
+        packed = state.packed()
+        packed[:3] -= target
+        for axis, *point in np.array(_located()(packed / units.of_state, own)):
+            out, beyond = point[int(axis)] ** 2 - own[12 + int(axis)] ** 2, point[2] ** 2 - own[16] ** 2
+            if out > 0 >= beyond and not np.allclose(state.x, gate.centre):
+                raise InputError(name, "walls that start, target and waypoints are clear of", gate.centre.tolist())
+            if out > 0:
+                slopes[int(axis)] = max(slopes[int(axis)], ROOM * out / beyond)
+    own[14:16] = slopes
+    return own
+
+
+@lru_cache(maxsize=1)
+def _located() -> ca.Function:
+    """Return (state, numbers) → the points that count, as rows (axis, u, v, s)."""
+    state, numbers = ca.SX.sym("state", SIZE), ca.SX.sym("numbers", NUMBERS)
+    rows = [ca.horzcat(axis, point.T) for axis, point in _points(state, state, numbers)]
+    return ca.Function("located", [state, numbers], [ca.vertcat(*rows)])

@@ -5,8 +5,8 @@ import pytest
 
 import flypend as fp
 from flypend.planning.constraints import Constraints
-from flypend.planning.leaning import WAYS, leaned, leans
-from flypend.planning.request import request
+from flypend.planning.guess import WAYS, leaned, leans
+from flypend.planning.problem import request
 from flypend.planning.search import stages_of
 
 HEHN = fp.vehicle("hehn2011")

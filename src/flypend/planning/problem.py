@@ -13,17 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, norm
-from flypend.laws.references import Reference, check_reference, sampled
+from flypend.laws.references import check_reference, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.check import Limits, begins_touching
-from flypend.planning.constraints import Constraints, angle
+from flypend.planning.constraints import Constraints, angle, begins_touching, kept_function
+from flypend.planning.dynamics import Units
 from flypend.planning.inequalities import BASE, END, Structure
-from flypend.planning.passage import NEAR, along, through
-from flypend.planning.scaled import Units
+from flypend.planning.window import along, through
+
+Array = NDArray[np.float64]
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
-TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
 HATCH = 0.1  # least level part of the normal of a window in which guesses lean
 FAR = 1e6  # rod lengths: no wall
@@ -36,43 +36,22 @@ OBJECTIVES: Mapping[str, Mapping[str, float]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Request:
-    """What is to be planned.
-
-    Parameters
-    ----------
-    vehicle, units : Vehicle, Units
-        The vehicle and its units.
-    objective : dict
-        Weights of "excursion" and "effort".
-    target : (3,)
-        Where the pivot is to hover, m.
-    start : (24 + n,)
-        State and rotor forces at the start, in own units, about the target.
-    limits : Limits
-        What every sample of the plan must keep.
-    structure, numbers : Structure, (k,)
-        The inequalities and their numbers, in own units, about the target.
-    path : callable, optional
-        Where the pivot is to be, m, as a function of time, s; default the target.
-    again : bool
-        Whether guesses that lean in windows are to lean in other ways; see `planning.leaning`.
-    """
+    """What is to be planned."""
 
     vehicle: Vehicle
     units: Units
-    objective: dict[str, float]
-    target: NDArray[np.float64]
-    start: NDArray[np.float64]
-    limits: Limits
-    structure: Structure
-    numbers: NDArray[np.float64]
-    path: Reference | None = None
-    again: bool = False
+    objective: dict[str, float]  # weights of "excursion" and "effort"
+    target: Array  # (3,): where the pivot is to hover, m
+    start: Array  # (24 + n,): state and rotor forces at the start, own units, about the target
+    kept: Constraints  # what every sample of the plan must keep
+    structure: Structure  # the inequalities,
+    numbers: Array  # and their numbers (k,), own units, about the target
+    again: bool = False  # whether guesses that lean in windows are to lean in other ways; see `guess.WAYS`
 
-    def places(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    def places(self, t: Array) -> Array:
         """Return where the pivot is to be at times `t` (n,), (n, 3), own units."""
-        assert self.path is not None
-        places: NDArray[np.float64] = (sampled(self.path, t * self.units.time) - self.target) / self.units.length
+        assert self.kept.path is not None
+        places: Array = (sampled(self.kept.path, t * self.units.time) - self.target) / self.units.length
         return places
 
     @property
@@ -83,7 +62,8 @@ class Request:
     @property
     def constrained(self) -> bool:
         """Whether there are inequalities beyond those of the machine."""
-        return self.structure.box or self.structure.speed or self.structure.lean or self.structure.gates > 0
+        its = self.structure
+        return its.box or its.speed or its.lean or its.gates > 0 or its.keep != ""
 
     @property
     def begins_touching(self) -> bool:
@@ -94,12 +74,12 @@ class Request:
     @property
     def leaning(self) -> bool:
         """Whether guesses are to lean in windows: where the rod may not fall, upright is a saddle."""
-        walls = self.limits.windows
+        walls = self.kept.windows
         level = all(float(np.hypot(*window.axes[2, :2])) > HATCH for window in walls)
         return self.structure.lean and len(walls) > 0 and level
 
     def unconstrained(self) -> Request:
-        """The same within the limits of the machine alone; what comes of it is still held against `limits`."""
+        """The same within the limits of the machine alone; what comes of it is still held against `kept`."""
         mounted = self.structure.mounted
         kept = self.numbers[:BASE] if mounted is None else np.append(self.numbers[:BASE], self.numbers[-2:])
         return replace(self, structure=Structure(path=self.structure.path, mounted=mounted), numbers=kept)
@@ -123,11 +103,12 @@ def request(
         What the flight keeps, by default the limits of the machine alone.
     """
     kept = kept or Constraints()
-    walls, speed, lean, path = kept.walls, kept.speed, kept.lean, kept.path
+    walls, speed, lean = kept.walls, kept.speed, kept.lean
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle)[:80])
     if not isinstance(start, State) or start.batch_shape:
         raise InputError("start", "a single State", repr(start)[:80])
+    vehicle = vehicle.commanded()
     units, n = Units.of(vehicle), len(vehicle.rotor_spins)
     low, high = (float(limit) for limit in vehicle.rotor_limits)
     if n * high <= vehicle.weight:
@@ -144,7 +125,14 @@ def request(
     if lean is not None:
         lowest = np.cos(_lean(lean, start))
         numbers.append(lowest + min(TIGHTER, (float(start.y[2]) - lowest) / 2))
-    apart, windows, points = kept.clearance, kept.windows, kept.points
+    keep = ""
+    if kept.keep is not None:
+        function = kept_function(kept.keep, n)
+        _check_kept(function, start, "start", _forces(rotors, low, high, n))
+        _check_kept(function, State(x=goal, y=E3), "target", np.full(n, units.force))
+        keep = function.serialize()
+        numbers += [*goal, units.length, units.time, units.force]
+    apart, windows, points = kept.clearance or 0.0, kept.windows, kept.points
     ends = (start, State(x=goal, y=E3))
     route = (start, *(State(x=point, y=E3) for point in points), ends[1])
     gates = [through(each, vehicle, route, goal, apart) for each in windows]
@@ -155,12 +143,11 @@ def request(
     packed = start.packed()
     packed[:3] -= goal
     begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
-    limits = Limits(walls, speed, lean, TOLERANCE * units.length, windows, points, NEAR * units.length)
     structure = Structure(
-        box=walls is not None, speed=speed is not None, lean=lean is not None, path=path is not None,
-        gates=len(windows) + len(points), mounted=mounted,
+        box=walls is not None, speed=speed is not None, lean=lean is not None, path=kept.path is not None,
+        gates=len(windows) + len(points), keep=keep, mounted=mounted,
     )  # fmt: skip
-    return Request(vehicle, units, weights, goal, begin, limits, structure, np.array(numbers), path)
+    return Request(vehicle, units, weights, goal, begin, kept, structure, np.array(numbers))
 
 
 def end_of(path: Any, duration: Any, target: Any) -> Any:
@@ -180,6 +167,13 @@ def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> N
     if np.any(points <= walls[0]) or np.any(points >= walls[1]):
         field = "floor, ceiling" if np.all(np.isinf(walls[:, :2])) else "box"
         raise InputError(field, f"room for pivot and rod at the {where}, from corner to corner", walls.tolist())
+
+
+def _check_kept(function: Any, state: State, where: str, forces: Any) -> None:
+    """Raise InputError unless the `function` of `constraints.kept_function` is positive at a state."""
+    least = float(np.min(np.array(function(state.packed(), forces))))
+    if not least > 0:
+        raise InputError("keep", f"values above 0 at the {where}", f"{least:.3g}")
 
 
 def _speed(speed: float, start: State) -> float:

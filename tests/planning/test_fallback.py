@@ -8,9 +8,9 @@ import pytest
 import flypend as fp
 from flypend.flight.tasks import task_starts
 from flypend.model.state import SIZE
-from flypend.planning import evasion, pilot, waiting
-from flypend.planning.request import request
-from flypend.planning.waiting import Meanwhile, Waits
+from flypend.planning import fallback, receding_horizon
+from flypend.planning.fallback import Fallback, Schedule
+from flypend.planning.problem import request
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
 
@@ -21,7 +21,7 @@ FIRST, WAIT, HORIZON = 0.012, 0.066, 12.5  # s, s, √(l/g)
 
 
 def waits_of(vehicle):
-    return Waits(Loop(vehicle, fp.laws.inverted().bind(vehicle), fp.Plant()), 0.01)
+    return Fallback(Loop(vehicle, fp.laws.inverted().bind(vehicle), fp.Plant()), 0.01)
 
 
 def begin_of(start, vehicle=HEHN):
@@ -37,7 +37,7 @@ def asking(vehicle):
 
 
 def sketched(waits, start, vehicle=HEHN, *, measured=False):
-    return waits.sketched(0.0, begin_of(start, vehicle), HORIZON, FIRST, WAIT, asking(vehicle), measured=measured)
+    return waits.sketch(0.0, begin_of(start, vehicle), HORIZON, FIRST, WAIT, asking(vehicle), measured=measured)
 
 
 @pytest.fixture(scope="module")
@@ -72,23 +72,23 @@ def test_the_law_recovers_from_where_a_sketch_leads(ends):
 def test_commands_of_a_sketch_lead_where_it_says():
     """The plant, in steps of a millisecond, ends where the pilot predicts it, in steps of a stage."""
     waits = waits_of(HEHN)
-    meanwhile, there = sketched(waits, STARTS[0])
-    assert meanwhile.at(FIRST - 1e-3) is None
-    assert meanwhile.at(WAIT) is None
+    schedule, there = sketched(waits, STARTS[0])
+    assert schedule.at(FIRST - 1e-3) is None
+    assert schedule.at(WAIT) is None
     _, here = waits.until(0.0, begin_of(STARTS[0]), FIRST)
     engine = EquationsEngine(HEHN)
     engine.reset(here[:SIZE], here[SIZE:])
     for k in range(54):
-        engine.step(meanwhile.at(FIRST + 1e-3 * k), 1e-3, np.zeros(6))
+        engine.step(schedule.at(FIRST + 1e-3 * k), 1e-3, np.zeros(6))
     np.testing.assert_allclose(np.append(engine.packed, engine.rotors), there, atol=2e-3)
 
 
 def test_a_sketch_under_which_the_rod_touches_is_not_flown(monkeypatch):
     waits, start = waits_of(HUB), task_starts(HUB, 3, 501)["random"][2]
-    meanwhile, there = sketched(waits, start, HUB)
-    assert meanwhile is not None
+    schedule, there = sketched(waits, start, HUB)
+    assert schedule is not None
     full = np.array([[HUB.rotor_limits[1], HUB.rotor_limits[0], HUB.rotor_limits[0], HUB.rotor_limits[1]]])
-    monkeypatch.setattr(waiting, "sketch", lambda _, h, begin, end: Meanwhile(begin, begin + 0.5, 1.0, full))
+    monkeypatch.setattr(fallback, "sketched", lambda _, h, begin, end: Schedule(begin, begin + 0.5, 1.0, full))
     otherwise, elsewhere = sketched(waits, start, HUB)
     assert otherwise is None
     np.testing.assert_array_equal(elsewhere, waits.until(0.0, begin_of(start, HUB), WAIT)[1])
@@ -100,7 +100,7 @@ def test_from_a_start_nearer_than_its_clearance_a_sketch_flies_that_keeps_the_ro
     """Constant forces flew there, from where the best plan strays 5.7 and 3.1 times as far as from the start."""
     start = task_starts(HUB, 26, seed=501)["random"][number]
     waits, begin = waits_of(HUB), begin_of(start, HUB)
-    assert evasion.room(begin[None], HUB) < 0.01
+    assert fallback.room(begin[None], HUB) < 0.01
     found, there = sketched(waits, start, HUB)
     assert found is not None
     instead, elsewhere = waits.until(0.0, begin, WAIT)
@@ -115,7 +115,7 @@ def test_from_a_start_nearer_than_its_clearance_a_sketch_flies_that_keeps_the_ro
 
 def test_a_sketch_that_is_late_is_not_flown(monkeypatch):
     waits = waits_of(HEHN)
-    monkeypatch.setattr(waiting.time, "process_time", iter([0.0, 0.5]).__next__)
+    monkeypatch.setattr(fallback.time, "process_time", iter([0.0, 0.5]).__next__)
     found, there = sketched(waits, STARTS[0], measured=True)
     assert found is None
     np.testing.assert_array_equal(there, waits.until(0.0, begin_of(STARTS[0]), WAIT)[1])
@@ -123,15 +123,15 @@ def test_a_sketch_that_is_late_is_not_flown(monkeypatch):
 
 def test_after_a_failure_there_is_no_sketch(monkeypatch):
     """Only the law is known to lead somewhere."""
-    begun, of_sketch = [], Waits.sketched
+    begun, of_sketch = [], Fallback.sketch
 
     def counted(self, t, *given, **more):
         begun.append(t)
         return of_sketch(self, t, *given, **more)
 
-    monkeypatch.setattr(Waits, "sketched", counted)
-    monkeypatch.setattr(pilot, "plan_within", lambda *given: replace(NO_PLAN, reason="none"))
-    monkeypatch.setattr(pilot, "PAUSE", 0.1)
+    monkeypatch.setattr(Fallback, "sketch", counted)
+    monkeypatch.setattr(receding_horizon, "plan_within", lambda *given: replace(NO_PLAN, reason="none"))
+    monkeypatch.setattr(receding_horizon, "PAUSE", 0.1)
     run = fp.simulate(HEHN, fp.nmpc(HEHN), STARTS[0], 8.0, plant="rotors")
     assert begun == pytest.approx([0.0], abs=1e-5)  # the board's least delay
     assert fp.metrics(run).success

@@ -21,7 +21,7 @@ from flypend.model.state import SHAPES, SIZE
 from flypend.planning.window import Window
 
 KIND = "a plan saved by flypend"
-Status = Literal["optimal", "feasible", "failed"]
+Status = Literal["converged", "feasible", "failed"]
 STATUSES: tuple[Status, ...] = get_args(Status)
 FIELDS: Mapping[str, Field] = {
     "commands": Field(("stage", "rotor"), unit="N"),
@@ -33,7 +33,7 @@ FLIGHT: Mapping[str, Field] = {
 }  # fmt: skip
 ATTRIBUTES: Mapping[str, type] = {
     "objective": str, "windows": str, "status": str, "reason": str, "stage": float, "solve_time": float,
-    "iterations": float, "guess": float,
+    "iterations": float, "guess": float, "guesses": float, "agreeing": float,
 }  # fmt: skip
 SEAL = "plan_digest"
 WINDOW = ("centre", "width", "height", "normal", "up", "depth")
@@ -55,8 +55,7 @@ def content(plan: Any) -> tuple[dict[str, Variable], dict[str, Any]]:
     attributes |= {name: getattr(plan, name) for name in ATTRIBUTES if name not in ("objective", "windows")}
     attributes["objective"] = json.dumps(dict(plan.objective))
     attributes["windows"] = json.dumps([_plain(window) for window in plan.windows])
-    flight, seal = saved.checked(variables, attributes)
-    return variables, attributes | {SEAL: checked(flight, seal, variables, attributes)[1]}
+    return variables, attributes | {SEAL: checked(vars(run), attributes["digest"], variables, attributes)[1]}
 
 
 def _lengths(vehicle: Vehicle) -> dict[str, int]:
@@ -104,8 +103,7 @@ def checked(
         "status": errors.one_of("status", about["status"], STATUSES),
         "reason": about["reason"],
         "solve_time": errors.number("solve_time", about["solve_time"], at_least=0, unit="s"),
-        "iterations": _count("iterations", about),
-        "guess": _count("guess", about),
+        **{name: _count(name, about) for name in ("iterations", "guess", "guesses", "agreeing")},
     }
     _check(plan, run)
     return plan, digest(arrays, about | {"digest": seal})

@@ -9,12 +9,10 @@ import flypend as fp
 from flypend.board.delay import LEAST
 from flypend.flight.tasks import task_starts
 from flypend.geometry import norm
-from flypend.planning import pilot
-from flypend.planning.equilibrium import hover_under, weighed
-from flypend.planning.flown import Flown
-from flypend.planning.realtime import RealTime
-from flypend.planning.request import request
-from flypend.planning.scaled import Units
+from flypend.planning import receding_horizon
+from flypend.planning.dynamics import Units
+from flypend.planning.problem import request
+from flypend.planning.real_time import PlanInFlight, RealTime, hover_under, weighed
 from flypend.plants.equations import EquationsEngine
 from flypend.settings.laws import law_from, law_named
 
@@ -232,17 +230,17 @@ def test_without_a_plan_the_law_flies_as_if_alone(by_law, monkeypatch):
     def no_plan(*_):
         raise fp.InputError("start", "another", "this")
 
-    monkeypatch.setattr(pilot, "request", no_plan)
+    monkeypatch.setattr(receding_horizon, "request", no_plan)
     run, flown = flown_by(fp.nmpc(), STARTS[1], 8.0)
     same_flight(run, by_law)
     assert modes(flown)[:2] == ["waiting", "waiting"]
     assert flown.changes[0][2] == "start: expected another, got this"
-    assert 1 < modes(flown).count("waiting") <= len(pilot.ATTEMPTS)
+    assert 1 < modes(flown).count("waiting") <= len(receding_horizon.ATTEMPTS)
 
 
 def test_a_late_plan_is_not_flown(by_law, monkeypatch):
-    monkeypatch.setattr(pilot, "MEASURED_AT_FIRST", 1e-5)
-    monkeypatch.setattr(pilot, "LATE", 1.0)
+    monkeypatch.setattr(receding_horizon, "MEASURED_AT_FIRST", 1e-5)
+    monkeypatch.setattr(receding_horizon, "LATE", 1.0)
     run, flown = flown_by(fp.nmpc(computing="measured"), STARTS[1], 1.0)
     same_flight(run, by_law)
     assert {why for _, _, why in flown.changes} == {"the plan is late"}
@@ -256,7 +254,7 @@ def test_iterations_that_fail_end_a_plan(monkeypatch):
 
 def test_feedback_alone_flies_when_no_iteration_is_in_time(monkeypatch):
     """The nominal then is the plan; without disturbances that is enough."""
-    monkeypatch.setattr(Flown, "_improve", lambda *_: None)
+    monkeypatch.setattr(PlanInFlight, "_improve", lambda *_: None)
     run, flown = flown_by(fp.nmpc(), STARTS[1])
     assert fp.metrics(run).success
     assert flown.spent == []
@@ -265,14 +263,14 @@ def test_feedback_alone_flies_when_no_iteration_is_in_time(monkeypatch):
 @pytest.mark.parametrize("number", range(2))
 def test_switches_at_any_time_lose_no_flight(number, monkeypatch):
     """Plans are lost at random moments, up to as often as nmpc tries; the law alone would stand, and so it stands."""
-    rng, command = np.random.default_rng(number), Flown.command
+    rng, command = np.random.default_rng(number), PlanInFlight.command
 
     def unreliable(self, *given):
         found, lost = command(self, *given)
         return found, lost or ("lost" if rng.random() < 0.01 else "")
 
-    monkeypatch.setattr(Flown, "command", unreliable)
-    monkeypatch.setattr(pilot, "PAUSE", 0.1)
+    monkeypatch.setattr(PlanInFlight, "command", unreliable)
+    monkeypatch.setattr(receding_horizon, "PAUSE", 0.1)
     run, flown = flown_by(fp.nmpc(), STARTS[number], 9.0)
     assert modes(flown).count("waiting") >= 2
     assert fp.metrics(run).success
@@ -322,7 +320,7 @@ def test_a_table_gives_gains_and_reference_of_the_law_it_falls_back_on():
         (lambda: fp.nmpc(clearance=-1), "clearance: expected a finite number >= 0 m"),
         (lambda: fp.nmpc(otherwise=3), "otherwise: expected a Law"),
         (lambda: fp.nmpc(HEHN.replace(rotor_limits=[0.0, 1.3])), "rotors that lift"),
-        (lambda: fp.simulate(HEHN, fp.nmpc(), HANGING, 1, plant="hehn2011"), "wrench: nmpc commands rotor forces"),
+        (lambda: fp.simulate(HEHN, fp.nmpc(), HANGING, 1, plant="hehn2011"), "wrench: a plan commands rotor forces"),
         (lambda: fp.export_c(fp.nmpc(), HEHN, "c-out"), "law: expected a Law"),
         (lambda: law_from({"name": "nmpc", "gains": {"latenc": 0.0}}), "did you mean 'latency'"),
     ],

@@ -1,7 +1,8 @@
 """What flies until there is a plan: the law, then a sketch of the plan; or constant rotor forces, to touch nothing.
 
 The law does not know which way a plan will go, and where the optimum is small, going the other way is most of the
-excursion. A few iterations from all guesses tell the way.
+excursion. A few iterations from all guesses tell the way. Nor does it know of the mount. What may keep the rod away
+there is all rotors at a limit or in hover, or those on one side of the pivot at one limit and the others at the other.
 """
 
 from __future__ import annotations
@@ -19,26 +20,76 @@ from flypend import signals
 from flypend.board.computer import SteppedBoard
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.errors import InputError
-from flypend.model import Vehicle
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.mount import margins
 from flypend.model.state import SIZE
-from flypend.planning.evasion import evasion, room
-from flypend.planning.nominal import stepping
-from flypend.planning.request import Request
+from flypend.planning.feedback import stepping
+from flypend.planning.problem import Request
 from flypend.planning.search import stages_of, together
 from flypend.plants.loop import Loop
 
-# How many guesses go on after how many iterations of a sketch, guesses, and iterations; see `race.work`.
+DIRECTIONS, STEPS = 8, 12
+BEYOND = 0.5  # of the wait, so much longer the rod has to keep away: a plan must be able to begin
+
+Array = NDArray[np.float64]
+# How many guesses go on after how many iterations of a sketch, guesses, and iterations; see `search.work`.
 SKETCH = ({1: 3}, WIDTH, 4)
 SOFT = 0.1  # first weight of being too near: a few iterations must know what the rod may not touch
 NEARER = 0.75  # a sketch may come nearer than the clearance if it keeps so much of what the rod keeps without it
 LONGEST = 0.6  # √(l/g), for which a sketch, which knows no feedback, may fly
-
-Array = NDArray[np.float64]
 # (t (s), state and rotor forces (24 + n,)) → the request for a plan from there; raises InputError.
 Ask = Callable[[float, Any], Request]
 
 
-class Meanwhile(NamedTuple):
+def room(path: Array, vehicle: Vehicle) -> float:
+    """Return the least margin of the mount along a `path` (k, 24 + n) of states and rotor forces; see `model.mount`."""
+    wrench = path[:, SIZE:] @ vehicle.mixing().T
+    found = margins(State.trusted(path[:, :SIZE]), Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
+    return float(np.min(found))
+
+
+def evasion(vehicle: Vehicle, state: Array, rotors: Array, wait: float) -> tuple[Array, float, Array]:
+    """Return the constant command that keeps the rod best on its mount for a `wait` (s), that room, and the end.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        The vehicle, with a mount that limits the rod.
+    state, rotors : (24,), (n,)
+        State and rotor forces at the beginning.
+    wait : float
+        Duration, s.
+
+    Returns
+    -------
+    command, room, end : (n,), float, (24 + n,)
+        The command, N, its `room`, and state and rotor forces after the wait.
+    """
+    paths = [(command, *_flown(vehicle, state, rotors, command, wait)) for command in commands(vehicle)]
+    command, path, end = max(paths, key=lambda flown: room(flown[1], vehicle))
+    return command, room(path, vehicle), end
+
+
+def commands(vehicle: Vehicle) -> list[Array]:
+    """Return the commands (n,), N, that are tried."""
+    low, high = (float(limit) for limit in vehicle.rotor_limits)
+    n, centres = len(vehicle.rotor_spins), vehicle.rotors_from_pivot
+    angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    sides = np.sign(np.round(np.column_stack([np.cos(angles), np.sin(angles)]) @ centres[:, :2].T / vehicle.l, 6))
+    even = [np.full(n, force) for force in (low, vehicle.weight / n, high)]
+    return [*even, *((low + high) / 2 + (high - low) / 2 * sides)]
+
+
+def _flown(vehicle: Vehicle, state: Array, rotors: Array, command: Array, wait: float) -> tuple[Array, Array]:
+    """Return the path under a `command` through the `wait` and `BEYOND`, and where it is after the wait."""
+    step, h = stepping(vehicle), wait / STEPS
+    path = [np.append(state, rotors)]
+    for _ in range(round(STEPS * (1 + BEYOND))):
+        path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h))
+    return np.array(path), path[STEPS]
+
+
+class Schedule(NamedTuple):
     """Commands (k, n), N, that fly from `begin` to `end` (s), each for a `stage` (s)."""
 
     begin: float
@@ -65,40 +116,40 @@ class Meanwhile(NamedTuple):
         return np.array(path)
 
 
-class Waits:
+class Fallback:
     """What flies until there is a plan, on the closed loop `by_law`; the rod keeps `clearance` (m) if it can."""
 
     def __init__(self, by_law: Loop, clearance: float) -> None:
         self._vehicle, self._clearance = by_law.vehicle, clearance
         self._loop = replace(by_law, plant=by_law.sampled.replace(sensors=None))
 
-    def until(self, t: float, begin: Array, wait: float) -> tuple[Meanwhile | None, Array]:
+    def until(self, t: float, begin: Array, wait: float) -> tuple[Schedule | None, Array]:
         """Return what flies instead of the law for a `wait` (s) from `t` on, if it must, and where it leads.
 
         `begin` and what is returned are states and rotor forces (24 + n,).
         """
-        _, meanwhile, there = self._instead(t, begin, wait)
-        return meanwhile, there
+        _, schedule, there = self._instead(t, begin, wait)
+        return schedule, there
 
-    def _instead(self, t: float, begin: Array, wait: float) -> tuple[float, Meanwhile | None, Array]:
+    def _instead(self, t: float, begin: Array, wait: float) -> tuple[float, Schedule | None, Array]:
         """Return what the rod keeps, m, before the answer of `until`."""
         path = self._under_law(t, begin, wait)
         if (kept := self._kept(path)) < self._clearance:
             command, better, there = evasion(self._vehicle, begin[:SIZE], begin[SIZE:], wait)
             if better > kept:
-                return better, Meanwhile(t, math.inf, math.inf, command[None]), there
+                return better, Schedule(t, math.inf, math.inf, command[None]), there
         return kept, None, path[-1]
 
-    def sketched(
+    def sketch(
         self, t: float, begin: Array, horizon: float, first: float, wait: float, ask: Ask, *, measured: bool
-    ) -> tuple[Meanwhile | None, Array]:
+    ) -> tuple[Schedule | None, Array]:
         """Return as `until`, but with a sketch of a plan with a `horizon` (√(l/g)) that is there after `first` (s).
 
         There is none if the rod would come too near to what it may touch, or if the time is `measured` and it is late.
         """
         path, begun = self._under_law(t, begin, first), time.process_time()
         try:
-            found = sketch(ask(t + first, path[-1]), horizon, t + first, t + wait)
+            found = sketched(ask(t + first, path[-1]), horizon, t + first, t + wait)
         except InputError:
             return self.until(t, begin, wait)
         late = measured and time.process_time() - begun > first
@@ -107,8 +158,8 @@ class Waits:
         if kept >= self._clearance:
             return found, path[-1]
         # From a start that is nearer than that, constant forces that keep away best lead nowhere.
-        least, meanwhile, there = self._instead(t, begin, wait)
-        return (found, path[-1]) if kept >= NEARER * least else (meanwhile, there)
+        least, schedule, there = self._instead(t, begin, wait)
+        return (found, path[-1]) if kept >= NEARER * least else (schedule, there)
 
     def _kept(self, path: Array) -> float:
         return math.inf if self._vehicle.mount == "gimbal" else room(path, self._vehicle)
@@ -126,8 +177,8 @@ class Waits:
         return np.array(path)
 
 
-def sketch(asked: Request, horizon: float, begin: float, end: float) -> Meanwhile:
+def sketched(asked: Request, horizon: float, begin: float, end: float) -> Schedule:
     """Return what a few iterations from all guesses make of what is `asked`, to fly from `begin` to `end` (s)."""
     rounds, _, iterations = SKETCH
     found = together(asked, horizon, math.inf, iterations, rounds, SOFT)
-    return Meanwhile(begin, end, stages_of(horizon)[1] * asked.units.time, found.commands * asked.units.force)
+    return Schedule(begin, end, stages_of(horizon)[1] * asked.units.time, found.commands * asked.units.force)

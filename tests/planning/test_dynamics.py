@@ -1,21 +1,18 @@
 """Coordinates, the step and its derivatives, the barrier's terms: by their definitions and finite differences."""
 
-from itertools import pairwise
-
 import casadi as ca
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import flypend as fp
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import rotation_defect
 from flypend.model.state import SIZE
-from flypend.planning.barrier import Barrier
 from flypend.planning.coordinates import local, plane, retract
-from flypend.planning.inequalities import Structure
-from flypend.planning.riccati import Shape
-from flypend.planning.scaled import Units
-from flypend.planning.stage import Stage
+from flypend.planning.dynamics import Stage, Units
+from flypend.planning.inequalities import Barrier, Structure, end_errors
+from flypend.planning.riccati import Layout
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.lag import step_timing
 
@@ -95,14 +92,15 @@ def test_forces_from_outside_act_as_in_the_plant():
 def test_derivatives_are_those_by_finite_differences(maps):
     forth, back = maps
     stage, units = Stage(4), Units.of(HEHN)
-    function, A_pattern, B_pattern = stage.linearised()
-    linearised, step = numeric(function), numeric(stage.step())
+    gap_of, A_of, B_of = stage.derivatives()
+    slopes = [ca.vertcat(*of.nonzeros()) for of in (A_of, B_of)]
+    linearised, step = numeric(stage.linearised(gap_of, *slopes)), numeric(stage.step())
     rng = np.random.default_rng(5)
     before, after = (random_state(rng, HEHN) / units.states(4) for _ in range(2))
     command, timing, numbers = rng.uniform(0.1, 2, 4), step_timing(0.08, 1 / 12), units.numbers(HEHN)
     gap, a, b = linearised(before, after, command, timing, numbers)
     np.testing.assert_allclose(gap, back(after, step(before, command, timing, numbers)), atol=1e-13)
-    A, B = np.array(ca.DM(A_pattern, a)), np.array(ca.DM(B_pattern, b))
+    A, B = np.array(ca.DM(A_of.sparsity(), a)), np.array(ca.DM(B_of.sparsity(), b))
     eps = 1e-6  # the error of central differences is 1e-12 of the third derivative, and 1e-10 by roundoff
     for i in range(24):
         ends = []
@@ -120,7 +118,8 @@ def test_the_terms_are_the_gradient_of_the_barrier(maps, structure):
     forth, _ = maps
     stage = Stage(4)
     barrier = Barrier(stage, structure)
-    values, terms = numeric(barrier.values()), numeric(barrier.terms())
+    layout = Layout(ca.Sparsity(20, 20), ca.Sparsity(20, 4), barrier.pattern)
+    values, terms = numeric(barrier.values()), numeric(barrier.terms(layout))
     rng = np.random.default_rng(6)
     state = random_state(rng, HEHN) / Units.of(HEHN).states(4)
     state[:3] = rng.normal(size=3) * 0.3
@@ -136,10 +135,31 @@ def test_the_terms_are_the_gradient_of_the_barrier(maps, structure):
     assert violation == 0
     assert np.all(slack > 0)
     cost = terms(state, command, 2.0, numbers, vehicle, slack, mu / slack, mu)
-    ends = np.cumsum([0, *Shape(ca.Sparsity(20, 20), ca.Sparsity(20, 4)).parts])
-    _, _, q, _, r, _, g = (cost[a:b] for a, b in pairwise(ends))
+    q, r, g = cost[:20], cost[20:24], cost[[2 * layout.width + 5]]
     eps = 1e-6
     for i in range(25):
         move = eps * np.eye(25)[i]
         pair = [merit(sign * move[:20], sign * move[20:24], sign * move[24])[0][0] for sign in (1, -1)]
         assert np.concatenate([q, r, g])[i] == pytest.approx((pair[0] - pair[1]) / (2 * eps), rel=1e-6, abs=1e-8)
+
+
+def test_the_end_is_hover_and_nothing_else():
+    state, numbers = ca.SX.sym("s", 28), ca.DM.ones(64)
+    errors = numeric(ca.Function("errors", [state], [end_errors(state, numbers)]))
+    hover = np.append(fp.State(y=(0, 0, 1)).packed(), np.ones(4))
+    np.testing.assert_array_equal(errors(hover), 0)
+    for y in ((0, 0, -1), (0.6, 0, -0.8), (1, 0, 0), (0, 0.1, np.sqrt(0.99))):
+        for one in (fp.State(y=y), fp.State(R=turned_to(y), y=(0, 0, 1))):
+            assert np.linalg.norm(errors(np.append(one.packed(), np.ones(4)))) > 1
+    # A small error counts by its size: the double tangent of half an angle is the angle to third order.
+    first, second = (
+        errors(np.append(fp.State(y=(np.sin(a), 0, np.cos(a))).packed(), np.ones(4))) for a in (0.01, 0.02)
+    )
+    np.testing.assert_allclose(np.linalg.norm(second), 2 * np.linalg.norm(first), rtol=1e-3)
+
+
+def turned_to(z):
+    """The rotation about a horizontal axis that turns e₃ to `z`."""
+    axis = np.cross((0, 0, 1), z)
+    axis = axis / np.linalg.norm(axis) if np.any(axis) else np.array([1.0, 0.0, 0.0])
+    return Rotation.from_rotvec(np.arccos(z[2]) * axis).as_matrix()

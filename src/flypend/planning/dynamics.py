@@ -1,0 +1,183 @@
+"""A vehicle in its own units, and one stage of a plan: the step of the plants' equations and its derivatives.
+
+The units are the rod length l, √(l/g) and the mass M + m. Rotor forces are in units of the hover force (M+m) g/n. So
+l = g = M + m = 1, hover takes forces of 1, and one compiled solver serves all vehicles of n rotors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend.errors import InputError
+from flypend.model import Vehicle
+from flypend.model.state import SIZE
+from flypend.planning.coordinates import MOTION, local, retract
+from flypend.planning.riccati import unpacked_gains
+from flypend.plants.cascade import cascade_step
+from flypend.plants.lag import TIMING_SIZE, held
+
+LEAST_ROOM = 1e-9  # own units: less would be lost in the rounding of a command
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """Symbols of a vehicle in its own units, with the attributes that the equations of motion read.
+
+    Parameters
+    ----------
+    numbers : SX (k, 1)
+        Bob mass, inverse inertia and inertia (upper triangles), the rows of the mixing matrix for the moment, and
+        constant forces from outside on vehicle and bob, in weights.
+    rotors : int
+        Number of rotors n.
+    """
+
+    numbers: ca.SX
+    rotors: int
+
+    @classmethod
+    def symbols(cls, rotors: int) -> Scaled:
+        """Return the symbols of a vehicle with this many rotors."""
+        return cls(ca.SX.sym("vehicle", size(rotors)), rotors)
+
+    l = property(lambda self: 1.0, doc="Length of the rod.")
+    g = property(lambda self: 1.0, doc="Gravitational acceleration.")
+    m = property(lambda self: self.numbers[0], doc="Mass of the bob.")
+    M = property(lambda self: 1 - self.numbers[0], doc="Mass that moves with the pivot.")
+    I_inv = property(lambda self: _symmetric(self.numbers[1:7]), doc="Inverse of the inertia matrix.")
+    I = property(lambda self: _symmetric(self.numbers[7:13]), doc="Inertia matrix, body frame.")
+
+    @property
+    def outside(self) -> ca.SX:
+        """Forces from outside on vehicle and bob (6, 1)."""
+        return self.numbers[-6:]
+
+    @property
+    def vehicle(self) -> Any:
+        """The machine itself, as what equations take for a `Vehicle`."""
+        return self
+
+    def mixing(self) -> ca.SX:
+        """Return the matrix (4, n) from rotor forces to thrust and moment in the body frame."""
+        n = self.rotors
+        return ca.vertcat(ca.DM.ones(1, n) / n, ca.reshape(self.numbers[13 : 13 + 3 * n], n, 3).T)
+
+
+def size(rotors: int) -> int:
+    """Return the number of numbers of a vehicle with this many rotors."""
+    return 13 + 3 * rotors + 6
+
+
+def _symmetric(upper: ca.SX) -> ca.SX:
+    a, b, c, d, e, f = ca.vertsplit(upper)
+    return ca.vertcat(ca.horzcat(a, b, c), ca.horzcat(b, d, e), ca.horzcat(c, e, f))
+
+
+@dataclass(frozen=True)
+class Units:
+    """The units of a vehicle: `length` (m), `time` (s), `force` (N, of one rotor)."""
+
+    length: float
+    time: float
+    force: float
+
+    @classmethod
+    def of(cls, vehicle: Vehicle) -> Units:
+        """Return the units of `vehicle`. Raises InputError without gravity, which gives no unit of time."""
+        if vehicle.gravity == 0:
+            raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+        return cls(vehicle.l, float(np.sqrt(vehicle.l / vehicle.g)), vehicle.weight / len(vehicle.rotor_spins))
+
+    def numbers(self, vehicle: Vehicle) -> NDArray[np.float64]:
+        """Return the numbers of `vehicle` in its own units, without forces from outside, for symbols of `Scaled`."""
+        mass, upper = vehicle.M + vehicle.m, np.triu_indices(3)
+        inertia = vehicle.I / (mass * self.length**2)
+        moments = vehicle.mixing()[1:] * self.force / (mass * vehicle.g * self.length)
+        return np.concatenate(
+            [[vehicle.m / mass], np.linalg.inv(inertia)[upper], inertia[upper], moments.ravel(), np.zeros(6)]
+        )
+
+    @property
+    def of_state(self) -> NDArray[np.float64]:
+        """Units of the entries of a packed state (24,)."""
+        rate = 1 / self.time
+        entries = [[self.length] * 3, [self.length * rate] * 3, [1.0] * 9, [rate] * 3, [1.0] * 3, [rate] * 3]
+        return np.concatenate(entries)
+
+    def states(self, rotors: int) -> NDArray[np.float64]:
+        """Return the units of the entries of a packed state followed by the forces of `rotors` rotors."""
+        return np.append(self.of_state, np.full(rotors, self.force))
+
+
+assert len(Units(1.0, 1.0, 1.0).of_state) == SIZE
+
+
+def stepped(state: ca.SX, command: ca.SX, timing: ca.SX, machine: Scaled) -> ca.SX:
+    """Return the state (24 + n, 1) after a step of `timing` (see `plants.lag.step_timing`) under `command` (n, 1)."""
+    forces, rotors = held(state[SIZE:], command, timing)
+    moved = cascade_step(state[:SIZE], forces.mixed(machine.mixing()), machine.outside, timing[0], machine.vehicle)
+    return ca.vertcat(moved, rotors)
+
+
+class Stage:
+    """Symbols of a stage of a machine with `rotors` rotors, in its own units.
+
+    `gap` are the coordinates of where the stage leads about the state `after`, at which the next stage begins.
+    """
+
+    def __init__(self, rotors: int) -> None:
+        self.rotors = rotors
+        self.coordinates = MOTION + rotors
+        self.machine = Scaled.symbols(rotors)
+        self.before, self.after = ca.SX.sym("before", SIZE + rotors), ca.SX.sym("after", SIZE + rotors)
+        self.command, self.timing = ca.SX.sym("command", rotors), ca.SX.sym("timing", TIMING_SIZE)
+
+    def gap_at(self, delta: ca.SX) -> ca.SX:
+        """Return the gap (16 + n, 1) if the stage begins with coordinates `delta` about `before`."""
+        led = stepped(retract(self.before, delta), self.command, self.timing, self.machine)
+        return local(self.after, led)
+
+    def step(self) -> ca.Function:
+        """Return (before, command, timing, vehicle) → state after the stage."""
+        led = stepped(self.before, self.command, self.timing, self.machine)
+        return ca.Function("step", [self.before, self.command, self.timing, self.machine.numbers], [ca.cse(led)])
+
+    def derivatives(self) -> tuple[ca.SX, ca.SX, ca.SX]:
+        """Return gap, and its derivatives A and B with respect to coordinates of the state and the command, sparse."""
+        delta = ca.SX.sym("delta", self.coordinates)
+        gap = self.gap_at(delta)
+        A, B = ca.jacobian(gap, delta), ca.jacobian(gap, self.command)
+        at = ca.substitute([gap, A, B], [delta], [ca.SX.zeros(self.coordinates)])
+        return ca.densify(at[0]), ca.sparsify(at[1]), ca.sparsify(at[2])
+
+    def linearised(self, *outputs: ca.SX) -> ca.Function:
+        """Return (before, after, command, timing, vehicle) → `outputs`, made of `derivatives`."""
+        inputs = [self.before, self.after, self.command, self.timing, self.machine.numbers]
+        return ca.Function("linearised", inputs, ca.cse([*outputs]))
+
+    def rollout(self) -> ca.Function:
+        """Return (nominal, command, gap, gains, state, length, ε, limits, timing, vehicle) → state after it, command.
+
+        The new command is that of the `riccati` step, `length` of it, with feedback of the deviation of the state from
+        the nominal one. It is kept within limits (3,): least, largest, and the largest share of the room between the
+        old command and each of them that it takes; `LEAST_ROOM` always stays. What is left of the gap is
+        1 − `length` of it.
+        """
+        n, state, length = self.coordinates, ca.SX.sym("state", SIZE + self.rotors), ca.SX.sym("length")
+        gap, epsilon, limits = ca.SX.sym("gap", n), ca.SX.sym("epsilon"), ca.SX.sym("limits", 3)
+        gains = ca.SX.sym("gains", self.rotors * (n + 2))
+        K, k, k_e = unpacked_gains(gains, n, self.rotors)
+        wanted = self.command + length * (k + epsilon * k_e) + ca.mtimes(K, local(self.before, state))
+        low, high = limits[0] + LEAST_ROOM, limits[1] - LEAST_ROOM
+        least = ca.fmin(ca.fmax(self.command + limits[2] * (limits[0] - self.command), low), self.command)
+        most = ca.fmax(ca.fmin(self.command + limits[2] * (limits[1] - self.command), high), self.command)
+        command = ca.fmin(ca.fmax(wanted, least), most)
+        led = retract(stepped(state, command, self.timing, self.machine), (length - 1) * gap)
+        inputs = [self.before, self.command, gap, gains, state, length, epsilon, limits]
+        inputs += [self.timing, self.machine.numbers]
+        return ca.Function("rollout", inputs, ca.cse([ca.densify(led), ca.densify(command)]))

@@ -1,0 +1,74 @@
+"""A machine's numbers from a flight log: the numbers that make the prediction errors of a Kalman filter likeliest.
+
+The model is that of the sampled plants. Gusts, noisy feedback and unequal rotors are part of it; bands come from the
+scores of segments of the log, which need no model of the noise to be right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+
+from flypend import errors
+from flypend.geometry import Vector
+from flypend.identification.fit import fit
+from flypend.identification.log import Log, read_log
+from flypend.identification.result import Identified, identified
+from flypend.model import Vehicle
+
+__all__ = ["Identified", "Log", "identify", "read_log"]
+
+Command = Literal["newton", "pwm"]
+MASS_ERROR = 0.005  # of a kitchen scale
+
+
+@errors.named_arguments
+def identify(
+    log: str | Path, vehicle: Vehicle, *, marker: Vector = (0.0, 0.0, 0.0), command: Command = "newton",
+    mass_error: float = MASS_ERROR, progress: Callable[[str, int, int], None] | None = None,
+) -> Identified:  # fmt: skip
+    """Find the numbers of a machine in a flight log with the rod hanging.
+
+    Prediction errors of an extended Kalman filter over the package's equations are made likeliest by scoring (Åström,
+    "Maximum likelihood and prediction error methods", 1980); the covariance is the sandwich of information and the
+    scores of segments (White, 1982).
+
+    Parameters
+    ----------
+    log : path
+        A CSV file; docs/how-to/identify.md has its columns.
+    vehicle : Vehicle
+        The guess. Its mass is taken as weighed, its rotor positions, spins, limits and gravity as known.
+    marker : (3,)
+        The tracked point from the pivot, body frame, m.
+    command : "newton" or "pwm"
+        Whether u1, u2, … are forces, N, or fractions from 0 to 1 of the largest force.
+    mass_error : float
+        Share within which the mass is known.
+    progress : callable, optional
+        Told ("pass", done, total).
+
+    Raises
+    ------
+    InputError
+        If the file is no such log, has other rotors than the vehicle, or its fractions exceed 1.
+    """
+    place = errors.array("marker", marker, (3,))
+    pwm = errors.one_of("command", command, ("newton", "pwm")) == "pwm"
+    errors.number("mass_error", mass_error, at_least=0, at_most=0.5)
+    flown, n = read_log(log), len(vehicle.rotor_spins)
+    if flown.command.shape[1] != n:
+        raise errors.InputError(str(log), f"commands of {n} rotors, as the vehicle has", f"{flown.command.shape[1]}")
+    if pwm and flown.command.max() > 1:
+        raise errors.InputError(str(log), "fractions up to 1, as the command is pwm", f"{flown.command.max():g}")
+    if not pwm and flown.command.max() > 2 * vehicle.rotor_limits[1]:
+        limit = f"forces up to {vehicle.rotor_limits[1]:g} N, the vehicle's limit (or command='pwm')"
+        raise errors.InputError(str(log), limit, f"{flown.command.max():g}")
+    from flypend.identification.fit import PASSES
+
+    def tell(done: int, _: float) -> None:
+        if progress is not None:
+            progress("pass", done, PASSES)
+
+    return identified(fit(flown, vehicle, place, pwm, tell), vehicle, mass_error)

@@ -1,0 +1,190 @@
+"""A flight log: a table of what was commanded and measured, read from CSV and checked cell by cell."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.errors import InputError
+from flypend.files.reading import read_bytes
+from flypend.geometry import Numbers, rotation_from_quat_xyzw
+
+POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
+GYRO = ("gx", "gy", "gz")
+FORCE = ("ax", "ay", "az")
+ROD = ("rx", "ry", "rz")
+NEEDED = ("t", *POSE, *GYRO)
+OPTIONAL = (*FORCE, *ROD, "vbat")
+SHORTEST = 10.0  # s; a rod of half a metre swings seven times
+SLOWEST = 50.0  # Hz; the rotation answers a kick within some 20 ms
+LONGEST_GAP = 0.5  # s without any row, over which no prediction is worth its name
+MOST_BYTES, COPIES = 2**28, 30  # ten minutes at 1 kHz; a cell as a Python number takes that much of its text
+NEAR_UNIT = 0.1  # a quaternion or direction of another length is of another kind
+
+
+@dataclass(frozen=True, eq=False)
+class Log:
+    """What was commanded and measured in one flight, row by row; NaN where nothing was. World e₃ up, body FLU.
+
+    Parameters
+    ----------
+    t : (k,)
+        Time, s, increasing.
+    position : (k, 3)
+        The tracked point, world frame, m.
+    rotation : (k, 3, 3)
+        Body to world.
+    gyro, force : (k, 3)
+        Angular velocity, rad/s, and specific force, m/s², in the body frame; `force` is NaN without accelerometer.
+    rod : (k, 3)
+        Direction from the pivot to the bob, world frame; NaN if not tracked.
+    command : (k, n)
+        What each rotor was asked for: N, or a fraction from 0 to 1.
+    """
+
+    t: Numbers
+    position: Numbers
+    rotation: Numbers
+    gyro: Numbers
+    force: Numbers
+    rod: Numbers
+    command: Numbers
+
+    @property
+    def duration(self) -> float:
+        """From the first row to the last, s."""
+        return float(self.t[-1] - self.t[0])
+
+    @property
+    def rate(self) -> float:
+        """Rows per second, Hz."""
+        return (len(self.t) - 1) / self.duration
+
+
+def read_log(path: str | Path) -> Log:
+    """Read the CSV file at `path`. Raises InputError in one line that names row and column."""
+    try:
+        text = read_bytes(path, MOST_BYTES, copies=COPIES).decode("utf-8")
+    except InputError:
+        raise
+    except OSError as error:
+        raise InputError(str(path), "a readable CSV file", error.strerror or error) from None
+    except ValueError as error:  # not UTF-8, or a name that no file can have
+        raise InputError(str(path), "a CSV file in UTF-8", error) from None
+    return parse_log(text, str(path))
+
+
+def parse_log(text: str, field: str = "log") -> Log:
+    """Read a log from the `text` of a CSV file, `field` in messages. Raises InputError that names row and column."""
+    rows = csv.reader(io.StringIO(text.rstrip(), newline=""), strict=True)
+    try:
+        names = [name.strip() for name in next(rows, [])]
+        rotors = _check_header(names, field)
+        table = [_numbers(row, names, number, field) for number, row in zip(count(2), rows, strict=False)]
+    except csv.Error as error:
+        raise InputError(field, f"CSV (line {rows.line_num})", error) from None
+    values = np.array(table, dtype=float).reshape(len(table), len(names))
+    columns = dict(zip(names, values.T, strict=True))
+    return _checked(columns, rotors, field)
+
+
+def _check_header(names: list[str], field: str) -> int:
+    """Return the number of rotors. Raises InputError for a column that is unknown, missing or there twice."""
+    rotors = next(i for i in count() if f"u{i + 1}" not in names)
+    known = [*NEEDED, *OPTIONAL, *(f"u{i + 1}" for i in range(max(rotors, 4)))]
+    for name in names:
+        errors.one_of(f"{field}, row 1, column", name, known)
+        if names.count(name) > 1:
+            raise InputError(f"{field}, row 1", "each column once", f"{name!r} {names.count(name)} times")
+    for group in (NEEDED, *(group for group in (FORCE, ROD) if set(group) & set(names)), ("u1", "u2", "u3", "u4")):
+        for name in group:
+            if name not in names:
+                raise InputError(f"{field}, row 1", f"a column {name!r}, beside " + ", ".join(group), "none")
+    return rotors
+
+
+def _numbers(row: list[str], names: list[str], number: int, field: str) -> list[float]:
+    """Return a row as numbers, NaN for empty cells. Raises InputError if it has too few cells or too many."""
+    if len(row) != len(names):
+        raise InputError(f"{field}, row {number}", f"{len(names)} cells, as in the header", f"{len(row)}")
+    return [_number(cell, name, number, field) for name, cell in zip(names, row, strict=True)]
+
+
+def _number(cell: str, name: str, number: int, field: str) -> float:
+    """Return a cell as a number, NaN if it is empty. Raises InputError unless it is a finite number."""
+    text = cell.strip()
+    if not text:
+        return np.nan
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise InputError(f"{field}, row {number}, column {name}", "a number, or an empty cell", repr(text[:40]))
+    return value
+
+
+def _check_times(t: Any, field: str) -> None:
+    if np.any(missing := np.isnan(t)):
+        raise InputError(f"{field}, row {_row(missing)}, column t", "a time, s", "an empty cell")
+    if np.any(back := np.diff(t) <= 0):
+        raise InputError(f"{field}, row {_row(back) + 1}, column t", "a later time than before", _told(t, back))
+    if len(t) < 2 or t[-1] - t[0] < SHORTEST:
+        raise InputError(field, f"at least {SHORTEST:g} s of flight", f"{t[-1] - t[0] if len(t) else 0:.3g} s")
+    if (rate := (len(t) - 1) / (t[-1] - t[0])) < SLOWEST:
+        raise InputError(f"{field}, column t", f"at least {SLOWEST:g} rows a second (s, not ms?)", f"{rate:.3g}")
+    if np.any(gap := np.diff(t) > LONGEST_GAP):
+        raise InputError(f"{field}, row {_row(gap) + 1}, column t", f"gaps of at most {LONGEST_GAP:g} s", _told(t, gap))
+
+
+def _checked(columns: dict[str, Any], rotors: int, field: str) -> Log:
+    t = columns["t"]
+    _check_times(t, field)
+    groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)
+              for name, names in (("position", POSE[:3]), ("q", POSE[3:]), ("gyro", GYRO), ("force", FORCE),
+                                  ("rod", ROD))}  # fmt: skip
+    for name in ("position", "q", "gyro"):
+        if np.isfinite(groups[name]).all(axis=1).sum() < SLOWEST:
+            raise InputError(field, f"rows with all of {name} measured", "next to none")
+    for name, first in (("q", "qw"), ("rod", "rx")):
+        length = np.linalg.norm(groups[name], axis=1)
+        if np.any(wrong := np.abs(length - 1) > NEAR_UNIT):
+            told = f"length {length[np.argmax(wrong)]:.3g}"
+            raise InputError(f"{field}, row {_row(wrong)}, column {first}", "a vector of length 1", told)
+        groups[name] = groups[name] / length[:, None]
+    command = np.stack([_held(columns[f"u{i + 1}"], f"{field}, column u{i + 1}") for i in range(rotors)], axis=-1)
+    if np.any(low := (command < 0).any(axis=1)):
+        raise InputError(
+            f"{field}, row {_row(low)}, columns u1…", "commands >= 0", f"{command[np.argmax(low)].min():g}"
+        )
+    w, xyz = groups["q"][:, :1], groups["q"][:, 1:]
+    known = np.isfinite(w[:, 0])
+    rotation = np.full((len(t), 3, 3), np.nan)
+    rotation[known] = rotation_from_quat_xyzw(np.concatenate([xyz, w], axis=1)[known])
+    return Log(t, groups["position"], rotation, groups["gyro"], groups["force"], groups["rod"], command)
+
+
+def _held(values: Any, field: str) -> Any:
+    """Return commands with empty cells filled by the one before. Raises InputError if there is none at all."""
+    known = np.flatnonzero(np.isfinite(values))
+    if not len(known):
+        raise InputError(field, "commands", "empty cells")
+    places = np.searchsorted(known, np.arange(len(values)), side="right") - 1
+    return values[known[np.maximum(places, 0)]]
+
+
+def _row(wrong: Any) -> int:
+    """Number of the first wrong row in the file, whose header is row 1."""
+    return int(np.argmax(wrong)) + 2
+
+
+def _told(t: Any, wrong: Any) -> str:
+    i = int(np.argmax(wrong))
+    return f"{t[i + 1]:.6g} after {t[i]:.6g}"

@@ -1,0 +1,173 @@
+"""The flight that `identify` asks for, rehearsed: rod hanging, small steps, and doublets in roll, pitch and yaw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from flypend import errors, signals
+from flypend.compile.numeric import as_numpy
+from flypend.files.whole import whole_file
+from flypend.geometry import E3, Numbers, quat_xyzw_from_rotation, rotation_from_vector, unit, vee
+from flypend.identification.log import FORCE, GYRO, POSE, ROD, SHORTEST
+from flypend.model import State, Vehicle
+from flypend.model.state import SIZE
+from flypend.plants.actuation import make_engine
+from flypend.plants.equations import rates_under
+from flypend.plants.noise import Noise
+from flypend.plants.plant import Plant, Wind
+from flypend.plants.schedule import within_period
+
+RATE = 250.0  # Hz, of commands and rows
+STEP_TIME, STEP = 2.5, 0.4  # s between steps of the place that is held, and their size, m
+DOUBLET_TIME, DOUBLET = 0.12, 0.6  # s of each half, and its moment over the largest that leaves hover's thrust
+# Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped.
+PLACE, ATTITUDE = 1.6, 12.0
+SCALE = 0.93  # of the rotors of a rehearsal
+LONGEST = 600.0  # s, of a rehearsal; a log of more tells no more
+
+
+class Rehearsal(NamedTuple):
+    """A flown log, row by row, beside the true states (k, 24)."""
+
+    columns: dict[str, Any]
+    states: Numbers
+
+
+def step_places(duration: float, rng: np.random.Generator) -> Any:
+    """Return the places to hold (k, 3), m, one for each `STEP_TIME` of a flight of `duration` seconds."""
+    return rng.uniform(-STEP, STEP, (int(duration / STEP_TIME) + 1, 3))
+
+
+def doublet(t: float) -> Any:
+    """Return the moment (3,) to add at `t`, s, as a share of the largest: roll, pitch and yaw in turn."""
+    turn, since = divmod(t, 1.0)
+    moment = np.zeros(3)
+    if since < 2 * DOUBLET_TIME and t > 1:
+        moment[int(turn) % 3] = DOUBLET if since < DOUBLET_TIME else -DOUBLET
+    return moment
+
+
+def rehearse(
+    vehicle: Vehicle, true: Vehicle, plant: Plant, *, duration: float = 60.0, latency: float = 0.0,
+    accelerometer: float = 0.1, bias: float = 0.0, scale: float = 1.0, seed: int = 0,
+) -> Rehearsal:  # fmt: skip
+    """Fly the manoeuvre with the rod hanging, and log it.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What the pilot's feedback believes in.
+    true : Vehicle
+        What flies.
+    plant : Plant
+        Engine, motors, delay, air and gusts; its `noise` is that of the readings.
+    duration : float
+        s.
+    latency : float
+        By how much poses are older than the row that they stand in, s.
+    accelerometer : float
+        Standard deviation of the accelerometer's noise, m/s².
+    bias : float
+        Standard deviation of the gyroscope's bias, rad/s; that of the accelerometer is ten times as many m/s².
+    scale : float
+        True over commanded force of every rotor.
+    seed : int
+        Seed of all noise.
+    """
+    rng, n, h = np.random.default_rng(seed), len(vehicle.rotor_spins), 1 / RATE
+    plant = plant.replace(strength=tuple(scale * np.broadcast_to(plant.strength, (n,))))
+    noise, engine = plant.noise or Noise(), make_engine(true, plant)
+    hover = np.full(n, vehicle.weight / n)
+    engine.reset(State(y=(0, 0, -1)).packed(), hover)
+    where, biases = step_places(duration, rng), bias * rng.normal(size=6) * np.repeat([1, 10], 3)
+    segments, felt = within_period(plant.delay, h), _specific_force(true)
+    asked = [hover] * (2 + max(age for age, _ in segments))
+    wind, gust, rows, states = plant.wind, np.zeros(6), [], []
+    behind = round(latency / h)
+    for k in range(int(duration * RATE)):
+        signals.poll()
+        packed = engine.packed
+        states.append(packed)
+        seen = State.trusted(states[max(0, k - behind)])
+        s = State.trusted(packed)
+        x = seen.x + noise.x * rng.normal(size=3)
+        R = seen.R @ rotation_from_vector(noise.attitude * rng.normal(size=3))
+        y = unit(seen.y + noise.y * rng.normal(size=3))
+        gyro = s.omega + biases[:3] + noise.omega * rng.normal(size=3)
+        force = felt(packed, engine.rotors, gust) + biases[3:] + accelerometer * rng.normal(size=3)
+        speed = seen.x_dot + noise.x_dot * rng.normal(size=3)
+        command = _feedback(k * h, x - where[int(k * h / STEP_TIME)], speed, R, gyro, vehicle)
+        rows.append([k * h, *x, *quat_xyzw_from_rotation(R)[[3, 0, 1, 2]], *gyro, *force, *y, *command])
+        asked = [command, *asked[:-1]]
+        if wind is not None:
+            decay = np.exp(-h / wind.gust_time)
+            size = np.repeat([wind.gust_on_vehicle, wind.gust_on_bob], 3)
+            gust = decay * gust + np.sqrt(1 - decay**2) * size * rng.normal(size=6)
+        for age, held in segments:
+            for _ in range(2):
+                engine.step(asked[age], held / 2, gust)
+    names = ("t", *POSE, *GYRO, *FORCE, *ROD, *(f"u{i + 1}" for i in range(n)))
+    return Rehearsal(dict(zip(names, np.array(rows).T, strict=True)), np.array(states))
+
+
+def write_log(path: str | Path, columns: dict[str, Any]) -> None:
+    """Write the `columns` of a log as CSV. Raises InputError if the file cannot be written."""
+    lines = [",".join(columns)]
+    for row in zip(*columns.values(), strict=True):
+        lines.append(",".join("" if np.isnan(value) else f"{value:.7g}" for value in row))
+    with whole_file(path, (".csv",)) as target:
+        target.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _specific_force(true: Vehicle) -> Callable[..., Any]:
+    """Return (state (24,), rotor forces (n,), gusts (6,)) → specific force (3,) of the pivot, body frame, m/s²."""
+    packed, rotors, gusts = ca.SX.sym("s", SIZE), ca.SX.sym("f", len(true.rotor_spins)), ca.SX.sym("g", 6)
+    rates = State.symbolic(rates_under(packed, rotors, true.mixing() @ rotors, gusts, true, Plant()))
+    felt = State.symbolic(packed).R.T @ (rates.x_dot + true.gravity * E3)
+    return as_numpy(ca.Function("felt", [packed, rotors, gusts], [ca.densify(felt)]))
+
+
+def _feedback(t: float, apart: Any, speed: Any, R: Any, omega: Any, vehicle: Vehicle) -> Any:
+    """Return the rotor forces (n,), N, that hold a place, and the doublets on top."""
+    total = vehicle.mass + vehicle.bob_mass
+    force = total * (vehicle.gravity * E3 - PLACE**2 * apart - 2 * PLACE * speed)
+    level = unit(force)
+    ahead = unit(np.cross(level, [1.0, 0.0, 0.0]))
+    wanted = np.column_stack([np.cross(ahead, level), ahead, level])
+    error = vee(wanted.T @ R)
+    moment = vehicle.I @ (-(ATTITUDE**2) * error - 1.6 * ATTITUDE * omega)
+    low, high = vehicle.rotor_limits
+    room = min(vehicle.weight / len(vehicle.rotor_spins) - low, high - vehicle.weight / len(vehicle.rotor_spins))
+    moment = moment + doublet(t) * room * np.abs(vehicle.mixing()[1:]).sum(axis=1)
+    return np.clip(vehicle.unmixing() @ np.array([force @ R[:, 2], *moment]), low, high)
+
+
+def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> tuple[Vehicle, Rehearsal]:
+    """Return a guess at `vehicle`, wrong by some tenths, and the flight of a machine with gusts, noise, sag and delay.
+
+    The rotors push `SCALE` times what they are asked for. Lag, delay, sag and strengths are drawn by `seed`. Raises
+    InputError for a `duration` (s) whose log `read_log` would not take, or longer than `LONGEST`.
+    """
+    errors.number("duration", duration, at_least=SHORTEST + 0.5, at_most=LONGEST, unit="s")
+    rng = np.random.default_rng(seed)
+
+    def off(share: float) -> float:
+        return 1 + float(rng.uniform(-share, share))
+
+    guess = vehicle.replace(
+        rod_length=vehicle.rod_length * off(0.1), rod_end=vehicle.reach * 1.15,
+        drag_ratio=vehicle.drag_ratio * off(0.3), inertia=vehicle.inertia * off(0.3), rotor_lag=0.03,
+    )  # fmt: skip
+    gust = 0.02 * vehicle.weight
+    plant = Plant(
+        delay=rng.uniform(0, 0.02), sag=rng.uniform(0.02, 0.08), spin_up=rng.uniform(1, 1.4),
+        strength=tuple(1 + rng.uniform(-0.05, 0.05, len(vehicle.rotor_spins))),
+        noise=Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
+        wind=Wind(gust_on_vehicle=gust, gust_on_bob=gust / 5),
+    )  # fmt: skip
+    return guess, rehearse(guess, vehicle, plant, duration=duration, latency=0.008, bias=0.01, scale=SCALE, seed=seed)

@@ -1,0 +1,118 @@
+"""Logs: what is read, and that whatever else a file holds ends in one line that says where."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from flypend.errors import InputError
+from flypend.geometry import rotation_from_quat_xyzw
+from flypend.identification.log import NEEDED, parse_log
+
+NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
+
+
+def table(rows=1200, rate=100.0):
+    """A good log as a list of rows of cells, header first."""
+    rng = np.random.default_rng(0)
+    columns = {name: rng.normal(size=rows) for name in NAMES}
+    columns["t"] = np.arange(rows) / rate
+    for group in (("qw", "qx", "qy", "qz"), ("rx", "ry", "rz")):
+        values = np.stack([columns[name] for name in group])
+        columns |= dict(zip(group, values / np.linalg.norm(values, axis=0), strict=True))
+    columns |= {f"u{i}": np.abs(columns[f"u{i}"]) for i in range(1, 5)}
+    return [list(NAMES), *([repr(float(columns[name][k])) for name in NAMES] for k in range(rows))]
+
+
+def text(rows):
+    return "\n".join(",".join(row) for row in rows) + "\n"
+
+
+def test_every_cell_is_read_where_it_stands():
+    rows = table()
+    log = parse_log(text(rows))
+    cell = {name: float(value) for name, value in zip(rows[0], rows[8], strict=True)}
+    assert log.t[7] == cell["t"]
+    assert np.array_equal(log.position[7], [cell["x"], cell["y"], cell["z"]])
+    assert np.array_equal(log.gyro[7], [cell["gx"], cell["gy"], cell["gz"]])
+    assert np.array_equal(log.force[7], [cell["ax"], cell["ay"], cell["az"]])
+    assert np.array_equal(log.command[7], [cell[f"u{i}"] for i in range(1, 5)])
+    assert log.rod[7] == pytest.approx([cell["rx"], cell["ry"], cell["rz"]], rel=1e-12)  # made of length 1 again
+    quaternion = np.array([cell["qx"], cell["qy"], cell["qz"], cell["qw"]])
+    assert log.rotation[7] == pytest.approx(rotation_from_quat_xyzw(quaternion), abs=1e-12)
+
+
+def test_empty_cells_are_no_readings_and_commands_are_held():
+    rows = table()
+    for name in ("x", "qw", "rx", "u2"):
+        rows[8][NAMES.index(name)] = ""
+    log = parse_log(text(rows))
+    assert np.isnan(log.position[7, 0])
+    assert np.isnan(log.rotation[7]).all()
+    assert np.isnan(log.rod[7]).any()
+    assert log.command[7, 1] == log.command[6, 1] == float(rows[7][NAMES.index("u2")])
+
+
+def without(rows, name):
+    place = NAMES.index(name)
+    return [row[:place] + row[place + 1 :] for row in rows]
+
+
+def changed(rows, number, name, cell):
+    rows[number - 1][NAMES.index(name)] = cell
+    return rows
+
+
+WRONG = {
+    "a column is missing": (lambda r: without(r, "gy"), "row 1.*'gy'"),
+    "half an accelerometer": (lambda r: without(r, "ay"), "row 1.*'ay'"),
+    "three rotors": (lambda r: without(r, "u4"), "row 1.*'u4'"),
+    "a column nobody knows": (lambda r: changed(r, 1, "vbat", "vbatt"), "row 1, column.*vbatt.*did you mean 'vbat'"),
+    "a column twice": (lambda r: changed(r, 1, "vbat", "ax"), "row 1.*'ax' 2 times"),
+    "no number": (lambda r: changed(r, 500, "gz", "fast"), "row 500, column gz.*'fast'"),
+    "infinite": (lambda r: changed(r, 77, "x", "inf"), "row 77, column x"),
+    "a short row": (lambda r: [*r[:40], r[40][:-1], *r[41:]], "row 41.*22 cells.*21"),
+    "no time": (lambda r: changed(r, 90, "t", ""), "row 90, column t"),
+    "time stands still": (lambda r: changed(r, 90, "t", r[88][0]), "row 90, column t.*later"),
+    "a gap": (lambda r: [*r[:300], *r[400:]], "row 301, column t.*gaps"),
+    "too short": (lambda r: r[:900], "10 s of flight"),
+    "milliseconds": (lambda r: [r[0], *([repr(1e3 * float(w[0])), *w[1:]] for w in r[1:])], "column t.*ms"),
+    "a quaternion of length 2": (lambda r: changed(r, 33, "qw", "2"), "row 33, column qw.*length"),
+    "a rod in metres": (lambda r: changed(r, 33, "rz", "3"), "row 33, column rx.*length"),
+    "a negative command": (lambda r: changed(r, 12, "u3", "-0.1"), "row 12, columns u1.*-0.1"),
+    "no gyro at all": (lambda r: [r[0], *([*w[:8], "", "", "", *w[11:]] for w in r[1:])], "gyro"),
+    "nothing": (lambda r: [], "row 1"),
+    "an open quote": (lambda r: changed(r, 60, "x", '"1'), "CSV"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "said"), WRONG.values(), ids=WRONG)
+def test_a_bad_log_is_refused_with_row_and_column(spoil, said):
+    parse_log(text(table()))  # the same, not spoilt, is read
+    with pytest.raises(InputError, match=said) as refused:
+        parse_log(text(spoil(table())))
+    assert "\n" not in str(refused.value)
+
+
+GOOD = text(table(1100))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, len(GOOD)), st.integers(0, 40), st.text(max_size=12))
+def test_whatever_a_file_holds_is_read_or_refused(place, cut, put):
+    try:
+        log = parse_log(GOOD[:place] + put + GOOD[place + cut :])
+    except InputError:
+        return
+    assert np.all(np.diff(log.t) > 0)
+    assert np.all(np.isfinite(log.command))
+    for values in (log.position, log.gyro, log.force, log.rod):
+        assert not np.isinf(values).any()
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.text(max_size=200))
+def test_whatever_a_text_says_is_refused_in_one_line(content):
+    with pytest.raises(InputError) as refused:
+        parse_log(content)
+    assert len(str(refused.value).splitlines()) == 1

@@ -50,7 +50,7 @@ def test_both_sides_of_a_factor_are_searched_and_may_be_open(known):
     assert 0.6 < mass.low < 0.6 * (1 + RESOLUTION)
     assert mass.high == 4.0
     assert (mass.open_low, mass.open_high) == (False, True)
-    assert mass.told().endswith("to more than 4 of the believed")
+    assert mass.told().endswith("to more than 4 times the believed")
     assert mass.told().startswith("0.6")
 
 

@@ -159,7 +159,7 @@ def test_names_are_made_unique_and_progress_names_the_law():
     result = compare(VEHICLE, laws, random_starts(2, 1), 1.0, plant="ideal", progress=lambda *now: told.append(now))
     assert list(result.ensembles) == ["a", "b", "a (2)", "a (3)"]
     assert [row["law"] for row in result.rows()] == list(result.ensembles)
-    assert told == [("a", 2, 2), ("b", 2, 2), ("a (2)", 2, 2), ("a (3)", 2, 2)]
+    assert [now for now in told if now[1] == 2] == [("a", 2, 2), ("b", 2, 2), ("a (2)", 2, 2), ("a (3)", 2, 2)]
 
 
 def made(success, law="a", **columns):
@@ -363,7 +363,8 @@ def test_the_inverted_law_stands_on_every_rung_and_the_controls_on_none(climbed)
 def test_the_ladder_names_what_it_flies(climbed):
     result, told = climbed
     assert list(result.rungs) == list(CLIMBED)
-    assert told == [
+    # On a slow machine, flights are told of before they end, too.
+    assert [now for now in told if now[1] == 4] == [
         (f"flying {law} on {rung}", 4, 4) for rung in CLIMBED for law in ("inverted", "corrected", "detuned")
     ]
 

@@ -55,7 +55,7 @@ def test_the_sweeps_score_success_by_number_and_factor(calm):
     told = json.loads(json.dumps(calm.to_dict(), default=float))
     assert told["standing"]["successes"] == 8
     assert len(trial_cells({"inverted": calm})) == 4 + len(calm.sweeps)
-    assert "standing at the end: 8 of 8" in repr(calm)
+    assert "upright at the end: 8 of 8" in repr(calm)
 
 
 def test_each_sweep_changes_what_it_names():

@@ -1,4 +1,4 @@
-"""What a vehicle can do under a law, its envelope, and how much may be wrong before it cannot: `flypend check`."""
+"""What a vehicle can do under a law, and how wrong its numbers may be before it cannot: `flypend check`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from flypend.flight.tasks import fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
 from flypend.laws.located import LawError
 from flypend.model import Vehicle
-from flypend.planning import PlanEnsemble
+from flypend.planning.result import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
@@ -77,7 +77,7 @@ class Check:
         Why the vehicle cannot be flown by this law: its numbers forbid it, the law refuses it, or hover fails. Empty if
         it can be flown.
     warnings : tuple of str
-        What leaves little room, and in which tasks flights fail.
+        What leaves little margin, and in which tasks flights fail.
     plans : PlanEnsemble, optional
         Plans from some of the random starts, where the law fails: what the vehicle could do.
     """
@@ -165,7 +165,7 @@ def check(
     workers: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> Check:
-    """Find out whether `vehicle` can be flown by `law`, how well, and how much may be wrong before it cannot.
+    """Find out whether `law` can fly `vehicle`, how well, and how wrong its numbers may be before it cannot.
 
     Hover, leans at rest, a swing-up from hanging, level and random starts; then the margins of delay, rotor lag, rod
     length, mass and noise, at which success from random starts drops below 90 % while the law still believes its
@@ -255,7 +255,7 @@ def caught(leans: Ensemble, directions: int) -> Catch:
 
 
 def _shortfalls(tasks: Mapping[str, Ensemble]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Why hover fails, and in which other tasks fewer than 90 % succeed; each empty if there is nothing to tell."""
+    """Why hover fails, and in which other tasks fewer than 90 % succeed; each empty if there is nothing to report."""
     told = {}
     for name, ensemble in tasks.items():
         if ensemble.rate < {"hover": 1.0, "lean": 0.0}.get(name, LEAST_RATE):

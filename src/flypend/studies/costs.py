@@ -1,6 +1,6 @@
-"""The costs of a search, generation by generation, in a file from which it goes on after an interruption.
+"""The costs of a search, generation by generation, in a file from which an interrupted search resumes.
 
-The points of a generation follow from the seed and the costs before it, so costs are all that is kept.
+The points of a generation follow from the seed and from earlier costs, so only costs are kept.
 """
 
 from __future__ import annotations

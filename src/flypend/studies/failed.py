@@ -57,5 +57,5 @@ def flown_again(runs: Mapping[str, Any], folder: Path, progress: Any = lambda *_
 
 
 def _plain(name: str) -> str:
-    """`name` with nothing in it that a file name minds."""
+    """`name` without characters that a file name cannot have."""
     return "".join(letter if letter.isalnum() else "-" for letter in name).strip("-")

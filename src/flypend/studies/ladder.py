@@ -1,4 +1,4 @@
-"""The reality ladder: the same starts and laws on plants that each add a departure from the ideal, or several."""
+"""The ladder: the same starts and laws on plants, each of which departs from the ideal in one way or in several."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from flypend.errors import InputError
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
+from flypend.plants.defects import NEEDS
+from flypend.plants.sensors import sensors_called
 from flypend.studies.compare import Comparison, flights_of, flown
 
 if TYPE_CHECKING:
@@ -37,7 +39,31 @@ RUNGS: Mapping[str, AnyPlant] = {
     "inertia +10 %": ROTORS.replace(mismatch={"inertia": 1.1}),
     "inertia -10 %": ROTORS.replace(mismatch={"inertia": 0.9}),
     "pivot offset 5 cm": ROTORS.replace(pivot_offset=(0.05, 0.0, 0.0)),
+    "centre of mass off 3 mm": ROTORS.replace(centre_of_mass=(0.003, 0.0, 0.0)),
     "MuJoCo": PRESETS["mujoco"],
+}
+
+# What may be wrong with sensors, one at a time. An angle is that of a marker body put on by eye.
+DEFECTS: Mapping[str, Mapping[str, Any]] = {
+    "gyro bias 0.01 rad/s": {"gyro_bias": 0.01},
+    "gyro bias walks 0.002 rad/s/sqrt(s)": {"gyro_bias_walk": 0.002},
+    "gyro scale 2 %": {"gyro_scale": 0.02},
+    "gyro vibrates 0.3 rad/s": {"gyro_vibration": 0.3},
+    "accelerometer bias 0.3 m/s^2": {"accelerometer_bias": 0.3},
+    "accelerometer bias walks 0.03 m/s^2/sqrt(s)": {"accelerometer_bias_walk": 0.03},
+    "accelerometer vibrates 5 m/s^2": {"vibration": 5.0},
+    "IMU turned 1 deg": {"imu_turned": float(np.radians(1.0))},
+    "markers off 5 mm": {"markers_off": 0.005},
+    "markers turned 1 deg": {"markers_turned": float(np.radians(1.0))},
+    "rod markers off 1 deg": {"rod_markers_off": float(np.radians(1.0))},
+    "joints off 1 deg": {"joints_off": float(np.radians(1.0))},
+    "frame turned 1 deg": {"frame_turned": float(np.radians(1.0))},
+    "frame scale 1 %": {"frame_scale": 0.01},
+    "1 pose in 200 wrong": {"outliers": 0.005},
+    "bursts of 0.1 s, 1 in 2 s": {"bursts": 0.5},
+    "poses 8 ms older than told": {"untold_latency": 0.008},
+    "poses 20 ms older than told": {"untold_latency": 0.02},
+    "poses jitter by 10 ms": {"latency_jitter": 0.01},
 }
 
 # Friction of the joint: viscous, with which the hanging rod swings at this damping ratio; dry, as a share of m g l, of
@@ -68,6 +94,21 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
         found["air"] = ROTORS.replace(air="all")
     found |= _joint(vehicle)
     return found | {", ".join(names): together(names, found) for names in TOGETHER if set(names) <= found.keys()}
+
+
+def sensor_rungs(suite: str) -> dict[str, AnyPlant]:
+    """Return the rungs of the sensors called `suite`: as they are, with each of `DEFECTS` that they can have, and all.
+
+    The last is the plant "laboratory", whatever the suite. Raises InputError for an unknown suite.
+    """
+    base = sensors_called(suite, "--sensors")
+    if base is None:
+        raise InputError("--sensors", "sensors that can be wrong", repr(suite))
+    found: dict[str, AnyPlant] = {suite: ROTORS.replace(sensors=base)}
+    for name, changes in DEFECTS.items():
+        if all(NEEDS.get(defect, ("gyro",))[0] in base.streams for defect in changes):
+            found[name] = ROTORS.replace(sensors=base.replace(**changes))
+    return found | {"laboratory": PRESETS["laboratory"]}
 
 
 def _joint(vehicle: Vehicle) -> dict[str, AnyPlant]:

@@ -14,9 +14,9 @@ from flypend import errors
 from flypend.flight.ensemble import simulate_ensemble
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
-from flypend.planning import Plan, PlanEnsemble, plan, plan_ensemble
-from flypend.planning.planner import HORIZONS
-from flypend.planning.scaled import Units
+from flypend.planning.dynamics import Units
+from flypend.planning.planner import HORIZONS, plan, plan_ensemble
+from flypend.planning.result import Plan, PlanEnsemble
 from flypend.studies.sweep.bins import EDGE
 
 DURATION = 10.0  # s, of the flights of a law

@@ -1,4 +1,4 @@
-"""How far a number of the world may be from what the law believes before success drops below a limit."""
+"""How far a number of the world may be from the law's own before success drops below a limit."""
 
 from __future__ import annotations
 
@@ -116,8 +116,10 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
             lambda d: 1e3 * (plant.delay + d), 0.1 * time, longest - plant.delay, both=False,
         ),
         _rotor_lag(plant, plant.true_vehicle(vehicle).rotor_lag, time),
-        Quantity("rod length", "of the believed", 1.0, mismatched(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
-        Quantity("mass", "of the believed", 1.0, mismatched(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0),
+        Quantity("rod length", "times the believed", 1.0, mismatched(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
+        Quantity(
+            "mass", "times the believed", 1.0, mismatched(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0
+        ),
         Quantity(
             "noise", "of the plant's" if noisy else "of motion capture's", least,
             partial(_noisier, plant), lambda d: least + d, 1.0, 15.0, both=False,

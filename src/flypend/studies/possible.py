@@ -1,4 +1,4 @@
-"""What a vehicle can do whatever its law: plans from some of the starts that a law does not manage."""
+"""What a vehicle can do, whatever its law: plans from some of the starts of a task in which a law fails."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Any
 
 from flypend.errors import InputError
 from flypend.model import State, Vehicle
-from flypend.planning import PlanEnsemble, plan_ensemble
+from flypend.planning.planner import plan_ensemble
+from flypend.planning.result import PlanEnsemble
 
 STARTS = 8  # of the random ones
 MOST, HARDLY_ANY = 0.9, 0.1
@@ -26,11 +27,11 @@ def possible(
 
 
 def told(plans: PlanEnsemble, law: str) -> str:
-    """Return in a sentence what the `plans` say about a vehicle that the `law` does not fly."""
+    """Return in a sentence what the `plans` say about a vehicle on which the `law` fails."""
     count, share = int(plans.success.sum()), float(plans.success.mean())
     found = f"plans reach inverted hover from {count} of {len(plans)} random starts"
     if share >= MOST:
         return f"{found}: the limit is the {law} law's, not the vehicle's"
     if share <= HARDLY_ANY:
-        return f"{found}: no law will do much better"
+        return f"{found}: the limit may be the vehicle's, not the {law} law's"
     return f"{found}: this vehicle can be inverted from some"

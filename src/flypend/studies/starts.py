@@ -18,7 +18,7 @@ MOST_RUNS = 10**8  # 20 GB of states
 def random_starts(runs: int, seed: int) -> State:
     """Return `runs` random states from `seed`: y, R uniform, |omega|, |y_dot| ≤ 3 rad/s, |x_dot| ≤ 2 m/s, x = 0.
 
-    Raises InputError for a number of runs or a seed that is none.
+    Raises InputError for an invalid number of runs or seed.
     """
     check_starts(runs, seed)
     return State.random(np.random.default_rng(seed), runs)

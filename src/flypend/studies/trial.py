@@ -66,7 +66,7 @@ class Trial:
         lines = [f"<Trial of {self.law} on {self.vehicle.name}: {len(self.uptime)} of 60 s with 15 knocks"]
         low, median = np.percentile(self.uptime, (5, 50))
         lines.append(f"  up {100 * median:.1f} % of the time (median; 5 % of flights less than {100 * low:.1f} %)")
-        lines.append(f"  standing at the end: {int(self.standing.sum())} of {len(self.uptime)}")
+        lines.append(f"  upright at the end: {int(self.standing.sum())} of {len(self.uptime)}")
         for name, row in self.sweeps.items():
             cells = ", ".join(f"×{factor:g} {100 * count / runs:.0f} %" for factor, (count, runs) in row.items())
             lines.append(f"  {name}: {cells}")

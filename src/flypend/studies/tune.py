@@ -122,7 +122,7 @@ def tune(
         Threads; default one per core.
     costs : path, optional
         File that keeps the costs of every generation as it is flown. With the same file and study, an interrupted
-        search goes on, to the same result.
+        search resumes, with the same result.
     progress : callable
         Called with `(generation, generations)`.
 

@@ -106,6 +106,7 @@ def _by_plant(study: Study, drawn: Design) -> list[slice]:
 
 
 def _flight(study: Study, drawn: Design, part: slice, first: int) -> Flight:
+    """Return the flights of the `part` of a design whose run number `first` comes first."""
     plant = study.plant_at(int(drawn.cells[part.start]))
     seed = plant.seed if isinstance(plant, Sampled) else 0
     return study.flight.replace(

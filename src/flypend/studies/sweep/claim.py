@@ -51,7 +51,7 @@ def _real(path: Path) -> Path:
 def alone(path: str | Path) -> Iterator[None]:
     """Lock the name `path` against every other sweep. The system releases the lock however the process ends.
 
-    The lock file stays: whoever unlinks it separates those who hold the old file from those who create a new one.
+    The lock file stays: unlinking it would let one process lock the old file while another locks a new one.
 
     Raises InputError if another sweep holds the lock, or the lock file cannot be written or is a link.
     """

@@ -69,6 +69,7 @@ def check_size(sampling: str, size: int, dimensions: int) -> None:
 
 
 def _sobol(seed: int, stream: int, dimensions: int, first: int, last: int) -> Any:
+    """Return rows `first` to `last` (n, dimensions) of a scrambled Sobol sequence, in [0, 1)."""
     from scipy.stats.qmc import Sobol  # an extra, which `check_size` requires
 
     source = Sobol(dimensions, rng=np.random.default_rng([seed, stream]))
@@ -80,6 +81,7 @@ def _sobol(seed: int, stream: int, dimensions: int, first: int, last: int) -> An
 
 @lru_cache(maxsize=2)
 def _latin(seed: int, stream: int, size: int, dimensions: int) -> Any:
+    """Return a Latin hypercube (size, dimensions), in [0, 1)."""
     from scipy.stats.qmc import LatinHypercube
 
     return LatinHypercube(dimensions, rng=np.random.default_rng([seed, stream])).random(size)

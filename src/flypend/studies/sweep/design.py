@@ -94,6 +94,7 @@ def _starts(study: Study, numbers: dict[tuple[str, str], Any], runs: int) -> tup
 def _by_angles(
     study: Study, given: dict[str, tuple[Axis, Any]], fields: dict[str, Any], columns: dict[str, Any], runs: int
 ) -> None:
+    """Put the directions of the rod that axes for its angles give (runs,), rad, into `fields` and `columns`."""
     flip = FLIP if study.law.e3 == "down" else np.eye(3)
     own = flip @ study.flight.starts.y
     default = {"tilt": np.arctan2(np.hypot(own[0], own[1]), own[2]), "azimuth": np.arctan2(own[1], own[0])}

@@ -1,4 +1,4 @@
-"""Chunks on the cores of this machine, by threads or by processes that are spoken to through pipes alone."""
+"""Chunks on the cores of this machine, by threads or by processes connected by pipes only."""
 
 from __future__ import annotations
 
@@ -48,12 +48,13 @@ def flown_chunks(
             deaths += 1
             if deaths == DEATHS:
                 told = str(error).split(". ")[0]
-                raise InputError("processes", "worker processes that live (rerun to resume)", told) from None
+                raise InputError("processes", "worker processes that survive (rerun to resume)", told) from None
 
 
 def _flown(
     text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
+    """Yield number and result of each chunk, in the order in which they end."""
     if processes:
         with waiting.processes(workers) as submit:
             for call in waiting.as_they_come([submit(_fly, text, number, program, None) for number in numbers]):
@@ -65,5 +66,6 @@ def _flown(
 
 
 def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str, Any]]:
+    """Return number and result of a chunk; `stop` is the word of the process that asks."""
     with joined(stop):
         return number, fly_chunk(text, number, program)

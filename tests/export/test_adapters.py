@@ -23,11 +23,6 @@ def folder(tmp_path_factory):
     return fp.export_c(LAW, VEHICLE, tmp_path_factory.mktemp("adapters"), check=False)
 
 
-@pytest.fixture(scope="module")
-def single(tmp_path_factory):
-    return fp.export_c(LAW, VEHICLE, tmp_path_factory.mktemp("single"), precision="float", check=False)
-
-
 NOT_BEGUN = 8
 
 
@@ -146,28 +141,6 @@ def test_time_is_kept_in_periods(frames, times, periods):
 OK, NULL, NOT_FINITE, ROD = range(4)
 
 
-def test_the_crazyflie_controller_asks_for_what_the_board_commands(single):
-    sources = ("flypend_law.c", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c")
-    flags = ("-I.", f"-I{STANDINS / 'crazyflie'}")
-    program = build(single, (*sources, STANDINS / "fly_crazyflie.c"), "fly_crazyflie", flags=flags)
-    state, target = _states(12)[4], np.array([0.3, -0.2, 0.4])  # not all rotors at their limits
-    bob, bob_dot = _bob(state)
-    numbers = [*state.x, *state.x_dot, *_quat_xyzw(state.R), *np.degrees(state.omega), *bob, *bob_dot, *target]
-    unseen, first, skipped, second, old = _lines(
-        run([str(program)], given=" ".join(map(repr, map(float, [*numbers, *[0.0] * 6]))))
-    )
-    wrenches = _commands(state, target, 2) @ VEHICLE.mixing().T
-    assert np.array_equal(unseen, [0, 0, 0, 0, 1, OK])  # nobody has seen the bob: no thrust
-    assert np.allclose(first[:4], wrenches[0], rtol=1e-4, atol=1e-5)
-    assert np.array_equal(first[4:], [1, OK])  # controlModeForceTorque
-    assert np.array_equal(skipped, [-1, -1, -1, -1, 0, OK])  # 500 of 1000 steps
-    assert np.allclose(second[:4], wrenches[1], rtol=1e-4, atol=1e-5)
-    assert not np.allclose(wrenches[0], wrenches[1], rtol=1e-3)  # it remembers
-    assert old[5] == ROD  # the bob is 102 ms old: the vehicle levels out
-    least = VEHICLE.mixing() @ np.full(4, VEHICLE.rotor_limits[0])
-    assert np.linalg.norm(old[1:3] - least[1:3]) > 1e-3
-
-
 def test_the_px4_module_sees_the_state_and_commands_the_rotors(folder):
     sources = ("flypend_law.c", "adapters/flypend_frames.c")
     objects = [f"{name.split('/')[-1]}.o" for name in sources]
@@ -217,20 +190,11 @@ def test_the_ros_2_function_answers_in_newtons(folder):
     assert np.allclose(answer[:4], [4 * VEHICLE.rotor_limits[0], 0, 0, 0], atol=1e-12)
 
 
-def test_an_adapter_with_a_damaged_board_levels_out_once_and_begins_again(folder, single):
+def test_an_adapter_with_a_damaged_board_levels_out_once_and_begins_again(folder):
     state, target = _states(12)[4], np.array([0.3, -0.2, 0.4])
     bob, bob_dot = _bob(state)
     least, largest = VEHICLE.rotor_limits
     low, high = 4 * least, 4 * largest
-
-    fixed = ("flypend_law.c", "adapters/flypend_frames.c", _struck(single, "flypend_crazyflie.c", "board"))
-    flags = ("-I.", "-Iadapters", f"-I{STANDINS / 'crazyflie'}")
-    program = build(single, (*fixed, STANDINS / "fly_crazyflie.c"), "struck_crazyflie", flags=flags)
-    numbers = [*state.x, *state.x_dot, *_quat_xyzw(state.R), *np.degrees(state.omega), *bob, *bob_dot, *target]
-    said = run([str(program)], given=" ".join(map(repr, map(float, [*numbers, *[0.0] * 6]))))
-    _, first, _, second, _ = _lines(said)
-    assert (first[5], second[5]) == (NOT_BEGUN, OK)
-    assert low - 1e-3 <= first[0] <= high + 1e-3
 
     for name, place in (("flypend_law.c", "law.o"), ("adapters/flypend_frames.c", "frames.o")):
         build(folder, (name,), place, flags=("-c", "-I."))

@@ -1,5 +1,6 @@
 """The exported board: against Python's, in flight, where it refuses, and how it goes on."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -8,16 +9,18 @@ from numpy.random import default_rng
 
 import flypend as fp
 from flypend.board.computer import SteppedBoard
-from flypend.board.observer import MEMORY
-from flypend.board.program import kept_memory, observer_memory
+from flypend.board.program import initial_memory
 from flypend.export import compiled, records, vectors
+from flypend.export.interface import interface
 from flypend.export.library import CompiledBoard, library
+from flypend.export.write import core
 from flypend.flight import request
 from flypend.laws.references import circle
 from flypend.model.state import FLIP_PACKED
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
+from flypend.plants.sensors import sensors_called
 
 VEHICLES = {name: fp.vehicle(name) for name in ("hehn2011", "crazyflie")}
 VEHICLE = VEHICLES["hehn2011"]
@@ -230,7 +233,7 @@ def test_a_dropout_in_flight_is_survived():
     made, engine, idle = board(), EquationsEngine(VEHICLE), np.full(4, LEAST)
     engine.reset(fp.State(y=(0, 0, 1)).packed(), idle)
     wind = np.array([0.3, 0, 0, 0, 0.02, 0])
-    believed = []
+    believed, unknown = [], made.code.made.memory.place("observer.unknown").start
     for k in range(2500):
         measured = engine.packed.copy()
         if 1500 <= k < 1515:  # 30 ms
@@ -238,9 +241,7 @@ def test_a_dropout_in_flight_is_survived():
         rotors = made.step(measured)
         assert (made.status == OK) == (not 1500 <= k < 1515)
         engine.step(rotors, 2e-3, wind)
-        n = len(idle)
-        believed.append(made.memory[n + 13 : n + 16].copy())  # the estimate of the sum of the forces
-    assert observer_memory(made.code.made.loop) == 19
+        believed.append(made.memory[unknown : unknown + 3].copy())  # the estimate of the sum of the forces
     assert np.allclose(believed[1499], wind[:3] + wind[3:], atol=0.05)
     assert np.allclose(believed[1515], believed[1499], atol=0.05)  # kept over the gap, not begun from nothing
     assert fp.State.from_packed(engine.packed).y[2] > 0.98
@@ -253,7 +254,7 @@ def test_after_a_refusal_it_remembers_the_command_that_was_given():
     before = made.memory.copy()
     safe = made.step(_broken("rod")[0])
     assert made.status == ROD
-    first = n + kept_memory(made.code.made.loop)
+    first = made.code.made.memory.place("commands").start
     assert np.array_equal(made.memory[first : first + n], safe)
     lag = np.exp(-2e-3 / VEHICLE.rotor_lag)  # its rotor model is at the command's own time, before the delay
     assert np.allclose(made.memory[:n], safe + (before[:n] - safe) * lag, rtol=1e-12)
@@ -264,14 +265,33 @@ def test_a_period_without_a_call_repeats_the_last_command():
     made, n = board(), 4
     last = made.step(_measurement())
     made.step(_measurement(8))
-    first = n + kept_memory(made.code.made.loop)
-    last, finding = made.memory[first : first + n].copy(), n + MEMORY
-    delay = made.memory[finding + 2]
+    table = made.code.made.memory
+    first, observer, finding, found = (
+        table.place(name).start for name in ("commands", "observer.begun", "delay.begun", "delay.found")
+    )
+    last, delay = made.memory[first : first + n].copy(), made.memory[found]
     made.skip()
     assert made.status == OK
     assert np.array_equal(made.memory[first : first + n], last)
-    assert made.memory[n] == made.memory[finding] == 0  # observer and delay estimator begin anew
-    assert made.memory[finding + 2] == delay
+    assert made.memory[observer] == made.memory[finding] == 0  # observer and delay estimator begin anew
+    assert made.memory[found] == delay
+
+
+@pytest.mark.parametrize("sensors", [None, "onboard"])
+def test_the_header_says_where_each_part_of_the_memory_lies(sensors):
+    made = interface(INVERTED, VEHICLE, 500.0, sensors_called(sensors, "sensors"))
+    file, prefix = ("flypend_law.h", "MEMORY") if sensors is None else ("flypend_sensors.h", "SENSORS_MEMORY")
+    memory = made.memory if sensors is None else made.sensing.memory
+    told = {
+        name: int(where)
+        for name, where in re.findall(rf"#define FLYPEND_{prefix}(\w*) (\d+)", core(made, "double")[file])
+    }
+    places = {f"_{path.replace('.', '_').upper()}": place.start for path, _, place in memory.leaves()}
+    assert told == {"": memory.length, **places}
+    assert "_DELAY_FOUND" in told
+    assert ("_ESTIMATE_COVARIANCE" in told) == (sensors is not None)
+    begun = np.asarray(initial_memory(made.loop, np.full(4, LEAST))).ravel()
+    assert sensors or list(begun[told["_COMMANDS"] : told["_COMMANDS"] + 4]) == [LEAST] * 4
 
 
 def test_no_measurement_no_board_no_params_are_refused_and_answered():
@@ -371,7 +391,9 @@ def _field(word):
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_the_check_word_is_what_its_comment_says(precision):
     """One orbit of 2³² − 1 words, so a product in a field; L lowers no bit and R raises none."""
-    words = board(precision).numbers.view(np.uint32).tolist()
+    made = board(precision)
+    end = int(made.code.c.flypend_board_memory()) + made.memory.nbytes
+    words = made.numbers[:end].view(np.uint32).tolist()
     h = words[0]
     for word in words[2:]:
         h = _field(h ^ word)

@@ -361,7 +361,7 @@ def test_only_what_a_law_reads_is_asked_for():
     assert not {"lead", "latency", "observer"} & {field.name for field in made["inverted"].gains.fields}
     assert [field.name for field in made["lqr"].gains.fields] == ["none"]  # its gain matrix is constant
     # Two gains decide how much there is to compute, and of one the law takes a cosine, which C code has not.
-    constant = ("thrust_coast_share", "pump_share", "tilt_limit")
+    constant = ("pump_share", "tilt_limit")
     assert made["inverted"].constant == constant
     assert not set(constant) & {field.name for field in made["inverted"].gains.fields}
 

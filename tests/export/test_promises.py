@@ -68,7 +68,7 @@ class Exported:
         for name, value in found.items():
             assert len(value) == self.lengths[name], name
         for name, extra in (("board", ()), ("sensors", ("state",))):
-            memory = np.zeros(8 + (len(values["gains"]) + 400) * self.real().itemsize, np.uint8)
+            memory = np.zeros(8 + (len(values["gains"]) + 8000) * self.real().itemsize, np.uint8)  # more than it takes
             inputs = [found[f"flypend_{kind}"] for kind in ("gains", "params", *extra)]
             assert self.call(f"flypend_{name}_begin", [memory, *inputs]) == "OK"
             found[f"flypend_{name}"] = memory

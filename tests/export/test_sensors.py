@@ -66,7 +66,7 @@ def begun(code):
 
 def sound_readings():
     s = fp.State.from_packed(START)
-    return np.concatenate([s.x, [0.01], s.R.ravel(), [0.01], s.y, [0.01], s.omega, [0.0]])
+    return np.concatenate([s.x, [0.01], s.R.ravel(), [0.01], s.y, [0.01], s.omega, [0.0], s.R.T @ (0, 0, 9.81), [0.0]])
 
 
 @pytest.mark.parametrize(

@@ -11,13 +11,13 @@ import casadi as ca
 
 from flypend.board.believed import Believed
 from flypend.board.command import finish, led
-from flypend.board.program import board, initial_memory, unmeasured
+from flypend.board.program import board, initial_memory, parts, unmeasured
 from flypend.compile.c99 import reads
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
+from flypend.compile.record import Record
 from flypend.compile.routine import Routine, lower_calls
 from flypend.errors import InputError
 from flypend.export import records
-from flypend.export.records import Record
 from flypend.export.safe import holding
 from flypend.export.symbolic import SymbolicVehicle
 from flypend.laws import BoundLaw, Law
@@ -27,7 +27,7 @@ from flypend.model.allocation import allocate
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
-from flypend.plants.sensing import WIDTH, readings_size
+from flypend.plants.sensing import readings_record
 from flypend.plants.sensors import Sensors
 
 FORCES = 6  # external forces on vehicle and bob
@@ -44,6 +44,8 @@ class Sensing:
         The sensors.
     board : Routine
         The flight computer: time and readings in place of a measurement.
+    memory : Record
+        Table of what it remembers.
     begin : Program
         (rotors, state (24,), params) → memory.
     sound : Program
@@ -52,6 +54,7 @@ class Sensing:
 
     sensors: Sensors
     board: Routine
+    memory: Record
     begin: Program
     sound: Program
 
@@ -73,6 +76,8 @@ class Interface:
         What the functions of the bare law call: law, carry, share, quicken, gather, hold, rod, attitude, begin.
     board, unmeasured : Routine
         The flight computer, and what its memory does in a period without a measurement.
+    memory : Record
+        Table of what the board remembers.
     sensing : Sensing, optional
         The flight computer with an estimator.
     """
@@ -85,6 +90,7 @@ class Interface:
     programs: Mapping[str, Program]
     board: Routine
     unmeasured: Routine
+    memory: Record
     sensing: Sensing | None = None
 
     @property
@@ -109,11 +115,6 @@ class Interface:
         """Whether the law has gains at run time."""
         return bool(self.loop.parameters)
 
-    @property
-    def memory(self) -> int:
-        """Numbers that the board keeps."""
-        return self.board.inputs[0]
-
     def all_programs(self) -> dict[str, Program]:
         """All programs by name, in the order of their C functions. Raises ValueError for two of one name."""
         found: dict[str, Program] = {}
@@ -129,6 +130,7 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
     Raises InputError for a law that cannot be written for a vehicle of symbols, for a vehicle whose rotors do not
     share thrust and yaw equally, and for a rate out of range.
     """
+    vehicle = vehicle.commanded()
     vehicle.sharing()  # refuses rotors that `allocate` cannot share out
     loop = Loop(vehicle, law.bind(vehicle), Sampled(rate=rate))
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
@@ -157,28 +159,31 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
         rotors=rotors,
         constant=constant,
         programs=programs,
-        board=replace(lower_calls(board(loop, believed, command, records.PATH.length).step), name="fly"),
+        board=replace(lower_calls(board(loop, believed, command, records.PATH.length)), name="fly"),
         unmeasured=lower_calls(unmeasured(loop, believed)),
+        memory=parts(loop, believed).memory,
         sensing=None if sensors is None else _sensing(loop, believed, command, sensors),
     )
 
 
 def _sensing(loop: Loop, believed: Believed, command: ca.Function, sensors: Sensors) -> Sensing:
+    """Return the flight computer of `loop` that reads `sensors`; `command` as in `board`."""
     loop = replace(loop, plant=loop.sampled.replace(sensors=sensors))
     rotors, state = ca.SX.sym("rotors", believed.rotors), ca.SX.sym("state", SIZE)
-    memory = ca.densify(initial_memory(loop, rotors, state, believed))
-    begin = ca.Function("begin", [rotors, state, believed.symbols], [ca.cse(memory)])
-    whole = lower_calls(board(loop, believed, command, records.PATH.length).step)
-    return Sensing(sensors, replace(whole, name="fly"), lower(begin), lower(_sound(sensors)))
+    memory, remembered = parts(loop, believed).memory, ca.densify(initial_memory(loop, rotors, state, believed))
+    begin = ca.Function("begin", [rotors, state, believed.symbols], [ca.cse(remembered)])
+    whole = lower_calls(board(loop, believed, command, records.PATH.length))
+    return Sensing(sensors, replace(whole, name="fly"), memory, lower(begin), lower(_sound(sensors)))
 
 
 def _sound(sensors: Sensors) -> ca.Function:
     """Readings → largest |length² − 1| of directions; largest ‖RᵀR − 1‖² of attitudes, at least 2 for a reflection."""
-    readings, place = ca.SX.sym("readings", readings_size(sensors)), 0
+    record = readings_record(sensors)
+    readings = ca.SX.sym("readings", record.length)
+    told = record.split(readings)
     defects: list[list[Any]] = [[ca.SX(0.0)], [ca.SX(0.0)]]
     for name in sensors.streams:
-        values, fresh = readings[place : place + WIDTH[name]], readings[place + WIDTH[name]] >= 0
-        place += WIDTH[name] + 1
+        values, fresh = told[name], told[f"{name}_age"] >= 0
         if name in ("rod", "joints"):
             defects[0].append(fresh * ca.fabs(ca.sumsqr(values) - 1))
         elif name == "attitude":

@@ -145,7 +145,7 @@ class CompiledBoard:
     def memory(self) -> Any:
         """The numbers that the board remembers: a view of them."""
         start = int(self.code.c.flypend_board_memory())
-        return self.numbers[start : start + self.code.made.memory * self.code.real.itemsize].view(self.code.real)
+        return self.numbers[start : start + self.code.made.memory.length * self.code.real.itemsize].view(self.code.real)
 
     def step(self, measurement: Any, path: Any = None) -> Any:
         """Rotor forces (n,) for a state (24,), or None for none, and numbers of `records.PATH`; sets `status`."""
@@ -193,9 +193,9 @@ class CompiledSensors:
     def memory(self) -> Any:
         """The numbers that are remembered: a view of them."""
         assert self.code.made.sensing is not None
-        end = len(self.numbers)
-        size = self.code.made.sensing.board.inputs[0] * self.code.real.itemsize
-        return self.numbers[end - size :].view(self.code.real)
+        start = int(self.code.c.flypend_sensors_memory())
+        size = self.code.made.sensing.memory.length * self.code.real.itemsize
+        return self.numbers[start : start + size].view(self.code.real)
 
     def estimate_from(self, estimate: Any) -> None:
         """Begin with the `estimate` (24,) of the state, e₃ up."""
@@ -289,6 +289,7 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
             raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
         check_plant(loop.sampled)
         sensors = known(loop.sampled).sensors
+        sensors = None if sensors is None else sensors.told  # the same code, whatever is wrong with them
         code = library(bound, vehicle, precision, loop.sampled.rate, sensors)
         return CompiledBoard(code, path, rotors) if sensors is None else CompiledSensors(code, path, rotors)
 

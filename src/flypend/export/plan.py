@@ -9,15 +9,16 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.compile.c99 import REAL, Precision, call, function, literal
+from flypend.compile.c99 import REAL, SCRATCH, Precision, call, function, literal
 from flypend.compile.program import lower
+from flypend.compile.scratch import scratch_size
 from flypend.errors import InputError
 from flypend.export.source import ascii_of
 from flypend.files.staging import staged
 from flypend.model.state import SIZE
+from flypend.planning.dynamics import Units
 from flypend.planning.feedback import deviation, hovering, regulator
 from flypend.planning.result import Plan
-from flypend.planning.scaled import Units
 from flypend.planning.tracking import FAR_PIVOT, FAR_ROD
 from flypend.plants.equations import rotor_step
 from flypend.plants.lag import symbolic_timing
@@ -76,7 +77,7 @@ static const {REAL} gains[STAGES + 1][ROTORS][OFF] = {{
 
 int {name}_command({REAL} t, const {REAL} *state, const {REAL} *rotors, {REAL} *command)
 {{
-    {REAL} here[STATE], nominal[STATE], off[OFF], forces[ROTORS], into, rod, pivot, sum;
+    {scratch}{REAL} here[STATE], nominal[STATE], off[OFF], forces[ROTORS], into, rod, pivot, sum;
     int i, j, k = STAGES;
 
     sum = {zero} * t; /* 0 as long as all are finite, else not a number */
@@ -154,7 +155,9 @@ def _values(plan: Plan, precision: Precision) -> dict[str, Any]:
         return ",\n".join("    {" + ", ".join(number(value) for value in row) + "}" for row in values)
 
     gains = ",\n".join(f"    {{\n{rows(each)}\n    }}" for each in feedback.gains)
+    size = max(scratch_size(program) for program in programs)
     return {
+        "scratch": f"{REAL} {SCRATCH}[{size}];\n    " if size else "",
         "title": ascii_of(f"Plan for {vehicle.name}: {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),
         "name": NAME, "REAL": REAL, "real": precision, "rotors": n, "stages": len(plan.commands),
         "duration": number(plan.duration), "stage": number(plan.stage), "state": SIZE + n, "off": 18 + n,

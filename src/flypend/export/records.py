@@ -2,59 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from flypend.compile.record import Field, Record
 from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
-from flypend.plants.sensing import WIDTH
-from flypend.plants.sensors import Sensors
 
 # A law follows pivot and bob up to their snap; the bob's snap takes eight derivatives of the pivot's path.
 ORDERS = ("", "_dot", "_ddot", "_dddot", "_ddddot")
 PATH_ORDERS = 9
 UNITS = ("m", "m/s", "m/s²", "m/s³", "m/s⁴")
-
-
-@dataclass(frozen=True)
-class Field:
-    """Entry of a record: `size` numbers called `name`, explained by `comment`. A size of 0 is one plain number."""
-
-    name: str
-    size: int
-    comment: str
-
-
-@dataclass(frozen=True)
-class Record:
-    """A C struct `flypend_<name>` whose members are real numbers only, explained by `comment`."""
-
-    name: str
-    comment: str
-    fields: tuple[Field, ...]
-
-    @property
-    def length(self) -> int:
-        """How many numbers it holds."""
-        return sum(max(field.size, 1) for field in self.fields)
-
-    def members(self, access: str) -> list[str]:
-        """C expressions of its numbers in order, behind `access`, such as `state->`."""
-        return [name for field in self.fields for name in _members(field, access)]
-
-    def places(self) -> Iterator[tuple[Field, slice]]:
-        """Its fields, each with its place among the numbers."""
-        start = 0
-        for field in self.fields:
-            yield field, slice(start, start + max(field.size, 1))
-            start += max(field.size, 1)
-
-
-def _members(field: Field, access: str) -> list[str]:
-    return [f"{access}{field.name}[{i}]" for i in range(field.size)] or [f"{access}{field.name}"]
 
 
 _MOTION = (
@@ -70,26 +30,6 @@ MEASUREMENT = Record(
     "State of vehicle and pendulum as measured. World frame with z up, body frame front-left-up.",
     _MOTION,
 )
-_STREAMS = {
-    "position": "position of the pivot, world, m",
-    "attitude": "rotation from body to world, by rows",
-    "rod": "unit vector from the pivot to the bob, world",
-    "gyro": "angular velocity, body, rad/s",
-    "accelerometer": "mean specific force at the centre of mass over the last control period, body, m/s^2",
-    "joints": "unit vector from the pivot to the bob, body, as the joint's angles tell it",
-    "rod_gyro": "angular velocity of the rod, y x y_dot, body, rad/s",
-}
-
-
-def readings_record(sensors: Sensors) -> Record:
-    """What `sensors` read, and how old each reading is."""
-    fields: list[Field] = []
-    for name in sensors.streams:
-        fields.append(Field(name, WIDTH[name], _STREAMS[name]))
-        fields.append(Field(f"{name}_age", 0, "seconds since it was taken; negative if nothing has arrived"))
-    return Record("readings", "What the sensors have delivered since the last control period.", tuple(fields))
-
-
 STATE = Record(
     "state",
     "State of vehicle and pendulum, for those who estimate external forces themselves.",

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from flypend.compile.c99 import Precision, call, function, routine_function, used_inputs
+from flypend.compile.c99 import Precision, call, function, routine_function, routine_scratch, used_inputs
 from flypend.compile.program import Program
+from flypend.compile.scratch import scratch_size
 from flypend.export import records
 from flypend.export.interface import Interface, Sensing
-from flypend.export.source import initializer, numbers_of, record_of, struct
-from flypend.plants.sensing import readings_size
+from flypend.export.source import initializer, numbers_of, offsets, record_of, struct
+from flypend.plants.sensing import readings_record
 from flypend.plants.sensors import Sensors
 
 FILES = ("flypend_sensors.h", "flypend_sensors.c")
@@ -17,18 +18,20 @@ FILES = ("flypend_sensors.h", "flypend_sensors.c")
 
 def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> dict[str, Any]:
     """What the templates of FILES take beside the values of the law's own."""
-    readings, size = records.readings_record(sensing.sensors), readings_size(sensing.sensors)
+    readings = readings_record(sensing.sensors)
     programs: dict[str, Program] = {"begin": sensing.begin, "sound": sensing.sound}
     programs |= {program.name: program for program in sensing.board.programs}
     texts = [function(program, precision) for program in programs.values()]
     inputs = [readings, records.STATE, made.params]
     inputs += [records.PATH] * made.follows
-    given = ("computer->memory", "m", "path", "gains_numbers(&computer->gains)", "p")
+    given = ("computer->memory", "in->readings", "path", "gains_numbers(&computer->gains)", "p")
+    fly = ["in->rest", *(given[i] for i in used_inputs(sensing.board)), "in->memory", "in->command"]
+    sizes = [scratch_size(program) for program in (sensing.begin, sensing.sound)]
     locals_, fill = "    (void)reference;\n", ""
     if made.follows:
-        locals_ = "    flypend_real path[FLYPEND_PATH];\n"
+        locals_ = ""
         fill = """\
-    path_numbers(reference, path);
+    const flypend_real *path = path_numbers(reference);
     if (!numbers(path, FLYPEND_PATH)) {
         return FLYPEND_NOT_FINITE;
     }
@@ -37,12 +40,12 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
         "programs": "\n\n".join([*texts, routine_function(sensing.board, precision)]),
         "conversions": "\n\n".join([*map(numbers_of, inputs), record_of(records.STATE), record_of(made.rotors)]),
         "readings_struct": struct(readings),
-        "readings_length": str(size),
-        "sensors_memory": str(sensing.board.inputs[0]),
-        "estimate_place": str(sensing.board.inputs[0] - len(sensing.begin.outputs[0]) + _own(sensing)),
-        "call_begin": call(sensing.begin, ("given.force", "s", "p"), ["computer->memory"]),
-        "call_sound": call(sensing.sound, ("r",), ["defect"]),
-        "call_board": f"fly({', '.join(given[i] for i in used_inputs(sensing.board))}, after, command);",
+        "readings_length": str(readings.length),
+        "sensors_memory": offsets(sensing.memory, "SENSORS_MEMORY"),
+        "scratch": str(max(1, routine_scratch(sensing.board), *sizes)),
+        "call_begin": call(sensing.begin, ("given.force", "s", "p"), ["computer->memory"], "computer->scratch.rest"),
+        "call_sound": call(sensing.sound, ("r",), ["defect"], "rest"),
+        "call_board": f"fly({', '.join(fly)});",
         "hover": initializer(records.REFERENCE, [0.0] * records.REFERENCE.length, precision),
         "locals": locals_,
         "null": " || (reference == NULL)" if made.follows else "",
@@ -51,12 +54,6 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
         "sensor_table": "\n".join(f" *   {line}" for line in _table(sensing.sensors)),
         "start": _start(sensing.sensors),
     }
-
-
-def _own(sensing: Sensing) -> int:
-    """Place of the estimate in the memory: it begins with what `begin` copies of the state."""
-    outputs, operations = sensing.begin.outputs[0], sensing.begin.operations
-    return next(i for i, number in enumerate(outputs) if operations[number][:2] == ("input", (1, 0)))
 
 
 def _table(sensors: Sensors) -> list[str]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable, Sequence
 
-from flypend.compile.c99 import Precision, call, function, literal, routine_function, used_inputs
+from flypend.compile.c99 import Precision, call, function, literal, routine_function, routine_scratch, used_inputs
+from flypend.compile.record import Record
+from flypend.compile.scratch import scratch_size
 from flypend.export import records
 from flypend.export.interface import Interface
-from flypend.export.records import Record
 
 _ASCII = {
     "²": "^2", "³": "^3", "⁴": "^4", "₁": "1", "₂": "2", "₃": "3", "⁻¹": "^-1", "·": "*", "×": "x", "√": "sqrt",
@@ -33,16 +34,31 @@ def struct(record: Record, unused: Sequence[str] = ()) -> str:
     return "\n".join([*lines, f"}} flypend_{record.name};"])
 
 
+def offsets(record: Record, prefix: str) -> str:
+    """C constants for the length of `record`, FLYPEND_<prefix>, and for where each of its fields begins."""
+    lines = [f"#define FLYPEND_{prefix} {record.length}"]
+    for path, field, place in record.leaves():
+        size = f"{field.size} numbers" if field.size else "1 number"
+        name = path.replace(".", "_").upper()
+        lines += [f"/* {size}: {ascii_of(field.comment)} */", f"#define FLYPEND_{prefix}_{name} {place.start}"]
+    return "\n".join(lines)
+
+
 def unread(entries: set[int], record: Record) -> list[str]:
     """Fields of `record` of which none of the `entries` is read."""
     return [field.name for field, place in record.places() if not entries & set(range(place.start, place.stop))]
 
 
 def numbers_of(record: Record) -> str:
-    """A static C function that writes the numbers of `record` in their order."""
-    lines = [f"    to[{i}] = {member};" for i, member in enumerate(record.members("from->"))]
-    head = f"static void {record.name}_numbers(const flypend_{record.name} *from, flypend_real *to)"
-    return "\n".join([head, "{", *lines, "}"])
+    """A static C function that returns the numbers of `record` in their order: the struct holds nothing else."""
+    packed = f"sizeof(flypend_{record.name}) == {record.length} * sizeof(flypend_real)"
+    return "\n".join([
+        f"typedef char flypend_{record.name}_is_packed[({packed}) ? 1 : -1];",
+        f"static const flypend_real *{record.name}_numbers(const flypend_{record.name} *from)",
+        "{",
+        "    return (const flypend_real *)from;",
+        "}",
+    ])  # fmt: skip
 
 
 def record_of(record: Record) -> str:
@@ -62,6 +78,10 @@ def initializer(record: Record, values: Iterable[float], precision: Precision) -
     return "{" + ", ".join(parts) + "}"
 
 
+# Programs that check a state, and that answer where it cannot be used.
+SAFE = ("rod", "attitude", "hold", "share")
+
+
 def functions(made: Interface, precision: Precision) -> dict[str, str]:
     """The C texts that the template of the source file takes."""
     inputs = [records.MEASUREMENT, records.STATE, records.PATH, made.params, records.WRENCH, made.rotors]
@@ -72,14 +92,31 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
     inertia = next(place for field, place in made.params.places() if field.name == "inertia")
     places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
-    board_inputs = ("board->memory", "m", "path", "gains_numbers(&board->gains)", "p")
+    board_inputs = ("board->memory", "in->measurement", "path", "gains_numbers(&board->gains)", "p")
+    fly = ["in->rest", *(board_inputs[i] for i in used_inputs(made.board)), "in->memory", "in->command"]
     law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
+    sizes = {name: scratch_size(program) for name, program in programs.items()}
+    largest = max(
+        routine_scratch(made.board), routine_scratch(made.unmeasured), sizes["begin"], *(sizes[name] for name in SAFE)
+    )
+    calls = {
+        "law": (law, "w"), "hold": (("s", "p"), "w"), "share": (("w", "p"), "forces"), "gather": (("forces", "p"), "w"),
+        "carry": (("along", "s + FLYPEND_STATE", "p"), "r"), "quicken": (("to", "from", "&lead", "p"), "to"),
+        "rod": (("s",), "defect"), "attitude": (("s",), "defect"),
+    }  # fmt: skip
     return {
         "programs": "\n\n".join(texts),
         "conversions": "\n\n".join([*map(numbers_of, inputs), *map(record_of, outputs)]),
-        "call_law": call(programs["law"], law, ["w"]),
-        "call_board": f"fly({', '.join([board_inputs[i] for i in used_inputs(made.board)])}, after, command);",
-        "call_hold": call(programs["hold"], ("s", "p"), ["w"]),
+        "call_board": f"fly({', '.join(fly)});",
+        "call_begin": call(programs["begin"], ("forces",), ["board->memory"], "board->scratch.rest"),
+        "call_share_safe": call(programs["share"], ("w", "p"), ["command"], "rest"),
+        **{f"call_{name}": call(programs[name], given, [to], "rest") for name, (given, to) in calls.items()},
+        **{
+            f"rest_{name}": f"    flypend_real rest[{sizes[name]}];\n" if sizes[name] else ""
+            for name in ("carry", "share", "gather", "quicken")
+        },
+        "scratch": str(largest),
+        "law_scratch": str(max(1, sizes["law"], *(sizes[name] for name in SAFE))),
         "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia.start, inertia.start + 3)),
         "largest": "DBL_MAX" if precision == "double" else "FLT_MAX",
         **places,

@@ -6,7 +6,7 @@ from typing import Any
 
 import casadi as ca
 
-from flypend.export.records import Record
+from flypend.compile.record import Record
 from flypend.model import Vehicle
 from flypend.model.state import FLIP
 
@@ -18,7 +18,7 @@ class SymbolicVehicle:
     """
 
     def __init__(self, symbols: Any, record: Record, vehicle: Vehicle) -> None:
-        v = {field.name: symbols[place] for field, place in record.places()}
+        v = record.split(symbols)
         self.values = v
         self.M = self.mass = v["mass"]
         self.m = self.bob_mass = v["bob_mass"]

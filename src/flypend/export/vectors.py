@@ -125,7 +125,7 @@ def board_step(loop: Loop) -> ca.Function:
         return streamed_wrench(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 
     length = records.PATH.length
-    return board(loop, believed, law_command(loop, believed, steer, length), length).step
+    return board(loop, believed, law_command(loop, believed, steer, length), length)
 
 
 def scales(vehicle: Vehicle) -> tuple[float, float]:

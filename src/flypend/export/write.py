@@ -14,12 +14,12 @@ from typing import Any
 from flypend import errors, signals
 from flypend.board.command import usable_lead
 from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
+from flypend.compile.record import Record
 from flypend.errors import InputError
 from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
-from flypend.export.records import Record
 from flypend.export.sensors import FILES, sensor_values
-from flypend.export.source import ascii_of, functions, initializer, struct, unread
+from flypend.export.source import ascii_of, functions, initializer, offsets, struct, unread
 from flypend.export.tested import tested
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
@@ -31,8 +31,8 @@ HEADER, GUARD = "flypend_law.h", "#ifndef FLYPEND_LAW_H\n"
 CORE = (HEADER, "flypend_law.c")
 BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")
 ADAPTERS = (
-    "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_crazyflie.c",
-    "adapters/flypend_px4.cpp", "adapters/flypend_px4.hpp", "adapters/flypend_ros2.cpp", "adapters/flypend_ros2.hpp",
+    "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_px4.cpp", "adapters/flypend_px4.hpp",
+    "adapters/flypend_ros2.cpp", "adapters/flypend_ros2.hpp",
 )  # fmt: skip
 # Largest relative difference of a test vector.
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
@@ -109,7 +109,7 @@ def export_c(
 
 def files(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of every file."""
-    values = _values(made, precision)
+    values = values_of(made, precision)
     texts = {name: filled(name, values) for name in (*CORE, *BESIDE, *ADAPTERS)}
     return texts | {"flypend_vectors.h": _vectors(made, precision)} | _with_sensors(made, precision)
 
@@ -118,13 +118,13 @@ def _with_sensors(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of the files of a flight computer with sensors, if there are any."""
     if made.sensing is None:
         return {}
-    values = _marked(_values(made, precision) | sensor_values(made, made.sensing, precision))
+    values = _marked(values_of(made, precision) | sensor_values(made, made.sensing, precision))
     return {name: filled(name, values) for name in FILES}
 
 
 def core(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of the two files that make the library."""
-    values = _values(made, precision)
+    values = values_of(made, precision)
     return {name: filled(name, values) for name in CORE} | _with_sensors(made, precision)
 
 
@@ -134,15 +134,15 @@ def filled(name: str, values: dict[str, Any]) -> str:
     return Template(text).substitute(values)
 
 
-def _values(made: Interface, precision: Precision) -> dict[str, Any]:
+def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
+    """What the templates take."""
     law, vehicle, computer = made.law, made.vehicle, made.law.computer
     parts = functions(made, precision)
     gains = [law.numbers.get(field.name, 0.0) for field in made.gains.fields]
     thrust_scale, moment_scale = vectors.scales(vehicle)
     lengths = {
         "reference_length": records.REFERENCE.length, "path_length": records.PATH.length,
-        "gains_length": made.gains.length, "params_length": made.params.length, "memory": made.memory,
-        "youngest": made.board.outputs[0].index(made.board.outputs[1][0]),
+        "gains_length": made.gains.length, "params_length": made.params.length,
     }  # fmt: skip
     values = parts | {name: str(length) for name, length in lengths.items()} | _optional(made)
     values |= {
@@ -150,6 +150,7 @@ def _values(made: Interface, precision: Precision) -> dict[str, Any]:
         "vehicle": ascii_of(vehicle.name),
         "version": metadata.version("flypend"),
         "precision": precision,
+        "memory": offsets(made.memory, "MEMORY"),
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),
         "rate": f"{made.loop.sampled.rate:g}",
@@ -188,7 +189,7 @@ def _marked(values: dict[str, Any]) -> dict[str, Any]:
 def _optional(made: Interface) -> dict[str, str]:
     """The lines for reference and gains in the functions of the board and of the bare law: only for what is read."""
     found: dict[str, str] = {}
-    for prefix, state, path, length in (("board", "m", "path", "PATH"), ("step", "s", "r", "REFERENCE")):
+    for prefix, state, path, length in (("board", "measurement", "path", "PATH"), ("step", "s", "r", "REFERENCE")):
         read = {"reference": made.follows, "gains": made.has_gains}
         if prefix == "board":
             del read["gains"]  # it has its own, which are finite
@@ -197,10 +198,9 @@ def _optional(made: Interface) -> dict[str, str]:
         checks = [f"{path}, FLYPEND_{length}"] * made.follows
         checks += ["gains_numbers(gains), FLYPEND_GAINS"] * ("gains" in pointers)
         found |= {
-            f"{prefix}_locals": made.follows * f"    flypend_real {path}[FLYPEND_{length}];\n"
-            + "".join(f"    (void){pointer};\n" for pointer in read if not read[pointer]),
+            f"{prefix}_locals": "".join(f"    (void){pointer};\n" for pointer in read if not read[pointer]),
             f"{prefix}_null": missing[0] if len(missing) == 1 else " || ".join(f"({text})" for text in missing),
-            f"{prefix}_fill": made.follows * f"    {length.lower()}_numbers(reference, {path});\n",
+            f"{prefix}_fill": made.follows * f"    const flypend_real *{path} = {length.lower()}_numbers(reference);\n",
             f"{prefix}_finite": "".join(f" || !numbers({check})" for check in checks),
         }
     return found

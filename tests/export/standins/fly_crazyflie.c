@@ -1,41 +1,123 @@
-/* Reads x, x_dot, quaternion xyzw, gyro (deg/s), bob, its velocity, setpoint; writes what the controller asks for, and
- * the status that it logs, before the bob is seen, and at the steps 0, 1 (not executed), 2 and 102 (the bob too old). */
-#include <stdint.h>
-#include <stdio.h>
+/* The rest of a firmware around the app, for a test: what time it is, what arrives, what the PID controller is asked for. */
+#include <setjmp.h>
+#include <string.h>
 
-#include "controller.h"
-#include "log.h"
+#include "firmware.h"
 
-extern const standin_log standin_log_flypend[];
+extern const standin_entry standin_log_flypend[], standin_param_flypend[];
 
-void flypend_crazyflie_bob(const float position[3], const float velocity[3]);
+static jmp_buf back;
+static unsigned char packet[64];
+static size_t packet_length;
+static uint32_t ticks;
+static setpoint_t asked;
+static int pid_calls, tumble_check = 1;
+static int flying = 1;
+static uint32_t pose_tick;
+static int battery_is_low, estimator = StateEstimatorTypeKalman;
 
-static void fly(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state, unsigned step)
+uint32_t xTaskGetTickCount(void) { return ticks; }
+StateEstimatorType stateEstimatorGetType(void) { return (StateEstimatorType)estimator; }
+bool pmIsBatteryLow(void) { return battery_is_low != 0; }
+bool supervisorIsFlying(void) { return flying != 0; }
+logVarId_t logGetVarId(const char *group, const char *name) { return (group[0] == 'l') && (name[0] == 't'); }
+unsigned int logGetUint(logVarId_t id) { return (id == 1) ? (uint16_t)pose_tick : 0; }
+paramVarId_t paramGetVarId(const char *group, const char *name)
 {
-    control_t control = {-1, -1, -1, -1, controlModeLegacy};
-    controllerOutOfTree(&control, setpoint, sensors, state, step);
-    (void)printf("%.9g %.9g %.9g %.9g %d %d\n", (double)control.thrustSi, (double)control.torqueX,
-                 (double)control.torqueY, (double)control.torqueZ, (int)control.controlMode,
-                 (int)*(const uint8_t *)standin_log_flypend[0].address);
+    return (strcmp(group, "supervisor") == 0) && (strcmp(name, "tmblChckEn") == 0);
+}
+void paramSetInt(paramVarId_t id, int value)
+{
+    if (id == 1) {
+        tumble_check = value;
+    }
+}
+void controllerPidInit(void) {}
+bool controllerPidTest(void) { return true; }
+void controllerPid(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state,
+                   const stabilizerStep_t step)
+{
+    (void)sensors, (void)state, (void)step;
+    if ((setpoint->mode.z == modeDisable) && (setpoint->thrust <= 0)) {
+        memset(control, 0, sizeof *control);
+        return;
+    }
+    pid_calls++;
+    asked = *setpoint;
+    control->controlMode = controlModeLegacy;
+    control->thrust = 30000;
 }
 
-int main(void)
+/* The first call of a round gives the packet, if there is one; the second ends the round. */
+size_t appchannelReceiveDataPacket(void *buffer, size_t max_length, int timeout_ms)
 {
-    static const unsigned steps[] = {0, 1, 2, 102};
-    float v[28];
-    for (int i = 0; i < 28; i++) {
-        if (scanf("%f", &v[i]) != 1) {
-            return 1;
-        }
+    static int round_ends = 0;
+    (void)timeout_ms;
+    round_ends = !round_ends;
+    if (!round_ends) {
+        longjmp(back, 1);
     }
-    const state_t now = {{v[6], v[7], v[8], v[9]}, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    const size_t length = (packet_length < max_length) ? packet_length : max_length;
+    memcpy(buffer, packet, length);
+    packet_length = 0;
+    return length;
+}
+
+void standin_app(const void *bytes, int length);
+void standin_set(uint32_t now, int low, int kind, int in_the_air, uint32_t posed);
+void standin_get(float *found);
+const standin_entry *standin_entries(int parameters);
+void standin_fly(const float *v, const int *modes, uint32_t step, float *found);
+
+/* One round of appMain, with a packet of `length` bytes. */
+void standin_app(const void *bytes, int length)
+{
+    memcpy(packet, bytes, (size_t)length);
+    packet_length = (size_t)length;
+    if (setjmp(back) == 0) {
+        appMain();
+    }
+}
+
+void standin_set(uint32_t now, int low, int kind, int in_the_air, uint32_t posed)
+{
+    flying = in_the_air;
+    pose_tick = posed;
+    ticks = now;
+    battery_is_low = low;
+    estimator = kind;
+}
+
+/* Calls of the PID controller, mode and velocity of z and position x that it was asked for; the check for tumbling. */
+void standin_get(float *found)
+{
+    found[0] = (float)pid_calls;
+    found[1] = (float)asked.mode.z;
+    found[2] = asked.velocity.z;
+    found[3] = asked.position.x;
+    found[4] = (float)tumble_check;
+}
+
+const standin_entry *standin_entries(int parameters)
+{
+    return (parameters != 0) ? standin_param_flypend : standin_log_flypend;
+}
+
+/* x, x_dot, quaternion xyzw, gyro (deg/s), setpoint, thrust (17 numbers); modes of x, y, z → control mode, four numbers. */
+void standin_fly(const float *v, const int *modes, uint32_t step, float *found)
+{
+    control_t control;
+    const state_t state = {{0, 0, 0, 7},
+                           {v[6], v[7], v[8], v[9]},
+                           {ticks, v[0], v[1], v[2]},
+                           {ticks, v[3], v[4], v[5]}};
     const sensorData_t sensors = {{v[10], v[11], v[12]}};
-    const setpoint_t setpoint = {{v[19], v[20], v[21]}, {v[22], v[23], v[24]}, {v[25], v[26], v[27]}};
-    controllerOutOfTreeInit();
-    fly(&setpoint, &sensors, &now, 0);
-    flypend_crazyflie_bob(&v[13], &v[16]);
-    for (int i = 0; i < 4; i++) {
-        fly(&setpoint, &sensors, &now, steps[i]);
-    }
-    return controllerOutOfTreeTest() ? 0 : 1;
+    setpoint_t setpoint = {.thrust = v[16], .position = {ticks, v[13], v[14], v[15]}};
+    setpoint.mode.x = (stab_mode_t)modes[0];
+    setpoint.mode.y = (stab_mode_t)modes[1];
+    setpoint.mode.z = (stab_mode_t)modes[2];
+    memset(&control, 0xff, sizeof control);
+    controllerOutOfTree(&control, &setpoint, &sensors, &state, step);
+    found[0] = (float)control.controlMode;
+    memcpy(found + 1, control.normalizedForces, sizeof control.normalizedForces);
 }

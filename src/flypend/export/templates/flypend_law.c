@@ -21,8 +21,8 @@
 /* Where attitude and rates lie in a state. */
 #define FLYPEND_R 6
 #define FLYPEND_TURNING 12
-/* Where the youngest command lies in the memory. */
-#define FLYPEND_YOUNGEST $youngest
+/* Numbers that the bare law works with. */
+#define FLYPEND_LAW_SCRATCH $law_scratch
 
 const flypend_gains flypend_default_gains = $gains;
 const flypend_params flypend_default_params = $params;
@@ -56,31 +56,33 @@ static flypend_status check_params(const flypend_real *p)
     return (bodies && rotors) ? FLYPEND_OK : FLYPEND_PARAMS;
 }
 
-static int is_rotation(const flypend_real *s)
+static int is_rotation(flypend_real *rest, const flypend_real *s)
 {
     flypend_real defect[2];
-    attitude(s, defect);
+    (void)rest;
+    $call_attitude
     return (defect[0] <= FLYPEND_ROTATION_TOLERANCE) && (defect[1] > 0);
 }
 
-static flypend_status check_state(const flypend_real *s)
+static flypend_status check_state(flypend_real *rest, const flypend_real *s)
 {
     flypend_real defect[3];
-    rod(s, defect);
+    $call_rod
     if (!((defect[0] <= FLYPEND_TOLERANCE) && (defect[1] <= FLYPEND_TOLERANCE * (1 + defect[2])))) {
         return FLYPEND_ROD;
     }
-    return is_rotation(s) ? FLYPEND_OK : FLYPEND_ATTITUDE;
+    return is_rotation(rest, s) ? FLYPEND_OK : FLYPEND_ATTITUDE;
 }
 
 /* Safe answers ------------------------------------------------------------------------------------------------- */
 
 /* The wrench w for the numbers s of a state, null for none, and p of usable parameters: it levels the vehicle if its
- * attitude can be trusted, and has no moment and the least thrust if not. */
-static void safe_wrench(const flypend_real *s, const flypend_real *p, flypend_real *w)
+ * attitude can be trusted, and has no moment and the least thrust if not. Like all functions with it, it works in `rest`,
+ * FLYPEND_SCRATCH numbers. */
+static void safe_wrench(flypend_real *rest, const flypend_real *s, const flypend_real *p, flypend_real *w)
 {
     const flypend_real least = FLYPEND_ROTORS * p[$place_rotor_least];
-    if ((s != NULL) && numbers(s + FLYPEND_R, FLYPEND_TURNING) && is_rotation(s)) {
+    if ((s != NULL) && numbers(s + FLYPEND_R, FLYPEND_TURNING) && is_rotation(rest, s)) {
         $call_hold
         if (numbers(w, 4)) {
             return;
@@ -99,24 +101,26 @@ static void least_forces(const flypend_real *p, flypend_real *forces)
     }
 }
 
-static void safe_command(const flypend_real *s, const flypend_real *p, flypend_real *command)
+static void safe_command(flypend_real *rest, const flypend_real *s, const flypend_real *p, flypend_real *command)
 {
     flypend_real w[4];
-    safe_wrench(s, p, w);
-    share(w, p, command);
+    safe_wrench(rest, s, p, w);
+    $call_share_safe
     if (!numbers(command, FLYPEND_ROTORS)) {
         least_forces(p, command);
     }
 }
 
-/* The numbers p of the parameters, and what is wrong with them. */
-static flypend_status usable_params(const flypend_params *params, flypend_real *p)
+static flypend_status usable_params(const flypend_params *params)
 {
-    if (params == NULL) {
-        return FLYPEND_NULL;
+    return (params == NULL) ? FLYPEND_NULL : check_params(params_numbers(params));
+}
+
+static void copy(const flypend_real *from, flypend_real *to, int count)
+{
+    for (int i = 0; i < count; i++) {
+        to[i] = from[i];
     }
-    params_numbers(params, p);
-    return check_params(p);
 }
 
 static void stop(flypend_real *values, int count)
@@ -124,6 +128,18 @@ static void stop(flypend_real *values, int count)
     for (int i = 0; i < count; i++) {
         values[i] = 0;
     }
+}
+
+/* The least forces, or none with unusable parameters. */
+static flypend_status safe_rotors(flypend_status status, const flypend_real *p, flypend_rotors *rotors)
+{
+    flypend_real forces[FLYPEND_ROTORS];
+    stop(forces, FLYPEND_ROTORS);
+    if (p != NULL) {
+        least_forces(p, forces);
+    }
+    rotors_of(forces, rotors);
+    return status;
 }
 
 /* The flight computer ------------------------------------------------------------------------------------------ */
@@ -154,26 +170,25 @@ flypend_status flypend_board_begin(flypend_board *board, const flypend_gains *ga
 flypend_status flypend_board_restart(flypend_board *board, const flypend_gains *gains, const flypend_params *params,
                                      const flypend_rotors *rotors)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
     flypend_real forces[FLYPEND_ROTORS];
     flypend_status status;
     if (board == NULL) {
         return FLYPEND_NULL;
     }
     board->mark = 0;
-    status = (gains == NULL) ? FLYPEND_NULL : usable_params(params, p);
+    status = (gains == NULL) ? FLYPEND_NULL : usable_params(params);
     if (status != FLYPEND_OK) {
         return status;
     }
     if (rotors == NULL) {
-        least_forces(p, forces);
+        least_forces(params_numbers(params), forces);
     } else {
-        rotors_numbers(rotors, forces);
+        copy(rotors_numbers(rotors), forces, FLYPEND_ROTORS);
     }
     if (!(numbers(forces, FLYPEND_ROTORS) && numbers(gains_numbers(gains), FLYPEND_GAINS))) {
         return FLYPEND_NOT_FINITE;
     }
-    begin(forces, board->memory);
+    $call_begin
     board->gains = *gains;
     board->mark = FLYPEND_MARK;
     board->check = check_of(board);
@@ -196,92 +211,83 @@ flypend_status flypend_board_set_gains(flypend_board *board, const flypend_gains
     return FLYPEND_OK;
 }
 
-static flypend_status try_board(const flypend_board *board, const flypend_real *m, const flypend_path *reference,
-                                const flypend_real *p, flypend_real *after, flypend_real *command)
+static flypend_status try_board(flypend_board *board, const flypend_measurement *measurement,
+                                const flypend_path *reference, const flypend_real *p)
 {
+    flypend_scratch *in = &board->scratch;
 $board_locals    if ($board_null) {
         return FLYPEND_NULL;
     }
-$board_fill    if (!numbers(m + 1, FLYPEND_STATE)$board_finite) {
+$board_fill    if (!numbers(in->measurement + 1, FLYPEND_STATE)$board_finite) {
         return FLYPEND_NOT_FINITE;
     }
-    const flypend_status status = check_state(m + 1);
+    const flypend_status status = check_state(in->rest, in->measurement + 1);
     if (status != FLYPEND_OK) {
         return status;
     }
     $call_board
-    return (numbers(command, FLYPEND_ROTORS) && numbers(after, FLYPEND_MEMORY)) ? FLYPEND_OK : FLYPEND_SINGULAR;
+    return (numbers(in->command, FLYPEND_ROTORS) && numbers(in->memory, FLYPEND_MEMORY)) ? FLYPEND_OK : FLYPEND_SINGULAR;
 }
 
-static void copy(const flypend_real *from, flypend_real *to)
+static void remember(flypend_board *board)
 {
-    for (int i = 0; i < FLYPEND_MEMORY; i++) {
-        to[i] = from[i];
-    }
-}
-
-static void remember(flypend_board *board, const flypend_real *after)
-{
-    copy(after, board->memory);
+    copy(board->scratch.memory, board->memory, FLYPEND_MEMORY);
     board->check = check_of(board);
 }
 
 flypend_status flypend_board_step(flypend_board *board, const flypend_measurement *measurement,
                                   const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real m[1 + FLYPEND_STATE]; /* the law does not depend on time: that stays 0 */
-    flypend_real command[FLYPEND_ROTORS];
-    flypend_real after[FLYPEND_MEMORY];
-    flypend_status status;
     if (rotors == NULL) {
         return FLYPEND_NULL;
     }
-    m[0] = 0;
-    if (measurement != NULL) {
-        measurement_numbers(measurement, m + 1);
+    flypend_status status = usable_params(params);
+    const int usable = status == FLYPEND_OK;
+    const flypend_real *p = params_numbers(params);
+    if (board == NULL) {
+        return safe_rotors(FLYPEND_NULL, usable ? p : NULL, rotors);
     }
+    flypend_scratch *in = &board->scratch;
     const int begun = has_begun(board);
-    status = usable_params(params, p);
-    if (status != FLYPEND_OK) {
-        stop(command, FLYPEND_ROTORS);
-    } else {
-        status = (board == NULL) ? FLYPEND_NULL : FLYPEND_NOT_BEGUN;
-        if (begun) {
-            status = try_board(board, (measurement == NULL) ? NULL : m, reference, p, after, command);
-        }
+    in->measurement[0] = 0; /* the time, on which the law does not depend */
+    if (measurement != NULL) {
+        copy(measurement_numbers(measurement), in->measurement + 1, FLYPEND_STATE);
+    }
+    if (usable) {
+        status = begun ? try_board(board, measurement, reference, p) : FLYPEND_NOT_BEGUN;
         if (status != FLYPEND_OK) {
-            safe_command((measurement == NULL) ? NULL : m + 1, p, command);
+            safe_command(in->rest, (measurement == NULL) ? NULL : in->measurement + 1, p, in->command);
         }
+    } else {
+        stop(in->command, FLYPEND_ROTORS);
     }
     if (begun) {
         if (status != FLYPEND_OK) {
-            unmeasured(board->memory, command, after);
+            unmeasured(in->rest, board->memory, in->command, in->memory);
         }
-        remember(board, after);
+        remember(board);
     }
-    rotors_of(command, rotors);
+    rotors_of(in->command, rotors);
     return status;
 }
 
 flypend_status flypend_board_pass(flypend_board *board)
 {
-    flypend_real after[FLYPEND_MEMORY];
     if (board == NULL) {
         return FLYPEND_NULL;
     }
     if (!has_begun(board)) {
         return FLYPEND_NOT_BEGUN;
     }
-    unmeasured(board->memory, board->memory + FLYPEND_YOUNGEST, after);
-    remember(board, after);
+    unmeasured(board->scratch.rest, board->memory, board->memory + FLYPEND_MEMORY_COMMANDS, board->scratch.memory);
+    remember(board);
     return FLYPEND_OK;
 }
 
 /* The law alone ------------------------------------------------------------------------------------------------ */
 
-static flypend_status try_step(const flypend_real *s, const flypend_reference *reference, const flypend_gains *gains,
-                               const flypend_real *p, flypend_real *w)
+static flypend_status try_step(flypend_real *rest, const flypend_real *s, const flypend_reference *reference,
+                               const flypend_gains *gains, const flypend_real *p, flypend_real *w)
 {
 $step_locals    if ($step_null) {
         return FLYPEND_NULL;
@@ -289,7 +295,7 @@ $step_locals    if ($step_null) {
 $step_fill    if (!numbers(s, FLYPEND_STATE + FLYPEND_FORCES)$step_finite) {
         return FLYPEND_NOT_FINITE;
     }
-    const flypend_status status = check_state(s);
+    const flypend_status status = check_state(rest, s);
     if (status != FLYPEND_OK) {
         return status;
     }
@@ -300,23 +306,20 @@ $step_fill    if (!numbers(s, FLYPEND_STATE + FLYPEND_FORCES)$step_finite) {
 flypend_status flypend_step(const flypend_state *state, const flypend_reference *reference, const flypend_gains *gains,
                             const flypend_params *params, flypend_wrench *wrench)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
     flypend_real w[4];
-    flypend_status status;
     if (wrench == NULL) {
         return FLYPEND_NULL;
     }
-    if (state != NULL) {
-        state_numbers(state, s);
-    }
-    status = usable_params(params, p);
+    const flypend_real *p = params_numbers(params);
+    const flypend_real *s = state_numbers(state);
+    flypend_status status = usable_params(params);
     if (status != FLYPEND_OK) {
         stop(w, 4);
     } else {
-        status = try_step((state == NULL) ? NULL : s, reference, gains, p, w);
+        flypend_real rest[FLYPEND_LAW_SCRATCH];
+        status = try_step(rest, s, reference, gains, p, w);
         if (status != FLYPEND_OK) {
-            safe_wrench((state == NULL) ? NULL : s, p, w);
+            safe_wrench(rest, s, p, w);
         }
     }
     wrench_of(w, wrench);
@@ -326,28 +329,26 @@ flypend_status flypend_step(const flypend_state *state, const flypend_reference 
 flypend_status flypend_follow(const flypend_path *path, const flypend_state *state, const flypend_params *params,
                               flypend_reference *reference)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
     flypend_real r[FLYPEND_REFERENCE];
     if (reference == NULL) {
         return FLYPEND_NULL;
     }
+    const flypend_real *p = params_numbers(params);
     /* Hover at the origin with the rod upright, or, without a vehicle, all 0. */
     stop(r, FLYPEND_REFERENCE);
-    flypend_status status = usable_params(params, p);
+    flypend_status status = usable_params(params);
     if (status == FLYPEND_OK) {
         r[$place_p + 2] = p[$place_rod_length];
         status = ((path == NULL) || (state == NULL)) ? FLYPEND_NULL : FLYPEND_OK;
     }
     reference_of(r, reference);
     if (status == FLYPEND_OK) {
-        flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
-        flypend_real along[FLYPEND_PATH];
-        path_numbers(path, along);
-        state_numbers(state, s);
+$rest_carry        const flypend_real *s = state_numbers(state);
+        const flypend_real *along = path_numbers(path);
         if (!(numbers(along, FLYPEND_PATH) && numbers(s, FLYPEND_STATE + FLYPEND_FORCES))) {
             return FLYPEND_NOT_FINITE;
         }
-        carry(along, s + FLYPEND_STATE, p, r);
+        $call_carry
         if (!numbers(r, FLYPEND_REFERENCE)) {
             return FLYPEND_SINGULAR;
         }
@@ -356,38 +357,25 @@ flypend_status flypend_follow(const flypend_path *path, const flypend_state *sta
     return status;
 }
 
-/* The least forces, or none with unusable parameters. */
-static flypend_status safe_rotors(flypend_status status, const flypend_real *p, flypend_rotors *rotors)
-{
-    flypend_real forces[FLYPEND_ROTORS];
-    stop(forces, FLYPEND_ROTORS);
-    if (p != NULL) {
-        least_forces(p, forces);
-    }
-    rotors_of(forces, rotors);
-    return status;
-}
-
 flypend_status flypend_mix(const flypend_wrench *wrench, const flypend_params *params, flypend_rotors *rotors)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real w[4];
     flypend_real forces[FLYPEND_ROTORS];
-    if (rotors == NULL) {
+$rest_share    if (rotors == NULL) {
         return FLYPEND_NULL;
     }
-    const flypend_status status = usable_params(params, p);
+    const flypend_real *p = params_numbers(params);
+    const flypend_real *w = wrench_numbers(wrench);
+    const flypend_status status = usable_params(params);
     if (status != FLYPEND_OK) {
         return safe_rotors(status, NULL, rotors);
     }
     if (wrench == NULL) {
         return safe_rotors(FLYPEND_NULL, p, rotors);
     }
-    wrench_numbers(wrench, w);
     if (!numbers(w, 4)) {
         return safe_rotors(FLYPEND_NOT_FINITE, p, rotors);
     }
-    share(w, p, forces);
+    $call_share
     if (!numbers(forces, FLYPEND_ROTORS)) {
         return safe_rotors(FLYPEND_SINGULAR, p, rotors);
     }
@@ -397,19 +385,18 @@ flypend_status flypend_mix(const flypend_wrench *wrench, const flypend_params *p
 
 flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params *params, flypend_wrench *wrench)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
     flypend_real w[4];
-    if (wrench == NULL) {
+$rest_gather    if (wrench == NULL) {
         return FLYPEND_NULL;
     }
-    flypend_status status = usable_params(params, p);
+    const flypend_real *p = params_numbers(params);
+    const flypend_real *forces = rotors_numbers(rotors);
+    flypend_status status = usable_params(params);
     if ((status == FLYPEND_OK) && (rotors == NULL)) {
         status = FLYPEND_NULL;
     }
     if (status == FLYPEND_OK) {
-        flypend_real forces[FLYPEND_ROTORS];
-        rotors_numbers(rotors, forces);
-        gather(forces, p, w);
+        $call_gather
         if (!numbers(w, 4)) {
             status = numbers(forces, FLYPEND_ROTORS) ? FLYPEND_SINGULAR : FLYPEND_NOT_FINITE;
         }
@@ -424,25 +411,24 @@ flypend_status flypend_unmix(const flypend_rotors *rotors, const flypend_params 
 flypend_status flypend_lead(const flypend_rotors *wanted, const flypend_rotors *modelled, flypend_real lead,
                             const flypend_params *params, flypend_rotors *command)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real from[FLYPEND_ROTORS];
     flypend_real to[FLYPEND_ROTORS];
-    if (command == NULL) {
+$rest_quicken    if (command == NULL) {
         return FLYPEND_NULL;
     }
-    const flypend_status status = usable_params(params, p);
+    const flypend_real *p = params_numbers(params);
+    const flypend_real *from = rotors_numbers(modelled);
+    const flypend_status status = usable_params(params);
     if (status != FLYPEND_OK) {
         return safe_rotors(status, NULL, command);
     }
     if ((wanted == NULL) || (modelled == NULL)) {
         return safe_rotors(FLYPEND_NULL, p, command);
     }
-    rotors_numbers(wanted, to);
-    rotors_numbers(modelled, from);
+    copy(rotors_numbers(wanted), to, FLYPEND_ROTORS);
     if (!(numbers(to, FLYPEND_ROTORS) && numbers(from, FLYPEND_ROTORS) && number(lead))) {
         return safe_rotors(FLYPEND_NOT_FINITE, p, command);
     }
-    quicken(to, from, &lead, p, to); /* within the limits, whatever overflows, but where 0 times infinity is no number */
+    $call_quicken /* within the limits, whatever overflows, but where 0 times infinity is no number */
     if (!numbers(to, FLYPEND_ROTORS)) {
         return safe_rotors(FLYPEND_NOT_FINITE, p, command);
     }

@@ -28,8 +28,10 @@ typedef $precision flypend_real;
 #define FLYPEND_FOLLOWS $follows
 /* Control period, s: flypend_board_step is to be called once in each. */
 #define FLYPEND_PERIOD $period
-/* How many numbers the board remembers. */
-#define FLYPEND_MEMORY $memory
+/* How many numbers the board remembers, and at which of them each part begins. */
+$memory
+/* How many more it works with, and forgets. */
+#define FLYPEND_SCRATCH $scratch
 /* How far y may be from a unit vector and y_dot from tangent (relative to 1 + |y_dot|), and R from a rotation. */
 #define FLYPEND_TOLERANCE $tolerance
 #define FLYPEND_ROTATION_TOLERANCE $rotation_tolerance
@@ -56,6 +58,14 @@ typedef enum {
 
 $structs
 
+/* What a step works with, and forgets. On the stack it would take kilobytes. */
+typedef struct {
+    flypend_real measurement[25];
+    flypend_real command[FLYPEND_ROTORS];
+    flypend_real memory[FLYPEND_MEMORY];
+    flypend_real rest[FLYPEND_SCRATCH];
+} flypend_scratch;
+
 /* The flight computer between two control periods. Only the functions below write to it. Each checks first that nothing
  * else has: it sees every damage within one number in single precision, within 32 bits in a row, of two bits, and of two
  * words of 32 bits that are exchanged, and all but one in 2^32 of any other kind. It cannot see that an earlier state of
@@ -66,8 +76,10 @@ typedef struct {
     uint32_t check;
     /* gains of the law: flypend_board_set_gains changes them */
     flypend_gains gains;
-    /* modelled forces of the rotors (FLYPEND_ROTORS numbers, N), the observer, and the commands under way */
+    /* the table above */
     flypend_real memory[FLYPEND_MEMORY];
+    /* not checked: written before it is read, in every step */
+    flypend_scratch scratch;
 } flypend_board;
 
 /* What flypend proposes for this vehicle. */
@@ -91,7 +103,8 @@ flypend_status flypend_board_restart(flypend_board *board, const flypend_gains *
  * Returns OK, NULL, NOT_FINITE, NOT_BEGUN. After anything but FLYPEND_OK the board is as it was. */
 flypend_status flypend_board_set_gains(flypend_board *board, const flypend_gains *gains);
 
-/* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for what was measured now.
+/* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for what was measured now. It takes a few
+ * hundred bytes of stack, and works in the board's `scratch`.
  *
  * `reference` is the path of the pivot with its derivatives at the time of the measurement; it may be null if
  * FLYPEND_FOLLOWS is 0.

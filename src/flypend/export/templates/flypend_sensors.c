@@ -16,8 +16,6 @@
 #define FLYPEND_GAINS $gains_length
 #define FLYPEND_PARAMS_LENGTH $params_length
 #define FLYPEND_MARK $mark
-/* Where the estimate lies in the memory. */
-#define FLYPEND_ESTIMATE $estimate_place
 
 $programs
 
@@ -72,8 +70,6 @@ flypend_status flypend_sensors_restart(flypend_sensors *computer, const flypend_
                                        const flypend_params *params, const flypend_state *estimate,
                                        const flypend_rotors *rotors)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real s[FLYPEND_STATE + FLYPEND_FORCES];
     flypend_rotors given;
     flypend_wrench wrench;
     if (computer == NULL) {
@@ -99,8 +95,8 @@ flypend_status flypend_sensors_restart(flypend_sensors *computer, const flypend_
     if ((state != FLYPEND_OK) && (state != FLYPEND_SINGULAR)) {
         return state;
     }
-    params_numbers(params, p);
-    state_numbers(estimate, s);
+    const flypend_real *p = params_numbers(params);
+    const flypend_real *s = state_numbers(estimate);
     $call_begin
     if (!numbers(computer->memory, FLYPEND_SENSORS_MEMORY)) {
         return FLYPEND_SINGULAR;
@@ -135,13 +131,17 @@ static void nothing(flypend_real *r)
     }
 }
 
-static flypend_status check_readings(const flypend_readings *readings, flypend_real *r)
+/* The readings as numbers r, and what is wrong with them; works in `rest`. */
+static flypend_status check_readings(flypend_real *rest, const flypend_readings *readings, flypend_real *r)
 {
     flypend_real defect[2];
+    (void)rest;
     if (readings == NULL) {
         return FLYPEND_NULL;
     }
-    readings_numbers(readings, r);
+    for (int i = 0; i < FLYPEND_READINGS; i++) {
+        r[i] = readings_numbers(readings)[i];
+    }
     if (!numbers(r, FLYPEND_READINGS)) {
         return FLYPEND_NOT_FINITE;
     }
@@ -155,10 +155,6 @@ static flypend_status check_readings(const flypend_readings *readings, flypend_r
 flypend_status flypend_sensors_step(flypend_sensors *computer, const flypend_readings *readings,
                                     const flypend_path *reference, const flypend_params *params, flypend_rotors *rotors)
 {
-    flypend_real p[FLYPEND_PARAMS_LENGTH];
-    flypend_real m[1 + FLYPEND_READINGS]; /* the law does not depend on time: that stays 0 */
-    flypend_real command[FLYPEND_ROTORS];
-    flypend_real after[FLYPEND_SENSORS_MEMORY];
 $locals    if (rotors == NULL) {
         return FLYPEND_NULL;
     }
@@ -172,21 +168,22 @@ $locals    if (rotors == NULL) {
     if (!has_begun(computer)) {
         return FLYPEND_NOT_BEGUN;
     }
-    params_numbers(params, p);
-$fill    m[0] = 0;
-    const flypend_status status = check_readings(readings, m + 1);
+    const flypend_real *p = params_numbers(params);
+$fill    flypend_scratch_of_sensors *in = &computer->scratch;
+    in->readings[0] = 0; /* the time, on which the law does not depend */
+    const flypend_status status = check_readings(in->rest, readings, in->readings + 1);
     if (status != FLYPEND_OK) {
-        nothing(m + 1);
+        nothing(in->readings + 1);
     }
     $call_board
-    if (!(numbers(command, FLYPEND_ROTORS) && numbers(after, FLYPEND_SENSORS_MEMORY))) {
+    if (!(numbers(in->command, FLYPEND_ROTORS) && numbers(in->memory, FLYPEND_SENSORS_MEMORY))) {
         return FLYPEND_SINGULAR;
     }
     for (int i = 0; i < FLYPEND_SENSORS_MEMORY; i++) {
-        computer->memory[i] = after[i];
+        computer->memory[i] = in->memory[i];
     }
     computer->check = check_of(computer);
-    rotors_of(command, rotors);
+    rotors_of(in->command, rotors);
     return status;
 }
 
@@ -200,7 +197,7 @@ flypend_status flypend_sensors_estimate(const flypend_sensors *computer, flypend
         return FLYPEND_NOT_BEGUN;
     }
     for (int i = 0; i < FLYPEND_STATE; i++) {
-        s[i] = computer->memory[FLYPEND_ESTIMATE + i];
+        s[i] = computer->memory[FLYPEND_SENSORS_MEMORY_ESTIMATE_STATE + i];
     }
     for (int i = FLYPEND_STATE; i < FLYPEND_STATE + FLYPEND_FORCES; i++) {
         s[i] = 0;

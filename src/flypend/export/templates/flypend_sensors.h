@@ -17,10 +17,18 @@ $sensor_table
 extern "C" {
 #endif
 
-/* How many numbers are remembered. */
-#define FLYPEND_SENSORS_MEMORY $sensors_memory
+/* How many numbers are remembered, and at which of them each part begins. */
+$sensors_memory
 
 $readings_struct
+
+/* What a step works with, and forgets. On the stack it would take kilobytes. */
+typedef struct {
+    flypend_real readings[1 + $readings_length];
+    flypend_real command[FLYPEND_ROTORS];
+    flypend_real memory[FLYPEND_SENSORS_MEMORY];
+    flypend_real rest[$scratch];
+} flypend_scratch_of_sensors;
 
 /* The flight computer between two control periods. What flypend_board says of itself holds here too. */
 typedef struct {
@@ -30,6 +38,8 @@ typedef struct {
     /* gains of the law: flypend_sensors_set_gains changes them */
     flypend_gains gains;
     flypend_real memory[FLYPEND_SENSORS_MEMORY];
+    /* not checked: written before it is read, in every step */
+    flypend_scratch_of_sensors scratch;
 } flypend_sensors;
 
 /* Prepares for a vehicle whose rotors give their least force, and that is about where `estimate` says: within the

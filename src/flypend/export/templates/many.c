@@ -11,6 +11,7 @@ void flypend_fly(int count, flypend_board *board, const flypend_measurement *mea
 int flypend_board_bytes(void);
 int flypend_board_memory(void);
 int flypend_sensors_bytes(void);
+int flypend_sensors_memory(void);
 
 void flypend_many(int count, const flypend_state *state, const flypend_reference *reference,
                   const flypend_gains *gains, const flypend_params *params, flypend_wrench *wrench,
@@ -46,6 +47,15 @@ int flypend_sensors_bytes(void)
 {
 #ifdef FLYPEND_SENSORS_H
     return (int)sizeof(flypend_sensors);
+#else
+    return 0;
+#endif
+}
+
+int flypend_sensors_memory(void)
+{
+#ifdef FLYPEND_SENSORS_H
+    return (int)offsetof(flypend_sensors, memory);
 #else
     return 0;
 #endif

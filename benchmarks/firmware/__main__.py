@@ -1,0 +1,236 @@
+"""Flights of the exported app in the Crazyflie's own firmware, on this machine: starts, and what may go wrong.
+
+    python -m benchmarks.firmware ../crazyflie-firmware --starts 200
+    python -m benchmarks.firmware ../crazyflie-firmware --scenarios
+
+PATH is a folder of the firmware with its submodules; it and gcc are needed. Commander, supervisor, Kalman filter, PID
+controller, power distribution and battery compensation are the firmware's own; the app is that of `flypend export-app`.
+They fly on flypend's plant at 1 kHz, with poses and bob at 100 Hz and setpoints at 50 Hz, without noise or delay.
+
+Starts: a rig carries the vehicle to a start and lets go when the law flies; a third each hanging, level and random.
+Beside them stand the same starts under Python's flight computer, on the same plant with ideal mixing.
+
+Scenarios: the law holds the rod inverted, and then something happens. Beside it stands the same flight in which the
+firmware's own PID controller takes over from the app where the law ends; forces are compared from 0.02 to 0.5 s after.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+import flypend as fp
+from benchmarks.firmware.built import build
+from benchmarks.firmware.loop import CUT, HOME, LANDING, LAW, OWN, PID, TICK, Vehicle
+from flypend.export.app import AIRFRAMES, limited
+from flypend.studies.starts import random_starts
+
+VEHICLES = {"cf2": "crazyflie", "cf21bl": "crazyflie-brushless"}
+DURATION = 10.0  # s
+SETTLED = fp.Criterion(position=0.3)  # the same pose as everywhere; the Kalman filter's position wanders by centimetres
+NAMES = {CUT: "cut", PID: "PID", LAW: "law", LANDING: "landing"}
+
+
+def main() -> None:
+    """Print a table of starts or of scenarios."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("path", type=Path)
+    parser.add_argument("--airframe", choices=VEHICLES, default="cf2")
+    parser.add_argument("--starts", type=int, default=0)
+    parser.add_argument("--scenarios", action="store_true")
+    parser.add_argument("--seed", type=int, default=2024)
+    parser.add_argument("--plant", default="rotors")
+    parser.add_argument("--known", action="store_true", help="tell the firmware its true state: no Kalman filter")
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as place:
+        library, vehicle = exported(given.path.resolve(), Path(place) / "app", given.airframe)
+        if given.starts:
+            for line in table(fly_starts(library, vehicle, given)):
+                print(line, flush=True)
+        if given.scenarios or not given.starts:
+            print("\n".join(HEAD))
+            for name in SCENARIOS:
+                print(told(name, *compared(name, library, vehicle)), flush=True)
+
+
+def exported(firmware: Path, app: Path, airframe: str) -> tuple[Path, fp.Vehicle]:
+    """The library of the firmware with a fresh app, and the vehicle that it flies."""
+    vehicle = fp.vehicle(VEHICLES[airframe])
+    fp.export_app("crazyflie", fp.laws.inverted(), vehicle, app, airframe=airframe)
+    return build(firmware, app, airframe), limited(vehicle, AIRFRAMES[airframe])
+
+
+# Starts ---------------------------------------------------------------------------------------------------------------
+
+
+def starts(count: int, seed: int) -> dict[str, list[fp.State]]:
+    """`count` starts in three kinds, at HOME."""
+    rng = np.random.default_rng(seed)
+    share, drawn = count // 3, random_starts(count - 2 * (count // 3), seed)
+    kinds: dict[str, list[fp.State]] = {"hanging": [], "level": []}
+    for kind, depth in (("hanging", np.pi - 0.02), ("level", np.pi / 2)):
+        for turn in rng.uniform(0, 2 * np.pi, share):
+            y = (np.sin(depth) * np.cos(turn), np.sin(depth) * np.sin(turn), np.cos(depth))
+            kinds[kind].append(fp.State(x=HOME, y=y))
+    kinds["random"] = [
+        fp.State(x=HOME, x_dot=one.x_dot, R=one.R, omega=one.omega, y=one.y, y_dot=one.y_dot)
+        for one in (drawn[i] for i in range(len(drawn.x)))
+    ]
+    return kinds
+
+
+def fly_starts(library, vehicle, given):
+    """For each kind: whether each flight succeeded in the firmware and ideally, and both excursions, m."""
+    for kind, batch in starts(given.starts, given.seed).items():
+        rows = []
+        for start in batch:
+            flown = Vehicle(library, vehicle, given.plant, known=given.known)
+            flown.lift()
+            begun = flown.release(start)
+            begins = len(flown.log)
+            flown.fly(DURATION, lambda flown=flown: flown.flies != LAW)
+            here, far = judged([state for state, *_ in flown.log[begins:]])
+            rows.append((begun and flown.flies == LAW and here, far, flown.log[begins][0]))
+        released = fp.State.from_packed(np.stack([state.packed() for *_, state in rows]))
+        fields = {name: getattr(released, name) for name in ("x_dot", "R", "omega", "y", "y_dot")}
+        moved = fp.State(x=released.x - HOME, **fields)
+        law = fp.laws.inverted()
+        ideal = fp.simulate_ensemble(vehicle, law, moved, DURATION, plant=given.plant, criterion=SETTLED)
+        yield kind, np.array([row[0] for row in rows]), np.array([row[1] for row in rows]), ideal
+
+
+def judged(flight: list[fp.State]) -> tuple[bool, float]:
+    """Whether the last second was inverted hover at HOME, and the excursion from there, m."""
+    x = np.array([state.x for state in flight]) - HOME
+    last = flight[-round(SETTLED.hold / TICK) :]
+    far = np.linalg.norm(x, axis=1)
+    inverted = all(
+        np.linalg.norm(s.y - [0, 0, 1]) < SETTLED.rod and np.linalg.norm(s.R[:, 2] - [0, 0, 1]) < SETTLED.axis
+        for s in last
+    )
+    return bool(inverted and far[-len(last) :].max() < SETTLED.position), float(far.max())
+
+
+def table(kinds):
+    """Lines of the table of starts."""
+    yield "| starts | in the firmware | excursion, m, p50 / p95 | ideal mixing | its excursion, m, p50 / p95 |"
+    yield "|---|---|---|---|---|"
+    for kind, stood, far, ideal in kinds:
+        own, other = np.percentile(far, (50, 95)), [ideal.percentile("excursion", q) for q in (50, 95)]
+        success = f"{round(ideal.rate * len(ideal))} of {len(ideal)}"
+        yield (
+            f"| {kind} | {stood.sum()} of {len(stood)} | {own[0]:.2f} / {own[1]:.2f} | "
+            f"{success} | {other[0]:.2f} / {other[1]:.2f} |"
+        )
+
+
+# Scenarios ------------------------------------------------------------------------------------------------------------
+
+
+def _switched_off(flown):
+    flown.firmware.set("flypend.on", 0)
+
+
+def _landed(flown):
+    flown.firmware.set("flypend.on", 0)
+    flown.land(0.0, 3.0)
+
+
+def _attribute(**values):
+    def change(flown):
+        for name, value in values.items():
+            setattr(flown, name, value)
+
+    return change
+
+
+SCENARIOS = {
+    "switched off": _switched_off,
+    "land": _landed,
+    "stop setpoint": Vehicle.stop,
+    "emergency stop": Vehicle.emergency,
+    "disarmed": lambda flown: flown.arm(False),
+    "setpoints lost": _attribute(setpoints=False),
+    "link lost": _attribute(link=False),
+    "bob lost": _attribute(sees_bob=False),
+    "pose lost": _attribute(sees_pose=False),
+    "battery low": _attribute(battery_is_low=True, voltage=3.1),
+}
+LOW = np.array([0.0, 0.0, 1.5])  # m
+AFTER = 9.0  # s that a scenario lasts
+DISARM = 4.0  # s after which the host script disarms a vehicle that it told to land
+
+
+def happen(name: str, library: Path, vehicle: fp.Vehicle, *, instead: int | None = None) -> tuple[Vehicle, int]:
+    """Hold the rod inverted for a second, let it happen; `instead`: the tick at which the firmware's PID takes over."""
+    flown = Vehicle(library, vehicle, home=LOW)
+    flown.lift()
+    assert flown.release(fp.State(x=LOW, y=(np.sin(0.1), 0, np.cos(0.1))))
+    flown.fly(1.0)
+    event = flown.ticks
+    SCENARIOS[name](flown)
+    for _ in range(round(AFTER / TICK)):
+        if flown.ticks == instead:
+            flown.firmware.set("stabilizer.controller", OWN)
+        if name == "land" and flown.ticks == event + round(DISARM / TICK):
+            flown.arm(False)
+        flown.tick()
+        if flown.state.x[2] < -0.2:  # below the floor, which the plant does not have
+            break
+    return flown, event
+
+
+def compared(name: str, library: Path, vehicle: fp.Vehicle) -> tuple[Vehicle, Vehicle, int, int]:
+    """The app's flight, that with the firmware's PID from the tick where the law ends, and ticks of event and end."""
+    flown, event = happen(name, library, vehicle)
+    end = next(i for i in range(event, len(flown.log)) if flown.log[i][2] != LAW)
+    own, _ = happen(name, library, vehicle, instead=end)
+    return flown, own, event, end
+
+
+def difference(flown: Vehicle, own: Vehicle, end: int, begin: float = 0.02, until: float = 0.5) -> float:
+    """Largest difference, N, of a rotor's force between two flights, `begin` to `until` s after the tick `end`.
+
+    The firmware's PID takes up to 10 ms to run for the first time, the app's runs at once.
+    """
+    span = slice(end + round(begin / TICK), end + round(until / TICK))
+    a, b = (np.array([forces for _, forces, _ in one.log[span]]) for one in (flown, own))
+    count = min(len(a), len(b))
+    return float(np.abs(a[:count] - b[:count]).max())
+
+
+def stopped(flown: Vehicle, event: int) -> float | None:
+    """Seconds from the event until all rotors stand still for good; None if they do not."""
+    spinning = [i for i in range(event, len(flown.log)) if flown.log[i][1].any()]
+    last = spinning[-1] + 1 if spinning else event
+    return None if last == len(flown.log) else (last - event) * TICK
+
+
+def strayed(flown: Vehicle, event: int) -> tuple[float, float]:
+    """How far it went sideways from where it hovered, and its lowest point, m, until the motors stopped or 0.05 m."""
+    x = np.array([state.x for state, forces, _ in flown.log[event:] if forces.any() and state.x[2] > 0.05])
+    return (float(np.hypot(*(x - LOW)[:, :2].T).max()), float(x[:, 2].min())) if len(x) else (0.0, LOW[2])
+
+
+def told(name: str, flown: Vehicle, own: Vehicle, event: int, end: int) -> str:
+    """A line about a scenario."""
+    phases = [NAMES[flown.log[i][2]] for i in range(event, len(flown.log)) if flown.log[i][2] != flown.log[i - 1][2]]
+    stops = [stopped(one, event) for one in (flown, own)]
+    times = ["—" if still is None else f"{still:.3f}" for still in stops]
+    aside, lowest = strayed(flown, event)
+    cells = [name, f"{(end - event) * TICK:.3f}", ", ".join(phases), *times, f"{aside:.2f}", f"{lowest:.2f}"]
+    return f"| {' | '.join(cells)} | {difference(flown, own, end):.4f} |"
+
+
+HEAD = (
+    "| what happens | law flies on, s | then | motors stop after, s | firmware's PID's, s | aside, m | lowest, m | "
+    "forces differ by, N |",
+    "|---|---|---|---|---|---|---|---|",
+)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,253 @@
+"""The firmware and a vehicle in one loop of 1 kHz, with a ground station that sends what the host script sends."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import shutil
+import struct
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+from scipy.spatial.transform import Rotation
+
+import flypend as fp
+from flypend import geometry
+from flypend.plants.actuation import make_engine
+from flypend.plants.plant import sampled_plant
+from flypend.plants.sensing import mean_force
+
+TICK = 1e-3  # s
+FRAMES, SETPOINTS = 10, 20  # ticks between frames of motion capture, and between setpoints
+HOME = np.array([0.0, 0.0, 5.0])  # m: a swing-up drops by two metres, and may not touch the ground
+CUT, PID, LAW, LANDING = range(4)  # flypend.flies
+GRAVITY = 9.81  # m/s², in which the firmware's accelerometer counts
+STILL = np.zeros(6)  # no wind
+KALMAN, APP, OWN = 2, 6, 1  # stabilizer.estimator; stabilizer.controller of the app, and the firmware's PID
+
+
+def _host_script():
+    """The template of the host script, as a module."""
+    path = Path(fp.__file__).parent / "export" / "templates" / "crazyflie" / "flypend_host.py"
+    spec = importlib.util.spec_from_file_location("flypend_host", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+HOST = _host_script()
+
+
+class _World(ctypes.Structure):
+    _fields_ = (
+        ("gyro", ctypes.c_float * 3), ("acc", ctypes.c_float * 3), ("x", ctypes.c_float * 3), ("v", ctypes.c_float * 3),
+        ("q", ctypes.c_float * 4), ("voltage", ctypes.c_float), ("battery_is_low", ctypes.c_int32),
+    )  # fmt: skip
+
+
+class Firmware:
+    """The firmware after power-up, in memory of its own; `known`: it is told its true state."""
+
+    def __init__(self, library: Path, *, known: bool = False) -> None:
+        with tempfile.TemporaryDirectory() as folder:  # each needs a library that nobody has loaded
+            self._c = ctypes.CDLL(shutil.copy(library, folder))
+        self._c.host_log.restype = self._c.host_parameter.restype = ctypes.c_double
+        self._c.host_said.restype = ctypes.c_char_p
+        self._c.host_boot(KALMAN, int(known))
+        self._forces = (ctypes.c_float * 4)()
+
+    def step(self, world: _World) -> np.ndarray:
+        """Rotor forces (4,), N, that its motors would settle at, after one tick."""
+        self._c.host_step(ctypes.byref(world), self._forces)
+        return np.array(self._forces, dtype=float)
+
+    def packet(self, port: int, channel: int, data: bytes) -> None:
+        """Let a packet arrive."""
+        assert self._c.host_packet(port, channel, data, len(data))
+
+    def log(self, name: str) -> float:
+        """A logged number of 8 or 16 bits, or single precision."""
+        return self._c.host_log(*(part.encode() for part in name.split(".")))
+
+    def set(self, name: str, value: float) -> float:
+        """Upload a parameter, and return what it is then."""
+        group, own = (part.encode() for part in name.split("."))
+        assert self._c.host_set(group, own, ctypes.c_double(value))
+        return self._c.host_parameter(group, own)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The airframe as the firmware knows it."""
+        found = (ctypes.c_float * 4)()
+        self._c.host_numbers(found)
+        return dict(zip(("arm", "least", "largest", "torque"), (float(value) for value in found), strict=True))
+
+    @property
+    def said(self) -> str:
+        """What it has printed."""
+        return self._c.host_said().decode()
+
+
+class Vehicle:
+    """A vehicle under the firmware, from power-up on a rig that holds it level, with the rod hanging.
+
+    Parameters
+    ----------
+    library : Path
+        Of `built.build`.
+    vehicle : flypend.Vehicle
+        The true one.
+    plant : str or flypend.Plant
+        Its engine.
+    home : (3,)
+        Where the rig is, and where it is asked to hover, m.
+    known : bool
+        Whether the firmware is told its true state, in place of its Kalman filter's.
+    """
+
+    def __init__(self, library: Path, vehicle: fp.Vehicle, plant="rotors", *, home=HOME, known: bool = False) -> None:
+        self.vehicle, self.firmware = vehicle, Firmware(library, known=known)
+        self.known, self.world = known, _World()
+        self.engine = make_engine(vehicle, sampled_plant(plant))
+        self.rest = fp.State(x=home, y=(0.0, 0.0, -1.0))
+        self.engine.reset(self.rest.packed(), np.zeros(4))
+        self.state = self._before = self.rest
+        self.target, self.link, self.sees_bob, self.sees_pose = np.array(home), True, True, True
+        self.voltage, self.battery_is_low = 4.0, False
+        self.ticks, self.setpoints = 0, False
+        self.forces = np.zeros(4)
+        self.log: list[tuple] = []  # state, forces, flies of each tick
+
+    # What the ground station does -------------------------------------------------------------------------------------
+
+    def arm(self, armed: bool = True) -> None:
+        """Arm or disarm."""
+        self.firmware.packet(9, 1, struct.pack("<B?", 1, armed))
+
+    def emergency(self) -> None:
+        """Stop for good."""
+        self.firmware.packet(9, 1, struct.pack("<B", 3))
+
+    def stop(self) -> None:
+        """Send the stop setpoint."""
+        self.setpoints = False
+        self.firmware.packet(7, 0, struct.pack("<B", 0))
+
+    def land(self, height: float, duration: float) -> None:
+        """Land with the high-level commander."""
+        self.setpoints = False
+        self.firmware.packet(7, 1, struct.pack("<BI", 0, 0))
+        self.firmware.packet(8, 0, struct.pack("<BBff?f", 8, 0, height, 0.0, True, duration))
+
+    def _radio(self) -> None:
+        state = self.state
+        if self.ticks % FRAMES == 0:
+            if self.sees_pose:
+                quaternion = geometry.quat_xyzw_from_rotation(state.R)
+                self.firmware.packet(6, 1, struct.pack("<B7f", 8, *state.x, *quaternion))
+            if self.sees_bob:
+                end, speed = (a + self.vehicle.l * b for a, b in ((state.x, state.y), (state.x_dot, state.y_dot)))
+                self.firmware.packet(13, 2, struct.pack("<c6f", b"b", *end, *speed))
+        if self.setpoints and self.ticks % SETPOINTS == 0:
+            self.firmware.packet(7, 0, struct.pack("<B4f", 7, *self.target, 0.0))
+
+    # Time -------------------------------------------------------------------------------------------------------------
+
+    def tick(self, carried: fp.State | None = None) -> None:
+        """One millisecond: in flight, or to the state where the rig carries it."""
+        state, before = self.state, self._before
+        if self.link:
+            self._radio()
+        acc = mean_force(before.x_dot, state.x_dot, before.R, state.R, GRAVITY, TICK) / GRAVITY
+        world = self.world
+        world.gyro[:], world.acc[:] = np.degrees(state.omega).tolist(), acc.tolist()
+        world.voltage, world.battery_is_low = self.voltage, int(self.battery_is_low)
+        if self.known:
+            world.x[:], world.v[:] = state.x.tolist(), state.x_dot.tolist()
+            world.q[:] = geometry.quat_xyzw_from_rotation(state.R).tolist()
+        self.forces = self.firmware.step(world)
+        self._before = state
+        self.engine.step(self.forces, TICK, STILL)
+        if carried is not None:  # its rotors spin up as they do
+            self.engine.reset(carried.packed(), self.engine.rotors)
+        self.state = fp.State.trusted(np.array(self.engine.packed).ravel())
+        self.ticks += 1
+        self.log.append((state, self.forces, self.flies))
+
+    @property
+    def flies(self) -> int:
+        """What flies: CUT, PID, LAW or LANDING."""
+        return int(self.firmware.log("flypend.flies"))
+
+    def fly(self, duration: float, until=lambda: False) -> bool:
+        """Fly for `duration` (s), or `until` something; whether that came."""
+        for _ in range(round(duration / TICK)):
+            if until():
+                return True
+            self.tick()
+        return until()
+
+    def hold(self, duration: float) -> None:
+        """Stay on the rig."""
+        for _ in range(round(duration / TICK)):
+            self.tick(self.rest)
+
+    def lift(self, controller: int = APP) -> None:
+        """Power up, arm, and let PID run on the rig until the firmware believes that it flies."""
+        self.firmware.set("stabilizer.controller", controller)
+        for name, value in HOST.FILTER.items():
+            self.firmware.set(name, value)
+        self.hold(1.5)  # its Kalman filter settles
+        self.arm()
+        self.hold(0.1)
+        self.setpoints = True
+        self.hold(0.4)
+        assert self.firmware.log("sys.isFlying") == 1, self.firmware.said
+
+    def release(self, start: fp.State, carrying: float = 1.5) -> bool:
+        """Carry it to `start`, with the law switched on just before; release it when the law flies. Whether it does.
+
+        The rig follows cubic paths in x and in the rotation vectors of R and y, from rest to the rates of `start`.
+        """
+        self.firmware.set("supervisor.tmblChckEn", 0)  # the rig may turn it over
+        for i, state in enumerate(states(carried(self.rest, start, carrying))):
+            if i * TICK > carrying - 0.022:  # the app's task turns the check off within 20 ms
+                self.firmware.set("flypend.on", 1)
+            self.tick(state)
+            if self.flies == LAW:
+                return True
+        return False
+
+
+def carried(rest: fp.State, start: fp.State, duration: float) -> fp.State:
+    """States of the rig, one a tick, from `rest` to `start` and 20 ms on."""
+    spin = np.cross(start.y, start.y_dot)  # angular velocity of the rod, world frame
+    back = -Rotation.from_matrix(rest.R.T @ start.R).as_rotvec()  # body frame of `start`: R = start.R exp(turn)
+    axis = np.cross(start.y, rest.y)
+    angle = np.arctan2(np.linalg.norm(axis), start.y @ rest.y)
+    if np.linalg.norm(axis) < 1e-9:
+        axis = geometry.unit(np.cross(start.y, (1.0, 0.3, 0.2)))
+    swing = angle * geometry.unit(axis)
+    t = np.linspace(0, 1, 1 + round((duration + 0.02) / TICK)) * (duration + 0.02)  # s, beyond the start if need be
+    at = [0.0, duration]
+    place = CubicHermiteSpline(at, [rest.x, start.x], [np.zeros(3), start.x_dot])
+    turn = CubicHermiteSpline(at, [back, np.zeros(3)], [np.zeros(3), start.omega])
+    swung = CubicHermiteSpline(at, [swing, np.zeros(3)], [np.zeros(3), spin])
+
+    def R(s):
+        return start.R @ Rotation.from_rotvec(turn(s)).as_matrix()
+
+    def y(s):
+        return Rotation.from_rotvec(swung(s)).as_matrix() @ start.y
+
+    h = 1e-6
+    y_dot = geometry.tangent_part(y(t), (y(t + h) - y(t - h)) / (2 * h))
+    omega = Rotation.from_matrix(np.swapaxes(R(t - h), -1, -2) @ R(t + h)).as_rotvec() / (2 * h)
+    return fp.State(x=place(t), x_dot=place(t, 1), R=R(t), omega=omega, y=y(t), y_dot=y_dot)
+
+
+def states(batch: fp.State) -> list[fp.State]:
+    """The states of a batch."""
+    return [fp.State.trusted(packed) for packed in batch.packed()]

@@ -1,0 +1,147 @@
+"""Apps for the firmware of a vehicle: everything that its build takes, with the safety rules of that firmware."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from flypend import errors, signals
+from flypend.compile.c99 import literal
+from flypend.errors import InputError
+from flypend.export.interface import interface
+from flypend.export.write import core, filled, values_of
+from flypend.files.staging import staged
+from flypend.laws import BoundLaw, Law
+from flypend.model import Vehicle
+
+TARGETS = ("crazyflie",)
+
+
+@dataclass(frozen=True)
+class Airframe:
+    """What the Crazyflie firmware says of an airframe in `platform_defaults_*.h`, release 2026.08.
+
+    Parameters
+    ----------
+    arm : float
+        Distance of a rotor from the roll and the pitch axis, m: ARM_LENGTH/√2.
+    least, largest : float
+        Forces of one rotor, N: THRUST_MIN, rounded up, since the firmware turns less into nothing; THRUST_MAX.
+    idle : int, optional
+        Idle thrust of armed motors, of 65,535; None for the firmware's own.
+    """
+
+    arm: float
+    least: float
+    largest: float
+    idle: int | None = None
+
+
+# The build refuses numbers that are not those of the firmware at hand. Brushed motors stop and start again at once; the
+# brushless ones need their idle thrust, which is THRUST_MIN.
+AIRFRAMES: Mapping[str, Airframe] = {
+    "cf2": Airframe(arm=0.0325, least=0.0129, largest=0.12, idle=0),
+    "cf21bl": Airframe(arm=0.0354, least=0.0214, largest=0.2),
+}
+# Motors M1 to M4 of the firmware: signs of x and y (front-left-up), and of the reaction torque about z.
+MOTORS = ((1, -1, -1), (-1, -1, 1), (-1, 1, -1), (1, 1, 1))
+
+
+@errors.named_arguments
+@signals.deferred()
+def export_app(
+    target: str,
+    law: Law | BoundLaw,
+    vehicle: Vehicle,
+    out: str | Path,
+    *,
+    airframe: str | None = None,
+    rate: float = 500.0,
+) -> Vehicle:
+    """Write an app for the firmware of `target` that flies `law` on `vehicle`.
+
+    The folder `out` holds sources, build files and a README with the way from unpacking to the first swing-up.
+
+    Parameters
+    ----------
+    target : "crazyflie"
+        Whose firmware.
+    law : Law
+        As in `export_c`.
+    vehicle : Vehicle
+        What it flies: four rotors in the order of the firmware's motors, no more than 5 % of an arm from their places.
+    out : str or Path
+        Folder that receives the files; it may exist.
+    airframe : "cf2" or "cf21bl", optional
+        For which the firmware is built; default the one whose arms are nearest.
+    rate : float
+        Control rate, Hz: a divisor of 1,000.
+
+    Returns
+    -------
+    Vehicle
+        `vehicle` within the airframe's rotor limits, as the app flies it.
+
+    Raises
+    ------
+    InputError
+        As `export_c`, for another target, and for a vehicle that is no such airframe.
+    """
+    errors.one_of("target", target, TARGETS)
+    if not isinstance(vehicle, Vehicle):
+        raise InputError("vehicle", "a Vehicle", repr(vehicle))
+    errors.number("rate", rate, above=0, at_most=1000, unit="Hz")
+    if 1000 % rate:
+        raise InputError("rate", "a divisor of 1,000 Hz, the rate of the firmware's loop", f"{rate:g} Hz")
+    arm = float(np.abs(np.array(vehicle.rotor_positions)[:, :2]).mean())
+    name = airframe or min(AIRFRAMES, key=lambda known: abs(AIRFRAMES[known].arm - arm))
+    frame = AIRFRAMES[errors.one_of("airframe", name, tuple(AIRFRAMES))]
+    _check_motors(vehicle, name, frame)
+    flown = limited(vehicle, frame)
+    made = interface(law, flown, rate, None)
+    values = values_of(made, "float") | {
+        "airframe": name,
+        "arm": literal(arm, "float"),
+        "least_force": literal(flown.rotor_limits[0], "float"),
+        "largest_force": literal(flown.rotor_limits[1], "float"),
+        **{name: literal(getattr(flown, name), "float") for name in ("mass", "bob_mass", "rod_length")},
+        "idle": "" if frame.idle is None else f"CONFIG_MOTORS_DEFAULT_IDLE_THRUST={frame.idle}\n",
+        "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
+        "weight": f"{1e3 * (flown.M + flown.m):.3g}",
+        "rod": f"{flown.l:.3g}",
+    }
+    texts = core(made, "float")
+    texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}
+    texts |= {
+        file: filled(f"crazyflie/{file}", values)
+        for file in ("Makefile", "Kbuild", "app-config", "flypend_app.c", "README.md", "flypend_host.py")
+    }
+    with staged(out) as folder:
+        for file, text in texts.items():
+            (folder / file).write_text(text, encoding="utf-8", newline="\n")
+    return flown
+
+
+def limited(vehicle: Vehicle, frame: Airframe) -> Vehicle:
+    """Return `vehicle` with rotor limits that the firmware of `frame` can give. Raises InputError if none are left."""
+    least, largest = vehicle.rotor_limits
+    least, largest = max(least, frame.least), min(largest, frame.largest)
+    if 4 * largest <= vehicle.weight:
+        what = f"a vehicle lighter than 4 × {largest:g} N, which the firmware gives"
+        raise InputError("vehicle", what, f"{vehicle.weight:.3g} N")
+    return vehicle.replace(rotor_limits=(least, largest))
+
+
+def _check_motors(vehicle: Vehicle, name: str, frame: Airframe) -> None:
+    places, spins = np.array(vehicle.rotor_positions), np.array(vehicle.rotor_spins)
+    wanted = np.array(MOTORS, dtype=float)
+    if len(places) != 4 or np.any(np.sign(places[:, :2]) != wanted[:, :2]) or np.any(np.sign(spins) != wanted[:, 2]):
+        what = "rotors in the order of M1 to M4: front right, back right, back left, front left; spins −1, 1, −1, 1"
+        raise InputError("rotor_positions", what, f"{places[:, :2].tolist()}, spins {spins.tolist()}")
+    off = np.abs(np.abs(places[:, :2]) - frame.arm).max() / frame.arm
+    if off > 0.05:  # the two airframes differ by 8 %
+        what = f"rotors {frame.arm:g} m from the axes, as on the {name}"
+        raise InputError("rotor_positions", what, f"{100 * off:.0f} % off")

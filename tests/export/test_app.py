@@ -1,0 +1,404 @@
+"""The app for the Crazyflie: what it refuses, when the law flies in it, and what it costs the firmware.
+
+Around stand-in headers in every run; against the firmware itself where it lies beside the project (shared/firmware).
+"""
+
+import ctypes
+import re
+import struct
+
+import numpy as np
+import pytest
+from cbuild import STANDINS, build, run
+from scipy.spatial.transform import Rotation
+
+import flypend as fp
+from benchmarks import cortex
+from flypend.board.program import initial_memory
+from flypend.export import records, vectors
+from flypend.export.app import AIRFRAMES, limited
+from flypend.plants.loop import Loop
+from flypend.plants.plant import Sampled
+
+LAW = fp.laws.inverted()
+VEHICLE = limited(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
+HEADERS = (
+    "FreeRTOS.h", "task.h", "app.h", "app_channel.h", "controller.h", "controller_pid.h", "estimator.h", "log.h",
+    "param.h", "platform_defaults.h", "pm.h", "stabilizer_types.h", "supervisor.h",
+)  # fmt: skip
+APP = ("flypend_app.c", "flypend_law.c", "flypend_frames.c")
+CUT, PID, BY_LAW, LANDING = range(4)
+FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, ON_GROUND = range(9)
+DISABLE, ABSOLUTE, VELOCITY = range(3)
+LEGACY, FORCE = 0, 2
+BUDGET = 1000  # bytes of the stabilizer task's stack
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("app")
+    flown = fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), place)
+    assert flown == VEHICLE
+    for name in HEADERS:
+        (place / name).write_text('#include "firmware.h"\n')
+    return place
+
+
+class Entry(ctypes.Structure):
+    """A row of the tables of parameters and logs."""
+
+    _fields_ = (
+        ("type", ctypes.c_int), ("name", ctypes.c_char_p), ("address", ctypes.c_void_p), ("call", ctypes.c_void_p),
+    )  # fmt: skip
+
+
+class Firmware:
+    """The app in stand-ins, at the start of each test as after a reboot."""
+
+    KINDS = (ctypes.c_uint8, ctypes.c_uint16, ctypes.c_float, ctypes.c_uint8, ctypes.c_float)
+
+    def __init__(self, library):
+        self.c = ctypes.CDLL(str(library))
+        self.c.standin_entries.restype = ctypes.POINTER(Entry)
+        self.logs, self.parameters = self._entries(0), self._entries(1)
+        self.tick, self.low, self.kind, self.flying, self.stale = 1000, 0, 2, 1, 0
+        self.c.controllerOutOfTreeInit()
+
+    def _entries(self, parameters):
+        rows, found, i = self.c.standin_entries(parameters), {}, 0
+        while rows[i].name:
+            found[rows[i].name.decode()] = rows[i]
+            i += 1
+        return found
+
+    def _cell(self, entry):
+        return self.KINDS[entry.type].from_address(entry.address)
+
+    def log(self, name):
+        return self._cell(self.logs[name]).value
+
+    def upload(self, name, value):
+        """Set a parameter as the radio does, and return what it is then."""
+        entry = self.parameters[name]
+        self._cell(entry).value = value
+        if entry.call:
+            ctypes.CFUNCTYPE(None)(entry.call)()
+        return self._cell(entry).value
+
+    def _set(self):
+        """The time, battery, estimator, whether it flies, and when the last pose came."""
+        ticks = (ctypes.c_uint32(value) for value in (self.tick, self.tick - self.stale))
+        self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks))
+
+    def app(self, message=b""):
+        self._set()
+        self.c.standin_app(message, len(message))
+
+    def see(self, state, vehicle=VEHICLE):
+        end, speed = state.x + vehicle.l * state.y, state.x_dot + vehicle.l * state.y_dot
+        self.app(struct.pack("<c6f", b"b", *end, *speed))
+
+    def told(self):
+        """Calls of PID, mode and velocity of z, position x that it was asked for, whether tumbling is checked."""
+        found = np.zeros(5, np.float32)
+        self.c.standin_get(found.ctypes.data_as(ctypes.c_void_p))
+        return found
+
+    def fly(self, state, modes=(ABSOLUTE,) * 3, setpoint=(0.3, -0.2, 0.4), thrust=0.0, steps=1):
+        """Control mode and four numbers, after so many ms."""
+        numbers = [*state.x, *state.x_dot, *Rotation.from_matrix(state.R).as_quat(), *np.degrees(state.omega)]
+        given = np.array([*numbers, *setpoint, thrust], np.float32)
+        found = np.zeros(5, np.float32)
+        for _ in range(steps):
+            self.tick += 1
+            self._set()
+            arguments = (given.ctypes.data_as(ctypes.c_void_p), (ctypes.c_int * 3)(*modes))
+            self.c.standin_fly(*arguments, ctypes.c_uint32(self.tick), found.ctypes.data_as(ctypes.c_void_p))
+        return found[0], found[1:]
+
+    def begin(self, state):
+        """In the air under PID, with the bob in sight, and switched on; the tick is even, the law flies next."""
+        self.tick = 1001
+        self.see(state)
+        assert self.fly(state)[0] == LEGACY
+        self.upload("on", 1)
+        assert self.fly(state)[0] == LEGACY  # tumbling is still checked
+        self.see(state)
+        self.tick += self.tick % 2 + 1
+
+
+@pytest.fixture(scope="module")
+def library(folder):
+    flags = ("-std=gnu11", "-shared", "-fPIC", "-I.", f"-I{STANDINS / 'crazyflie'}", "-Wno-pedantic")
+    return build(folder, (*APP, STANDINS / "fly_crazyflie.c"), "app.so", flags=flags)
+
+
+@pytest.fixture
+def firmware(library):
+    return Firmware(library)
+
+
+def _state(seed=3):
+    start = fp.State.random(np.random.default_rng(seed), 1)[0]
+    return fp.State(x=(0.1, -0.2, 1.5), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)
+
+
+def _commands(state, target, steps):
+    """Rotor forces (steps, 4) of Python's board that began at hover and sees the same `state` in every period."""
+    loop = Loop(VEHICLE, LAW.bind(VEHICLE), Sampled())
+    path = np.zeros(records.PATH.length)
+    path[:3] = target
+    memory, commands = initial_memory(loop, np.full(4, VEHICLE.weight / 4)), []
+    for _ in range(steps):
+        answer = vectors.board_step(loop)(memory, np.append(0.0, state.packed()), path, [], [])
+        memory, command = (np.array(value).ravel() for value in answer)
+        commands.append(command)
+    return np.array(commands)
+
+
+# When the law flies ---------------------------------------------------------------------------------------------------
+
+
+def test_a_null_setpoint_stops_the_motors_and_switches_off(firmware):
+    state = _state()
+    for _ in range(2):
+        mode, forces = firmware.fly(state, modes=(DISABLE,) * 3)
+        assert mode == FORCE
+        assert np.array_equal(forces, np.zeros(4))
+        assert firmware.log("flies") == CUT
+        firmware.begin(state)
+        assert firmware.fly(state)[0] == FORCE
+        assert firmware.log("flies") == BY_LAW
+    firmware.fly(state, modes=(DISABLE,) * 3)
+    assert firmware.fly(state)[0] == LEGACY  # it is not on any more
+
+
+def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
+    state = _state()
+    firmware.see(state)
+    before = firmware.told()[0]
+    assert firmware.fly(state, steps=20)[0] == LEGACY
+    assert firmware.told()[0] == before + 20
+    assert (firmware.log("flies"), firmware.log("why")) == (PID, OFF)
+    assert firmware.told()[4] == 1  # tumbling is checked
+
+
+def test_the_law_commands_what_the_board_does(firmware):
+    # Near hover, where no rotor is at its limit; at rest, so that the bob is the same whenever it was seen.
+    state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0.02, 0, np.sqrt(1 - 0.02**2))), (0.05, -0.02, 1.0)
+    firmware.begin(state)
+    wanted = _commands(state, target, 3)
+    assert firmware.told()[4] == 0
+    for row in wanted:
+        mode, forces = firmware.fly(state, setpoint=target)
+        assert (mode, firmware.log("flies"), firmware.log("status")) == (FORCE, BY_LAW, 0)
+        assert np.allclose(0.12 * forces, row, rtol=2e-4, atol=1e-5)
+        again = firmware.fly(state, setpoint=target)[1]  # the loop runs at 1 kHz, the law at 500 Hz
+        assert np.array_equal(again, forces)
+    assert not np.allclose(wanted[0], wanted[1], rtol=1e-3)  # it remembers
+
+
+@pytest.mark.parametrize(
+    ("what", "why"),
+    [("velocity setpoint", NO_POSITION), ("no bob", NO_BOB), ("no estimate", NO_STATE), ("other estimator", NO_STATE),
+     ("old pose", NO_STATE), ("low battery", LOW_BATTERY), ("on the ground", ON_GROUND), ("too low", ON_GROUND),
+     ("tumbling is checked", TUMBLE_CHECK)],
+)  # fmt: skip
+def test_it_does_not_begin_without(firmware, what, why):
+    state = _state()
+    firmware.stale = 300 if what == "old pose" else 0
+    firmware.flying = what != "on the ground"
+    firmware.low, firmware.kind = int(what == "low battery"), 1 if what == "other estimator" else 2
+    modes = (VELOCITY,) * 3 if what == "velocity setpoint" else (ABSOLUTE,) * 3
+    here = _Nowhere(state) if what == "no estimate" else state
+    if what == "too low":
+        here = fp.State(x=(0, 0, 0.3), y=(0, 0, -1.0))
+    firmware.upload("on", 1)
+    firmware.tick += firmware.tick % 2
+    firmware.fly(here, modes)
+    if what not in ("no bob", "tumbling is checked"):
+        firmware.see(state)
+    elif what == "tumbling is checked":
+        firmware.see(state)
+        firmware.c.controllerOutOfTreeInit()  # it was off; the app has not turned it on again
+        firmware.app()
+        firmware.see(state)
+        firmware.upload("on", 1)
+    firmware.tick += 1 - firmware.tick % 2  # the law's turn is next
+    assert firmware.fly(here, modes)[0] == LEGACY
+    assert (firmware.log("flies"), firmware.log("why")) == (PID, why)
+
+
+class _Nowhere:
+    """A state whose position is no number."""
+
+    def __init__(self, state):
+        self.x, self.x_dot, self.R, self.omega = np.full(3, np.nan), state.x_dot, state.R, state.omega
+
+
+@pytest.mark.parametrize(("what", "why"), [("bob", NO_BOB), ("pose", NO_STATE), ("battery", LOW_BATTERY)])
+def test_what_is_lost_in_flight_ends_in_a_landing(firmware, what, why):
+    state = _state()
+    firmware.begin(state)
+    firmware.fly(state, steps=90)
+    assert firmware.log("flies") == BY_LAW
+    if what != "bob":
+        firmware.low, firmware.stale = int(what == "battery"), 300 * (what == "pose")
+        firmware.see(state)
+    mode, _ = firmware.fly(state, steps=30)
+    assert (mode, firmware.log("flies"), firmware.log("why")) == (LEGACY, LANDING, why)
+    told = firmware.told()
+    assert (told[1], told[2]) == (VELOCITY, 0)  # it hovers where it lost the bob
+    assert told[3] == pytest.approx(state.x[0])
+    firmware.low = firmware.stale = 0
+    firmware.see(state)
+    firmware.upload("on", 1)
+    firmware.fly(state, steps=1100)
+    assert firmware.told()[2] == pytest.approx(-0.3)  # and goes down, though the bob is back
+    firmware.app()
+    assert firmware.told()[4] == 1  # tumbling is checked again
+    for height in (0.04, 1.0):  # nor does it start again when somebody picks it up
+        mode, forces = firmware.fly(fp.State(x=(0.1, -0.2, height), y=(0, 0, -1.0)))
+        assert mode == FORCE
+        assert np.array_equal(forces, np.zeros(4))
+    firmware.fly(state, modes=(DISABLE,) * 3)
+    assert firmware.fly(state)[0] == LEGACY
+
+
+def test_a_landing_ends_though_the_ground_is_not_where_it_was(firmware):
+    state = _state()
+    firmware.begin(state)
+    firmware.fly(state, steps=120)
+    assert firmware.log("flies") == LANDING
+    assert firmware.fly(state, steps=12_000)[0] == FORCE  # 1.5 m at 0.3 m/s, and some seconds
+    assert np.array_equal(firmware.fly(state)[1], np.zeros(4))
+
+
+def test_a_landing_levels_out_with_the_supervisor_and_can_be_taken_over(firmware):
+    state = _state()
+    firmware.begin(state)
+    firmware.fly(state, steps=120)
+    firmware.fly(state, modes=(DISABLE, DISABLE, ABSOLUTE), steps=10)
+    assert firmware.log("flies") == LANDING
+    assert firmware.told()[1] == VELOCITY
+    assert firmware.fly(state, modes=(DISABLE,) * 3, thrust=20000.0)[0] == LEGACY  # by hand
+    assert firmware.log("flies") == PID
+
+
+def test_the_law_stops_on_the_ground(firmware):
+    state = _state()
+    firmware.begin(state)
+    assert firmware.fly(state, steps=3)[0] == FORCE
+    mode, forces = firmware.fly(fp.State(x=(0, 0, 0.02), R=state.R, y=(0, 0, -1.0)))
+    assert mode == FORCE
+    assert np.array_equal(forces, np.zeros(4))
+    assert np.array_equal(firmware.fly(state)[1], np.zeros(4))
+
+
+def test_the_switch_gives_it_back_to_pid_at_once(firmware):
+    state = _state()
+    firmware.begin(state)
+    assert firmware.fly(state, steps=4)[0] == FORCE
+    firmware.upload("on", 0)
+    assert firmware.fly(state)[0] == LEGACY
+    assert (firmware.log("flies"), firmware.log("why")) == (PID, OFF)
+    firmware.fly(state, steps=1001)
+    firmware.app()
+    assert firmware.told()[4] == 1  # tumbling is checked again, after a second
+    firmware.begin(state)
+    assert firmware.fly(state, modes=(DISABLE, DISABLE, ABSOLUTE))[0] == LEGACY  # the supervisor levels out
+    assert firmware.log("flies") == PID
+
+
+def test_a_packet_of_another_kind_or_without_numbers_is_no_bob(firmware):
+    state = _state()
+    for message in (b"b", b"c" + bytes(24), struct.pack("<c6f", b"b", np.nan, *[0.0] * 5)):
+        firmware.app(message)
+        firmware.fly(state)
+        assert firmware.log("bobAge") == 2**16 - 1
+
+
+def test_parameters_that_the_law_cannot_fly_with_are_refused_at_upload(firmware):
+    state = _state()
+    for name, good in (("mass", 0.031), ("bobMass", 0.0025), ("rodLength", 0.45)):
+        assert firmware.upload(name, good) == pytest.approx(good)
+        for bad in (0.0, -1.0, np.nan, np.inf):
+            assert firmware.upload(name, bad) == pytest.approx(good)
+    assert firmware.upload("late", 12.0) == 12
+    assert firmware.upload("late", np.nan) == 12
+    firmware.begin(state)
+    firmware.fly(state)
+    assert firmware.upload("rodLength", 0.6) == pytest.approx(0.45)  # it flies
+
+
+# What it refuses to write ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("target", "change", "more", "field"),
+    [
+        ("bitcraze", {}, {}, "target"),
+        ("crazyflie", {}, {"airframe": "cf3"}, "airframe"),
+        ("crazyflie", {}, {"airframe": "cf21bl"}, "rotor_positions"),
+        ("crazyflie", {}, {"rate": 300.0}, "rate"),
+        ("crazyflie", {"bob_mass": 0.03}, {}, "vehicle"),
+        ("crazyflie", {"rotor_spins": (1, -1, 1, -1)}, {}, "rotor_positions"),
+    ],
+)
+def test_what_is_no_such_vehicle_is_refused_and_nothing_is_written(target, change, more, field, tmp_path):
+    vehicle = fp.vehicle("crazyflie").replace(**change)
+    with pytest.raises(fp.InputError, match=f"^{field}: "):
+        fp.export_app(target, LAW, vehicle, tmp_path / "app", **more)
+    assert not (tmp_path / "app").exists()
+
+
+def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
+    fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path)
+    for path in tmp_path.iterdir():
+        assert path.read_bytes() == (folder / path.name).read_bytes(), path.name
+
+
+# What it costs --------------------------------------------------------------------------------------------------------
+
+
+def stack_of(folder):
+    """Bytes of stack that a call of the app's controller took at most, and in how many periods the law flew.
+
+    The stack is painted, and QEMU's Cortex-M4F flies 200 ms of the law, refusals and a landing.
+    """
+    flags = (*cortex.FLAGS, "-Os", "-fno-math-errno", "-std=gnu11", "-I.", f"-I{STANDINS / 'crazyflie'}")
+    run(["arm-none-eabi-gcc", *flags, *cortex.LINKED, *APP, STANDINS / "stack.c", "-lm", "-o", "stack.elf"], folder)
+    output = ("-chardev", "stdio,id=said", "-semihosting-config", "enable=on,target=native,chardev=said")
+    said = run([*cortex.QEMU, *output, "-kernel", "stack.elf"], folder)
+    return (int(number) for number in re.search(r"stack (\d+) flown (\d+)", said).groups())
+
+
+@pytest.mark.parametrize("name", ["inverted", "light", "corrected", "lqr", "learned", "almost_global"])
+def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
+    law = fp.laws.inverted(form="light") if name == "light" else getattr(fp.laws, name)()
+    fp.export_app("crazyflie", law, fp.vehicle("crazyflie"), tmp_path)
+    for header in HEADERS:
+        (tmp_path / header).write_text('#include "firmware.h"\n')
+    used, flown = stack_of(tmp_path)
+    print(f"{name}: {used} bytes of stack")
+    assert flown > 90
+    assert 150 < used < BUDGET
+
+
+# Against the firmware itself ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("airframe", "vehicle"),
+    [("cf2", "crazyflie"), pytest.param("cf21bl", "crazyflie-brushless", marks=pytest.mark.slow)],
+)
+def test_it_builds_with_the_firmware(airframe, vehicle, firmware_source, tmp_path):
+    """To a binary, by the two commands of its README."""
+    fp.export_app("crazyflie", LAW, fp.vehicle(vehicle), tmp_path)
+    base = f"CRAZYFLIE_BASE={firmware_source}"
+    run(["make", base, f"{airframe}_defconfig"], tmp_path)
+    said = run(["make", "-j2", base], tmp_path)
+    assert (tmp_path / "build" / f"{airframe}.bin").stat().st_size > 100_000
+    assert "warning" not in said
+    config = (tmp_path / "build" / ".config").read_text()
+    assert {"CONFIG_MOTORS_REQUIRE_ARMING=y", "CONFIG_CONTROLLER_OOT=y"} <= set(config.splitlines())

@@ -1,0 +1,121 @@
+"""The app in the firmware's own stabilizer, compiled for this machine: benchmarks/firmware at a few starts and events.
+
+Against the firmware itself, where it lies beside the project (shared/firmware) or FLYPEND_FIRMWARE names its folder.
+"""
+
+import numpy as np
+import pytest
+from cbuild import run
+
+import flypend as fp
+from benchmarks.firmware.__main__ import DURATION, compared, difference, exported, happen, judged, stopped, strayed
+from benchmarks.firmware.built import FLAGS, searched
+from benchmarks.firmware.loop import APP, CUT, HOME, HOST, LANDING, LAW, OWN, PID, Vehicle, carried, states
+
+
+@pytest.fixture(scope="module")
+def built(firmware_source, tmp_path_factory):
+    return exported(firmware_source, tmp_path_factory.mktemp("firmware") / "app", "cf2")
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_random_start_ends_upright_within_the_space_that_its_readme_asks_for(built, seed):
+    drawn = fp.State.random(np.random.default_rng(seed), 1)[0]
+    start = fp.State(x=HOME, x_dot=drawn.x_dot, R=drawn.R, omega=drawn.omega, y=drawn.y, y_dot=drawn.y_dot)
+    flown = Vehicle(*built)
+    flown.lift()
+    assert flown.release(start)
+    begun = len(flown.log)
+    flown.fly(DURATION)
+    upright, far = judged([state for state, *_ in flown.log[begun:]])
+    assert upright
+    assert flown.flies == LAW
+    assert far < 3.0
+
+
+def test_without_the_law_the_app_is_the_firmwares_pid_to_the_bit(built):
+    """On the rig and released, the rod hanging: hover, then a landing."""
+    flights = []
+    for controller in (APP, OWN):
+        flown = Vehicle(*built, home=(0.0, 0.0, 1.0))
+        flown.lift(controller)
+        flown.fly(1.0)
+        flown.land(0.0, 1.0)
+        flown.fly(1.0)
+        flights.append(np.array([forces for _, forces, _ in flown.log]))
+        assert np.ptp(flights[-1]) > 0.01
+    assert np.array_equal(*flights)
+
+
+@pytest.mark.parametrize("name", ["stop setpoint", "emergency stop", "disarmed"])
+def test_what_stops_the_firmwares_pid_stops_the_law(built, name):
+    flown, own, event, end = compared(name, *built)
+    assert flown.log[event - 1][2] == LAW
+    assert flown.log[event - 1][1].all()
+    assert (end - event) <= 40  # the supervisor looks every 40 ms
+    assert stopped(flown, event) == pytest.approx(stopped(own, event), abs=0.002)
+    assert stopped(flown, event) <= 0.04
+
+
+def test_lost_setpoints_are_levelled_out_as_by_the_firmwares_pid_and_lock_it(built):
+    flown, own, event, end = compared("setpoints lost", *built)
+    assert 0.5 < (end - event) * 1e-3 < 0.56
+    assert flown.log[end][2] == PID
+    assert difference(flown, own, end) < 1e-3  # N, of 0.08; bit by bit, were the integrals reset at the same tick
+    assert 1.9 < stopped(flown, event) < 2.1
+
+
+@pytest.mark.parametrize(("name", "soon"), [("bob lost", 0.11), ("pose lost", 0.21), ("battery low", 0.01)])
+def test_what_the_law_needs_and_loses_ends_in_a_landing_near_by(built, name, soon):
+    flown, event = happen(name, *built)
+    phases = [flown.log[i][2] for i in range(event, len(flown.log))]
+    assert phases.index(LANDING) * 1e-3 < soon
+    assert phases[-1] == CUT
+    assert 3.0 < stopped(flown, event) < 6.5  # hover for 1 s, then 1.5 m at 0.3 m/s
+    aside, _ = strayed(flown, event)
+    assert aside < 0.5  # the rod falls from upright
+
+
+def test_without_the_host_scripts_filter_settings_it_goes_much_further(built, monkeypatch):
+    """So that nobody takes them out: a level rod."""
+    far = {}
+    for which, settings in (("the script's", HOST.FILTER), ("the firmware's own", {})):
+        monkeypatch.setattr(HOST, "FILTER", settings)
+        flown = Vehicle(*built)
+        flown.lift()
+        flown.release(fp.State(x=HOME, y=(1.0, 0.0, 0.0)))
+        begun = len(flown.log)
+        flown.fly(3.0)
+        far[which] = judged([state for state, *_ in flown.log[begun:]])[1]
+    assert far["the firmware's own"] > 1.4 * far["the script's"]
+
+
+@pytest.mark.parametrize(
+    ("limits", "says"), [((0.005, 0.147), "below the firmware's THRUST_MIN"), ((0.0193, 0.18), "")]
+)
+def test_the_thrust_upgrade_kit_takes_an_app_within_its_own_limits(firmware_source, built, limits, says, tmp_path):
+    """It cannot give less than 0.0192 N, so an app for 0.0129 N is refused by the compiler; one for 0.0193 N is not."""
+    fp.export_app("crazyflie", fp.laws.inverted(), fp.vehicle("crazyflie").replace(rotor_limits=limits), tmp_path)
+    config = (built[0].parents[1] / "build/include/generated/autoconf.h").read_text()
+    assert "CONFIG_CRAZYFLIE_21_PLUS 1" in config
+    changed = config.replace("CONFIG_CRAZYFLIE_21_PLUS", "CONFIG_CRAZYFLIE_THRUST_UPGRADE_KIT")
+    (tmp_path / "autoconf.h").write_text(changed)
+    words = ["gcc", *FLAGS, *searched(firmware_source, tmp_path, tmp_path), "-include", "groups.h", "-fsyntax-only"]
+    done = run([*words, "flypend_app.c"], tmp_path, check=False)
+    assert (done.returncode == 0) == (not says), done.stderr
+    assert says in done.stderr
+    assert "beyond the firmware's THRUST_MAX" not in done.stderr
+
+
+def test_the_rig_moves_as_its_rates_say():
+    """Needs no firmware: derivatives of the path by differences, and its end."""
+    start = fp.State.random(np.random.default_rng(3), 1)[0]
+    path = states(carried(fp.State(x=HOME, y=(0, 0, -1.0)), start, 1.5))
+    end = path[1500]
+    for name in ("x", "x_dot", "R", "omega", "y", "y_dot"):
+        assert np.allclose(getattr(end, name), getattr(start, name), atol=1e-4), name
+    for before, now, after in zip(path[700:], path[701:], path[702:703], strict=False):
+        assert np.allclose((after.x - before.x) / 2e-3, now.x_dot, atol=1e-4)
+        assert np.allclose((after.y - before.y) / 2e-3, now.y_dot, atol=1e-4)
+        spin = now.R.T @ (after.R - before.R) / 2e-3
+        assert np.allclose([spin[2, 1], spin[0, 2], spin[1, 0]], now.omega, atol=1e-3)

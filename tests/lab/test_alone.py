@@ -7,6 +7,7 @@ import pytest
 from test_lab_page import expect_flight, setting, shown, slider, until
 
 import flypend as fp
+from benchmarks.frames import AT_REST
 from flypend.lab.alone import page_alone
 from flypend.lab.controls import offer
 
@@ -25,6 +26,7 @@ def visit(offline, file):
     def open_(hash_=""):
         page = offline(file.as_uri() + hash_, viewport=WIDE, color_scheme="light")
         shown(page)
+        page.evaluate(AT_REST)
         return page
 
     return open_
@@ -64,7 +66,7 @@ def test_gains_pokes_maps_and_live_flights_need_no_server(visit):
     until(page, "() => flypend.live().tick > 700")
     choose(page, law_name="corrected")
     assert not page.evaluate("flypend.live().on")
-    page.get_by_role("button", name="random").click()
+    page.locator(".starts").select_option("random")
     shown(page)
     expect_flight(page)
 

@@ -206,7 +206,9 @@ def test_the_verdict_names_what_the_law_is_to_do():
     assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])
     told = verdict(fly(preset), tuned(preset).criterion)
-    assert "which hangs" in told["words"]
+    assert "rod hangs after" in told["words"]
+    assert "vehicle fell" in told["words"]
+    assert (told["good"], told["state"]) == (True, "recovering")  # the law keeps its promise, and the vehicle falls
     assert "upright" not in told["words"]
     singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
     assert verdict(fly(singular), tuned(singular).criterion)["words"].startswith("singular after ")

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 from test_lab import Lab
 
+from benchmarks.frames import AT_REST
 from flypend.flight.simulate import fly as fly_request
 from flypend.lab.answers import engine_of
 from flypend.lab.controls import offer, sliders
@@ -42,6 +43,7 @@ def visit(chromium, server):
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.goto(server.url + hash_)
         shown(page)
+        page.evaluate(AT_REST)
         return page
 
     yield open_
@@ -124,7 +126,17 @@ def test_a_slider_flies_anew_by_pointer_and_by_key(visit):
 
 def able(page):
     """Wait until the page has machine code for its setting."""
-    until(page, "() => !document.querySelector('.live').hidden")
+    until(page, "() => !document.querySelector('.go').disabled")
+
+
+def flies_here(page, control, *values):
+    """Move a slider until the page has flown a setting itself: on a busy machine the server may be first."""
+    for value in values:
+        control.fill(value)
+        shown(page)
+        if page.evaluate("flypend.timings().at(-1).here"):
+            return
+    raise AssertionError(values)
 
 
 def test_the_page_flies_by_itself_what_the_server_then_confirms(visit):
@@ -149,7 +161,7 @@ def test_gains_from_which_a_law_computes_others_are_for_the_server(visit):
     page.locator("select[data-path='law.name']").select_option("lqr")
     shown(page)
     able(page)
-    page.get_by_role("button", name="leaning").click()
+    page.locator(".starts").select_option("leaning")
     until(page, "() => flypend.timings().at(-1).here")
     shown(page)
     expect_flight(page)
@@ -158,7 +170,7 @@ def test_gains_from_which_a_law_computes_others_are_for_the_server(visit):
     page.locator(".has-gains input").first.fill("600")  # what goes on cannot follow
     shown(page)
     assert not page.evaluate("flypend.live().on")
-    until(page, "() => document.querySelector('.live').hidden")
+    until(page, "() => document.querySelector('.go').disabled")
     expect_flight(page)
     page.locator(".has-gains .reset").click()
     shown(page)
@@ -169,8 +181,7 @@ def test_a_start_that_is_not_told_in_full_is_completed(visit):
     page = visit("#" + json.dumps(setting_for_map()))
     assert set(setting(page)["start"]) == {"x", "x_dot", "R", "omega", "y", "y_dot"}
     able(page)
-    slider(page, "duration").fill("5")
-    until(page, "() => flypend.timings().at(-1).here")
+    flies_here(page, slider(page, "duration"), "5", "5.5", "6", "6.5")
     expect_flight(page)
 
 
@@ -180,8 +191,7 @@ def test_the_ideal_plant_is_flown_by_the_page(visit):
     page.locator("select[data-path='plant.base']").select_option("ideal")
     shown(page)
     able(page)
-    slider(page, "law.gains.rod_bandwidth").fill("220")
-    until(page, "() => flypend.timings().at(-1).here")
+    flies_here(page, slider(page, "law.gains.rod_bandwidth"), "220", "221", "222", "223")
     expect_flight(page)
     page.evaluate("flypend.seek(1.2345)")
     page.locator("[data-on=bob]").click()
@@ -326,7 +336,7 @@ def test_presets_random_laws_and_plants(visit):
     run = expect_flight(page)
     assert (run.law, run.e3, run.vehicle.name) == ("corrected", "down", "nayak2018")
     assert run.y[0].tolist() == pytest.approx([0, 0, -1])
-    page.get_by_role("button", name="random").click()
+    page.locator(".starts").select_option("random")
     shown(page)
     start = setting(page)["start"]
     assert "random" not in start  # it came back in numbers
@@ -381,7 +391,7 @@ def test_sensors_are_chosen_flown_by_the_page_and_confirmed(visit):
 def test_a_reload_keeps_the_setting_and_another_page_is_not_disturbed(visit):
     first, second = visit(), visit()
     slider(first, "law.gains.rod_bandwidth").fill("230")
-    first.get_by_role("button", name="level").click()
+    first.locator(".starts").select_option("level")
     slider(second, "duration").fill("100")
     shown(first)
     shown(second)
@@ -457,7 +467,7 @@ def setting_for_map():
 def test_the_export_is_the_flight(visit, tmp_path):
     page = visit()
     slider(page, "law.gains.rod_bandwidth").fill("230")
-    page.get_by_role("button", name="level").click()
+    page.locator(".starts").select_option("level")
     shown(page)
     page.get_by_role("button", name="TOML").click()
     path = tmp_path / "flight.toml"
@@ -517,7 +527,7 @@ def test_changes_are_taken_back_and_made_again(visit):
     for value in (210, 220, 230):  # one hand, one change
         control.fill(str(value))
     shown(page)
-    page.get_by_role("button", name="level").click()
+    page.locator(".starts").select_option("level")
     shown(page)
     last = setting(page)
     page.keyboard.press("Control+z")
@@ -559,7 +569,7 @@ def test_controls_come_before_the_picture_for_those_who_go_by_keys(visit):
     page = visit()
     page.locator("header button").last.focus()
     page.keyboard.press("Tab")
-    assert page.evaluate("document.activeElement.closest('.panel') !== null")
+    assert page.evaluate("document.activeElement.closest('.bar') !== null")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -589,6 +599,7 @@ def test_a_server_that_comes_back_is_found_again(chromium):
     assert first.stop() == (0, "")
     until(page, "document.querySelector('.busy').textContent.includes('no connection')")
     again = Lab("--port", first.host.split(":")[1])
+    page.evaluate(AT_REST)
     slider(page, "law.gains.throw_speed").fill("220")
     shown(page)
     expect_flight(page)
@@ -603,7 +614,7 @@ def test_on_a_telephone_all_is_there_and_nothing_is_too_wide(visit):
     page.locator("[data-path='law.gains.rod_bandwidth']").scroll_into_view_if_needed()
     top = page.locator(".scene").bounding_box()["y"]
     assert top == pytest.approx(0, abs=1)  # the picture stays while one moves a slider
-    page.get_by_role("button", name="level").tap()
+    page.locator(".starts").select_option("level")
     shown(page)
     assert setting(page)["start"]["y"] == [1, 0, 0]
     page.evaluate("flypend.tab('map')")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from threadpoolctl import threadpool_limits
 
 import flypend as fp
@@ -14,7 +15,7 @@ from flypend.learning.network import Adam, backward, first_weights, forward, wit
 from flypend.learning.teacher import Imitation, Teacher, direct
 from flypend.learning.training import AMONG, Learner, Scouts, Training, starts, usual
 from flypend.model.mount import clearances
-from flypend.planning.scaled import Scaled, Units
+from flypend.planning.dynamics import Scaled, Units
 
 VEHICLE = fp.vehicle("hehn2011")
 
@@ -207,6 +208,41 @@ def test_whatever_rod_touches_a_disc_is_near_an_arm_and_those_above_are_not():
     assert near[touching].min() > 0.2
     assert np.all(near[above] == 0)
     assert np.all(near[gaps > 0.1] < 0.1)  # m; the discs' centres are at 0.17
+
+
+def test_whatever_is_not_hover_costs():
+    import casadi as ca
+
+    s = ca.SX.sym("s", 24)
+    machine = Scaled(ca.SX(ca.DM(Units.of(VEHICLE).numbers(VEHICLE))), 4)
+    costs = ca.Function("costs", [s], [world.costs(s, machine)])
+
+    def far(**change):
+        return float(costs(fp.State(**({"y": (0, 0, 1)} | change)).packed())[1])
+
+    assert far() == 0
+    assert far(R=turned(3, 0.7)) == pytest.approx(0, abs=1e-12)  # yaw is free
+    for name, small, large in (
+        ("x", (0.1, 0, 0), (0, 0, 0.2)), ("x_dot", (0, 0.1, 0), (0.2, 0, 0)), ("omega", (0, 0, 0.1), (0.2, 0, 0)),
+        ("y_dot", (0.1, 0, 0), (0, 0.2, 0)), ("y", (np.sin(0.1), 0, np.cos(0.1)), (0, np.sin(0.2), np.cos(0.2))),
+        ("R", turned(1, 0.1), turned(2, 0.2)),
+    ):  # fmt: skip
+        # Of second order near hover, in every direction alike: twice the deviation costs four times as much.
+        assert far(**{name: large}) == pytest.approx(4 * far(**{name: small}), rel=0.03)
+        assert far(**{name: small}) > 1e-4
+
+
+def turned(axis, angle):
+    vector = np.zeros(3)
+    vector[axis - 1] = angle
+    return Rotation.from_rotvec(vector).as_matrix()
+
+
+def test_the_distance_from_hover_weighs_by_its_mean_and_by_that_of_the_last_third():
+    course = Course(VEHICLE, duration=3.0)
+    weights = course.weights
+    assert np.sum(weights) == pytest.approx(course.throughout + course.last)
+    assert np.sum(weights[: len(weights) // 3]) == pytest.approx(course.throughout / 3)
 
 
 def test_on_a_hub_the_training_is_another():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from benchmarks.frames import AT_REST
 from flypend import palette
 from flypend.paper import experiment
 
@@ -62,6 +63,7 @@ def visit(chromium, tmp_path):
         page.add_init_script(before)
         page.goto((tmp_path / "page.html").as_uri())
         until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
+        page.evaluate(AT_REST)
         return page
 
     yield open_
@@ -188,7 +190,7 @@ def test_nothing_is_drawn_again_while_a_replay_plays_or_rests(visit, up):
 )
 def test_it_is_seen_where_there_is_room_and_put_away_by_key_and_button(visit, up, viewport, live, open_):
     page = visit(up, live=live, setting={"viewport": viewport})
-    fold, globe = page.get_by_role("button", name="S², the rod on the sphere of its directions"), page.locator(".globe")
+    fold, globe = page.get_by_role("button", name="Rod direction"), page.locator(".globe")
     for expected in (open_, not open_, open_):
         assert globe.is_visible() == expected
         assert fold.get_attribute("aria-expanded") == str(expected).lower()

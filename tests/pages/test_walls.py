@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 import flypend as fp
+from benchmarks.frames import AT_REST
 
 VEHICLE = fp.vehicle("hehn2011")
 DOOR = fp.Window(centre=(0.5, 0, 0.2), width=0.6, height=0.8)
@@ -26,6 +27,7 @@ def seen(chromium, run, folder, **options):
     page.on("pageerror", lambda error: complaints.append(str(error)))
     page.goto(path.as_uri())
     page.wait_for_selector("main")
+    page.evaluate(AT_REST)
     page.evaluate("flypend.camera('side')")
     page.wait_for_timeout(1500)
     picture = Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB")

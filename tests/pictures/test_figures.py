@@ -206,6 +206,18 @@ def test_the_thrust_that_carries_points_up_in_both_frames(run):
         assert (states.z[:, 2] > 0.99).all()
 
 
+def test_arrows_are_those_of_the_forces_of_the_run(run):
+    up = run.flipped()
+    some = slice(None, None, 20)
+    states = drawing.states_at(up, up.t[some])
+    shape = drawing.sketch_at(up, up.t[some], states)
+    at_pivot = dataclasses.replace(states, x=0 * states.x)
+    expected = drawing.sketch(at_pivot, up.vehicle, up.thrust[some], up.rotor_forces[some])
+    np.testing.assert_allclose(shape.thrust, expected.thrust, atol=1e-12)
+    np.testing.assert_allclose(shape.rotor_thrusts, expected.rotor_thrusts, atol=1e-12)
+    assert np.ptp(up.rotor_forces) > 1  # N; they differ between rotors and in time
+
+
 # The figures ----------------------------------------------------------------------------------------------------
 
 
@@ -560,7 +572,7 @@ def test_lines_and_words_of_a_page_stand_out_from_its_background(theme, ground):
         return (high + 0.05) / (low + 0.05)
 
     assert contrast("ink") > 7  # the levels of WCAG: enhanced, and for small letters
-    assert min(contrast(role) for role in ("muted", "alarm", "good")) > 4.5
+    assert min(contrast(role) for role in ("muted", *palette.STATES)) > 4.5
     # Graphics; green and pink of Okabe and Ito are a little paler on white than the 3 of WCAG.
     assert min(contrast(role) for role in ("rod", "trail", "thrust", "reference", "ghost", "rotor1", "rotor2")) > 3
     assert min(contrast(role) for role in ("rotor3", "rotor4")) > 2.5

@@ -1,15 +1,19 @@
 // Words over the pictures: which flight, its height and speed, how it ended; the key; the compass of each.
 
-import { write } from "./drawing.js";
+import { move, write } from "./drawing.js";
 import { norm } from "./numbers.js";
 import { Compass } from "./scene/compass.js";
 
-const KEY = [["front", "front rotor"], ["thrust", "rotor thrusts, their sum in outline"], ["trail", "bob"], ["ink", "vehicle"], ["reference", "reference"]];
+const KEY = [
+  ["rod", "rod and bob"], ["front", "front rotor"], ["thrust", "thrust of each rotor, total in outline"], ["trail", "path of the bob"], ["ink", "path of the vehicle"],
+  ["reference", "reference"],
+];
+const FALL = 1; // m below the start, from which on a descent is called a fall
 
 export class Captions {
   /** Over the element `parent`, the key in `low` at its foot. */
   constructor(parent, low) {
-    Object.assign(this, { parent, views: [] });
+    Object.assign(this, { parent, views: [], marks: [] });
     const key = document.createElement("p");
     key.className = "key";
     key.innerHTML = KEY.map(([role, words]) => `<span><i style="background:var(--${role})"></i>${words}</span>`).join("")
@@ -40,14 +44,34 @@ export class Captions {
       place(view, picture);
       view.compass.draw(picture, flight.e3, colours);
       const { x, x_dot } = stage.flyers[i].pose;
-      const rise = (x[2] - stage.flyers[i].base).toFixed(1).replace("-0.0", "0.0").replace("-", "−");
+      const rise = x[2] - stage.flyers[i].base, height = rise.toFixed(1).replace("-0.0", "0.0").replace("-", "−");
       write(view.name, this.several ? `${flight.title}: ` : "");
-      write(view.phase, flight.phase(t));
-      if (words) write(view.motion, `height ${rise} m, speed ${norm(x_dot).toFixed(1)} m/s`);
+      const state = flight.state(t), broken = state === "failed" && !flight.completed;
+      write(view.phase, broken ? flight.verdict.words.split(" ")[0] : flight.phase(t));
+      if (view.phase.className !== state) view.phase.className = state;
+      if (words) write(view.motion, `${rise < -FALL ? `fell ${(-rise).toFixed(1)} m` : `height ${height} m`}, speed ${norm(x_dot).toFixed(1)} m/s`);
       write(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
+    this.#heights(stage.marks());
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
     write(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
+  }
+
+  /** Write the heights at the marks of the pole. */
+  #heights(marks) {
+    while (this.marks.length < marks.length) {
+      const mark = document.createElement("span");
+      mark.className = "height";
+      this.parent.append(mark);
+      this.marks.push(mark);
+    }
+    this.marks.forEach((mark, i) => {
+      if (mark.hidden !== i >= marks.length) mark.hidden = i >= marks.length;
+      if (mark.hidden) return;
+      const { height, at: [left, top] } = marks[i];
+      write(mark, `${+height.toPrecision(3)} m`.replace("-", "−"));
+      move(mark, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`);
+    });
   }
 }
 

@@ -3,11 +3,12 @@
 import { clamp } from "./numbers.js";
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
+const REST = 2; // s of the wall at the end before it begins again, where it does
 
 export class Clock {
   /** From `start` to `end`, in seconds of flight; `changed` is called whenever anything here changes. */
   constructor(start, end, changed) {
-    Object.assign(this, { start, end, changed, time: start, speed: 1, playing: false, drive: null });
+    Object.assign(this, { start, end, changed, time: start, speed: 1, playing: false, drive: null, loop: false, rested: 0 });
   }
 
   /** Another start and end; the time stays if it lies between. */
@@ -66,6 +67,8 @@ export class Clock {
       return;
     }
     this.time = Math.min(this.time + elapsed * this.speed, this.end);
-    if (this.time >= this.end) this.pause();
+    if (this.time < this.end) this.rested = 0;
+    else if (!this.loop) this.pause();
+    else if ((this.rested += elapsed) > REST) this.time = this.start;
   }
 }

@@ -1,10 +1,10 @@
 // A run as the page knows it: columns of samples, and the pose at any time between them.
 //
 // A pose holds, in the frame of the run and in SI units: t, x, x_dot, quat_xyzw (body to world), y, y_dot, thrust (along
-// the body's e3), rotor_forces, x_ref, and `turned`, the angle of each drawn rotor in radians.
+// the body's e3), rotor_forces, x_ref, excess over the tolerances of the verdict, and `turned`, the angle of each drawn rotor in radians.
 
 import { clamp, dot, hermite, indexBefore, matrix, mix, slerp, unit } from "./numbers.js";
-import { phases } from "./phases.js";
+import { phases, STANDS } from "./phases.js";
 
 const TURNS_IN_HOVER = 2.5; // drawn turns of a rotor per second of flight that carries its share of the weight
 const QUARTER_TURN = Math.cos(Math.PI / 4); // |<q, q'>| of a quarter turn: beyond it nothing can be interpolated
@@ -65,6 +65,7 @@ export class Flight {
       thrust: between("thrust", 1)[0],
       rotor_forces: between("rotor_forces", this.rotors),
       x_ref: between("x_ref", 3),
+      excess: between("excess", 1)[0],
       turned: this.turned[i].map((value, k) => mix(value, this.turned[j][k], share)),
     };
   }
@@ -72,6 +73,12 @@ export class Flight {
   /** What the rod does from when to when, see phases.js. */
   get phases() {
     return (this.found ??= phases(this));
+  }
+
+  /** How it is at the time `t`, in one word: "done" while the rod stands, "failed" at the end of a flight that has, else "recovering". */
+  state(t) {
+    if (t >= this.end && this.verdict.state === "failed") return "failed";
+    return this.phase(t) === STANDS ? "done" : "recovering";
   }
 
   /** What the rod does at the time `t`, in one word. */

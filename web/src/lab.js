@@ -1,7 +1,15 @@
-// The laboratory with the server that has sent the page.
+// The laboratory: with the server that has sent the page, or on machine code in the page, for one vehicle, law and plant or for several.
 
 import { Hybrid } from "./lab/hybrid.js";
 import { Laboratory } from "./lab/laboratory.js";
+import { Local } from "./live/local.js";
+import { Shelf } from "./live/shelf.js";
 
 const data = JSON.parse(document.getElementById("flypend-data").textContent);
-window.flypend = new Laboratory(data, (told, say) => new Hybrid(told, say)).provide();
+
+function connected(told, say) {
+  if (data.engines) return new Shelf(data, told);
+  return data.engine ? new Local(data, told) : new Hybrid(told, say);
+}
+
+window.flypend = new Laboratory(data, connected).provide();

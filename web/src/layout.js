@@ -11,14 +11,14 @@ export function frame(css, title) {
   const main = document.createElement("main");
   main.innerHTML = `
     <header><h1></h1><div class="legend"></div></header>
-    <section class="scene" aria-label="Flight"><canvas class="picture" role="img"></canvas><p class="note"></p><div class="low"></div></section>
+    <section class="scene" aria-label="Flight"><canvas class="picture" role="img"></canvas><p class="note"></p><p class="invite" hidden></p><div class="low"></div></section>
     <section class="plots" aria-label="Plots" tabindex="0"></section>
     <footer><div class="player"></div><div class="choices"></div></footer>`;
   document.body.append(main);
   const find = (selector) => main.querySelector(selector);
   find("h1").textContent = title;
   return {
-    legend: find(".legend"), scene: find(".scene"), canvas: find(".picture"), note: find(".note"), low: find(".low"), plots: find(".plots"), player: find(".player"), choices: find(".choices"),
+    legend: find(".legend"), scene: find(".scene"), canvas: find(".picture"), note: find(".note"), invite: find(".invite"), low: find(".low"), plots: find(".plots"), player: find(".player"), choices: find(".choices"),
   };
 }
 
@@ -43,9 +43,9 @@ export function legend(parent, flights) {
   });
 }
 
-/** Write a verdict, with a dot that says whether it is good. */
-export function judge(element, { words, good, reason }) {
+/** Write a verdict, with a sign of its state: done, recovering or failed. */
+export function judge(element, { words, state, reason }) {
   element.textContent = words;
   element.title = reason ?? "";
-  element.className = `verdict ${good ? "good" : "bad"}`;
+  element.className = `verdict ${state}`;
 }

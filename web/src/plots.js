@@ -46,7 +46,7 @@ export class Plot {
   #told() {
     const { plain, unit, span: [low, high], limits: [least, most], peak } = this;
     const word = this.log ? power : tick, of = (value) => `${word(value)}${unit && ` ${unit}`}`;
-    const beyond = most !== null && most < high ? `; no rotor gives more than ${of(most)}` : least !== null && least > low ? `; no rotor gives less than ${of(least)}` : "";
+    const beyond = most !== null && most < high ? `; rotor limit ${of(most)}` : least !== null && least > low ? `; least rotor force ${of(least)}` : "";
     const told = this.phases.map(({ from, name }) => `${name} from ${from.toFixed(1)} s`).join(", ");
     return `${plain} over time, ${word(low)} to ${of(high)}${told && `; the rod ${told}`}${beyond}${peak ? `; cut off, peak ${large(peak)}${unit}` : ""}`;
   }
@@ -168,7 +168,7 @@ export class Plot {
     for (const { left, right } of this.#captions(context, place)) {
       for (const x of [left, right]) if (x > LEFT + 1 && x < width - RIGHT - 1) line(x, TOP, x, height - BOTTOM, colours.muted, [1, 3]);
     }
-    for (const t of this.touches) line(place.x(t), TOP, place.x(t), height - BOTTOM, colours.alarm, [4, 2]);
+    for (const t of this.touches) line(place.x(t), TOP, place.x(t), height - BOTTOM, colours.failed, [4, 2]);
   }
 
   /** Words at the right edge, over the curves and with a rim that keeps them legible. */
@@ -193,8 +193,8 @@ export class Plot {
       context.strokeStyle = colours.paper;
     };
     const [least, most] = this.limits;
-    if (most !== null && most < high) label(`no rotor gives more than ${tick(most)} ${this.unit}`, [place.y(most) - 5, place.y(most) + 14], colours.barred);
-    else if (least !== null && least > low) label(`no rotor gives less than ${tick(least)} ${this.unit}`, [place.y(least) + 14], colours.barred);
+    if (most !== null && most < high) label(`Rotor limit ${tick(most)} ${this.unit}`, [place.y(most) - 5, place.y(most) + 14], colours.barred);
+    else if (least !== null && least > low) label(`Least rotor force ${tick(least)} ${this.unit}`, [place.y(least) + 14], colours.barred);
     for (const [value, word] of this.levels) label(word, [place.y(value) - 6, place.y(value) + 14]);
     if (cut) write(cut, TOP + 10, LEFT + 6 + context.measureText(cut).width);
     for (const [value, word] of this.names) write(word, place.y(value) + (value > (low + high) / 2 ? 15 : -7));

@@ -12,7 +12,7 @@ const MARGIN = 24; // CSS pixels, for the words at the rim
 const NEAR = 20; // CSS pixels between a touch and the path that is meant
 const CLEAR = 0.85; // opacity of the disc, behind which the picture goes on
 const HTML = `<div class="globe"><canvas role="img"></canvas><i class="hand"></i></div>
-  <figcaption><button type="button" class="fold" aria-label="S², the rod on the sphere of its directions" title="The rod on the sphere of its directions (s)">S²</button>
+  <figcaption><button type="button" class="fold" title="The direction of the rod on its sphere (s)">Rod direction</button>
   <span class="lean"><output></output> from upright, <output></output> rad/s</span>
   <button type="button" class="over">⇅</button></figcaption>`;
 
@@ -114,7 +114,7 @@ export class Portrait {
     context.globalAlpha = 1;
     rings(context, this.radius, `${colours.grid}60`, colours.muted);
     axes(context, this.radius, this.flights[0].e3, colours.muted);
-    context.fillText(`rim: ${this.rim}`, 0, (this.flights[0].e3 === "up" ? 1 : -1) * (this.radius + 15));
+    context.fillText(`outer edge: ${this.rim}`, 0, (this.flights[0].e3 === "up" ? 1 : -1) * (this.radius + 15));
     for (let i = this.flights.length - 1; i >= 0; i--) {
       this.#pen(i);
       way(context, this.paths[i], this.radius);

@@ -1,58 +1,84 @@
-// A movie of the scene as the page draws it: played once at the chosen speed, with title, time and verdict, as .webm.
+// Movies and pictures of the scene in any size, with title, time and verdict. A movie is drawn frame by frame at times of the
+// flight, however long a drawing takes: it plays at the chosen speed.
+
+import { webm } from "./webm.js";
 
 const RATE = 30; // frames per second
-const HOLD = 1500; // ms for which the end stays, with the verdict
-const KINDS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+const HOLD = 1.5; // s for which the end stays, with the verdict
+const KEY = 60; // frames from one that stands by itself to the next
+const BITS = 0.2; // of a movie, for each pixel of a frame
+const AHEAD = 4; // frames that wait to be encoded
+const HEIGHT = 720; // CSS pixels for which lines and letters are made; in larger pictures they grow
+const CODECS = { V_VP9: "vp09.00.51.08", V_VP8: "vp8" };
 
-/** The kind of movie that this browser can write, or undefined. */
-export const movieKind = () => KINDS.find((kind) => window.MediaRecorder?.isTypeSupported(kind));
+/** Sizes that are offered by name, pixels; null: that of the scene. */
+export const SIZES = { "as seen": null, "720p": [1280, 720], "1080p": [1920, 1080], "4K": [3840, 2160] };
 
-export class Recorder {
-  /** Of `viewer`; `done` is told the movie, a Blob, or null if it was given up. */
-  constructor(viewer, done) {
-    const { width, height } = viewer.parts.canvas;
-    Object.assign(this, { viewer, done, kept: [], film: Object.assign(document.createElement("canvas"), { width, height }) });
-    this.media = new MediaRecorder(this.film.captureStream(RATE), { mimeType: movieKind(), videoBitsPerSecond: 8e6 });
-    this.media.addEventListener("dataavailable", ({ data }) => this.kept.push(data));
-    this.media.addEventListener("stop", () => done(this.given ? null : new Blob(this.kept, { type: this.media.mimeType })));
+/** Whether this browser can write movies. */
+export const canFilm = () => typeof VideoEncoder !== "undefined";
+
+export class Film {
+  /** Of `viewer`, in a `size` in pixels, or null; `told` is told which share is done. */
+  constructor(viewer, size, told) {
+    Object.assign(this, { viewer, told, ...exposed(viewer, size), given: false });
+    this.canvas = Object.assign(document.createElement("canvas"), { width: this.width, height: this.height });
   }
 
-  start() {
-    const { clock } = this.viewer;
-    if (!clock.drive) clock.seek(clock.start);
-    this.media.start();
-    clock.play();
-    this.frame();
+  /** The movie from time `from` to `to` as a Blob, or null if it is given up. */
+  async shoot(from, to) {
+    const { viewer, width, height, canvas } = this, { speed } = viewer.clock, chunks = [], codec = await this.#codec();
+    const encoder = new VideoEncoder({ output: (chunk) => chunks.push(chunk), error: (error) => (this.given = error) });
+    encoder.configure(codec.settings);
+    const moving = Math.max(Math.ceil(((to - from) / speed) * RATE - 1e-9), 1), frames = moving + Math.round(HOLD * RATE);
+    for (let i = 0; i <= frames && !this.given; i++) {
+      if (i <= moving) this.#draw(Math.min(from + (i * speed) / RATE, to), i === moving);
+      const frame = new VideoFrame(canvas, { timestamp: (1e6 * i) / RATE, duration: 1e6 / RATE });
+      encoder.encode(frame, { keyFrame: i % KEY === 0 });
+      frame.close();
+      this.told(i / frames);
+      do await new Promise((resolve) => setTimeout(resolve)); // also lets the page answer
+      while (encoder.encodeQueueSize > AHEAD && !this.given);
+    }
+    if (!this.given) await encoder.flush();
+    if (encoder.state !== "closed") encoder.close();
+    return this.given ? null : webm(chunks, { codec: codec.name, width, height, duration: (1000 * (frames + 1)) / RATE });
   }
 
-  /** End it: given up, unless the flight has no end of its own. */
+  /** Leave off. */
   stop() {
-    this.given = !this.viewer.clock.drive;
-    this.#end();
+    this.given = true;
   }
 
-  /** Take the picture that has just been drawn. */
-  frame() {
-    const { viewer, film } = this, { clock } = viewer, colours = viewer.theme.colours;
-    const { context, size } = paint(viewer, film);
-    if (clock.drive || clock.playing || clock.time < clock.end) return;
+  async #codec() {
+    const { width, height } = this, rest = { width, height, framerate: RATE, bitrate: BITS * RATE * width * height };
+    const all = Object.entries(CODECS).map(([name, codec]) => ({ name, settings: { ...rest, codec } }));
+    for (const one of all) if ((await VideoEncoder.isConfigSupported(one.settings)).supported) return one;
+    throw new Error("this browser encodes no WebM");
+  }
+
+  #draw(time, last) {
+    const { viewer, canvas } = this, { theme: { colours } } = viewer;
+    viewer.clock.time = time;
+    viewer.expose(this, 1 / RATE);
+    const { context, size } = paint(viewer, canvas);
+    if (!last || viewer.clock.drive) return;
     viewer.flights.forEach(({ title, verdict }, i) => {
-      context.fillStyle = verdict.good ? colours.good : colours.alarm;
+      context.fillStyle = colours[verdict.state];
       context.fillText(viewer.flights.length > 1 ? `${title}: ${verdict.words}` : verdict.words, size, (4 + 1.4 * i) * size);
     });
-    this.waiting ??= setTimeout(() => this.#end(), HOLD);
   }
+}
 
-  #end() {
-    clearTimeout(this.waiting);
-    if (this.media.state !== "inactive") this.media.stop();
-  }
+/** Pixels of a picture of `viewer` in a `size`, both even as codecs want them, and how many of them are a CSS pixel. */
+function exposed({ stage }, size) {
+  const [width, height] = size ?? [stage.width * stage.ratio, stage.height * stage.ratio], even = (pixels) => 2 * Math.round(pixels / 2);
+  return { width: even(width), height: even(height), scale: size ? height / HEIGHT : stage.ratio };
 }
 
 /** Paint on `film` what `viewer` has just drawn, with title and time; returns the context and the size of a letter. */
 function paint(viewer, film) {
-  const { clock, parts: { canvas }, theme: { colours } } = viewer, context = film.getContext("2d");
-  const scale = film.height / canvas.clientHeight, size = 14 * scale;
+  const { clock, stage, parts: { canvas }, theme: { colours } } = viewer, context = film.getContext("2d");
+  const size = (14 * film.height) / stage.height;
   context.fillStyle = colours.sky;
   context.fillRect(0, 0, film.width, film.height);
   context.drawImage(canvas, 0, 0, film.width, film.height);
@@ -64,22 +90,20 @@ function paint(viewer, film) {
   return { context, size };
 }
 
-/** Have the next picture of `viewer`, with title and time, as a PNG told to `done`. */
-export function picture(viewer, done) {
-  const { width, height } = viewer.parts.canvas, film = Object.assign(document.createElement("canvas"), { width, height });
-  viewer.shoot = () => {
-    viewer.shoot = null;
-    paint(viewer, film);
-    film.toBlob(done, "image/png");
-  };
-  viewer.wake();
+/** Have a picture of `viewer` in a `size` (pixels, or null), with title and time, as a PNG told to `done`. */
+export function picture(viewer, size, done) {
+  const view = exposed(viewer, size), film = Object.assign(document.createElement("canvas"), { width: view.width, height: view.height });
+  viewer.expose(view, 0);
+  paint(viewer, film);
+  film.toBlob(done, "image/png");
+  viewer.resume();
 }
 
-/** Offer a file called `name`; the `ending` of a movie is that of its kind. */
-export function save(blob, name, ending = blob.type.includes("mp4") ? "mp4" : "webm") {
+/** Offer a file called `name`. */
+export function save(blob, name) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
-  link.download = `${name}.${ending}`;
+  link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

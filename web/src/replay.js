@@ -3,4 +3,6 @@
 import { Viewer } from "./viewer.js";
 
 const data = JSON.parse(document.getElementById("flypend-data").textContent);
-window.flypend = new Viewer(data).offer();
+const viewer = new Viewer(data);
+window.flypend = viewer.offer();
+viewer.open();

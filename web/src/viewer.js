@@ -1,7 +1,7 @@
 // The viewer: puts scene, plots and player together for runs, and offers what becomes `window.flypend`.
 //
 // window.flypend: play(), pause(), seek(t), time(), duration(), playing(), speed(s), load(runs), camera(name),
-// layout(name), theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, phases(i), screen(i) with the pixels of pivot and bob,
+// layout(name), theme(name), pose(i = 0) with t, x, R (rows), y, ... in the frame of run i, phases(i), floor() with its height, screen(i) with the pixels of pivot and bob,
 // frames() with the number of frames drawn and the milliseconds that the last sixty took to draw.
 
 import css from "./replay.css";
@@ -11,9 +11,11 @@ import { Choice, Player, keys } from "./controls.js";
 import { Flight } from "./flight.js";
 import { frame, legend } from "./layout.js";
 import { matrix } from "./numbers.js";
+import { calm } from "./motion.js";
+import { Opening } from "./opening.js";
 import { Plot } from "./plots.js";
 import { Portrait } from "./portrait.js";
-import { Recorder, movieKind, save } from "./record.js";
+import { canFilm, Film, save, SIZES } from "./record.js";
 import { plots } from "./series.js";
 import { steer } from "./scene/pointers.js";
 import { PRESETS } from "./scene/rig.js";
@@ -37,10 +39,11 @@ export class Viewer {
     this.theme = new Theme(palette, (colours) => this.#paint(colours));
     this.#choices();
     this.flights = [];
+    this.theme.set(this.theme.name); // before the scene is measured: borders have their width by their colours
     if (runs.length) this.load(runs);
-    this.theme.set(this.theme.name);
     this.layouts.root.hidden = this.flights.length < 2;
     this.layout(layout);
+    this.since = null;
     this.#keys();
     new ResizeObserver(() => this.#resize()).observe(this.parts.scene);
     this.last = null;
@@ -65,6 +68,23 @@ export class Viewer {
     if (this.flights.length < 2) this.layout("overlay");
     this.#redraw();
     this.wake();
+  }
+
+  /** Play by itself, see opening.js; to those who want little motion, say how. */
+  open(settled) {
+    if (!calm()) {
+      this.opening = new Opening(this, settled);
+      return;
+    }
+    const { invite } = this.parts;
+    Object.assign(invite, { hidden: false, textContent: "Press play, or the space bar" });
+    for (const name of ["pointerdown", "keydown"]) document.addEventListener(name, () => (invite.hidden = true), { capture: true, once: true });
+  }
+
+  /** Somebody takes over: what played by itself goes on as usual. */
+  take() {
+    this.opening?.end();
+    this.opening = null;
   }
 
   #plot(wanted) {
@@ -119,8 +139,11 @@ export class Viewer {
     this.cameras = new Choice(this.parts.choices, "Camera", cameras, (name) => this.camera(name));
     const layouts = [["overlay", "Overlay", "One picture, the others as ghosts (g)"], ["beside", "Side by side", "A picture for each (g)"]];
     this.layouts = new Choice(this.parts.choices, "Layout", layouts, (name) => this.layout(name));
-    this.movies = new Choice(this.parts.choices, "Movie", [["movie", "Movie", "Play once and save what is seen as a movie (m)"]], () => this.film());
-    this.movies.root.hidden = !movieKind();
+    this.movies = new Choice(this.parts.choices, "Movie", [["movie", "Movie", "Save the flight as a movie, at the chosen speed (m)"]], () => this.film());
+    this.sizes = Object.assign(document.createElement("select"), { className: "sizes", ariaLabel: "Size of movies and pictures" });
+    this.sizes.append(...Object.keys(SIZES).map((name) => new Option(name, name)));
+    this.movies.root.append(this.sizes);
+    this.movies.root.hidden = !canFilm();
     this.movies.show("");
     const themes = [["toggle", "◐", "Light or dark (t)"]];
     this.themes = new Choice(this.parts.choices, "Theme", themes, () => this.theme.toggle());
@@ -144,18 +167,53 @@ export class Viewer {
     });
   }
 
-  /** Play once and save a movie of it, or stop doing so. */
+  /** Pixels of movies and pictures, or null: those of the scene. */
+  get size() {
+    return SIZES[this.sizes.value];
+  }
+
+  /** Save a movie of the flight, or of what a flight that goes on flies until this is called again; or leave off. */
   film() {
-    if (this.recorder) this.recorder.stop();
-    else if (this.stage && movieKind()) {
-      this.recorder = new Recorder(this, (movie) => {
-        this.recorder = null;
-        this.movies.show("");
-        if (movie) save(movie, this.title.replaceAll(/[^\p{L}\p{N}]+/gu, "-"));
-      });
+    const { clock } = this;
+    if (!this.stage || !canFilm()) return;
+    this.take();
+    if (this.filming) this.filming.stop();
+    else if (clock.drive && this.since === null) {
+      this.since = clock.time;
       this.movies.show("movie");
-      this.recorder.start();
+    } else this.#film(clock.drive ? Math.max(this.since, clock.start) : clock.start);
+  }
+
+  async #film(from) {
+    const { clock, movies: { buttons: [button] } } = this, name = this.title.replaceAll(/[^\p{L}\p{N}]+/gu, "-"), { playing } = clock;
+    clock.pause();
+    this.filming = new Film(this, this.size, (share) => (button.textContent = `${Math.round(100 * share)} %`));
+    this.parts.scene.classList.add("filming");
+    this.movies.show("movie");
+    try {
+      const movie = await this.filming.shoot(from, clock.end);
+      if (movie) save(movie, `${name}.webm`);
+    } finally {
+      Object.assign(this, { filming: null, since: null });
+      button.textContent = "Movie";
+      this.movies.show("");
+      this.parts.scene.classList.remove("filming");
+      this.resume();
+      if (clock.drive && playing) clock.play();
     }
+  }
+
+  /** Draw the scene of the time shown in `width` by `height` pixels, `scale` of them to a CSS pixel, `elapsed` seconds after the last. */
+  expose({ width, height, scale }, elapsed) {
+    this.stage.resize(width / scale, height / scale, scale);
+    this.stage.show(this.#poses());
+    this.stage.render(elapsed);
+  }
+
+  /** Go on in the size of the scene. */
+  resume() {
+    this.#size();
+    this.wake();
   }
 
   camera(name) {
@@ -230,13 +288,12 @@ export class Viewer {
     if (words) this.told = started;
     const poses = this.#poses();
     let moving = false;
-    if (stage?.width) {
+    if (stage?.width && !this.filming) {
       stage.show(poses);
       moving = stage.render(elapsed || 1 / 60);
       this.captions.show(stage, clock.time, this.theme.colours, words);
-      this.recorder?.frame();
-      this.shoot?.();
     }
+    this.opening?.frame();
     this.player.show(words);
     for (const plot of this.plots) plot.show(clock.time, words);
     if (poses.length) this.portrait.show(poses, words);
@@ -248,16 +305,25 @@ export class Viewer {
 
   /** What tests and other pages may use. */
   offer() {
-    const { clock } = this;
+    const { clock } = this, taking = (act) => (value) => {
+      this.take();
+      return act(value);
+    };
     return Object.freeze({
-      play: () => clock.play(), pause: () => clock.pause(), seek: (t) => clock.seek(t), speed: (value) => clock.setSpeed(value),
+      play: taking(() => clock.play()), pause: taking(() => clock.pause()), speed: taking((value) => clock.setSpeed(value)),
+      seek: (t) => {
+        if (this.opening) clock.pause(); // it is shown to be looked at
+        this.take();
+        clock.seek(t);
+      },
       time: () => clock.time, duration: () => clock.end - clock.start, playing: () => clock.playing,
-      load: (runs) => this.load(runs),
+      load: taking((runs) => this.load(runs)),
       camera: (name) => this.camera(name), layout: (name) => this.layout(name), theme: (name) => this.theme.set(name),
       pose: (i = 0) => {
         const pose = this.flights[i].at(clock.time);
         return { ...pose, R: matrix(pose.quat_xyzw) };
       },
+      floor: () => this.stage?.world.ground ?? null,
       phases: (i = 0) => structuredClone(this.flights[i].phases),
       screen: (i = 0) => {
         if (!this.stage) return null;

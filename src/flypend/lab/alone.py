@@ -52,7 +52,7 @@ def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *
         "offer": {**_offered(every, settings, engines), **drawn_starts()},
     }  # fmt: skip
     return replay.PAGE.format(
-        policy=html.escape(replay.LIVE_POLICY), title=TITLE, data=replay.embedded(data), program=replay.program("live")
+        policy=html.escape(replay.LIVE_POLICY), title=TITLE, data=replay.embedded(data), program=replay.program("lab")
     )
 
 

@@ -58,11 +58,11 @@ def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
     begun = time.perf_counter()
     setting = setting_of(message.get("setting"), own)
     run = fly(setting, tell)
-    told = verdict(run, tuned(setting).criterion)
+    packed = replay.pack(run, verdict(run, tuned(setting).criterion))
     yield {
         "kind": "flight",
-        "run": replay.pack(run, told),
-        "verdict": told,
+        "run": packed,
+        "verdict": packed["verdict"],
         "sliders": sliders(setting),
         "start": plain(setting.start),
         "toml": toml(setting),

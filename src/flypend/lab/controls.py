@@ -18,7 +18,12 @@ from flypend.plants import Sampled
 
 MOUNTS = {"gimbal": "gimbal, no limit", "hub": "hub, between arms", "cup": "cup, on top"}
 PLANTS = {"rotors": "rotors, 500 Hz", "hehn2011": "rates at 50 Hz", "ideal": "ideal"}
-SENSORS = {"perfect": "perfect", "mocap": "motion capture", "onboard": "on board"}
+SENSORS = {
+    "perfect": "perfect",
+    "mocap": "motion capture",
+    "onboard": "on board",
+    "laboratory": "motion capture, a laboratory",
+}
 
 
 def offer(own: OwnLaws | None = None) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from flypend.learning.network import Weights, backward, forward
 from flypend.learning.world import COSTS, kernels
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.scaled import Units
+from flypend.planning.dynamics import Units
 from flypend.plants.lag import step_timing
 
 # The excursion is the mean of squared distances to this power, its root taken: almost the largest, but smooth.

@@ -17,8 +17,7 @@ from flypend.learning.flights import Flights, flat
 from flypend.learning.network import Adam, Weights, activated, backward, forward, with_hover
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.scaled import Scaled, Units
-from flypend.planning.stage import stepped
+from flypend.planning.dynamics import Scaled, Units, stepped
 from flypend.plants.actuation import rotor_forces
 from flypend.plants.lag import step_timing
 
@@ -78,6 +77,7 @@ class Imitation:
         return float(np.sqrt(total / self._steps))
 
     def _step(self, weights: Weights, phi: Any, wanted: Any, rate: float) -> float:
+        """Move `weights` by `rate` towards the commands `wanted` (n, k) for features `phi`; return the mean error²."""
         v, kept = forward(weights, phi)
         error = (activated(v + self._hover)[0] - activated(wanted + self._hover)[0]) / 2
         gradient = {name: np.zeros_like(array) for name, array in weights.items()}

@@ -21,7 +21,7 @@ from flypend.learning.network import Adam, Weights, first_weights
 from flypend.learning.teacher import RATE, Imitation, direct
 from flypend.model import State, Vehicle
 from flypend.model.mount import clearances
-from flypend.planning.scaled import Units
+from flypend.planning.dynamics import Units
 from flypend.signals.waiting import result_of, threads
 
 AHEAD = 0.3  # s: what touches does so soon, or can be helped later
@@ -196,6 +196,7 @@ class Learner:
         return both[rng.permutation(count)]
 
     def _add(self, costs: Costs, phase: int, update: int, told: Callable[[Entry], Any]) -> None:
+        """Add an entry of these `costs` to the curve, and tell it."""
         median, high = np.quantile(costs.distance, (0.5, 0.95))
         self.curve.append(Entry(phase, update, np.mean(costs.cost), np.mean(costs.stands), median, high))
         told(self.curve[-1])

@@ -1,7 +1,7 @@
 """Steps of many flights under a policy, and their derivatives, compiled for eight flights at a time.
 
-All is in the vehicle's own units (see `planning.scaled`). What the policy asks of the rotors is held for a period; what
-they are commanded has the flight computer's lead, f̂ + lead (f − f̂), within their limits.
+All is in the vehicle's own units (see `planning.dynamics`). What the policy asks of the rotors is held for a period;
+what they are commanded has the flight computer's lead, f̂ + lead (f − f̂), within their limits.
 """
 
 from __future__ import annotations
@@ -17,8 +17,7 @@ from flypend.compile.llvm.stagewise import Stagewise, stagewise
 from flypend.laws.policy import features, shares
 from flypend.model import State
 from flypend.model.state import SIZE
-from flypend.planning.scaled import Scaled
-from flypend.planning.stage import stepped
+from flypend.planning.dynamics import Scaled, stepped
 from flypend.plants.lag import TIMING_SIZE
 
 COSTS = 3

@@ -105,7 +105,7 @@ def page(
     if windows:
         several = windows if isinstance(windows, Sequence) else [windows]
         data["runs"][0]["windows"] = [_opening(window) for window in several]
-    policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "live")
+    policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "lab")
     return PAGE.format(
         policy=html.escape(policy), title=html.escape(str(data["title"])), data=embedded(data | (live or {})),
         program=program(name),
@@ -129,6 +129,8 @@ def frame(text: str, height: int = 640) -> str:
 def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
     """Pack `run` for the page: metadata with its `verdict`, and base64 columns of at most `most` samples."""
     t, states = _sampled(run, most)
+    told = dict(verdict)
+    excess = told.pop("excess")
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
     columns = {
         "t": t,
@@ -140,6 +142,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "thrust": np.interp(t, run.t, run.thrust),
         "rotor_forces": np.stack([np.interp(t, run.t, force) for force in rotors.T], axis=-1),
         "x_ref": np.stack([np.interp(t, run.t, along) for along in np.asarray(run.x_ref).T], axis=-1),
+        "excess": np.interp(t, run.t, excess),
     }
     vehicle = run.vehicle
     if vehicle.mount != "gimbal":
@@ -151,7 +154,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "law": run.law,
         "e3": run.e3,
         "completed": run.outcome.status == "completed",
-        "verdict": verdict,
+        "verdict": told,
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
         "vehicle": drawn(vehicle),
         "columns": {name: in_base64(values) for name, values in columns.items()},

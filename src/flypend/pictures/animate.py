@@ -109,6 +109,7 @@ def _frames(render: Callable[[int, bool], Frame], count: int, hold: int, progres
 
 
 def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: float, count: int) -> None:
+    """Write `count` frames of `size` (pixels) at `fps` (1/s) as H.264."""
     import imageio_ffmpeg
 
     options = ["-preset", "veryfast", "-crf", "20", "-movflags", "+faststart"]
@@ -146,6 +147,8 @@ def _send(encoder: Any, frame: Frame | None) -> None:
 
 
 def _write_gif(path: Path, frames: Iterator[Frame], size: tuple[int, int], fps: float, count: int) -> None:
+    """Write `count` frames of `size` (pixels) at `fps` (1/s) as a GIF."""
+
     def image(frame: Frame) -> Any:
         return Image.frombuffer("RGBA", size, bytes(frame), "raw", "RGBA", 0, 1).convert("RGB")
 

@@ -19,9 +19,9 @@ from flypend.flight.trajectory import Trajectory
 from flypend.model import State, Vehicle
 from flypend.model.state import project as project_states
 from flypend.pages import sketch as sketched
+from flypend.pages.camera import Camera, depth, magnification, project
 from flypend.pages.sketch import BOB_SHARE, Sketch, disc_radius, reach, sketch
 from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
-from flypend.pictures.camera import Camera, depth, magnification, project
 
 __all__ = [
     "BOB_SHARE",
@@ -214,5 +214,6 @@ def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float)
 
 
 def _arrow(ax: Any, tail: Any, tip: Any, *, zorder: float = 2.0, **style: Any) -> None:
+    """Draw an arrow from `tail` (2,) to `tip` (2,), in the axes' units."""
     head = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tip, tail, arrowprops={**head, **style}, zorder=zorder)

@@ -21,10 +21,10 @@ from flypend import geometry
 from flypend.flight.trajectory import Trajectory
 from flypend.flight.verdict import verdict
 from flypend.model import State, Vehicle
+from flypend.pages.camera import Camera, depth, magnification, project
 from flypend.pages.sketch import Sketch
-from flypend.palette import ALARM, BLUE, GOOD, GREEN, INK, ORANGE, REAR, RED
+from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED, STATES
 from flypend.pictures import drawing, lettering
-from flypend.pictures.camera import Camera, depth, magnification, project
 
 Frame = Any  # memoryview of (height, width, 4) bytes, valid until the next frame is drawn
 Part = Callable[[int], list[Any]]  # updates artists for a frame and returns them in drawing order
@@ -65,7 +65,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
     ]
     told = verdict(run)
     words = told["words"].replace(", ", "\n")
-    style = {"color": GOOD if told["good"] else ALARM, "fontsize": 14, "ha": "center", "va": "center"}
+    style = {"color": STATES[told["state"]], "fontsize": 14, "ha": "center", "va": "center"}
     box = {"facecolor": "white", "edgecolor": "none", "pad": 3.0}
     side = -0.6 if states.y[-1, 2] > 0 else 0.78  # away from the bob
     ending = scene.text(0, side * half[1], words, bbox=box, animated=True, **style)

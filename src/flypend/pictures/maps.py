@@ -241,5 +241,6 @@ def _label(name: str) -> str:
 
 
 def _note(axis: Any, x: float, y: float, words: str) -> None:
+    """Write `words` at (`x`, `y`) on a white box."""
     box = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
     axis.text(x, y, words, fontsize=SMALL - 1, ha="center", va="center", color=INK, bbox=box)

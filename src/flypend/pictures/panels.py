@@ -119,6 +119,7 @@ def _signal(ax: Any, run: Trajectory) -> None:
 
 
 def _components(ax: Any, t: Any, name: str, values: Any, unit: str, word: str = "") -> None:
+    """Plot the three components of `values` (n, 3) over times `t` (n,), s."""
     for i, (color, style) in enumerate(COMPONENTS):
         ax.plot(t, values[:, i], color=color, linestyle=style, label=f"${name}_{i + 1}$", **line_style(t))
     ax.set_ylabel(f"{word}${name}$ ({unit})", fontsize=LABEL)

@@ -18,7 +18,8 @@ from flypend.palette import BLUE, GREEN, GREY, INK, RED, SERIES
 from flypend.pictures.canvas import LABEL, SMALL, new_figure
 from flypend.pictures.maps import hemisphere
 from flypend.pictures.style import PAGE
-from flypend.planning import Plan, Window
+from flypend.planning.result import Plan
+from flypend.planning.window import Window
 from flypend.studies.limit import Front, Strays
 from flypend.studies.sweep.bins import EDGE
 

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from flypend import errors, geometry
 from flypend.flight.trajectory import Trajectory
+from flypend.pages.camera import project
 from flypend.palette import GREEN, GREY, INK, ORANGE, RED
 from flypend.pictures import drawing
-from flypend.pictures.camera import project
 from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
 from flypend.pictures.drawing import TRAIL
 from flypend.pictures.style import Style, letter, style_of

@@ -17,6 +17,7 @@ from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
 from flypend.report.text import markdown_table, number, write_json
 from flypend.studies.check import Check
+from flypend.studies.joint import Joint
 from flypend.studies.trial import Trial
 
 COLUMNS = ("law", "task", "grade", "succeed", "% (95 %)", "settle s", "exc. m", "clear mm", "failed")
@@ -78,6 +79,11 @@ def verdicts(checks: Mapping[str, Check]) -> list[str]:
     return lines
 
 
+def joint_lines(joints: Mapping[str, Joint]) -> list[str]:
+    """Return lines per law: success when masses, rod length and thrust are off together, and what to calibrate."""
+    return [line for law, one in joints.items() for line in (f"{law}, off together:", *(f"  {l}" for l in one.lines()))]
+
+
 def write_check(
     checks: Mapping[str, Check],
     trials: Mapping[str, Trial],
@@ -85,20 +91,22 @@ def write_check(
     out: str | Path,
     *,
     figures: bool = True,
+    joints: Mapping[str, Joint] | None = None,
 ) -> None:
     """Write report.md, report.json (with `settings`) and check.pdf and .png of `checks` into the folder `out`.
 
-    `checks` and `trials` are keyed by law. Without `figures`, or if nothing was flown, there is no picture.
+    `checks`, `trials` and `joints` are keyed by law. Without `figures`, or if nothing was flown, there is no picture.
     """
     from flypend.files.whole import save_both
 
     with staged(out) as folder:
-        (folder / "report.md").write_text(_markdown(checks, trials, settings), encoding="utf-8")
+        (folder / "report.md").write_text(_markdown(checks, trials, joints or {}, settings), encoding="utf-8")
         content = {
             "flypend": __version__,
             "settings": dict(settings),
             "checks": {law: check.to_dict() for law, check in checks.items()},
             "trials": {law: trial.to_dict() for law, trial in trials.items()},
+            "joint": {law: one.to_dict() for law, one in (joints or {}).items()},
         }
         write_json(folder / "report.json", content)
         if figures and any(check.tasks for check in checks.values()):
@@ -107,13 +115,19 @@ def write_check(
             save_both(check_figure(checks), folder / "check")
 
 
-def _markdown(checks: Mapping[str, Check], trials: Mapping[str, Trial], settings: Mapping[str, Any]) -> str:
+def _markdown(
+    checks: Mapping[str, Check],
+    trials: Mapping[str, Trial],
+    joints: Mapping[str, Joint],
+    settings: Mapping[str, Any],
+) -> str:
     told = "; ".join(f"{name}: {value}" for name, value in settings.items())
     parts = ["# Check", f"{told}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
     if cells := task_cells(checks):
         meaning = "\n".join(f"- {name}: {words}" for name, words in TASKS.items())
         parts += [markdown_table([list(COLUMNS), *cells]), meaning, markdown_table(margin_cells(checks))]
     parts += [markdown_table(trial_cells(trials))] if trials else []
+    parts += ["\n".join(f"- {line.strip()}" for line in joint_lines(joints))] if joints else []
     return "\n\n".join(parts) + "\n"
 
 

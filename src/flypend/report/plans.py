@@ -13,7 +13,10 @@ from flypend.laws import inverted
 from flypend.laws.references import hover
 from flypend.model import State
 from flypend.pictures.plans import front_figure, plan_figure, strays_figure
-from flypend.planning import Constraints, Plan, Window, nmpc
+from flypend.planning.constraints import Constraints
+from flypend.planning.receding_horizon import nmpc
+from flypend.planning.result import Plan
+from flypend.planning.window import Window
 from flypend.studies.limit import DURATION, front, strays
 
 CELLS = 10

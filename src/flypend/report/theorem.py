@@ -83,6 +83,7 @@ def check_theorems(
 
 
 def _draw(hanging: Mapping[str, Trajectory], inverted: Mapping[str, Trajectory], folder: Path, style: str) -> None:
+    """Draw the flights of either theorem into `folder`."""
     from flypend.pictures.descent import basin_figure, descent_figure  # matplotlib is slow to import
 
     first = experiment("1")
@@ -131,10 +132,11 @@ def claims_markdown(verdicts: Mapping[Column, list[Verdict]]) -> str:
 
 
 def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
+    """Write the page of `result`, from `runs` flights drawn with `seed`, into `folder`."""
     parts = [
         "# Two theorems that are true",
-        f"Flown by flypend {__version__} in the ideal plant: the wrench acts as commanded. docs/laws/theorem.md has "
-        "the statements and the proofs.",
+        f"Flown by flypend {__version__} in the ideal plant: the wrench acts as commanded. "
+        "docs/laws/theorem-proof.md has the statements and the proofs.",
         "## Theorem A: the paper's experiments under the repaired law, 30 s",
         claims_markdown(result.repaired),
         "## Theorem B: hehn2011 under the almost global law, 30 s",

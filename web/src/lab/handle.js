@@ -14,9 +14,12 @@ export class Handle {
   constructor(viewer, moved, pulled) {
     Object.assign(this, { viewer, moved, pulled, ray: new Raycaster(), going: false });
     this.root = document.createElement("button");
-    Object.assign(this.root, { type: "button", className: "handle", title: "Drag the rod (arrow keys turn it)" });
-    this.root.setAttribute("aria-label", "Rod at the start");
+    Object.assign(this.root, { type: "button", className: "handle" });
     this.root.dataset.keys = "";
+    this.invite = document.createElement("span");
+    this.invite.className = "invite";
+    this.root.append(this.invite);
+    this.#name(false);
     viewer.parts.scene.append(this.root);
     this.root.addEventListener("pointerdown", (event) => {
       this.root.setPointerCapture(event.pointerId);
@@ -38,6 +41,8 @@ export class Handle {
     const { viewer, flyer } = this, { clock } = viewer;
     if (going !== this.going) this.#name(going);
     this.root.hidden = !flyer || (!going && (clock.playing || clock.time > clock.start + 1e-9));
+    const seen = !this.root.hidden && !going;
+    if (flyer && viewer.stage.barred.place(seen && flyer.pose.x, viewer.stage.factor * flyer.flight.vehicle.rod_length)) viewer.wake();
     if (this.root.hidden) return;
     const [left, top] = viewer.stage.screen(0, viewer.stage.factor).bob;
     if (!this.held) this.y = flyer.pose.y;
@@ -47,12 +52,14 @@ export class Handle {
 
   #name(going) {
     this.going = going;
-    this.root.title = going ? "Pull the bob and fling it (arrow keys pull)" : "Drag the rod (arrow keys turn it)";
-    this.root.setAttribute("aria-label", going ? "Bob in flight" : "Rod at the start");
+    this.root.title = going ? "Drag the bob and fling it (arrow keys pull)" : "Drag the rod to set the start (arrow keys turn it)";
+    this.invite.textContent = going ? "Grab the ball" : "Drag to set the start";
+    this.root.setAttribute("aria-label", `${this.invite.textContent}: ${going ? "bob in flight" : "rod"}`);
   }
 
   #hold(held) {
     if (this.held === held) return;
+    if (held) this.invite.hidden = true; // they know
     this.held = held;
     if (this.going) {
       if (!held) this.pulled(null);
@@ -93,6 +100,7 @@ export class Handle {
     const steps = ARROWS[event.key];
     if (!steps) return;
     event.preventDefault();
+    this.invite.hidden = true;
     if (this.going) {
       const { right: across, up: along } = this.viewer.stage.views[0], arm = ARM * this.flyer.flight.vehicle.rod_length;
       this.pulled(this.#bob().map((value, k) => value + arm * (steps[0] * across[k] + steps[1] * along[k])));

@@ -124,6 +124,10 @@ export class Hybrid {
     this.local.advance(content);
   }
 
+  clear(setting, directions, done) {
+    if (isWhole(setting.start)) this.local?.clear(setting, directions, done);
+  }
+
   whole(setting) {
     return setting;
   }

@@ -12,15 +12,17 @@ import { isWhole } from "../live/request.js";
 import { Running } from "../live/running.js";
 import { Saving } from "../live/saving.js";
 import { calm } from "../motion.js";
-import { unit } from "../numbers.js";
+import { dot, unit } from "../numbers.js";
 import { Viewer } from "../viewer.js";
 import { Handle } from "./handle.js";
 import { Map as Disc } from "./map.js";
 import { Panel } from "./panel.js";
-import { Setting } from "./setting.js";
+import { kind, Setting } from "./setting.js";
 import { Story } from "./story.js";
 
 const MAP_DELAY = 250; // ms without a change before a map is asked for
+const AT_ONCE = 0.02; // s: a flight so short has ended where it began
+const ROOM = 0.005; // m of clearance at a start that is free
 const HOLD = 400; // ms without a slider's move before the camera goes where the new flight needs it
 
 export class Laboratory {
@@ -37,7 +39,7 @@ export class Laboratory {
     this.#header();
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
-    if (this.offer.story?.length) this.story = new Story(this.panel.root, this.offer.story, (setting) => this.tell(setting));
+    if (this.offer.story?.length) this.story = new Story(this.panel.bar, this.offer.story, (setting) => this.tell(setting));
     this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => this.running.pull(place));
     this.disc = new Disc(this.main, (y) => {
       this.rod(y);
@@ -236,7 +238,7 @@ export class Laboratory {
   #told(reply) {
     if (reply.kind === "flight") this.#flight(reply);
     else if (reply.kind === "preview") this.#preview(reply);
-    else if (reply.kind === "able") this.panel.able(this.running.able);
+    else if (reply.kind === "able") this.#able();
     else if (reply.kind === "map" && reply.number === this.mapped) this.disc.add(reply);
     else if (reply.kind === "compiling" && reply.number >= this.shown) this.#say("compiling…");
     else if (reply.kind === "error" && reply.number === this.asked) this.#error(reply);
@@ -253,6 +255,8 @@ export class Laboratory {
       this.#say("");
       this.adopt(reply.start);
       this.panel.flight(reply);
+      this.#barred();
+      if (this.viewer.stage && reply.verdict.part && this.viewer.flights[0].end < AT_ONCE) this.#notice(`${capital(reply.verdict.reason)} at the start. Shaded directions are taken.`, ["Move to a free start", () => this.free()]);
       if (this.follow && !calm()) this.viewer.clock.play();
       this.follow = false;
     }
@@ -276,6 +280,7 @@ export class Laboratory {
     this.steady ??= reply.run.direction;
     this.record = { ...reply.run, direction: this.steady };
     if (!this.running.on) this.#load();
+    if (first) this.viewer.open(() => this.#handOver());
     this.disc.follow(this.viewer.flights[0]);
     const begun = this.clock.get(reply.number);
     for (const number of this.clock.keys()) if (number <= reply.number) this.clock.delete(number);
@@ -287,11 +292,46 @@ export class Laboratory {
     });
   }
 
-  /** Show the flight of the setting, and beside it those that are pinned unless it is they. */
-  #load() {
+  /** Once the rod stands, let the flight go on, if the page can: it is there to be grabbed. */
+  #handOver() {
+    if (this.running.able && this.record.e3 === "up") this.running.go(true);
+    return this.running.on;
+  }
+
+  /** The flights beside that of the setting: those that are pinned unless it is they. */
+  get ghosts() {
     const same = JSON.stringify(this.setting.value) === JSON.stringify(this.offer.first);
-    const ghosts = this.offer.vehicles || !same || this.pinned[0]?.title === "pinned" ? this.pinned : [];
-    this.viewer.load([this.record, ...ghosts]);
+    return this.offer.vehicles || !same || this.pinned[0]?.title === "pinned" ? this.pinned : [];
+  }
+
+  #load() {
+    this.viewer.load([this.record, ...this.ghosts]);
+  }
+
+  #able() {
+    this.panel.able(this.running.able);
+    this.#barred();
+  }
+
+  /** Shade where the rod would touch at the start. */
+  #barred() {
+    const { value } = this.setting, { stage } = this.viewer, asked = JSON.stringify([kind(value), value.start.R]);
+    if (!stage || !this.record || !this.running.able || asked === this.barred) return;
+    this.barred = asked;
+    if (this.record.vehicle.mount === "gimbal") stage.barred.take([]);
+    else this.link.clear(value, stage.barred.directions, (clearances) => {
+      stage.barred.take(clearances);
+      this.viewer.wake();
+    });
+  }
+
+  /** Begin with the rod in the nearest direction in which it touches nothing. */
+  free() {
+    const { value } = this.setting, { directions } = this.viewer.stage.barred;
+    this.link.clear(value, directions, (clearances) => {
+      const near = directions.filter((_, i) => clearances[i] > ROOM).sort((a, b) => dot(b, value.start.y) - dot(a, value.start.y));
+      if (near.length) this.rod(near[0]);
+    });
   }
 
   /** A start that is random, or not told in full, comes back in numbers, which the setting then keeps. */
@@ -306,8 +346,8 @@ export class Laboratory {
     this.follow = false;
     this.#say("");
     this.panel.complain(message, field, this.touched);
-    this.verdict = { words: message, good: false };
-    judge(this.words, { words: "not flown", good: false, reason: message });
+    this.verdict = { words: message, good: false, state: "failed" };
+    judge(this.words, { words: "not flown", state: "failed", reason: message });
     this.viewer.clock.pause();
     if (!this.flew) this.#begin(message);
     else {
@@ -324,16 +364,22 @@ export class Laboratory {
   }
 
   provide() {
+    const taking = (act) => (...given) => {
+      this.viewer.take();
+      return act(...given);
+    };
     return Object.freeze({
       ...this.viewer.offer(),
       setting: () => structuredClone(this.setting.value), verdict: () => this.verdict, number: () => this.asked,
-      shown: () => this.shown, timings: () => structuredClone(this.times), tab: (name) => this.show(name),
-      live: () => this.running.told(), go: (on) => this.running.go(on), poke: (on, velocity) => this.running.poke(on, velocity),
-      pull: (place) => this.running.pull(place), pin: () => this.pin(),
+      shown: () => this.shown, timings: () => structuredClone(this.times), tab: taking((name) => this.show(name)),
+      live: () => this.running.told(), go: taking((on) => this.running.go(on)), poke: taking((on, velocity) => this.running.poke(on, velocity)),
+      pull: taking((place) => this.running.pull(place)), pin: () => this.pin(),
       map: () => ({ total: this.disc.total, done: this.disc.points.length, good: this.disc.good, points: structuredClone(this.disc.points), path: this.disc.path }),
     });
   }
 }
+
+const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
 /** A plant with the `sensors` of that name, which have noise of their own; undefined for perfect ones. */
 function sensed({ noise, sensors: old, ...plant }, sensors) {

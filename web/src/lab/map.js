@@ -108,7 +108,7 @@ export class Map {
   #frame(context, role) {
     rings(context, this.radius, "rgb(255 255 255 / 0.45)", role("muted"));
     axes(context, this.radius, "up", role("muted"));
-    context.fillText("rim: hanging", 0, this.radius + 14);
+    context.fillText("outer edge: hanging", 0, this.radius + 14);
     const label = (words, x, y) => {
       Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: role("paper"), fillStyle: role("ink") });
       context.strokeText(words, x, y);

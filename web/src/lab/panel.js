@@ -5,7 +5,14 @@ import { Group, Slider } from "./slider.js";
 const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
 const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
 
-/** The sections; what only a server can do is left out of a page that has none. */
+/** What is in sight. */
+const BAR = `<div class="five"><button type="button" class="go live" aria-pressed="false" title="Let the flight go on, and take the bob in hand (l)">Fly live</button>
+  <button type="button" class="again" title="Begin again (r)">Start again</button>
+  <label>Start <select class="starts"></select></label>
+  <button type="button" class="kick" title="Hit the bob now (p)">Poke the ball</button>
+  <button type="button" class="open" aria-expanded="false" aria-controls="tune" title="Start, pokes, gains, plant, files">Tune</button></div>`;
+
+/** What is behind Tune; what only a server can do is left out of a page that has none. */
 const html = (chosen, served) => `
   <section><h2>Flight <button type="button" class="small undo" title="Take back the last change (Ctrl+Z)" disabled>undo</button>
     <button type="button" class="small redo" title="Do it again (Ctrl+Shift+Z)" disabled>redo</button></h2>
@@ -14,13 +21,10 @@ const html = (chosen, served) => `
     <label class="row">Law <select data-path="law.name"></select></label>
     <label class="row">Plant <select data-path="plant.base"></select></label>
     <label class="row">Sensors <select data-path="plant.sensors"></select></label>` : ""}
-    <div class="row two live"><button type="button" class="go" aria-pressed="false" title="Let the flight go on, and take the bob in hand (l)">Fly live</button>
-    <button type="button" class="again" title="Begin again (r)">Reset</button></div>
     <div class="flight"></div></section>
   <section><h2>Start</h2>
-    <div class="chips starts"></div>
     ${chosen ? `<div class="chips papers"><span>paper</span></div>` : ""}
-    <div class="rod"></div><p class="hint">or drag the rod in the picture at 0 s; in a live flight, pull it</p></section>
+    <div class="rod"></div><p class="hint">Drag the rod to set the start; when live, drag the bob.</p></section>
   <section class="poke"><h2>Poke <small></small></h2>
     <div class="row two"><button type="button" data-on="bob">Poke bob</button><button type="button" data-on="vehicle">Poke vehicle</button></div>
     <label class="row">Direction <select class="way" aria-label="Direction"></select></label>
@@ -41,8 +45,10 @@ export class Panel {
     this.root = document.createElement("section");
     const chosen = Boolean(lab.offer.vehicles);
     this.served = chosen && !lab.offer.alone;
-    Object.assign(this.root, { className: "panel", innerHTML: html(chosen, this.served), ariaLabel: "Controls" });
-    parent.querySelector("header").after(this.root); // before the picture, for those who go by keys
+    Object.assign(this.root, { id: "tune", className: "panel", innerHTML: html(chosen, this.served), ariaLabel: "Tune", hidden: true });
+    this.bar = document.createElement("section");
+    Object.assign(this.bar, { className: "bar", innerHTML: BAR, ariaLabel: "Controls" });
+    parent.querySelector("header").after(this.bar, this.root); // before the picture, for those who go by keys
     this.groups = Object.fromEntries(["gains", "plant", "flight", "place"].map((name) =>
       [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
     this.selects = [];
@@ -74,9 +80,15 @@ export class Panel {
   }
 
   #buttons() {
-    this.#find(".go").addEventListener("click", () => this.lab.running.toggle());
-    this.#find(".again").addEventListener("click", () => this.lab.restart());
-    this.#find(".live").hidden = true; // until there is machine code
+    const inBar = (name, act) => {
+      this[name] = this.bar.querySelector(`.${name}`);
+      this[name].addEventListener("click", act);
+    };
+    inBar("go", () => this.lab.running.toggle());
+    inBar("again", () => this.lab.restart());
+    inBar("kick", () => this.poke("bob"));
+    inBar("open", () => this.tune(this.root.hidden));
+    this.go.disabled = true; // until there is machine code
     this.#find(".undo").addEventListener("click", () => this.lab.setting.undo());
     this.#find(".redo").addEventListener("click", () => this.lab.setting.redo());
     this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
@@ -85,16 +97,18 @@ export class Panel {
   }
 
   #starts() {
-    const { lab } = this, { starts, experiments } = lab.offer;
-    const chip = (parent, words, title, act) => {
+    const { lab } = this, { starts, experiments } = lab.offer, choice = this.bar.querySelector(".starts");
+    choice.append(new Option("choose", ""), ...Object.keys(starts).map((name) => new Option(name, name)), new Option("random", "random"));
+    choice.addEventListener("change", () => {
+      if (choice.value) lab.start(starts[choice.value] ?? { random: Math.floor(Math.random() * 1e9) });
+      choice.value = ""; // so that it can be chosen again
+    });
+    for (const [name, setting] of Object.entries(experiments ?? {})) {
       const button = document.createElement("button");
-      Object.assign(button, { type: "button", textContent: words, title });
-      button.addEventListener("click", act);
-      this.#find(parent).append(button);
-    };
-    for (const [name, start] of Object.entries(starts)) chip(".starts", name, "At rest at the origin", () => lab.start(start));
-    chip(".starts", "random", "Any attitude of rod and vehicle, any rates", () => lab.start({ random: Math.floor(Math.random() * 1e9) }));
-    for (const [name, setting] of Object.entries(experiments ?? {})) chip(".papers", name, `Experiment ${name} of the paper, its vehicle and law`, () => lab.preset(setting));
+      Object.assign(button, { type: "button", textContent: name, title: `Experiment ${name} of the paper, its vehicle and law` });
+      button.addEventListener("click", () => lab.preset(setting));
+      this.#find(".papers").append(button);
+    }
     const facts = [
       { path: "start.y.tilt", words: "rod from upright", unit: "°", low: 0, high: 180, value: 180 },
       { path: "start.y.heading", words: "heading", unit: "°", low: -180, high: 180, value: 0 },
@@ -110,7 +124,7 @@ export class Panel {
     way.append(...WAYS.map(([name, words]) => new Option(words, name)));
     this.strength = new Slider(this.#find(".strength"), { path: "pokes.velocity", words: "strength", unit: "m/s", low: 0.1, high: 10, value: 1, log: true }, () => {});
     for (const button of this.root.querySelectorAll("[data-on]")) {
-      button.title = "Hit it now, as hard as would give it this speed if it were free (p)";
+      button.title = "Apply an impulse of this Δv (p)";
       button.addEventListener("click", () => this.poke(button.dataset.on));
     }
     this.#find(".unpoke").addEventListener("click", () => this.lab.unpoke());
@@ -118,12 +132,19 @@ export class Panel {
 
   /** Show whether the page can let the flight go on. */
   able(able) {
-    this.#find(".live").hidden = !able;
+    this.go.disabled = !able;
+  }
+
+  /** Show or hide what is behind Tune. */
+  tune(open) {
+    this.root.hidden = !open;
+    this.lab.main.classList.toggle("tuned", open);
+    this.open.setAttribute("aria-expanded", String(open));
   }
 
   /** Show whether the flight goes on. */
   live(on) {
-    this.#find(".go").setAttribute("aria-pressed", String(on));
+    this.go.setAttribute("aria-pressed", String(on));
     this.#find(".unpoke").hidden = on || !this.lab.setting.value.pokes?.length;
   }
 

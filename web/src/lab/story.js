@@ -5,14 +5,14 @@ import { kind } from "./setting.js";
 const COUNTS = ["no flight", "one flight", "two flights", "three flights", "four flights", "five flights"];
 
 export class Story {
-  /** Of `steps` ({ title, words, setting }), at the top of `parent`; `tell` is called with the setting of a step. */
+  /** Of `steps` ({ title, words, setting }), at the end of `parent`; `tell` is called with the setting of a step. */
   constructor(parent, steps, tell) {
     Object.assign(this, { steps, tell, now: null });
     this.root = document.createElement("section");
     this.root.className = "story";
     this.root.innerHTML = `<h2>The story <small>in ${COUNTS[steps.length]}</small></h2><div class="chips"></div>
       <div class="step" hidden aria-live="polite"><h3></h3><p></p><button type="button" class="next"></button></div>`;
-    parent.prepend(this.root);
+    parent.append(this.root);
     const find = (selector) => this.root.querySelector(selector);
     Object.assign(this, { step: find(".step"), title: find("h3"), words: find("p"), next: find(".next") });
     this.buttons = steps.map(({ title }, i) => {

@@ -1,6 +1,6 @@
 // From rows of state and rotor forces, e3 up, to the columns that a page shows, in the frame of the law.
 
-const WIDTHS = { t: 1, x: 3, x_dot: 3, quat_xyzw: 4, y: 3, y_dot: 3, thrust: 1, rotor_forces: 0, x_ref: 3, clearance: 1, V: 1 };
+const WIDTHS = { t: 1, x: 3, x_dot: 3, quat_xyzw: 4, y: 3, y_dot: 3, thrust: 1, rotor_forces: 0, x_ref: 3, clearance: 1, excess: 1, V: 1 };
 const FINEST = 0.15; // rad that rod or vehicle may turn between two samples
 const RATE = 100; // samples a second at least
 
@@ -13,12 +13,12 @@ export function columns(simulation, rows, kept, first) {
   const out = Object.fromEntries(Object.entries(widths).map(([name, width]) => [name, new Float64Array(width * kept.length)]));
   kept.forEach((place, i) => {
     const state = rows.subarray(place * row, (place + 1) * row), t = (first + place) * period;
-    const [a, b, c, thrust, clearance, V] = simulation.shown(t, state);
+    const [a, b, c, thrust, clearance, excess, V] = simulation.shown(t, state);
     const turn = (from) => [state[from], sign * state[from + 1], sign * state[from + 2]];
     const [x, y, z, w] = quaternion(state.subarray(6, 15));
     const values = {
       t: [t], x: turn(0), x_dot: turn(3), quat_xyzw: [x, sign * y, sign * z, w], y: turn(18), y_dot: turn(21), thrust: [thrust],
-      rotor_forces: state.subarray(facts.state), x_ref: [a, b, c], clearance: [clearance], V: [V],
+      rotor_forces: state.subarray(facts.state), x_ref: [a, b, c], clearance: [clearance], excess: [excess], V: [V],
     };
     for (const name of Object.keys(out)) out[name].set(values[name], widths[name] * i);
   });

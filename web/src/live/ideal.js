@@ -7,7 +7,6 @@ const TOGETHER = 16; // flights of which the lanes take one after the other
 // waiting. A step takes some 50 µs; usual flights of 10 s take less than 1,000, one by a network on a large machine 8,000.
 const STEPS = { whole: 20_000, tick: 2, piece: 2000 };
 const PIECE = 200; // ticks that are fewer are a piece
-const ROUNDING = 5e-7; // as flypend.flight.kernels.ideal has it, of whose `Moments.of` the table below is
 
 export class Ideal extends Simulation {
   constructor(engine, facts) {
@@ -107,19 +106,15 @@ export class Ideal extends Simulation {
     this.engine.call("strike", this.state, this.impulses, this.state);
   }
 
-  /** Write the times after tick `begun`, and that of a start, at which the criterion is judged; see compile/llvm/grid.py. */
+  /** Write the times after tick `begun`, and that of a start, at which the criterion is judged; see compile/loops/grid.hpp. */
   #judge(begun, ticks) {
     const { judge, period } = this.facts, { at } = this, times = at.judge_times.view(), bins = at.bins.view();
-    let count = 0;
-    for (let tick = begun === 0 ? 0 : judge * (Math.floor(begun / judge) + 1); tick <= begun + ticks; tick += judge) times[count++] = tick * period;
-    times[count] = Infinity;
-    const rate = count > 1 ? (2 * count) / times[count - 1] : 0;
-    bins[0] = 0;
-    for (let i = 1, passed = 0; rate && i < 2 * count; i++) {
-      while (times[passed] <= ((1 - ROUNDING) * i) / rate) passed++;
-      bins[i] = passed;
-    }
-    return { bin_count: rate ? 2 * count : 1, bin_rate: rate };
+    const first = begun === 0 ? 0 : Math.floor(begun / judge) + 1, last = Math.floor((begun + ticks) / judge);
+    for (let i = first; i <= last; i++) times[i - first] = i * judge * period;
+    times[Math.max(last - first + 1, 0)] = Infinity;
+    const count = ticks < PIECE || last >= bins.length ? 1 : last + 1; // the few of a piece are found without a table
+    for (let i = 0; i < count; i++) bins[i] = Math.max(i - first, 0);
+    return { bin_count: count, bin_rate: count > 1 ? 1 / (judge * period) : 0 };
   }
 
   /** Add what the last piece, begun at a time, says of the criterion to what those before have said. */

@@ -63,6 +63,13 @@ export class Local {
     if (this.mapping === mapping && mapping.done < total) this.#chunk({ ...mapping, size });
   }
 
+  /** Tell `done` the clearance (m) of the rod in each of `directions`, the rest of the start as in `setting`. */
+  clear(setting, directions, done) {
+    const { start } = this.whole(setting), number = ++this.number;
+    this.clearing = { number, done };
+    this.worker.postMessage({ kind: "clear", number, starts: directions.map((y) => packed({ ...start, y, y_dot: [0, 0, 0] })) });
+  }
+
   /** The directions of a map's points, e3 up. */
   get directions() {
     return (this.spread ??= triples(Array.from(floats(this.offer.directions))));
@@ -113,11 +120,16 @@ export class Local {
       this.#mapped(reply);
       return;
     }
+    if (reply.kind === "clear") {
+      if (reply.number === this.clearing.number) this.clearing.done(reply.clearances);
+      return;
+    }
     if (reply.kind === "piece") {
       if (reply.number === this.begun) this.flown?.(reply);
       return;
     }
-    const { asked } = this, { number, columns, outcome, milliseconds } = reply, verdict = judged(outcome, this.facts);
+    const { asked } = this, { number, columns, outcome, milliseconds } = reply, { x } = columns;
+    const verdict = judged(outcome, this.facts, x[x.length - 1] - x[2]); // e3 is along gravity where it counts
     this.busy = false;
     this.told({
       kind: "flight", number, milliseconds, verdict, start: asked.start, sliders: this.sliders(asked),

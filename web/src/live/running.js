@@ -2,6 +2,7 @@
 
 import { kind } from "../lab/setting.js";
 import { judge } from "../layout.js";
+import { clamp } from "../numbers.js";
 import { Growing } from "./growing.js";
 import { blow, turned } from "./request.js";
 import { judged } from "./verdict.js";
@@ -97,10 +98,10 @@ export class Running {
     const { lab } = this, { viewer } = lab, verdict = judged(outcome, lab.link.facts);
     Object.assign(this, { asked: false, tick, over: outcome.status !== 0 });
     if (!columns.t.length) return;
-    const told = { verdict: this.over ? verdict : { words: "live", good: true }, completed: !this.over };
+    const told = { verdict: this.over ? verdict : { words: "live", state: "recovering", settling: null }, completed: !this.over };
     if (!this.flight) {
       this.flight = new Growing({ ...lab.record, columns, ...told });
-      viewer.load([this.flight, ...lab.pinned]);
+      viewer.load([this.flight, ...lab.ghosts]);
     } else this.flight.take(columns, told);
     const now = performance.now(), redraw = now - this.drawn > REDRAW || this.over;
     if (redraw) {
@@ -113,10 +114,10 @@ export class Running {
 
   #say(verdict) {
     const { y } = this.flight.at(this.flight.end), sign = this.flight.e3 === "up" ? 1 : -1;
-    const lean = (Math.acos(Math.min(Math.max(sign * y[2], -1), 1)) * 180) / Math.PI;
-    const words = this.over ? verdict.words : `live, rod ${lean.toFixed(0)}° from upright`;
-    this.lab.verdict = { words, good: !this.over };
-    judge(this.lab.words, { words, good: !this.over, reason: verdict.reason });
+    const lean = (Math.acos(clamp(sign * y[2], -1, 1)) * 180) / Math.PI, state = this.flight.state(this.flight.end);
+    const words = this.over ? verdict.words : state === "done" ? "live: upright" : `live: recovering, rod ${lean.toFixed(0)}° from upright`;
+    this.lab.verdict = { words, good: state === "done", state };
+    judge(this.lab.words, { words, state, reason: verdict.reason });
   }
 
   /** For tests: how far the flight is, and its last state. */

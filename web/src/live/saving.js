@@ -5,7 +5,7 @@ import { download } from "./table.js";
 
 const HTML = `<h2>Keep</h2>
   <div class="row two"><button type="button" data-keep="csv" title="Times, states, forces of the flight that is shown">CSV</button>
-  <button type="button" data-keep="png" title="The picture as it is">PNG</button></div>
+  <button type="button" data-keep="png" title="The picture as it is, in the size of movies">PNG</button></div>
   <div class="row two"><button type="button" data-keep="link" title="An address that leads to this setting">Copy link</button>
   <button type="button" data-keep="pin" aria-pressed="false" title="Leave the flight as a ghost while the setting changes">Pin</button></div>`;
 
@@ -23,11 +23,12 @@ export class Saving {
 
   csv() {
     const { flights } = this.lab.viewer;
-    save(download(flights[0]), "flight", "csv");
+    save(download(flights[0]), "flight.csv");
   }
 
   png() {
-    picture(this.lab.viewer, (blob) => save(blob, "flight", "png"));
+    const { viewer } = this.lab;
+    if (viewer.stage) picture(viewer, viewer.size, (blob) => save(blob, "flight.png"));
   }
 
   link(button) {

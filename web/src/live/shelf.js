@@ -53,6 +53,10 @@ export class Shelf {
     this.local.advance(content);
   }
 
+  clear(setting, directions, done) {
+    this.local.clear(setting, directions, done);
+  }
+
   whole(setting) {
     return this.local.whole(setting);
   }

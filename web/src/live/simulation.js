@@ -18,7 +18,7 @@ export class Simulation {
       parameters: doubles(Math.max(runs * gains.length, 1)), reductions: doubles(runs * reductions), final: doubles(runs * state),
       end: doubles(runs), status: integers(runs), clearance: doubles(runs), part: integers(runs), stop: integers(1),
     };
-    this.asked = { t: doubles(1), state: doubles(this.row), origin: doubles(3), shown: doubles(6) };
+    this.asked = { t: doubles(1), state: doubles(this.row), origin: doubles(3), shown: doubles(7) };
     this.tune({});
   }
 
@@ -70,7 +70,7 @@ export class Simulation {
     return { status, end, part, reductions: Array.from(at.reductions.view().subarray(run * reductions, (run + 1) * reductions)) };
   }
 
-  /** Reference, thrust, clearance and V of a row at the time `t`: six numbers, see `shown` in flypend.flight.kernels.web. */
+  /** Reference, thrust, clearance, excess and V of a row at the time `t`: seven numbers, see `shown` in flypend.flight.kernels.web. */
   shown(t, row) {
     const { asked } = this;
     asked.t.view()[0] = t;

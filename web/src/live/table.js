@@ -15,7 +15,7 @@ function heads(name, width) {
 
 /** The samples of a `flight` (flight.js) as a file. */
 export function download(flight) {
-  const names = Object.keys(flight.columns), count = flight.t.length, width = (name) => flight.columns[name].length / count;
+  const names = Object.keys(flight.columns).filter((name) => name !== "excess"), count = flight.t.length, width = (name) => flight.columns[name].length / count;
   const head = names.flatMap((name) => heads(name, width(name))).join(",");
   const lines = Array.from({ length: count }, (_, i) => names.flatMap((name) => flight.sample(name, i, width(name))).join(","));
   return new Blob([`${[head, ...lines].join("\n")}\n`], { type: "text/csv" });

@@ -2,16 +2,18 @@
 
 const SAME = 1e-9;
 
-export function judged({ status, end, part, reductions }, { words }) {
+/** Of an ending, by `facts` of its machine code; `fall` is how far the vehicle went along gravity, m. */
+export function judged({ status, end, part, reductions }, { words, e3 }, fall = 0) {
   const [since, ...rest] = reductions, last = rest.slice(0, words.parts.length), excursion = rest[words.parts.length];
-  const distance = `excursion ${+(Math.round(100 * excursion) / 100).toPrecision(3)} m`;
+  const rounded = (metres) => `${+(Math.round(100 * metres) / 100).toPrecision(3)} m`, distance = `excursion ${rounded(excursion)}`;
   const named = words.status[status];
   if (named !== "completed") {
     const [name, touched] = (named === "collided" && words.touched[part]) || [null, ""];
-    const said = `${named} after ${+end.toPrecision(3)} s${touched && `, ${touched}`}`;
-    return { words: said, good: false, settling: null, excursion: null, reason: touched || words.reasons[status], part: name, cause: named };
+    const said = `${named} ${end > 0 ? `after ${+end.toPrecision(3)} s` : "at the start"}${touched && `, ${touched}`}`;
+    return { words: said, good: false, state: "failed", settling: null, excursion: null, reason: touched || words.reasons[status], part: name, cause: named };
   }
   const late = last.map((time) => time >= end - words.hold - SAME), cause = words.parts[late.indexOf(true)];
-  const said = cause ? `${words.missed[cause]} during the last second, ${distance}` : `${words.pose} after ${since.toFixed(1)} s, ${distance}`;
-  return { words: said, good: !cause, settling: cause ? null : since, excursion, reason: "", part: null, cause: cause ?? "" };
+  const up = e3 === "up", reached = `${up ? words.pose : words.hangs} after ${since.toFixed(1)} s, `;
+  const said = cause ? `${words.missed[cause]} during the last second, ${distance}` : reached + (up ? distance : `vehicle ${fall >= 0 ? "fell" : "rose"} ${rounded(Math.abs(fall))}`);
+  return { words: said, good: !cause, state: cause ? "failed" : up ? "done" : "recovering", settling: cause ? null : since, excursion, reason: "", part: null, cause: cause ?? "" };
 }

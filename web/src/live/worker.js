@@ -30,6 +30,12 @@ const actions = {
     return { kind: "several", number, endings: still.several(starts, ticks, seed + first), milliseconds: performance.now() - begun };
   },
 
+  /** The clearance of the rod at the beginning of several `starts`, m. */
+  clear({ number, starts }) {
+    const idle = new Array(still.facts.rotors).fill(0);
+    return { kind: "clear", number, clearances: starts.map((start) => still.shown(0, [...start, ...idle])[4]) };
+  },
+
   /** Begin a flight that goes on, and fly it up to a tick at once. */
   begin({ number, asked, until }) {
     return piece(number, flown(running, asked, until), 0);

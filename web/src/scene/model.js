@@ -1,7 +1,7 @@
 // The machine: hub, arms, rotors, thrust arrows, rod and bob, as a group that takes poses with e3 up. Metres.
 
 import {
-  Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, ShaderMaterial,
+  BoxGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, ShaderMaterial,
   SphereGeometry, TorusGeometry, Vector3,
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
@@ -12,6 +12,7 @@ const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
 const Z = new Vector3(0, 0, 1);
 const HOVER_ARROW = 0.7, LONGEST_ARROW = 1.1; // lengths of the thrust arrow over the rod, as in the figures
 const ROTOR_ARROW = 0.32; // the same for one rotor that carries its share
+const CAGE = { room: 1.08, most: 0.8, thick: 0.007 }; // of a gimbal: radius over that of the machine, at most of the rod; of its bars
 const CUP = 0.24; // slant height of a cup over the rod
 const SWOLLEN = 2; // how much thicker an arm that was touched is drawn, to be seen
 
@@ -74,6 +75,15 @@ function placed(mesh) {
   return mesh.geometry.applyMatrix4(mesh.matrix);
 }
 
+/** Plates, standoffs and the battery between the arms of a machine of a `span`. */
+function hull(span) {
+  const plate = (z, radius) => new CylinderGeometry(radius, radius, 0.02 * span, 8).rotateX(Math.PI / 2).rotateZ(Math.PI / 8).translate(0, 0, z);
+  const standoff = (x, y) => new CylinderGeometry(0.014 * span, 0.014 * span, 0.14 * span, 8).rotateX(Math.PI / 2).translate(x, y, 0.05 * span);
+  const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([x, y]) => standoff(0.13 * x * span, 0.13 * y * span));
+  const battery = new BoxGeometry(0.4 * span, 0.19 * span, 0.14 * span).translate(0, 0, -0.1 * span);
+  return [plate(-0.02 * span, 0.26 * span), plate(0.12 * span, 0.2 * span), battery, ...corners];
+}
+
 /** Shaft and head of an arrow, of length and width 1; `open` as an outline. */
 const arrow = (open) => [new CylinderGeometry(0.5, 0.5, 1, 24, 1, open), new ConeGeometry(open ? 1 : 1.5, 1, 32, 1, open)];
 
@@ -130,7 +140,7 @@ export class Model extends Group {
     if (vehicle.mount === "cup") this.#cup();
     const ends = vehicle.rotor_positions.map((position) => new Vector3(...position));
     const places = ends.map((end) => end.clone().add(new Vector3(0, 0, lift)));
-    const still = [open ? new TorusGeometry(hub, arm, 14, 48) : new SphereGeometry(0.2 * span, 32, 20).scale(1, 1, 0.45)];
+    const still = open ? [new TorusGeometry(hub, arm, 14, 48)] : hull(span);
     for (const place of places) still.push(...motor(vehicle.rotor_radius, 0.13 * span, place));
     ends.forEach((end, k) => {
       const strut = bar(end.clone().setLength(hub), end, arm, open ? 1 : 2 / 3);
@@ -176,10 +186,20 @@ export class Model extends Group {
     const { paint, ghost } = this;
     this.pole = new Group();
     const thick = this.vehicle.mount === "gimbal" ? 0.016 * length : this.vehicle.body.rod_radius;
-    const stick = new CylinderGeometry(thick, thick, this.vehicle.rod_end, 16).rotateX(Math.PI / 2).translate(0, 0, this.vehicle.rod_end / 2);
+    const { rod_end: end, mount } = this.vehicle, cage = mount === "gimbal" ? this.#cage() : null, from = cage?.radius ?? 0;
+    const stick = new CylinderGeometry(thick, thick, end - from, 16).rotateX(Math.PI / 2).translate(0, 0, (end + from) / 2);
     const bob = new SphereGeometry(0.08 * length, 36, 24).translate(0, 0, length); // may sit below the far end of the stick
-    this.pole.add(solid(mergeGeometries([stick, bob, new SphereGeometry(0.032 * length, 20, 14)]), paint.rod, ghost));
+    const joint = cage?.bars ?? [new SphereGeometry(0.032 * length, 20, 14)];
+    this.pole.add(solid(mergeGeometries([stick, bob, ...joint]), paint.rod, ghost));
     return this.pole;
+  }
+
+  /** The cage of a gimbal, which carries the rod and turns freely about the machine: hoops through the rod and across it. */
+  #cage() {
+    const { rotor_positions, rotor_radius, rod_length, rod_end } = this.vehicle;
+    const machine = Math.max(...rotor_positions.map((place) => Math.hypot(...place))) + rotor_radius;
+    const radius = Math.min(CAGE.room * machine, CAGE.most * rod_end), hoop = () => new TorusGeometry(radius, CAGE.thick * rod_length, 8, 72);
+    return { radius, bars: [hoop(), hoop().rotateX(Math.PI / 2), hoop().rotateY(Math.PI / 2)] };
   }
 
   /** Paint the `part` that the rod touched in the colour of alarm; null for none. */
@@ -221,7 +241,7 @@ export class Model extends Group {
     for (const [role, paint] of Object.entries(this.paint)) paint.color.set(tone(role));
     this.rim.uniforms.color.value.set(tone("thrust"));
     this.glass?.color.set(tone("body"));
-    this.rotors.colour(tone, colours.alarm);
-    this.alarm.color.set(colours.alarm);
+    this.rotors.colour(tone, colours.failed);
+    this.alarm.color.set(colours.failed);
   }
 }

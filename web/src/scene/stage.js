@@ -4,12 +4,16 @@ import { PerspectiveCamera, PCFShadowMap, Scene, SRGBColorSpace, Vector3, WebGLR
 
 import { calm } from "../motion.js";
 import { norm, roundUp } from "../numbers.js";
+import { Barred } from "./barred.js";
 import { Flyer } from "./flyer.js";
+import { Pole } from "./pole.js";
 import { Rig } from "./rig.js";
 import { Walls } from "./walls.js";
 import { World } from "./world.js";
 
+const FLOOR = { under: 1.25, below: 0.35 }; // reaches of the machine: of the floor under the start, and below all that a flight passes
 const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
+const STEEP = 0.9; // sine of the camera's elevation from which on a pole is a point
 
 export const LAYOUTS = ["overlay", "beside"];
 
@@ -21,6 +25,8 @@ export class Stage {
     Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap });
     Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [], left: [], holds: new Set() });
     this.scene = new Scene();
+    this.barred = new Barred();
+    this.scene.add(this.barred);
     this.camera = new PerspectiveCamera();
     this.camera.matrixAutoUpdate = false;
     this.load(flights);
@@ -35,7 +41,10 @@ export class Stage {
     this.ghosts = flights.map((flight, i) => (i ? new Flyer(flight, true, this.ghosts[i]) : null));
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
     const box = bounds(this.flyers.flatMap((flyer) => [flyer.pivots, flyer.bobs]));
-    this.world = new World(box.centre[2] - box.half[2] - 0.35 * reach, reach);
+    const start = Array.from(this.flyers[0].pivots.subarray(0, 3));
+    const floor = Math.min(start[2] - FLOOR.under * reach, box.centre[2] - box.half[2] - FLOOR.below * reach);
+    this.world = new World(floor, reach);
+    this.pole = new Pole(start, flights[0].direction, floor, box.centre[2] + box.half[2], reach);
     this.walls = new Walls(flights[0].windows ?? []);
     this.box = box;
     if (this.rig) Object.assign(this.rig, { direction: flights[0].direction, reach, box: this.holds.size ? this.rig.box : box });
@@ -57,8 +66,7 @@ export class Stage {
     const [flyer] = this.flyers;
     flyer.grow(span, anew);
     if (!flyer.pivots.length) return;
-    const { centre, half } = bounds([flyer.pivots, flyer.bobs]), reach = flyer.flight.vehicle.reach;
-    this.world.ground = Math.min(this.world.ground, centre[2] - half[2] - 0.35 * reach);
+    const { centre, half } = bounds([flyer.pivots, flyer.bobs]);
     const low = centre.map((value, k) => Math.min(value - half[k], this.box.centre[k] - this.box.half[k]));
     const high = centre.map((value, k) => Math.max(value + half[k], this.box.centre[k] + this.box.half[k]));
     this.box = { centre: low.map((value, k) => (value + high[k]) / 2), half: low.map((value, k) => (high[k] - value) / 2) };
@@ -84,13 +92,13 @@ export class Stage {
   }
 
   #things() {
-    return [this.world, this.walls, ...this.flyers, ...this.ghosts].filter(Boolean);
+    return [this.world, this.pole, this.walls, ...this.flyers, ...this.ghosts].filter(Boolean);
   }
 
   /** Colours of a theme, see `Model.colour`. */
   colour(colours) {
     this.colours = colours;
-    for (const thing of this.#things()) thing.colour(colours);
+    for (const thing of [this.barred, ...this.#things()]) thing.colour(colours);
   }
 
   /** Put every flyer to its pose (in the frame of its run). */
@@ -156,12 +164,23 @@ export class Stage {
   screen(which, factor = 1) {
     const view = this.views.find((port) => port.main === which) ?? this.views[0];
     const { x, y } = this.flyers[which].pose, rod = factor * this.flyers[which].flight.vehicle.rod_length;
-    const place = (point) => {
-      const { x: across, y: up } = new Vector3(...point).project(view.camera);
-      return [view.left + (across + 1) / 2 * view.width, view.top + (1 - up) / 2 * view.height];
-    };
-    return { pivot: place(x), bob: place(x.map((value, k) => value + rod * y[k])) };
+    return { pivot: project(x, view), bob: project(x.map((value, k) => value + rod * y[k]), view) };
   }
+
+  /** Heights over the start that the pole marks near the first machine, m, and their CSS pixels; none side by side or from above. */
+  marks() {
+    const [view] = this.views;
+    if (!view || this.layout === "beside" || Math.abs(view.back[2]) > STEEP) return [];
+    const [left, right] = [view.left, view.left + view.width];
+    return this.pole.marks(this.flyers[0].pose.x[2]).map(({ height, place }) => ({ height, at: project(place, view) }))
+      .filter(({ at: [across] }) => across > left && across < right);
+  }
+}
+
+/** Where a point of the world is in a `view`: CSS pixels from the upper left of the canvas. */
+function project(point, view) {
+  const { x: across, y: up } = new Vector3(...point).project(view.camera);
+  return [view.left + (across + 1) / 2 * view.width, view.top + (1 - up) / 2 * view.height];
 }
 
 /** Middle and half the size of the box around places, which are in arrays one after the other. */

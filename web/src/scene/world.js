@@ -7,6 +7,7 @@ import {
 
 import { roundUp } from "../numbers.js";
 
+const SHADE = 0.3; // opacity of a shadow
 const LATTICE = 5; // points to each side of the middle
 
 const GRID_VERTEX = `
@@ -70,7 +71,7 @@ export class World extends Group {
     this.grid = new Mesh(new PlaneGeometry(1, 1), shader(GRID_VERTEX, GRID_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 },
     }));
-    this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.2, depthWrite: false }));
+    this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ depthWrite: false }));
     this.floor.receiveShadow = true;
     this.dust = new Points(lattice(), shader(DUST_VERTEX, DUST_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, size: { value: 2 }, strength: { value: 1 },
@@ -121,6 +122,7 @@ export class World extends Group {
   colour(colours) {
     this.grid.material.uniforms.color.value.set(colours.grid);
     this.dust.material.uniforms.color.value.set(colours.grid);
+    this.floor.material.opacity = SHADE * (new Color(colours.sky).getHSL({}).l > 0.5 ? 1 : 2); // what is dark takes more
   }
 }
 

@@ -1,0 +1,107 @@
+"""What the scene shows besides the flight: floor, pole, mounts, and where a rod cannot start."""
+
+import json
+import time
+from io import BytesIO
+from urllib.parse import quote
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import flypend as fp
+from benchmarks.frames import AT_REST
+from flypend.flight.live import live_data
+from flypend.geometry import unit
+
+SMALL = {"width": 900, "height": 520}
+MACHINE = fp.vehicle("hehn2011")
+
+
+@pytest.fixture
+def visit(offline, tmp_path):
+    def open_(run, address="", **options):
+        run.to_html(tmp_path / "page.html", **options)
+        page = offline((tmp_path / "page.html").as_uri() + address, viewport=SMALL, color_scheme="light")
+        until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
+        page.evaluate(AT_REST)
+        return page
+
+    return open_
+
+
+def until(page, condition):
+    for _ in range(600):
+        if page.evaluate(condition):
+            return
+        time.sleep(0.05)
+    raise AssertionError(condition)
+
+
+def picture(page):
+    page.evaluate("flypend.screen(0)")
+    return np.asarray(Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB")).astype(int)
+
+
+def hovering(mount="gimbal"):
+    return fp.simulate(MACHINE.replace(mount=mount), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.5)
+
+
+def test_the_floor_stays_where_it_is_while_a_live_flight_falls(visit):
+    run = fp.simulate(MACHINE, fp.laws.corrected(), fp.State(y=(0, 0, 1)), 0.2, plant="ideal")
+    page = visit(run, live=True)
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().tick > 100")
+    before = page.evaluate("flypend.floor()")
+    start = page.evaluate("flypend.pose().x")[2]
+    until(page, "() => flypend.pose().x[2] > 3 || flypend.live().over")  # e₃ is along gravity
+    assert page.evaluate("flypend.pose().x")[2] > start
+    assert page.evaluate("flypend.floor()") == before
+
+
+def test_the_pole_tells_the_height_of_the_machine(visit):
+    """The pivot hovers at the height of the start, so the mark of 0 m is level with it, but for the perspective."""
+    page = visit(hovering())
+    page.evaluate("flypend.camera('side')")
+    page.wait_for_timeout(1500)
+    place = page.evaluate("flypend.screen(0)")["pivot"]
+    top = page.locator(".picture").bounding_box()["y"]
+    marks = {mark.inner_text(): mark.bounding_box() for mark in page.locator(".height:visible").all()}
+    assert list(marks) == sorted(marks, key=lambda words: float(words.removesuffix(" m").replace("−", "-")))
+    zero = marks["0 m"]
+    assert zero["y"] + zero["height"] / 2 - top == pytest.approx(place[1], abs=60)
+    assert zero["y"] > marks["0.5 m"]["y"]
+
+
+def test_a_hub_looks_different_from_a_gimbal(visit):
+    hub, gimbal = (picture(visit(hovering(mount))) for mount in ("hub", "gimbal"))
+    assert np.mean(np.any(np.abs(hub - gimbal) > 30, axis=-1)) > 0.005
+
+
+def test_forbidden_starts_are_shaded_and_a_rod_in_one_is_freed(visit):
+    run = hovering("hub")
+    rotor = run.vehicle.rotors_from_pivot[0]
+    first = live_data(run.flight)["offer"]["first"]
+    blocked = first | {"start": first["start"] | {"y": unit(rotor).tolist()}}
+    page = visit(run, "#" + quote(json.dumps(blocked)), live=True)
+    assert page.evaluate("flypend.verdict().state") == "failed"
+    assert page.evaluate("flypend.verdict().words").startswith("collided at the start, the rod touched ")
+    notice = page.locator(".notice")
+    assert "at the start" in notice.inner_text()
+    assert page.locator(".motion b").first.inner_text() == "collided"
+
+    def reddish():
+        red, green, blue = np.moveaxis(picture(page), -1, 0)
+        return np.sum((red - green > 25) & (red - green < 110) & (np.abs(green - blue) < 14))
+
+    until(page, "() => flypend.frames().count > 1")
+    page.wait_for_timeout(500)
+    shaded = reddish()
+    page.get_by_role("button", name="Move to a free start").click()
+    until(page, "() => flypend.setting().start.y[0] < 0.999 && flypend.shown() === flypend.number()")
+    freed = page.evaluate("flypend.setting().start.y")
+    assert 0.5 < np.dot(freed, unit(rotor)) < 1  # nearby
+    assert notice.is_hidden()
+    page.evaluate("flypend.seek(0.3)")
+    page.wait_for_timeout(300)
+    assert shaded > 4 * reddish() + 500

@@ -1,0 +1,29 @@
+"""Sliders: they stand where the flight has them, and what cannot be flown in a page has none."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.pages.sliders import plant_sliders
+from flypend.plants import Plant, Wind
+
+VEHICLE = fp.vehicle("hehn2011")
+
+
+def test_sliders_of_a_plant_stand_where_the_plant_is():
+    wind = Wind(on_vehicle=(0.3, -0.1, 0.2), gust_on_vehicle=0.15)
+    sliders = {one["path"]: one for one in plant_sliders(Plant(delay=0.01, lag=0.02, wind=wind), VEHICLE)}
+    expected = {
+        "vehicle.rotor_limits": VEHICLE.rotor_limits[1], "plant.lag": 0.02, "plant.delay": 0.01,
+        "plant.wind.on_vehicle": 0.3, "plant.wind.gust_on_vehicle": 0.15,
+    }  # fmt: skip
+    assert {name: sliders[name]["value"] for name in expected} == pytest.approx(expected)
+    for one in sliders.values():
+        assert one["low"] <= one["value"] <= one["high"]
+
+
+def test_a_callable_law_has_no_live_page(tmp_path):
+    hold = fp.Controller(name="hold", function=lambda t, state: fp.Wrench(5.0, np.zeros(3)), rate=100.0)
+    run = fp.simulate(VEHICLE, hold, fp.State(y=(0, 0, 1)), 0.1, plant="rotors")
+    with pytest.raises(fp.InputError, match=r"^live: expected a law in symbols, .* the callable hold$"):
+        run.to_html(tmp_path / "flight.html", live=True)

@@ -287,7 +287,7 @@ def check_arguments(field: str, function: Any, form: str) -> None:
     names = form.strip("()").replace("]", "").replace("[", "").split(", ")
     needed = form.strip("()").split("[")[0].rstrip(", ").split(", ")
     for count in range(len(needed), len(names) + 1):
-        by_name = {"path": None} if "path" in signature.parameters else {}
+        by_name = dict.fromkeys({"path", "acting"} & set(signature.parameters))
         try:
             signature.bind(*[None] * count, **by_name)
         except TypeError:

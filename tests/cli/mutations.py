@@ -11,7 +11,7 @@ from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
 from flypend.files.schema import digest
 from flypend.files.toml import toml_text
 from flypend.flight import saved as saved_run
-from flypend.planning import saved as saved_plan
+from flypend.planning import files as saved_plan
 
 NUMBERS = [
     0, -1, 1, 1e-9, 1e9, 1e30, 1e308, float("nan"), float("inf"), float("-inf"), 0.5, 1e-30, True, "x", "", [], [1.0],
@@ -115,6 +115,7 @@ ARRAYS = {
 def mutated_array(values, rng):
     """An array like `values` with other numbers, another shape or another type."""
     how = rng.choice(["spot"] * 4 + list(ARRAYS))
+    values = values if np.asarray(values).dtype.kind in "biuf" else np.ones(np.shape(values))  # words: mutated before
     return ARRAYS[how](np.atleast_1d(np.array(values, dtype=float)), rng) if values.size else np.ones(3)
 
 
@@ -181,7 +182,7 @@ def mutate_attribute(attributes, rng):
     elif isinstance(given, str) and given[:1] in ("[", "{") and rng.random() < 0.8:
         attributes[name] = mutated_json(given, rng)
     else:
-        words = ["down", "up", "singular", "optimal", "failed", "plan", "k" * 2000, 2.5]
+        words = ["down", "up", "singular", "converged", "failed", "plan", "k" * 2000, 2.5]
         attributes[name] = rng.choice([*words, *(each for each in STRANGE if isinstance(each, str | float))])
 
 

@@ -35,7 +35,7 @@ from flypend.paper import experiment
 from flypend.studies.sweep import run
 
 LONGEST = 10.0  # s of processor time of any command: other tests run beside it
-PATIENCE = 60.0  # s of wall time after which a command that computes nothing is ended
+PATIENCE = 600.0  # s of wall time after which a command that hangs is ended, on however busy a machine
 RUN = {
     "vehicle": {
         "base": "hehn2011", "mass": 0.5, "bob_mass": 0.05, "rod_length": 0.5, "gravity": 9.81, "rotor_lag": 0.02,
@@ -145,7 +145,7 @@ COMMANDS = (
 # Where the work of the last four begins: it is left out.
 WORK = (
     "flypend.studies.tune.program_digest", "flypend.studies.check.fly_tasks", "flypend.export.write.interface",
-    "flypend.planning.planner.prepared", "flypend.planning.ensemble.prepared",
+    "flypend.planning.planner.prepared",
 )  # fmt: skip
 
 
@@ -259,7 +259,7 @@ def is_plan(plan):
     assert plan.commands.shape[1:] == (len(plan.vehicle.rotor_spins),)
     assert (len(plan.t) - 1) % len(plan.commands) == 0
     assert plan.duration == pytest.approx(plan.stage * len(plan.commands))
-    assert plan.status in ("optimal", "feasible", "failed")
+    assert plan.status in ("converged", "feasible", "failed")
     assert np.isfinite([*plan.commands.ravel(), *plan.target, *plan.objective.values(), plan.solve_time]).all()
 
 

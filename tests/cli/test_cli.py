@@ -680,7 +680,8 @@ def test_help_says_whether_a_command_writes_a_folder_or_a_file():
                 default = option.default if isinstance(option.default, str) else ""
                 assert option.metavar == ("FILE" if Path(default).suffix or name == "vehicles" else option.metavar)
                 assert ("folder" in option.help.lower()) == (option.metavar != "FILE"), name
-    assert {name for name, kind in kinds.items() if kind == "FILE"} == {"map", "plan", "replay", "movie", "vehicles"}
+    files = {"identify", "map", "plan", "replay", "movie", "vehicles"}
+    assert {name for name, kind in kinds.items() if kind == "FILE"} == files
     assert {name for name, kind in kinds.items() if kind == "STORE"} == {"sweep"}
     assert {"run", "check", "compare", "figures", "tune"} <= {name for name, kind in kinds.items() if kind == "DIR"}
 

@@ -27,6 +27,7 @@ COMMANDS = {
     "figures": ("figures", "run.nc", "-o", "disk/figures"),
     "movie": ("movie", "run.nc", "-o", "disk/a.mp4"),
     "export-c": ("export-c", "--law", "lqr", "--vehicle", "hehn2011", "-o", "disk/c"),
+    "export-app": ("export-app", "crazyflie", "crazyflie", "-o", "disk/app"),
     "examples": ("examples", "-o", "disk/examples"),
 }  # fmt: skip
 

@@ -23,7 +23,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 STUDY = 'vehicle = "nayak2018"\nduration = 1.0\nruns = 10\nlaw = {{ name = "corrected" }}\n{more}'
 
 # Distributions whose modules have another name.
-MODULES = {"imageio-ffmpeg": "imageio_ffmpeg", "pillow": "PIL", "tomli-w": "tomli_w"}
+MODULES = {"imageio-ffmpeg": "imageio_ffmpeg", "pillow": "PIL", "python-flint": "flint", "tomli-w": "tomli_w"}
 
 
 def modules_of(requirements):
@@ -229,7 +229,11 @@ def _imports(text):
 # What comes with another package of an extra: dask with distributed, pandas with xarray.
 BROUGHT = {"dask", "pandas"}
 # What an example shows beside flypend.
-THEIRS = {"examples/train.py": "stable_baselines3"}
+THEIRS = {
+    "examples/train.py": "stable_baselines3",
+    "envs/sb3.py": "stable_baselines3",
+    "export/templates/crazyflie/flypend_host.py": "cflib",
+}
 
 
 def _missing(sources):
@@ -240,6 +244,7 @@ def _missing(sources):
         "envs/",
         "examples/train.py",
         "flight/integrate.py",
+        "laws/certificate.py",
     )  # imported where the extra has been asked for
     for path, text in sources.items():
         for module, late in _imports(text):

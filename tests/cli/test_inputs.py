@@ -42,16 +42,17 @@ LAWS = {
 NEEDED = {
     "run": ["run.toml", "--no-figures"], "sweep": ["study.toml", "-o", "s.zarr"], "map": ["study.toml"],
     "tune": ["study.toml"], "check": ["hehn2011"], "replay": ["run.nc"], "movie": ["run.nc"], "figures": ["run.nc"],
-    "lab": ["--no-browser"],
+    "lab": ["--no-browser"], "export-app": ["crazyflie", "crazyflie"], "identify": ["log.csv", "--rehearse"],
 }  # fmt: skip
 # Where work begins.
 WORK = (
     "flypend.flight.simulate.fly", "flypend.flight.ensemble.fly_many", "flypend.studies.compare.flown",
-    "flypend.studies.ladder.flown", "flypend.planning.planner.prepared", "flypend.planning.ensemble.prepared",
+    "flypend.studies.ladder.flown", "flypend.planning.planner.prepared",
     "flypend.studies.check.fly_tasks", "flypend.studies.sweep.run.fly_range", "flypend.studies.tune.program_digest",
     "flypend.studies.trial.fly_many", "flypend.report.paper.fly_all", "flypend.report.theorem.fly_repaired",
     "flypend.pictures.animate.stage", "flypend.report.flight.figure_tasks",
     "flypend.lab.server.serve", "flypend.lab.alone.page_alone", "flypend.export.write.interface",
+    "flypend.export.app.interface",
 )  # fmt: skip
 NUMBERS = [
     "x",
@@ -107,7 +108,8 @@ def files(folder):
 def imported():
     """Every module, so that none is imported while a function is replaced, and keeps what replaces it."""
     for found in pkgutil.walk_packages(flypend.__path__, "flypend."):
-        if not found.name.endswith("__main__"):
+        # No command imports the adapter for a library that is not here.
+        if not found.name.endswith(("__main__", "envs.sb3")):
             importlib.import_module(found.name)
 
 

@@ -21,7 +21,7 @@ import flypend as fp
 from flypend.files.toml import toml_text
 
 LINES = {signal.SIGINT: "flypend: interrupted", signal.SIGTERM: "flypend: terminated"}
-HINT = "What is finished is kept. To go on: flypend "
+HINT = "Finished work is kept. To resume: flypend "
 STUDY = {
     "vehicle": "hehn2011", "law": {"name": "inverted"}, "duration": 3.0, "judge_period": 0.1, "runs": 4000,
     "chunk": 100, "seed": 1, "vary": {"start": {"y": "uniform"}},
@@ -68,6 +68,7 @@ def prepared(tmp_path_factory):
     folder = tmp_path_factory.mktemp("signals") / "prepared"
     folder.mkdir()
     (folder / "study.toml").write_text(toml_text(STUDY), encoding="utf-8")
+    (folder / "short.toml").write_text(toml_text({**STUDY, "runs": 1000}), encoding="utf-8")
     swing = {"vehicle": "hehn2011", "law": {"name": "inverted"}, "duration": 3.0, "start": {"y": [0.0, 0.0, -1.0]}}
     (folder / "swing.toml").write_text(toml_text(swing), encoding="utf-8")
     (folder / "mine.py").write_text(MINE, encoding="utf-8")
@@ -184,7 +185,7 @@ def attack(commands, shots, seed, prepared, *, numbers=tuple(LINES), cold=3):
 
 
 def test_signals_at_random_moments(prepared):
-    attack(["run 1 -o out", "sweep study.toml -o out.zarr", "export-c -o out"], 6, 3, prepared)
+    attack(["run 1 --no-figures -o out", "sweep short.toml -o out.zarr", "export-c -o out"], 6, 3, prepared)
 
 
 @pytest.mark.parametrize("number", LINES)

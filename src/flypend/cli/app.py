@@ -5,7 +5,6 @@ from __future__ import annotations
 import signal
 import sys
 import traceback
-import warnings
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -14,7 +13,19 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from flypend import __version__, signals
-from flypend.cli import cache, check, examples, learning, listing, planning, studies, theorem, viewing
+from flypend.cli import (
+    cache,
+    check,
+    examples,
+    export,
+    identification,
+    learning,
+    listing,
+    planning,
+    studies,
+    theorem,
+    viewing,
+)
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
@@ -49,7 +60,7 @@ class _Commands(click.Group):
     context_settings={"help_option_names": ["-h", "--help"], "show_default": True, "max_content_width": 100},
 )
 @click.version_option(__version__, message="%(prog)s %(version)s", prog_name="flypend")
-@click.option("--debug", is_flag=True, help="Show the full traceback of an error, as in flypend --debug run 1.")
+@click.option("--debug", is_flag=True, help="Show the full traceback of an error: flypend --debug run 1.")
 def app(debug: bool) -> None:
     """Spherical pendulum on a quadrotor: reproduce the paper, test its claims, fly your own experiments."""
     # main looks for --debug itself: it must work even if parsing fails
@@ -91,10 +102,10 @@ def paper(out: Path, quick: bool, style: str) -> None:
 )
 @click.option("--quick", is_flag=True, help="Skip the movies.")
 @click.option("--figures/--no-figures", default=True, help="Draw the figures (--no-figures also skips the movies).")
-@click.option("--controller", help="python, or the law as exported, compiled C: c (double) or c-float.")
-@click.option("--html", type=path, metavar="FILE", help="Also write the replay, a page for any browser.")
+@click.option("--controller", help="python, or the law as compiled C: c (double) or c-float.")
+@click.option("--html", type=path, metavar="FILE", help="Also write the replay, a page that opens in any browser.")
 @click.option(
-    "--live", is_flag=True, help="The page of --html flies by itself: poke, pull, start anywhere, move gains."
+    "--live", is_flag=True, help="Make the page of --html interactive: poke, pull, start anywhere, move gains."
 )
 @style_option
 def run(
@@ -109,7 +120,7 @@ def run(
     live: bool,
     style: str,
 ) -> None:
-    """Fly WHAT: one experiment of the paper (1, 2, 2-projected, 3, 4, 5), or a TOML file with your own.
+    """Fly WHAT: an experiment of the paper (1, 2, 2-projected, 3, 4, 5), or a TOML file of your own.
 
     A TOML file has the keys vehicle (a name or a table), law (a name or a function, and gains), start (x, x_dot, R,
     omega, y, y_dot) and duration in seconds. Optional keys are plant (ideal, rotors, mujoco, hehn2011, or a table),
@@ -190,7 +201,7 @@ def check_live(flight: Flight, html: Path | None) -> None:
 
 
 starts_option = click.option(
-    "--starts", default="random", help="random, or paper: its five starts, read in the e₃-up frame."
+    "--starts", default="random", help="random, or paper: the five starts of the paper, in the e₃-up frame."
 )
 runs_option = click.option("--runs", type=click.IntRange(min=1), default=100, help="Number of random starts.")
 seed_option = click.option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
@@ -207,7 +218,7 @@ duration_option = click.option("--duration", type=float, default=10.0, help="Sec
 @click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
 @sensors_option
 @duration_option
-@click.option("--keep", type=path, metavar="DIR", help="Also fly the failed flights again, and save each in DIR (.nc).")
+@click.option("--keep", type=path, metavar="DIR", help="Also save each failed flight in DIR (.nc).")
 def compare(
     law: tuple[str, ...],
     out: Path,
@@ -220,10 +231,9 @@ def compare(
     duration: float,
     keep: Path | None,
 ) -> None:
-    """Compare laws, your own included, from the same starts: one table, one figure.
+    """Compare laws, your own included, from the same starts, in one table and one figure.
 
-    The starts of failed flights, of each law the first 100, become run files in the folder failed of the output, for
-    flypend run.
+    The first 100 failures of each law become run files for flypend run, in the folder failed of the output.
 
     A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the pivot stays within 0.2 m of
     its reference.
@@ -262,7 +272,10 @@ def compare(
 @seed_option
 @vehicle_option
 @duration_option
-@click.option("--rung", multiple=True, help="Fly only this rung; repeatable. Several at once: 'noise, rod +10 %'.")
+@click.option(
+    "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
+)
+@click.option("--sensors", help="Fly what may be wrong with these sensors instead: mocap or onboard.")
 def ladder(
     law: tuple[str, ...],
     out: Path,
@@ -272,16 +285,17 @@ def ladder(
     vehicle: str,
     duration: float,
     rung: tuple[str, ...],
+    sensors: str | None,
 ) -> None:
-    """Find what breaks each law: limits, lag, motors, air, sampling, delay, noise, a wrong model, several at once."""
+    """Find what breaks each law: limits, lag, motors, air, sampling, delay, noise, wrong models, or several at once."""
     from flypend.files.staging import check_writable
     from flypend.plants import plant
     from flypend.report.studies import ladder_table, write_ladder
     from flypend.studies import ladder as climb
-    from flypend.studies.ladder import rung_named, rungs_for
+    from flypend.studies.ladder import rung_named, rungs_for, sensor_rungs
 
     laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
-    rungs = rungs_for(machine)
+    rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
     chosen = {
         name: rung_named(name, rungs)
         for name in rung or rungs
@@ -300,18 +314,18 @@ LOCAL = "127.0.0.1"
 
 
 @app.command()
-@click.option("--host", default=LOCAL, help="Address to listen on; the default admits this machine only.")
+@click.option("--host", default=LOCAL, help="Address to listen on; the default accepts this machine only.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port; 0 picks a free one.")
 @click.option("--browser/--no-browser", default=True, help="Open the page in a browser.")
-@click.option("--law", multiple=True, help="Custom law to offer, file.py:function or module:function; repeatable.")
+@click.option("--law", multiple=True, help="Your own law, file.py:function or module:function; repeatable.")
 @click.option(
     "--html",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Write it as one page without a server, and stop.",
+    help="Write the laboratory as one page that needs no server, and exit.",
 )
 def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | None) -> None:
-    """Open the laboratory in a browser: move sliders, drag the rod, poke it, and watch the flight. Ctrl-C stops it."""
+    """Open the laboratory in a browser: move sliders, drag the rod, poke it, watch the flight. Ctrl-C ends it."""
     if html is not None:
         served = {"--law": law, "--host": host != LOCAL, "--port": port, "--no-browser": not browser}
         write_laboratory(html, [name for name, given in served.items() if given])
@@ -340,55 +354,18 @@ def write_laboratory(html: Path, served: list[str]) -> None:
     console.print(f"The laboratory is in {bold(html)}.")
 
 
-@app.command("export-c")
-@click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
-@vehicle_option
-@out_option("c-out")
-@click.option("--precision", default="double", help="double or float.")
-@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
-@sensors_option
-@click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
-@click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and tell the result.")
-def export_c(
-    law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
-) -> None:
-    """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
-    from flypend import errors, model
-    from flypend.compile.c99 import PRECISIONS
-    from flypend.export import export_c as write
-    from flypend.files.staging import check_writable
-    from flypend.laws import Law, inverted
-    from flypend.plants import SUITES
-    from flypend.studies import law_named
-
-    check_writable(out)
-    if light:
-        errors.one_of("--law", law, ("inverted",))
-    chosen = inverted(form="light") if light else law_named(law)
-    if not isinstance(chosen, Law):
-        because = f" ({chosen.because})" if chosen.because else ""
-        raise InputError("--law", "a law written in symbols", f"{law}, which is not{because}")
-    kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", UserWarning)
-        errors.one_of("--sensors", sensors, SUITES)
-        machine = model.vehicle(vehicle)
-        write(chosen, machine, out, precision=kind, rate=rate, sensors=sensors, check=tested)
-    for warning in said:
-        say(f"flypend: warning: {warning.message}")
-    console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
-
-
 for _command in (
     theorem.theorem,
     planning.plan,
     *learning.COMMANDS,
     *studies.COMMANDS,
+    *identification.COMMANDS,
     *check.COMMANDS,
     *viewing.COMMANDS,
     *listing.COMMANDS,
     *examples.COMMANDS,
     *cache.COMMANDS,
+    *export.COMMANDS,
 ):
     app.add_command(_command)
 

@@ -13,7 +13,7 @@ from flypend.cli.terminal import bold, console
 @click.group(invoke_without_command=True)
 @click.pass_context
 def cache(context: click.Context) -> None:
-    """Show where compiled machine code is kept, and how much of it there is; clear it, or move it."""
+    """Show where compiled machine code is kept and how much there is; clear or move it."""
     if context.invoked_subcommand is None:
         from flypend.compile.cache import summarise
 
@@ -24,7 +24,7 @@ def cache(context: click.Context) -> None:
 
 @cache.command()
 def clear() -> None:
-    """Remove all machine code; commands compile again what they need."""
+    """Remove all machine code. Commands compile what they need again."""
     from flypend.compile.cache import summarise
 
     gone = summarise(clear=True)
@@ -34,7 +34,7 @@ def clear() -> None:
 @cache.command()
 @click.argument("folder", metavar="DIR", type=path)
 def move(folder: Path) -> None:
-    """Keep machine code in DIR from now on, and take along what there is. FLYPEND_CACHE, where set, names another."""
+    """Move machine code to DIR, and keep it there from now on. The variable FLYPEND_CACHE, if set, overrides DIR."""
     from flypend.compile.cache import move as move_to
 
     move_to(folder)

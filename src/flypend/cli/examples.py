@@ -20,7 +20,7 @@ SUFFIXES = (".toml", ".py")
 @out_option("examples")
 @click.option("--force", is_flag=True, help="Overwrite files that differ from the examples.")
 def examples(out: Path, force: bool) -> None:
-    """Write the examples: a run file, a study, a custom law. Without --force, no changed file is overwritten."""
+    """Write the examples: a run file, a study, a custom law. Files that you changed are kept, unless --force."""
     contents = {name: source.read_bytes() for name, source in shipped().items()}
     check_writable(out)
     if not force:

@@ -17,17 +17,15 @@ HELD_OUT = 10**6  # added to the seed: the starts of the judgement are none of t
 @click.command()
 @vehicle_option
 @out_option("learn-out")
-@click.option("--seed", type=click.IntRange(min=0), default=0, help="Seed of first weights and starts.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, help="Seed of the initial weights and of the starts.")
 @click.option("--mount", help="What carries the rod: gimbal or hub; default the vehicle's own.")
-@click.option(
-    "--updates", type=click.IntRange(min=1), help="Updates by descent of the gradient; default 1500, hub 1200."
-)
-@click.option("--runs", type=click.IntRange(min=1), default=500, help="Flights that judge the result.")
+@click.option("--updates", type=click.IntRange(min=1), help="Gradient updates; default 1500, on a hub 1200.")
+@click.option("--runs", type=click.IntRange(min=1), default=500, help="Number of flights that evaluate the result.")
 def learn(vehicle: str, out: Path, seed: int, mount: str | None, updates: int | None, runs: int) -> None:
     """Learn a law for VEHICLE: a small network that first imitates the tuned law and then flies better.
 
-    Writes the policy, for --law learned and its gain policy, and the curve of the training. After an interruption, the
-    same command goes on; the result is the same as without.
+    Writes the policy, which --law learned flies with its gain policy, and the training curve. After an interruption,
+    the same command resumes, with the same result.
     """
     from flypend import model
     from flypend.files.staging import check_writable

@@ -17,7 +17,7 @@ path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
 sensors_option = click.option(
-    "--sensors", default="perfect", help="With a plant in samples: perfect, mocap or onboard, with their estimator."
+    "--sensors", default="perfect", help="perfect, mocap, onboard or laboratory, with the estimator; not ideal."
 )
 style_option = click.option(
     "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."

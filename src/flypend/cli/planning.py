@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -12,119 +15,183 @@ from flypend.cli.options import out_option, path, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
+    from flypend.flight.trajectory import Trajectory
     from flypend.model import State, Vehicle
+    from flypend.planning.constraints import Constraints
+    from flypend.planning.result import Plan
+
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def option(name: str, **settings: Any) -> Any:
+    """Return a field of a dataclass that is the option `name` of a command, with the `settings` of `click.option`."""
+    return field(metadata={"name": name, "settings": settings})
+
+
+def options_of(record: type, name: str) -> Callable[[F], Any]:
+    """Return a decorator that adds an option for each field of a `record`, and passes the record as argument `name`."""
+    options = fields(record)
+
+    def decorate(function: F) -> Any:
+        @wraps(function)
+        def called(**given: Any) -> Any:
+            own = {each.name: given.pop(each.name) for each in options}
+            return function(**given, **{name: record(**own)})
+
+        for each in reversed(options):
+            click.option(each.metadata["name"], each.name, **each.metadata["settings"])(called)
+        return called
+
+    return decorate
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What a plan keeps: the fields of `Constraints`, with a cube about the target for a box, and angles in degrees."""
+
+    floor: float | None = option("--floor", type=float, metavar="M", help="Minimum height of pivot and rod.")
+    ceiling: float | None = option("--ceiling", type=float, metavar="M", help="Maximum height of pivot and rod.")
+    cube: float | None = option(
+        "--cube", type=float, metavar="M", help="Side of a cube about the target, in which pivot and rod stay."
+    )
+    speed: float | None = option("--speed", type=float, metavar="M/S", help="Maximum speed of the pivot.")
+    lean: float | None = option(
+        "--lean",
+        type=float,
+        metavar="DEG",
+        help="Maximum angle between rod and vertical; 90 keeps it above the horizon.",
+    )
+    window: tuple[tuple[float, ...], ...] = option(
+        "--window",
+        type=float,
+        nargs=5,
+        multiple=True,
+        metavar="X Y Z WIDTH HEIGHT",
+        help="Opening to fly through, in a wall normal to the x axis; repeatable.",
+    )
+    waypoints: tuple[tuple[float, ...], ...] = option(
+        "--waypoint",
+        type=float,
+        nargs=3,
+        multiple=True,
+        metavar="X Y Z",
+        help="Point that the pivot passes; repeatable, in order.",
+    )
+
+    def about(self, target: tuple[float, float, float]) -> Constraints:
+        """Return the constraints of a flight to the `target`, m."""
+        import numpy as np
+
+        from flypend import errors
+        from flypend.planning.constraints import Constraints
+        from flypend.planning.window import Window
+
+        half = None if self.cube is None else errors.number("--cube", self.cube, above=0, unit="m") / 2
+        return Constraints(
+            floor=self.floor, ceiling=self.ceiling, speed=self.speed,
+            box=None if half is None else np.add(((-half,) * 3, (half,) * 3), target),
+            lean=None if self.lean is None else np.radians(self.lean),
+            window=[Window(place[:3], *place[3:]) for place in self.window] or None, waypoints=self.waypoints or None,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """What is made of a plan beside its file."""
+
+    fly: str | None = option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
+    in_c: Path | None = option(
+        "--c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C."
+    )
+    figure: Path | None = option(
+        "--figure", type=path, metavar="FILE", help="Also draw the plan; with --fly, beside its flight."
+    )
+    front: Path | None = option("--front", type=path, metavar="FILE", help="Also draw excursion against allowed time.")
+    sphere: Path | None = option(
+        "--map",
+        type=path,
+        metavar="FILE",
+        help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
+    )
+    html: Path | None = option(
+        "--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost."
+    )
 
 
 @click.command()
 @click.argument("what", required=False)
 @vehicle_option
 @out_option("plan.nc", "Output file (.nc): the plan.")
-@click.option("--objective", default="excursion", help="What to make small: excursion, effort or time.")
-@click.option("--duration", type=float, help="Time until hover, s; default long enough.")
-@click.option("--floor", type=float, metavar="M", help="Lowest height of pivot and rod.")
-@click.option("--ceiling", type=float, metavar="M", help="Largest height of pivot and rod.")
-@click.option("--cube", type=float, metavar="M", help="Side of a cube about the target that pivot and rod stay in.")
-@click.option("--speed", type=float, metavar="M/S", help="Largest speed of the pivot.")
-@click.option(
-    "--lean", type=float, metavar="DEG", help="Largest angle between rod and vertical; 90: above the horizon."
-)
+@click.option("--objective", default="excursion", help="What to minimise: excursion, effort or time.")
+@click.option("--duration", type=float, help="Time until hover, s; by default long enough.")
 @click.option("--target", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar="X Y Z", help="Where the pivot hovers.")
-@click.option(
-    "--window",
-    type=float,
-    nargs=5,
-    multiple=True,
-    metavar="X Y Z WIDTH HEIGHT",
-    help="Opening to fly through, in a wall normal to the x axis. Several are possible.",
-)
-@click.option(
-    "--waypoint", type=float, nargs=3, multiple=True, metavar="X Y Z", help="Point that the pivot passes; in order."
-)
-@click.option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
-@click.option("--c", "in_c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C.")
-@click.option("--figure", type=path, metavar="FILE", help="Also draw the plan; with --fly, beside its flight.")
-@click.option("--front", type=path, metavar="FILE", help="Also draw excursion against allowed time.")
-@click.option(
-    "--map",
-    "sphere",
-    type=path,
-    metavar="FILE",
-    help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
-)
-@click.option("--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost.")
+@options_of(Kept, "keep")
+@options_of(Outputs, "also")
 def plan(
     what: str | None,
     vehicle: str,
     out: Path,
     objective: str,
     duration: float | None,
-    floor: float | None,
-    ceiling: float | None,
-    cube: float | None,
-    speed: float | None,
-    lean: float | None,
     target: tuple[float, float, float],
-    window: tuple[tuple[float, ...], ...],
-    waypoint: tuple[tuple[float, ...], ...],
-    fly: str | None,
-    in_c: Path | None,
-    figure: Path | None,
-    front: Path | None,
-    sphere: Path | None,
-    html: Path | None,
+    keep: Kept,
+    also: Outputs,
 ) -> None:
-    """Plan an optimal flight to inverted hover: from the start in WHAT, a run file, or else from hanging at rest.
+    """Plan a flight to inverted hover: from the start in WHAT, a run file, or else from hanging at rest.
 
-    A run file also names the vehicle; its law and duration do not matter. Figures are .png, .pdf or .svg.
+    The run file also gives the vehicle; its law and duration are ignored. Figures are .png, .pdf or .svg.
     """
-    import numpy as np
-
-    from flypend import errors
     from flypend.files.whole import FIGURES
     from flypend.flight.metrics import metrics
     from flypend.flight.simulate import simulate
-    from flypend.planning import Constraints, Window, track
-    from flypend.planning import plan as planned
+    from flypend.planning.planner import plan as planned
+    from flypend.planning.tracking import track
 
-    figures = {"--figure": figure, "--front": front, "--map": sphere}
-    pages = {"--out": (out, (".nc",)), "--html": (html, (".html",))}
+    figures = {"--figure": also.figure, "--front": also.front, "--map": also.sphere}
+    pages = {"--out": (out, (".nc",)), "--html": (also.html, (".html",))}
     _check_files(pages | {option: (file, FIGURES) for option, file in figures.items()})
-    _check_options(what, fly, in_c)
+    _check_options(what, also.fly, also.in_c)
     machine, start = _from(what, vehicle)
-    half = None if cube is None else errors.number("--cube", cube, above=0, unit="m") / 2
-    box = None if half is None else ((-half,) * 3, (half,) * 3)
-    windows = [Window(place[:3], *place[3:]) for place in window]
-    kept = Constraints(
-        floor=floor, ceiling=ceiling, speed=speed, window=windows or None, waypoints=waypoint or None,
-        box=None if box is None else np.add(box, target), lean=None if lean is None else np.radians(lean),
-    )  # fmt: skip
+    kept = keep.about(target)
     found = planned(machine, start, objective, duration=duration, target=target, constraints=kept)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
     if not found:
         sys.exit(1)
-    if in_c is not None:
+    if also.in_c is not None:
         from flypend.export import export_plan
 
-        export_plan(found, in_c)
-        console.print(f"The table in C is in {bold(in_c)}.")
-    shown, ghosts = found.trajectory, []
-    if fly is not None:
-        shown, ghosts = simulate(machine, track(found), start, found.duration + 2, plant=fly), [found.trajectory]
-        flown = metrics(shown)
-        verdict = "stands" if flown.success else f"does not stand ({flown.cause})"
-        console.print(f"Flown on {fly}: {verdict}, excursion {flown.excursion:.3f} m.")
-    if html is not None:
-        shown.to_html(html, ghost=ghosts, windows=found.windows)
-        console.print(f"The replay is {bold(html)}.")
+        export_plan(found, also.in_c)
+        console.print(f"The table in C is in {bold(also.in_c)}.")
+    shown, flown = found.trajectory, None
+    if also.fly is not None:
+        shown = flown = simulate(machine, track(found), start, found.duration + 2, plant=also.fly)
+        judged = metrics(flown)
+        verdict = "stands" if judged.success else f"does not stand ({judged.cause})"
+        console.print(f"Flown on {also.fly}: {verdict}, excursion {judged.excursion:.3f} m.")
+    if also.html is not None:
+        shown.to_html(also.html, ghost=[] if flown is None else [found.trajectory], windows=found.windows)
+        console.print(f"The replay is {bold(also.html)}.")
+    if any(figures.values()):
+        _draw(found, flown, start, kept, also)
+
+
+def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints, also: Outputs) -> None:
+    """Draw the figures of a plan that was `found` from `start` with the constraints `kept`."""
+    from flypend.report.plans import draw_front, draw_plan, draw_strays
+
     with counter() as tell:
-        if figure is not None:
-            _drawn("draw_plan", figure, found, shown if ghosts else None, windows)
-        if front is not None:
-            _drawn("draw_front", front, found, start, kept, tell)
-        if sphere is not None:
-            _drawn("draw_strays", sphere, found, tell)
+        if also.figure is not None:
+            draw_plan(also.figure, found, flown, kept.windows)
+            console.print(f"The figure is {bold(also.figure)}.")
+        if also.front is not None:
+            draw_front(also.front, found, start, kept, tell)
+            console.print(f"The figure is {bold(also.front)}.")
+        if also.sphere is not None:
+            draw_strays(also.sphere, found, tell)
+            console.print(f"The figure is {bold(also.sphere)}.")
 
 
 def _check_options(what: str | None, fly: str | None, in_c: Path | None) -> None:
@@ -153,14 +220,6 @@ def _check_files(files: dict[str, tuple[Path | None, tuple[str, ...]]]) -> None:
         check_file(file, endings)
         if (other := taken.setdefault(file.absolute(), option)) != option:
             raise InputError(option, f"another file than {other}", str(file))
-
-
-def _drawn(what: str, path: Path, *drawn: Any) -> None:
-    """Draw `what`, a function of `report.plans`, to `path`, and say so."""
-    from flypend.report import plans
-
-    getattr(plans, what)(path, *drawn)
-    console.print(f"The figure is {bold(path)}.")
 
 
 def _from(what: str | None, name: str) -> tuple[Vehicle, State]:

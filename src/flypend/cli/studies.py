@@ -13,11 +13,9 @@ import click
 from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, refuse_idle, sensors_option
 from flypend.cli.terminal import ahead, bold, complaints, console, lines, maps, resumable, stepped, tell_how
 
-workers_option = click.option(
-    "--workers", type=click.IntRange(min=1), help="Cores of this machine to use; default all."
-)
+workers_option = click.option("--workers", type=click.IntRange(min=1), help="Number of cores to use; default all.")
 law_option = click.option("--law", help=f"Replace the law of the study: {LAW_HELP}.")
-force_option = click.option("--force", is_flag=True, help="Start over: discard the store of an earlier sweep.")
+force_option = click.option("--force", is_flag=True, help="Discard the store of an earlier sweep and start over.")
 
 
 @click.command()
@@ -38,9 +36,9 @@ force_option = click.option("--force", is_flag=True, help="Start over: discard t
 def sweep(
     study: Path, out: Path, scheduler: str | None, workers: int | None, processes: bool, force: bool, law: str | None
 ) -> None:
-    """Fly STUDY, a TOML file, of up to 10⁷ runs into a Zarr store; docs/studies/studies.md lists the keys.
+    """Fly STUDY, a TOML file, into a Zarr store of up to 10⁷ runs; docs/studies/studies.md lists the keys.
 
-    After any interruption, the same command resumes the sweep. The result is bit-identical to an uninterrupted one.
+    After any interruption, the same command resumes the sweep. The result is bit-identical to that of an unbroken one.
     """
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep import sweep as fly
@@ -58,7 +56,7 @@ def sweep(
 @out_option("map.png", "Output file: .png, .pdf or .svg.")
 @click.option("--x", help="Quantity on the horizontal axis, such as tilt, rate or gains.k_d.")
 @click.option("--y", help="Quantity on the vertical axis.")
-@click.option("--law", help=f"Fly this law from random starts, not a study: {LAW_HELP}.")
+@click.option("--law", help=f"Fly this law from random starts instead of a study: {LAW_HELP}.")
 @click.option("--vehicle", help="With --law: vehicle name or TOML file.")
 @click.option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
 @sensors_option
@@ -82,7 +80,7 @@ def draw_map(
     workers: int | None,
     force: bool,
 ) -> None:
-    """Map success, settling time, excursion and causes of failure over the initial rod: on the sphere and in a plane.
+    """Map success, settling time, excursion and causes of failure over the rod's initial direction, and in a plane.
 
     WHAT is the store of a sweep (.zarr), or the TOML file of a study to fly first. With a study or --law, the runs are
     saved to a store next to the map, and an interrupted command resumes.
@@ -130,9 +128,9 @@ def draw_map(
 @workers_option
 @law_option
 def tune(study: Path, out: Path, workers: int | None, law: str | None) -> None:
-    """Tune gains on the objective of STUDY, a TOML file, by CMA-ES, and report on held-out starts.
+    """Tune gains for the objective in STUDY, a TOML file, by CMA-ES, and report on starts not used for tuning.
 
-    Keeps the costs of every generation in the folder as it goes: the same command resumes an interrupted search.
+    Costs are saved after every generation, so the same command resumes an interrupted search.
     Writes tuned.toml, an input of flypend run, and the history of the search as JSON and as a figure.
     """
     from flypend.files.staging import check_writable

@@ -105,7 +105,7 @@ def resumable() -> Iterator[None]:
     except BaseException as error:
         if signals.word[0] or isinstance(error, KeyboardInterrupt):
             again = shlex.join(["flypend", *(word for word in sys.argv[1:] if word != "--force")])
-            say(f"What is finished is kept. To go on: {again}")
+            say(f"Finished work is kept. To resume: {again}")
         raise
 
 

@@ -13,9 +13,11 @@ from flypend.cli.terminal import bold, console, counter, draw
 @click.command()
 @click.argument("runs", type=path, nargs=-1, required=True)
 @out_option("replay.html", "Output page (.html).")
-@click.option("--beside", is_flag=True, help="One panel per run; default one panel with ghosts. The page can switch.")
-@click.option("--title", help="Title; default the laws and vehicles.")
-@click.option("--speed", type=float, default=1.0, help="Flight time over playback time.")
+@click.option(
+    "--beside", is_flag=True, help="One panel per run, instead of one panel with ghosts; the page can switch."
+)
+@click.option("--title", help="Title; by default the laws and vehicles.")
+@click.option("--speed", type=float, default=1.0, help="Flight time over playback time; 0.25 is slow motion.")
 def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, speed: float) -> None:
     """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare.
 
@@ -32,7 +34,7 @@ def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, s
 @click.argument("run", type=path)
 @out_option("flight.mp4", "Output movie (.mp4 or .gif).")
 @click.option("--camera", default="side", help="side, or axis (from above, along gravity).")
-@click.option("--speed", type=float, default=0.25, help="Flight time over playback time.")
+@click.option("--speed", type=float, default=0.25, help="Flight time over playback time; 0.25 is slow motion.")
 @click.option("--fps", type=float, default=30.0, help="Frames per second of playback.")
 @click.option(
     "--size", type=(int, int), default=(640, 640), metavar="WIDTH HEIGHT", help="Size in pixels; even numbers."
@@ -58,7 +60,7 @@ def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tup
 @out_option("figures-out")
 @style_option
 @click.option("--font", default="", help="Font family, such as serif or 'Times New Roman'; embedded in the .pdf.")
-@click.option("--title/--no-title", "titles", default=True, help="Titles; a figure with a caption needs none.")
+@click.option("--title/--no-title", "titles", default=True, help="Draw titles; a figure with a caption needs none.")
 def figures(run: Path, out: Path, style: str, font: str, titles: bool) -> None:
     """Draw the figures of RUN, a file saved by flypend (.nc), each as .pdf and .png."""
     from flypend.files.staging import check_writable, staged

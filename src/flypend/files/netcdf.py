@@ -58,6 +58,7 @@ def _stored(name: str, variable: Variable) -> Variable:
 def _header(
     stored: Mapping[str, Variable], sizes: Mapping[str, int], attributes: Mapping[str, Any], begins: list[int]
 ) -> bytes:
+    """Return the header: `sizes` of the dimensions, and where each stored variable `begins`, in bytes."""
     places = {dim: place for place, dim in enumerate(sizes)}
     out = [MAGIC, _int(0), _list_of(DIMENSIONS, [_text(dim) + _int(size) for dim, size in sizes.items()])]
     out += [_attributes(attributes)]

@@ -19,14 +19,15 @@ from flypend.laws.located import LawError, Located, shown
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
 from flypend.model import Vehicle
-from flypend.planning import nmpc, plan_and_track
+from flypend.planning.receding_horizon import nmpc
+from flypend.planning.tracking import plan_and_track
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
 # What `law_named` takes beside the laws of the package and custom ones.
 OTHERS = {
     "detuned": "the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail",
-    "plan": "an optimal plan from the start, tracked with feedback (planning.plan_and_track)",
+    "plan": "a plan from the start, tracked with feedback (planning.plan_and_track)",
     "nmpc": "a plan that is made again and again in flight (planning.nmpc)",
 }
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
@@ -153,6 +154,7 @@ def table_of(name: str) -> dict[str, Any]:
 
 
 def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:
+    """Return the law `name`, file.py:function or module:function; messages begin with `key`."""
     source, _, attribute = name.rpartition(":")
     if not attribute.isidentifier():
         raise InputError(key, "file.py:function or module:function", repr(name))
@@ -170,6 +172,7 @@ def _is_own(value: Any, module: ModuleType) -> bool:
 
 
 def _as_law(found: Any, name: str, key: str, e3: Any) -> Law | Controller:
+    """Return the law that `found`, called `name`, is or makes; messages begin with `key`."""
     if callable(found) and not isinstance(found, Law | Controller | BoundLaw) and not isinstance(found, type):
         try:
             if not is_factory(found):

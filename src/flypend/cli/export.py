@@ -1,0 +1,88 @@
+"""Commands that write flight computers for hardware: export-c, export-app."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from flypend.cli.options import LAW_HELP, out_option, sensors_option, vehicle_option
+from flypend.cli.terminal import bold, console, say
+from flypend.errors import InputError
+
+if TYPE_CHECKING:
+    from flypend.laws import Law
+
+
+@click.command("export-c")
+@click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
+@vehicle_option
+@out_option("c-out")
+@click.option("--precision", default="double", help="double or float.")
+@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@sensors_option
+@click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
+@click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and tell the result.")
+def export_c(
+    law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
+) -> None:
+    """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
+    from flypend import errors, model
+    from flypend.compile.c99 import PRECISIONS
+    from flypend.export import export_c as write
+    from flypend.files.staging import check_writable
+    from flypend.laws import inverted
+    from flypend.plants import SUITES
+
+    check_writable(out)
+    if light:
+        errors.one_of("--law", law, ("inverted",))
+    chosen = inverted(form="light") if light else _symbolic(law)
+    kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", UserWarning)
+        errors.one_of("--sensors", sensors, SUITES)
+        machine = model.vehicle(vehicle)
+        write(chosen, machine, out, precision=kind, rate=rate, sensors=sensors, check=tested)
+    for warning in said:
+        say(f"flypend: warning: {warning.message}")
+    console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
+
+
+@click.command("export-app")
+@click.argument("target")
+@click.argument("vehicle")
+@out_option("app")
+@click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
+@click.option("--airframe", help="cf2 or cf21bl: for which the firmware is built. Default: whose arms are nearest.")
+@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+def export_app(target: str, vehicle: str, out: Path, law: str, airframe: str | None, rate: float) -> None:
+    """Write an app for the firmware of TARGET, crazyflie, that flies VEHICLE; see docs/export."""
+    from flypend import model
+    from flypend.export import export_app as write
+    from flypend.files.staging import check_writable
+
+    check_writable(out)
+    machine, chosen = model.vehicle(vehicle), _symbolic(law)
+    flown = write(target, chosen, machine, out, airframe=airframe, rate=rate)
+    if flown != machine:
+        (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
+        say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")
+    console.print(f"The app with the {chosen.name} law is in {bold(out)}; start with README.md.")
+
+
+def _symbolic(name: str) -> Law:
+    """The law called `name`. Raises InputError for one that is not written in symbols."""
+    from flypend.laws import Law
+    from flypend.studies import law_named
+
+    chosen = law_named(name)
+    if not isinstance(chosen, Law):
+        because = f" ({chosen.because})" if chosen.because else ""
+        raise InputError("--law", "a law written in symbols", f"{name}, which is not{because}")
+    return chosen
+
+
+COMMANDS = (export_c, export_app)

@@ -11,7 +11,8 @@ from pathlib import Path
 from benchmarks.compare import compare
 from benchmarks.lines import LINES, Line
 from benchmarks.problem import Problem
-from benchmarks.report import machine, markdown, save, with_ratios
+from benchmarks.report import markdown, save, with_ratios
+from benchmarks.results import machine
 from benchmarks.versions import goals
 
 

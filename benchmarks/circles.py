@@ -15,6 +15,7 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.results import record
 from flypend.errors import InputError, one_of
 from flypend.flight.simulate import simulate
 from flypend.geometry import norm
@@ -112,4 +113,7 @@ def tracking_table(results: Iterable[Tracking]) -> Table:
 
 
 if __name__ == "__main__":
-    Console().print(tracking_table(hehn2011(tuple(sys.argv[1:]) or ("inverted", "lqr"))))
+    found = hehn2011(tuple(sys.argv[1:]) or ("inverted", "lqr"))
+    Console().print(tracking_table(found))
+    for tracking in found:
+        record(f"{tracking.case}, {tracking.law}", offset=tracking.offset, error=tracking.error)

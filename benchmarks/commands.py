@@ -39,7 +39,9 @@ LINES = (
     "flypend sweep examples/studies/hanging.toml --out hanging.zarr",
     "flypend tune examples/studies/hanging.toml",
     "flypend export-c --precision float",
+    "flypend export-app crazyflie crazyflie --out app",
     "flypend learn --updates 20",
+    "flypend identify flight.csv --rehearse --duration 20",
 )
 FOR_OTHERS = LINES[:2]
 

@@ -4,6 +4,7 @@
  * many commanded what the sound memory does and how many did not. Exits with 1 if an answer to a damaged memory is not
  * finite or out of limits, if a restart fails, or a refusal is not for the memory's sake. */
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,7 @@
 #include "flown.h"
 
 /* What is damaged: a struct of words of 32 bits. */
-#define BYTES ((int)sizeof(COMPUTER))
+#define BYTES ((int)offsetof(COMPUTER, scratch)) /* what is remembered; the rest is written before it is read */
 #define PAST 8
 
 enum { FLIP, TWO_FLIPS, BURST, BYTES_RANDOM, STUCK, PATTERN, SWAPPED, REGION, PART_REPLAYED, WHOLE_REPLAYED, KINDS };
@@ -40,7 +41,7 @@ static void replace(unsigned char *bytes)
                                    -(flypend_real)0., (flypend_real)1e-40,    (flypend_real)1e30,      1,
                                    -1,                (flypend_real)1e-310};
     const uint32_t count = (uint32_t)(sizeof values / sizeof values[0]);
-    const size_t place = 8 + sizeof(flypend_real) * randomly((uint32_t)((sizeof(COMPUTER) - 8) / sizeof(flypend_real)));
+    const size_t place = 8 + sizeof(flypend_real) * randomly((uint32_t)(((size_t)BYTES - 8) / sizeof(flypend_real)));
     memcpy(bytes + place, &values[randomly(count)], sizeof(flypend_real));
 }
 
@@ -131,12 +132,12 @@ int main(int argc, char **argv)
         int kind = (int)randomly(KINDS);
         const COMPUTER *before = &past[randomly(PAST)];
         damage(kind, (unsigned char *)&damaged, (const unsigned char *)before);
-        if ((kind == PART_REPLAYED) && (memcmp(&damaged, before, sizeof damaged) == 0)) {
+        if ((kind == PART_REPLAYED) && (memcmp(&damaged, before, (size_t)BYTES) == 0)) {
             kind = WHOLE_REPLAYED; /* the region held all that has changed since */
         }
         flypend_rotors expected, rotors;
         const flypend_status right = step(&after, &flypend_flights[period], &expected);
-        if (memcmp(&damaged, &sound, sizeof sound) != 0) {
+        if (memcmp(&damaged, &sound, (size_t)BYTES) != 0) {
             COMPUTER again = damaged;
             const flypend_status status = step(&damaged, &flypend_flights[period], &rotors);
             tried[kind]++;

@@ -1,18 +1,14 @@
 """What exported code costs: laws × precisions.
 
-    python benchmarks/export_cost.py [--law inverted ...]
+    python -m benchmarks.export_cost [--law inverted ...]
 
 For the whole flight computer, flypend_board_step, and for the bare law, flypend_step followed by flypend_mix; checks
 included, which take the same path at every valid state: operations of the programs; x86-64 instructions per call by
 callgrind and microseconds on this core (gcc -O2); for a Cortex-M4F (arm-none-eabi-gcc -O2) .text and stack
 (-fstack-usage) in bytes, cycles, and the share of an STM32F405 at 168 MHz that 500 calls a second take.
 
-Cycles are counted, not measured, on code compiled with -fno-inline, which is slower: every instruction of the functions
-that a call runs, in line, branches as if taken, a loop times its length, without what only an invalid input leads to,
-with the timings of the Cortex-M4 Technical Reference Manual: 14 for VDIV and VSQRT, 2 for a load or store, 1 + n for n
-words, 3 for a fused product or a branch, 1 for the rest. Wait states of the flash, which the STM32's accelerator hides
-while code runs straight, and stalls of a cycle on a value that was just computed are not in it. Double precision has no
-hardware there.
+Cycles are those of the instructions that QEMU's Cortex-M4F executes, with the timings of the manual
+(benchmarks/cortex): the most of five calls. Double precision has no hardware there.
 """
 
 import argparse
@@ -25,20 +21,21 @@ from pathlib import Path
 import numpy as np
 
 import flypend as fp
+from benchmarks import cortex
 from flypend.compile.matrices import matrices
-from flypend.export import records, vectors
+from flypend.export import vectors
 from flypend.export.interface import interface
 from flypend.export.library import CompiledBoard, Library
 
 LAWS = {
     "corrected": fp.laws.corrected,
-    "printed": fp.laws.printed,
     "lqr": fp.laws.lqr,
     "inverted": fp.laws.inverted,
     "light": lambda: fp.laws.inverted(form="light"),
     "learned": fp.laws.learned,
+    "almost_global": fp.laws.almost_global,
 }
-ARM = ("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", "-std=c99", "-O2")
+ARM = (*cortex.FLAGS, "-std=c99", "-O2")
 CLOCK, RATE = 168e6, 500.0
 CALLS = 100
 MAIN = """
@@ -81,7 +78,7 @@ def main() -> None:
     given = parser.parse_args()
     vehicle = fp.vehicle(given.vehicle)
     names = ("ops", "instr", "us", "text", "stack", "cycles", "kHz", "M4%")
-    print(f"{'law':10} {'part':6} {'reals':7}", *(f"{name:>7}" for name in names))
+    print(f"{'law':13} {'part':6} {'reals':7}", *(f"{name:>7}" for name in names))
     for name in given.law or LAWS:
         for precision in given.precision or ("double", "float"):
             for line in rows(name, LAWS[name]().bind(vehicle), vehicle, precision):
@@ -97,16 +94,15 @@ def rows(name, law, vehicle, precision):
     with tempfile.TemporaryDirectory() as text:
         folder = fp.export_c(law, vehicle, Path(text) / "c", precision=precision, check=False)
         for part, (functions, caller) in PARTS.items():
-            instructions, (size, stack, cycles) = (
-                callgrind(folder, caller),
-                cortex_m4(folder, functions, made, 8 if precision == "double" else 4),
-            )
+            instructions = callgrind(folder, caller)
+            size, stack = cortex_m4(folder, functions, made, 8 if precision == "double" else 4)
             cells = [ops[part], instructions, f"{microseconds(law, vehicle, precision, part):.2f}", size, stack]
-            if precision == "double" or cycles == "-":
-                cells += ["soft" if precision == "double" else "-", "-", "-"]
+            if precision == "double":
+                cells += ["soft", "-", "-"]
             else:
+                cycles = executed(folder, caller)
                 cells += [cycles, f"{CLOCK / cycles / 1e3:.1f}", f"{100 * RATE * cycles / CLOCK:.2f}"]
-            yield " ".join([f"{name:10} {part:6} {precision:7}", *(f"{cell:>7}" for cell in cells)])
+            yield " ".join([f"{name:13} {part:6} {precision:7}", *(f"{cell:>7}" for cell in cells)])
 
 
 def run(*command, folder):
@@ -153,12 +149,17 @@ def _boards(code, precision):
     return fly
 
 
-def cortex_m4(folder, ends, made, bytes_):
-    """Bytes of code and tables that calls of `ends` need, with numbers of `bytes_`; bytes of stack, and cycles.
+def executed(folder, caller):
+    """Cycles of the dearest of five calls of the function `caller` on a Cortex-M4F."""
+    sources = ("main.c", "flypend_law.c", cortex.HERE / "start.c")
+    words = (*cortex.FLAGS, "-std=gnu99", "-O2", "-DCALLS=5", *cortex.LINKED, *sources, "-lm", "-o", "main.elf")
+    run("arm-none-eabi-gcc", *words, folder=folder)
+    return max(cortex.cycles(folder / "main.elf", caller))
 
-    Loops within loops are not counted: a law with layers has no cycles here.
-    """
-    fast, plain = compiled_for_m4(folder, "fast"), compiled_for_m4(folder, "plain", "-fno-inline")
+
+def cortex_m4(folder, ends, made, bytes_):
+    """Bytes of code and tables that calls of `ends` need, with numbers of `bytes_`, and bytes of stack."""
+    fast = compiled_for_m4(folder, "fast")
     stack = {}
     for line in (folder / "fast.su").read_text().splitlines():
         where, size, _ = line.split("\t")
@@ -169,14 +170,10 @@ def cortex_m4(folder, ends, made, bytes_):
             sizes[cells[3]] = int(cells[1], 16)
     needed = set().union(*(reached(fast, name) for name in ends))
     deepest = max(depth(fast, stack, name) for name in ends)
-    loops = {
-        "numbers": checked(made, ends), "copy": made.memory, "spins_as_written": made.rotors.length,
-        "check_word": (made.gains.length + made.memory) / 2,  # of its calls, which come in pairs
-    }  # fmt: skip
-    tables = weights(made)
+    # A layer that was inlined has no function of its own; its table is needed all the same.
+    plain, tables = compiled_for_m4(folder, "plain", "-fno-inline"), weights(made)
     held = set().union(*(reached(plain, name) for name in ends)) & tables.keys()
-    size = sum(sizes[name] for name in needed) + sum(bytes_ * tables[name] for name in held)
-    return size, deepest, "-" if held else sum(spent(plain, name, loops) for name in ends)
+    return sum(sizes[name] for name in needed) + sum(bytes_ * tables[name] for name in held), deepest
 
 
 def weights(made):
@@ -187,17 +184,6 @@ def weights(made):
         for program in programs
         for i, layer in enumerate(matrices(program))
     }
-
-
-def checked(made, ends):
-    """How often the loop of `numbers` runs on the average of its calls on the way of a valid state."""
-    own = [made.params.length]
-    if ends == PARTS["board"][0]:
-        lengths = [*own, 24, made.rotors.length, made.memory, *[records.PATH.length] * made.follows]
-    else:
-        own += [made.gains.length] * made.has_gains
-        lengths = [*own, 30, 4, *[records.REFERENCE.length] * made.follows, made.params.length, 4, made.rotors.length]
-    return sum(lengths) / len(lengths)
 
 
 def compiled_for_m4(folder, name, *flags):
@@ -235,40 +221,6 @@ def depth(functions, stack, name):
     return stack.get(name, 0) + max(
         (depth(functions, stack, other) for other in set(called(functions, name))), default=0
     )
-
-
-# Calls that only an invalid input leads to.
-ANSWERS = {"safe_wrench", "safe_command", "safe_rotors", "least_forces", "unmeasured", "stop"}
-
-
-def spent(functions, name, loops):
-    """Cycles of `name` and of its calls; `loops` says how often the loop runs that makes up a function."""
-    own = sum(cost(*instruction) for instruction in functions[name])
-    calls = (other for other in called(functions, name) if other not in ANSWERS)
-    return round(loops.get(name, 1) * (own + sum(spent(functions, other, loops) for other in calls)))
-
-
-def cost(word, operands):
-    """Cycles of one instruction of a Cortex-M4F."""
-    if word.startswith(("vdiv", "vsqrt")):
-        return 14
-    if word.startswith(("vldm", "vstm", "ldm", "stm", "push", "pop", "vpush", "vpop")):
-        return 1 + registers(operands)
-    if word.startswith(("vldr", "vstr", "ldr", "str", "ldrd", "strd")):
-        return 3 if word.startswith(("ldrd", "strd")) else 2
-    if word.startswith(("vmla", "vmls", "vfma", "vfms", "vfnm", "vnml")):
-        return 3
-    return 3 if re.fullmatch(r"b(l|x|lx)?(\.\w+)?|b\w\w(\.\w)?|cbn?z", word) else 1
-
-
-def registers(operands):
-    """How many words the registers in braces hold."""
-    count = 0
-    for part in re.search(r"{(.*)}", operands)[1].split(","):
-        first, _, last = part.strip().partition("-")
-        words = 2 if first.startswith("d") else 1
-        count += words * (int(last[1:]) - int(first[1:]) + 1 if last else 1)
-    return count
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ SECONDS = 4.0
 UNDRAWN = """for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "clear"]) {
   WebGL2RenderingContext.prototype[name] = () => {};
 }"""
+# Take over from a page that plays by itself: it rests at its start, with all controls in sight.
+AT_REST = "() => { flypend.pause(); flypend.seek(0); document.querySelector('.open')?.click(); }"
 PARTS = {"TaskDuration": "all", "ScriptDuration": "scripts", "RecalcStyleDuration": "style", "LayoutDuration": "layout"}
 
 

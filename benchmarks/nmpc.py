@@ -20,7 +20,7 @@ import flypend as fp
 from benchmarks.plans import quantiles
 from flypend.flight.metrics import wilson
 from flypend.flight.tasks import task_starts
-from flypend.planning.pilot import Pilot
+from flypend.planning.receding_horizon import Pilot
 
 VEHICLE = fp.vehicle("hehn2011")
 DURATION = 10.0  # s

@@ -22,15 +22,12 @@ from benchmarks.plans import PATIENT, VEHICLE, quantiles
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints
-from flypend.planning.ensemble import ORDER
+from flypend.planning.dynamics import Scaled, stepped
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, end_errors
-from flypend.planning.method import Settings
-from flypend.planning.planner import HORIZONS
-from flypend.planning.request import Request, request
-from flypend.planning.scaled import Scaled
+from flypend.planning.planner import HORIZONS, ORDER, told
+from flypend.planning.problem import Request, request
 from flypend.planning.search import NOT_REACHED, Found, Job, guessed, one_by_one, stages_of
-from flypend.planning.stage import stepped
-from flypend.planning.telling import told
+from flypend.planning.solver import Settings
 from flypend.plants.lag import step_timing
 
 TOLERANCE, ITERATIONS = 1e-6, 300
@@ -121,7 +118,7 @@ class Shooting:
         body, last = z[: -self.width].reshape(self.N, -1), z[-self.width : -1]
         lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
         ways = np.vstack([body[:, : self.width - 1], last]), body[:, self.width :]
-        what = Found(*ways, float(found["f"]), lacks, "", 0, stats["iter_count"], took)
+        what = Found(*ways, float(found["f"]), lacks, "", 0, 1, 1, stats["iter_count"], took)
         return Answer(told([asked], [what], HORIZONS[0])[0], took, derivatives)
 
 

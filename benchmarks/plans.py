@@ -16,13 +16,12 @@ import numpy as np
 
 import flypend as fp
 from flypend.flight.metrics import wilson
-from flypend.planning import guesses
+from flypend.planning import guess
 from flypend.planning.coordinates import retract
+from flypend.planning.dynamics import Stage, Units
 from flypend.planning.inequalities import BASE, END, YAW, end_errors
-from flypend.planning.method import Settings
-from flypend.planning.request import STAGES_PER_UNIT
-from flypend.planning.scaled import Units
-from flypend.planning.stage import Stage
+from flypend.planning.problem import STAGES_PER_UNIT
+from flypend.planning.solver import Settings
 from flypend.plants.lag import step_timing
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -76,12 +75,12 @@ def ipopt(plan: fp.Plan) -> tuple[float, float, str]:
 
 def best_of(start: fp.State, plan: fp.Plan, times: int, rng: np.random.Generator) -> fp.Plan:
     """Return the plan of least excursion from `times` as many guesses: the styles, and others drawn about them."""
-    kept = guesses.PUMPS.copy()
+    kept = guess.PUMPS.copy()
     for _ in range(times - 1):
-        guesses.PUMPS[:, [0, 1, 2, 4]] = kept[:, [0, 1, 2, 4]] * np.exp(rng.normal(scale=0.5, size=(len(kept), 4)))
+        guess.PUMPS[:, [0, 1, 2, 4]] = kept[:, [0, 1, 2, 4]] * np.exp(rng.normal(scale=0.5, size=(len(kept), 4)))
         other = fp.plan(VEHICLE, start, time_limit=PATIENT)
         plan = other if other and other.excursion < plan.excursion else plan
-    guesses.PUMPS[:] = kept
+    guess.PUMPS[:] = kept
     return plan
 
 

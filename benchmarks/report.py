@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import platform
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -20,22 +17,6 @@ GOALS = {
     "heyoka batch": (None, 5.0),
     "SciPy, Python right-hand side": (None, 1000.0),
 }
-
-
-def machine() -> dict[str, Any]:
-    """Processor, cores, system and date."""
-    name = platform.processor() or platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.exists():
-        names = [
-            line.split(":", 1)[1].strip() for line in info.read_text().splitlines() if line.startswith("model name")
-        ]
-        name = names[0] if names else name
-    return {
-        "processor": name, "cores": os.cpu_count(), "load": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
-        "system": platform.system(), "python": platform.python_version(),
-        "date": datetime.now(UTC).strftime("%Y-%m-%d"),
-    }  # fmt: skip
 
 
 def with_ratios(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:

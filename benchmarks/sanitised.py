@@ -1,9 +1,8 @@
 """Random steps of environments under AddressSanitizer: `python -m benchmarks.sanitised` makes 10⁷ of each task.
 
-The text of a kernel, which LLVM compiles for flights as well, is compiled by clang instead, with a check before every
-access to memory; the arrays are exactly as long as they have to be. `--planted K` shortens the K-th buffer of the
-kernel by one vector, `--planted NAME` an array by one byte: that must be found. Needs clang and its runtime
-(`make test-tools`).
+The loop's source and the programs that are linked into it for flights as well are compiled by clang, with a check
+before every access to memory; the arrays are exactly as long as they have to be. `--planted NAME` shortens a buffer of
+the loop by one vector, or an array by one byte: that must be found. Needs clang and its runtime (`make test-tools`).
 """
 
 from __future__ import annotations
@@ -24,6 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import omnidrones_tasks
+from flypend.compile.llvm import jit
+from flypend.compile.llvm.worlds import kernel_module
 from flypend.envs import environment, kernel
 from flypend.envs.make import TASKS
 from flypend.envs.problem import problem
@@ -39,8 +40,17 @@ CASES: dict[str, dict[str, Any]] = {
         "randomise": {"mass": (0.8, 1.2), "lag": (0.8, 1.5), "delay": (0.0, 0.025), "wind": (0.0, 0.3)},
     },
 }  # fmt: skip
-BUFFER = re.compile(r"alloca \[(\d+) x (?:<\d+ x double>|i64)\]")
-DEFINED = re.compile(r"^(define .*\))", re.MULTILINE)
+SOURCE = Path(jit.__file__).parents[1] / "loops" / "worlds.cpp"
+BUFFER = re.compile(r"(\w+)\[((?:[A-Z]+|some\([A-Z_]+\))(?: \+ [A-Z]+)?)\](?=[,;])")  # name and length
+USED_WITH = {"start_draws": "sensors", "noise": "sensors", "before": "mount"}  # buffers that others do not use
+DEFINED = re.compile(r"^(define .*\)(?: unnamed_addr)?)", re.MULTILINE)
+# As in `build.sh`: text for a processor that passes vectors of any width by value, and what it says of this processor.
+RAW = (
+    "-target", "wasm64-unknown-unknown", "-O2", "-Xclang", "-disable-llvm-passes", "-S", "-emit-llvm", "-std=c++17",
+    "-ffreestanding", "-fno-exceptions", "-fno-rtti", "-fno-strict-aliasing", "-Wno-psabi",
+)  # fmt: skip
+OF_WEB = re.compile(r'^target .*$|"(target-cpu|target-features|min-legal-vector-width)"="[^"]*"', re.MULTILINE)
+DECLARED = re.compile(r"^declare .*@(\w+)\(", re.MULTILINE)
 ALIGNED = 64
 FOUND = 99  # exit status of a process in which the sanitiser found something
 
@@ -61,50 +71,57 @@ def clang() -> tuple[str, ...]:
     return ("clang", "-fPIC", "-Wno-override-module", *opaque)
 
 
-def text(case: str) -> str:
-    """Return the text of the kernel of a case."""
-    return str(kernel.module(problem(environment(**CASES[case]))))
+def programs(case: str) -> str:
+    """Return the text of what is linked into the loop for a case."""
+    return str(kernel_module(problem(environment(**CASES[case])), kernel.WIDTH))
 
 
-def buffers(written: str) -> list[int]:
-    """Return the numbers of those buffers of a kernel that hold more than one vector."""
-    return [i for i, found in enumerate(BUFFER.finditer(written)) if int(found[1]) > 1]
+def buffers(case: str) -> list[str]:
+    """Return the names of the buffers of the loop that a case uses."""
+    return [name for name, _ in BUFFER.findall(SOURCE.read_text()) if USED_WITH.get(name, "task") in CASES[case]]
 
 
-def shortened(written: str, number: int) -> str:
-    """Return the text of a kernel whose buffer `number` lacks its last vector."""
-    found = list(BUFFER.finditer(written))[number]
-    return f"{written[: found.start(1)]}{int(found[1]) - 1}{written[found.end(1) :]}"
+def shortened(source: str, name: str) -> str:
+    """Return the source of the loop with the buffer `name` lacking its last vector."""
+    return BUFFER.sub(lambda found: f"{name}[{found[2]} - 1]" if found[1] == name else found[0], source)
 
 
-def built(written: str, folder: Path) -> Path:
-    """Compile the text of a kernel to a library in `folder` that checks each access; return its path.
+def built(written: str, source: str, folder: Path) -> Path:
+    """Compile the loop's `source` and the text of its programs to a library in `folder` that checks each access.
 
-    Checks are inserted before anything is optimised: afterwards some accesses beyond a buffer are gone. Buffers of
-    vectors are aligned to 64 bytes, the sanitiser's own frames must be as well.
+    Return its path. The source becomes text as it does for flights, by `build.sh`. Checks are inserted before anything
+    is optimised: afterwards some accesses beyond a buffer are gone. Buffers of vectors are aligned to 64 bytes, the
+    sanitiser's own frames must be as well.
     """
-    plain, checked, library = (folder / name for name in ("plain.ll", "checked.ll", "kernel.so"))
-    plain.write_text(DEFINED.sub(r"\1 sanitize_address", written))
-    checks = ("-fsanitize=address", "-mllvm", f"-asan-realign-stack={ALIGNED}", "-S", "-emit-llvm")
-    tool(*clang(), "-O0", *checks, str(plain), "-o", str(checked))
-    tool(*clang(), "-O1", "-march=native", "-c", str(checked), "-o", str(folder / "kernel.o"))
-    linked = ("-fsanitize=address", "-shared-libasan", "-shared")
-    tool("clang", *linked, str(folder / "kernel.o"), "-o", str(library), "-lm")
+    loop, library = folder / "worlds.cpp", folder / "kernel.so"
+    loop.write_text(source)
+    names = "-I", str(SOURCE.parent), f"-DWIDTH={kernel.WIDTH}", "-DBITS=64", "-fvisibility=default"
+    texts = {"loop": OF_WEB.sub("", tool("clang", *RAW, *names, str(loop), "-o", "-")), "programs": written}
+    objects = [str(folder / f"{name}.o") for name in texts]
+    for made, part in zip(objects, texts.values(), strict=True):
+        plain, checked = folder / "plain.ll", folder / "checked.ll"
+        plain.write_text(DEFINED.sub(r"\1 sanitize_address", part))
+        checks = ("-fsanitize=address", "-mllvm", f"-asan-realign-stack={ALIGNED}", "-S", "-emit-llvm")
+        tool(*clang(), "-O0", *checks, str(plain), "-o", str(checked))
+        tool(*clang(), "-O1", "-march=native", "-c", str(checked), "-o", made)
+    absent = set(DECLARED.findall(texts["loop"])) - set(re.findall(r'^define .*@"?(\w+)', written, re.MULTILINE))
+    # Programs have names such as step, which the C library has as well; those that a case lacks are never called.
+    linked = ["-fsanitize=address", "-shared-libasan", "-shared", "-Wl,-Bsymbolic"]
+    linked += [f"-Wl,--defsym={name}=0" for name in sorted(absent)]
+    tool("clang", *linked, *objects, "-o", str(library), "-lm")
     return library
 
 
 def stepped(case: str, steps: int, count: int, planted: str = "") -> tuple[int, str]:
     """Step `count` worlds of a case in a process of its own; return its exit status and what it printed."""
-    written = text(case)
-    number = planted.isdigit()
     with tempfile.TemporaryDirectory() as folder:
-        library = built(shortened(written, int(planted)) if number else written, Path(folder))
+        library = built(programs(case), shortened(SOURCE.read_text(), planted), Path(folder))
         runtime = tool("clang", f"-print-file-name=libclang_rt.asan-{os.uname().machine}.so")
         # Python itself leaves memory to its end; the symboliser outlives the process and would keep its output open.
         options = f"detect_leaks=0:symbolize=0:exitcode={FOUND}"
         done = subprocess.run(
             [sys.executable, "-m", "benchmarks.sanitised", "--library", library, "--case", case, "--steps", str(steps),
-             "--count", str(count), "--planted", "" if number else planted],
+             "--count", str(count), "--planted", planted],
             capture_output=True, text=True, check=False, cwd=Path(__file__).parents[1],
             env=os.environ | {"LD_PRELOAD": runtime, "ASAN_OPTIONS": options},
         )  # fmt: skip

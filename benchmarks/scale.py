@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import flypend as fp
-from benchmarks.report import machine
+from benchmarks.results import machine
 
 MANY = 10**8
 CORES = (2, 64, 1024)

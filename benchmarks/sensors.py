@@ -19,7 +19,9 @@ from flypend.studies.starts import random_starts
 
 DURATION, HOVER = 10.0, 0.015  # s, m
 LAST = np.arange(DURATION - 1, DURATION + 1e-9, 0.01)
-MOCAP, ONBOARD = SUITES["mocap"], SUITES["onboard"]
+MOCAP, ONBOARD, WITHOUT = SUITES["mocap"], SUITES["onboard"], SUITES["mocap-without-accelerometer"]
+HEAVY = {"mass": 1.2, "bob_mass": 1.2, "rod_length": 1.15}
+LIGHT = {"mass": 0.8, "bob_mass": 0.8, "rod_length": 0.85}
 
 
 def slower(suite, rate):
@@ -45,6 +47,18 @@ ROWS = {
     "onboard": ROTORS.replace(sensors=ONBOARD),
     "mocap, masses +5 and -5 %": ROTORS.replace(sensors=MOCAP, mismatch={"mass": 1.05, "bob_mass": 0.95}),
     "onboard, masses +5 and -5 %": ROTORS.replace(sensors=ONBOARD, mismatch={"mass": 1.05, "bob_mass": 0.95}),
+    "mocap, masses × 1.2, rod × 1.15": ROTORS.replace(sensors=MOCAP, mismatch=HEAVY),
+    "mocap, masses × 0.8, rod × 0.85": ROTORS.replace(sensors=MOCAP, mismatch=LIGHT),
+    "onboard, masses × 1.2, rod × 1.15": ROTORS.replace(sensors=ONBOARD, mismatch=HEAVY),
+    "onboard, masses × 0.8, rod × 0.85": ROTORS.replace(sensors=ONBOARD, mismatch=LIGHT),
+    "mocap, thrust −15 %": ROTORS.replace(sensors=MOCAP, strength=0.85),
+    "onboard, thrust −15 %": ROTORS.replace(sensors=ONBOARD, strength=0.85),
+    "mocap, gyroscope off by 0.05 rad/s": ROTORS.replace(sensors=MOCAP.replace(gyro_bias=(0.03, -0.03, 0.03))),
+    "onboard, gyroscope off by 0.05 rad/s": ROTORS.replace(sensors=ONBOARD.replace(gyro_bias=(0.03, -0.03, 0.03))),
+    "mocap, 1 % of poses wrong": ROTORS.replace(sensors=MOCAP.replace(outliers=0.01)),
+    "mocap, poses 20 ms older than told": ROTORS.replace(sensors=MOCAP.replace(untold_latency=0.02)),
+    "mocap without accelerometer": ROTORS.replace(sensors=WITHOUT),
+    "mocap without accelerometer, masses × 1.2, rod × 1.15": ROTORS.replace(sensors=WITHOUT, mismatch=HEAVY),
     "mocap, 10 ms of delay unknown to it": ROTORS.replace(sensors=MOCAP.replace(command_delay=0.0), delay=0.01),
     "mocap, rates differenced": ROTORS.replace(sensors=MOCAP.replace(rates="differenced")),
     "the same, rod to 0.3 mrad": ROTORS.replace(sensors=sharper(MOCAP.replace(rates="differenced"), 3e-4)),

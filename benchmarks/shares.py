@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 from tornado.websocket import websocket_connect
 
-from benchmarks.report import machine
+from benchmarks.results import machine
 from flypend.lab.controls import offer
 
 FIRST = offer()["first"]

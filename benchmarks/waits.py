@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from benchmarks.report import machine
+from benchmarks.results import machine
 
 EXAMPLES = Path(__file__).parents[1] / "src" / "flypend" / "examples"
 

@@ -1,4 +1,4 @@
-"""What forces Theorem A withstands: input-to-state bounds with explicit constants (docs/laws/theorem.md, section 8)."""
+"""What forces Theorem A withstands: bounds with explicit constants, by docs/laws/theorem-proof.md, section 6."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.report import machine
+from benchmarks.results import machine
 
 COUNT, STEPS, TURNS, ACTIONS = 4096, 10, 5, 20
 Peer = tuple[str, int, Callable[[], None]]
@@ -87,7 +87,7 @@ def mujoco() -> Iterator[Peer]:
     from mujoco.rollout import Rollout
 
     import flypend as fp
-    from flypend.plants.mujoco import model_xml
+    from flypend.model.mjcf import model_xml
 
     model, few = MjModel.from_xml_string(model_xml(fp.vehicle("hehn2011"), timestep=1e-3, lag=0.02, bare=True)), 64
     data = MjData(model)

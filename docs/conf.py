@@ -1,6 +1,7 @@
 """The site of these pages: `make docs` writes it to docs/_build, without a network."""
 
 import os
+import re
 import runpy
 import sys
 from pathlib import Path
@@ -21,6 +22,7 @@ extensions = [
     "mathml",
     "myst_nb",
     "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
     "sphinx_click",
     "sphinx_copybutton",
@@ -57,8 +59,30 @@ napoleon_use_rtype = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
+autodoc_mock_imports = ["stable_baselines3"]  # gigabytes, for two names
 autodoc_default_options = {"members": True, "exclude-members": "__new__"}
 maximum_signature_line_length = 100
+
+# A page for each public object, with its cell of reference/examples.py and a picture.
+CELL = re.compile(r"^# %% ([\w., ]+?)(?: \| (\S+): (.+))?\n", flags=re.MULTILINE)
+_cells = CELL.split(
+    Path(__file__).with_name("reference").joinpath("examples.py").read_text()
+)
+autosummary_generate = True
+autosummary_context = {
+    "examples": {
+        name: {"picture": picture, "alt": alt, "code": code.strip()}
+        for names, picture, alt, code in zip(
+            *(_cells[i::4] for i in (1, 2, 3, 4)), strict=True
+        )
+        for name in names.split(", ")
+    }
+}
+# Pages whose names differ by case alone would be one file on some systems.
+autosummary_filename_map = {
+    f"flypend.{name}": f"flypend.{name}-class"
+    for name in ("Check", "Metrics", "Plan", "Sensitivity", "Study", "Trial", "Vehicle")
+} | {"flypend.envs.Environment": "flypend.envs.Environment-class"}
 
 # The commands whose output a page shows: of this installation, as wide as the page.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])

@@ -1,3 +1,18 @@
+// A formula that is wider than its column shrinks, to no less than LEAST of its size.
+const LEAST = 0.6;
+function fit(formula) {
+  formula.style.fontSize = "";
+  const share = formula.clientWidth / formula.scrollWidth;
+  if (share < 1) formula.style.fontSize = `${Math.max(LEAST, 0.99 * share)}em`;
+}
+const widths = new ResizeObserver((entries) => entries.forEach(({ target }) => fit(target.firstElementChild)));
+for (const formula of document.querySelectorAll("article div.math")) {
+  const column = document.createElement("div");
+  formula.replaceWith(column);
+  column.append(formula);
+  widths.observe(column);
+}
+
 // What is wider than its column scrolls, by the keyboard as well: then it can be focused.
 const resized = new ResizeObserver((entries) => {
   for (const { target } of entries) {

@@ -1,0 +1,660 @@
+"""An example of every public object: the page of an object shows its cell. `tests/test_docs.py` runs them one by one."""
+
+# %% simulate | swing-up.png: A swing-up in twelve pictures, and the path of pivot and rod
+import flypend as fp
+
+vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
+run = fp.simulate(vehicle, fp.laws.inverted(), hanging, duration=6)
+print(run.outcome, run.y[-1].round(3))
+
+# %% simulate_ensemble
+import flypend as fp
+
+vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(100, seed=1)
+runs = fp.simulate_ensemble(vehicle, fp.laws.inverted(), starts, duration=10)
+print(runs.success.sum(), "of 100")
+
+# %% random_starts
+import flypend as fp
+
+starts = fp.random_starts(1000, seed=7)
+print(starts.y.shape, starts[0].y)
+
+# %% Flight
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
+flight = fp.Flight(vehicle=vehicle, law=fp.laws.inverted(), starts=start, duration=2.0)
+print(flight.law.gains["rod_bandwidth"])  # the law is bound to the vehicle
+
+# %% Tolerances
+import flypend as fp
+
+print(fp.Tolerances(rtol=1e-6, method="dp5"))
+
+# %% Trajectory | replay.png: The page that to_html writes: the flight, and plots of rod, thrust and distance
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=3)
+print(run.t.shape, run.x.shape, run.rotor_forces.max())  # s, m, N
+run.save("run.nc")
+run.to_html("run.html")
+
+# %% load
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
+fp.simulate(vehicle, fp.laws.inverted(), start, duration=1).save("run.nc")
+print(fp.load("run.nc").outcome)
+
+# %% Ensemble
+import flypend as fp
+
+vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(50, seed=1)
+runs = fp.simulate_ensemble(vehicle, fp.laws.lqr(), starts, duration=8)
+print(runs.rate, runs.interval)  # success, and its 95 % interval
+print(runs.cause[~runs.success][:3], runs.settling[runs.success][:3])
+
+# %% Outcome | cause-collided.svg: The rod swings into an arm, where the flight ends
+import flypend as fp
+
+vehicle, hanging = fp.vehicle("hehn2011").replace(mount="hub"), fp.State(y=(0, 0, -1))
+run = fp.simulate(vehicle, fp.laws.lqr(), hanging, duration=4)
+print(run.outcome.status, run.outcome.time, run.outcome.reason)
+
+# %% Criterion
+import flypend as fp
+
+strict = fp.Criterion(rod=0.02, position=0.05, hold=2.0)  # rad, m, s
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=8)
+print(fp.metrics(run, strict).success)
+
+# %% metrics, Metrics
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=6)
+print(fp.metrics(run).settling, fp.metrics(run).excursion)  # s, m
+
+# %% State
+import flypend as fp
+
+start = fp.State(x=(1, 0, 2), y=(0, 0.6, 0.8), omega=(0, 0, 3))  # m, unit vector, rad/s
+print(start.z, start.packed().shape)
+print(start.flipped().y)  # the same start with e₃ along gravity
+
+# %% Wrench
+import flypend as fp
+
+print(fp.Wrench(thrust=5.4, moment=(0, 0.01, 0)))  # N; N m in the body frame
+
+# %% vehicle
+import flypend as fp
+
+vehicle = fp.vehicle("crazyflie")  # or the path of a TOML file
+print(vehicle.mass, vehicle.rod_length, vehicle.rotor_limits)  # kg, m, N
+
+# %% Vehicle | machine.png: hehn2011 to scale, from above and from the side, with its three mounts
+import flypend as fp
+
+vehicle = fp.vehicle("hehn2011").replace(mass=0.62, rotor_lag=0.035, mount="hub")
+print(vehicle.weight, vehicle.l)  # N, m
+print(fp.Vehicle(**vehicle.to_dict()) == vehicle)
+print(vehicle.to_mjcf().splitlines()[0])  # for MuJoCo
+
+# %% Body | machine.png: hehn2011 to scale: discs, arms, and the gaps between them
+import flypend as fp
+
+body = fp.Body(disc_radius=0.0635, arm_radius=0.006, hub_radius=0.03)  # m
+vehicle = fp.vehicle("hehn2011").replace(mount="hub", body=body)
+print(vehicle.body.disc_radius)
+
+# %% Air
+import flypend as fp
+
+air = fp.Air(rotor_drag=0.05, inflow=0.1, body_drag=(5e-3, 5e-3, 1e-2))
+vehicle, start = fp.vehicle("hehn2011").replace(air=air), fp.State(y=(0, 0, -1))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, 6, plant=fp.Plant(air="all"))
+print(fp.metrics(run).success)
+
+# %% uniform_rod
+import flypend as fp
+
+print(fp.uniform_rod(mass=0.05, length=1.13))
+print(
+    fp.vehicle("hehn2011").replace(**fp.uniform_rod(0.05, 1.13)).l
+)  # equivalent point bob
+
+# %% rod_with_bob
+import flypend as fp
+
+rod = fp.rod_with_bob(mass=0.02, length=0.6, bob_mass=0.04)  # kg, m, kg
+print(fp.vehicle("hehn2011").replace(**rod).l)
+
+# %% laws.inverted | law-cascade.svg: The cascade of the law: bob, force, thrust axis, moment, rotors
+import flypend as fp
+
+law = fp.laws.inverted(rod_bandwidth=7.0)
+print(law.gains_for(fp.vehicle("hehn2011"))["rod_bandwidth"])
+
+# %% laws.almost_global | theorem-cascade.svg: The cascade of Theorem B: position, rod, thrust axis, vehicle
+import flypend as fp
+
+vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
+run = fp.simulate(vehicle, fp.laws.almost_global(), hanging, duration=6, plant="ideal")
+V = run.signals["V"]
+print(V[0], V[-1], (V[1:] <= V[:-1] * (1 + 1e-9)).all())  # it never rises
+
+# %% laws.almost_global_lag
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, -0.8))
+law, rotors = fp.laws.almost_global_lag(), (3.0, 0.0, 1.0, 2.0)  # N at the start: anything
+run = fp.simulate(vehicle, law, start, duration=6, plant=fp.Ideal(lag=True, rotors=rotors))
+V = run.signals["V"]
+print(V[0], V[-1], (V[1:] <= V[:-1] * (1 + 1e-9)).all())  # it never rises
+
+# %% laws.repaired | lyapunov.svg: V along flights under the repaired law falls; under the corrected law it rises first
+import flypend as fp
+
+vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, -0.6))  # e₃ along gravity
+run = fp.simulate(vehicle, fp.laws.repaired(), start, duration=8, plant="ideal")
+print(run.y[-1].round(3))  # it hangs
+
+# %% laws.supervised
+import flypend as fp
+
+vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
+run = fp.simulate(vehicle, fp.laws.supervised(handover=4.0), hanging, duration=8)
+print(fp.metrics(run).success)
+
+# %% laws.learned
+import flypend as fp
+
+vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
+print(fp.metrics(fp.simulate(vehicle, fp.laws.learned(), hanging, duration=6)).success)
+
+# %% laws.lqr
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.28, 0, 0.96))  # it leans a little
+print(fp.metrics(fp.simulate(vehicle, fp.laws.lqr(), start, duration=6)).success)
+
+# %% laws.corrected
+import flypend as fp
+
+vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, 0.6))
+run = fp.simulate(vehicle, fp.laws.corrected(), start, duration=6.5, plant="ideal")
+print(run.y[-1].round(3))  # e₃ is along gravity: it hangs
+
+# %% laws.printed
+import flypend as fp
+
+vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, 0.6), y_dot=(0, 1, 0))
+run = fp.simulate(vehicle, fp.laws.printed(), start, duration=6.5, plant="ideal")
+print(run.outcome)
+
+# %% laws.from_function
+import flypend as fp
+
+
+def hover(t, state, vehicle, *, k_p=2.0, k_d=1.5):
+    thrust = vehicle.weight - k_p * state.x[2] - k_d * state.x_dot[2]
+    return fp.Wrench(thrust, vehicle.I @ (-20.0 * state.omega))
+
+
+law = fp.laws.from_function(hover)
+print(fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, -1)), 2).outcome)
+
+# %% laws.law_from_dict
+import flypend as fp
+
+print(fp.laws.law_from_dict({"name": "inverted", "gains": {"rod_bandwidth": 7.0}}))
+
+# %% laws.law_names
+import flypend as fp
+
+print(fp.laws.law_names())
+
+# %% laws.Control
+import flypend as fp
+
+control = fp.laws.Control(wrench=fp.Wrench(5.4, (0, 0, 0)), signals={"mode": 1.0})
+print(control.wrench.thrust, control.signals)
+
+# %% laws.Guard
+import flypend as fp
+
+guard = fp.laws.Guard(signal="domain", threshold=1e-12, reason="outside the domain")
+print(guard.reason)
+
+# %% laws.Computer
+import flypend as fp
+
+print(fp.laws.Computer(lead=1.1, latency=0.008, models_lag=True))
+
+# %% laws.Bounds
+import flypend as fp
+
+print(fp.laws.Bounds(low=0.0, open_low=True))
+
+# %% laws.LawError
+import flypend as fp
+
+
+def broken(t, state, vehicle):
+    return fp.Wrench(vehicle.wieght, (0, 0, 0))
+
+
+try:
+    fp.simulate(
+        fp.vehicle("hehn2011"), fp.laws.from_function(broken), fp.State(y=(0, 0, 1)), 1
+    )
+except (fp.laws.LawError, fp.InputError) as error:
+    print(error)
+
+# %% Law
+import flypend as fp
+
+law = fp.laws.inverted()
+print(law.name, law.e3, len(law.gains))
+
+# %% BoundLaw
+import flypend as fp
+
+bound = fp.laws.almost_global().bind(fp.vehicle("hehn2011"))
+print(bound.gains["axis_weight"], bound.guarantee(fp.State(y=(0, 0, -1))).covered)
+
+# %% Controller
+import flypend as fp
+
+plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8)))
+controller = fp.track(plan)
+print(controller.name, controller.rate)  # Hz
+
+# %% Gain
+import flypend as fp
+
+gain = fp.Gain("k_p", 4.0, "1/s²", "Stiffness of the rod", fp.laws.Bounds(low=0.0))
+print(gain.name, gain.default, gain.unit)
+
+# %% linearise
+import flypend as fp
+
+hover = fp.linearise(fp.laws.inverted(), fp.vehicle("hehn2011"))
+print(sorted(hover.eigenvalues.real)[:3])  # 1/s
+
+# %% references.hover
+import flypend as fp
+from flypend.laws.references import hover
+
+law = fp.laws.inverted(hover((1.0, 0.0, 0.5)))
+run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
+print(run.x[-1].round(2))
+
+# %% references.line
+import flypend as fp
+from flypend.laws.references import line
+
+law = fp.laws.inverted(line(velocity=(0.5, 0, 0)))  # m/s
+run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=6)
+print(run.x[-1].round(2))
+
+# %% references.circle
+import flypend as fp
+from flypend.laws.references import circle
+
+law = fp.laws.inverted(circle(radius=0.5, rate=1.5))  # m, rad/s
+run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
+print(run.x[-1].round(2))
+
+# %% references.lemniscate
+import flypend as fp
+from flypend.laws.references import lemniscate
+
+law = fp.laws.inverted(lemniscate(size=1.0, rate=1.2))  # m, rad/s
+run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
+print(abs(run.x).max())
+
+# %% plan | plan-front.png: Excursion of plans against the time until hover
+import flypend as fp
+
+plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1)), objective="excursion")
+print(plan.status, plan.excursion, plan.duration)  # m, s
+
+# %% Plan
+import flypend as fp
+
+plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8)))
+print(plan.t.shape, plan.x.shape, plan.rotor_forces.shape)
+plan.save("plan.nc")
+
+# %% load_plan
+import flypend as fp
+
+fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))).save("plan.nc")
+print(fp.load_plan("plan.nc").excursion)
+
+# %% track
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
+plan = fp.plan(vehicle, start)
+run = fp.simulate(vehicle, fp.track(plan), start, plan.duration + 2)
+print(fp.metrics(run).success)
+
+# %% plan_and_track
+import flypend as fp
+
+vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(2, seed=1)
+runs = fp.simulate_ensemble(vehicle, fp.plan_and_track(), starts, duration=8)
+print(runs.success)
+
+# %% plan_ensemble, PlanEnsemble | plan-map.png: Excursion of plans over the sphere of the rod
+import flypend as fp
+
+plans = fp.plan_ensemble(fp.vehicle("hehn2011"), fp.random_starts(2, seed=1))
+print([plan.excursion for plan in plans])
+
+# %% Constraints
+import flypend as fp
+
+keep = fp.Constraints(floor=-1.0, speed=4.0)  # m, m/s
+plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8)), constraints=keep)
+print(plan.status, plan.x[:, 2].min())
+
+# %% Window | plan-window.png: A plan that flies through a window lower than the rod is long
+import flypend as fp
+
+gap = fp.Window(centre=(0, 0, 0.6), width=0.9, height=0.6)  # m, of a wall across e₁
+print(gap)
+
+# %% export_plan
+import flypend as fp
+
+plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8)))
+fp.export_plan(plan, "table")  # flypend_plan.c and .h
+
+# %% nmpc | planning-phases.svg: Who flies when: waiting, planned, hovering
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
+print(fp.metrics(fp.simulate(vehicle, fp.nmpc(vehicle), start, duration=4)).success)
+
+# %% Plant
+import flypend as fp
+
+real = fp.Plant(
+    rate=200.0, delay=0.01, mismatch={"bob_mass": 1.1}
+)  # Hz, s, true over believed
+vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
+print(fp.metrics(fp.simulate(vehicle, fp.laws.inverted(), hanging, 8, plant=real)).success)
+
+# %% Ideal
+import flypend as fp
+
+vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
+run = fp.simulate(vehicle, fp.laws.almost_global(), hanging, 6, plant=fp.Ideal())
+print(run.outcome)
+
+# %% Noise
+import flypend as fp
+
+noisy = fp.Plant(noise=fp.Noise(x=1e-3, y=3.5e-3, omega=0.02), seed=3)  # m, rad, rad/s
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
+print(fp.simulate(vehicle, fp.laws.inverted(), start, 4, plant=noisy).y[-1].round(3))
+
+# %% Sensors | sensor-timing.svg: When readings are taken and when they arrive
+import flypend as fp
+
+mine = fp.Sensors(
+    position=fp.Sensor(rate=120.0, noise=2e-3, latency=0.015),
+    attitude=fp.Sensor(rate=120.0, noise=5e-3, latency=0.015),
+    rod=fp.Sensor(rate=120.0, noise=5e-3, latency=0.015),
+    gyro=fp.Sensor(rate=1000.0, noise=1e-2),
+)
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
+print(
+    fp.simulate(vehicle, fp.laws.inverted(), start, 4, plant=fp.Plant(sensors=mine)).y[-1]
+)
+
+# %% Sensor | sensor-timing.svg: When readings are taken and when they arrive
+import flypend as fp
+
+print(fp.Sensor(rate=120.0, noise=2e-3, latency=0.015, dropouts=0.05))  # Hz, m, s, share
+
+# %% Wind
+import flypend as fp
+
+windy = fp.Plant(wind=fp.Wind(on_vehicle=(0.3, 0, 0), gust_on_vehicle=0.1))  # N
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
+print(fp.simulate(vehicle, fp.laws.inverted(), start, 6, plant=windy).x[-1].round(2))
+
+# %% compare, Comparison
+
+import flypend as fp
+
+laws, starts = [fp.laws.inverted(), fp.laws.lqr()], fp.random_starts(50, seed=7)
+found = fp.compare(fp.vehicle("hehn2011"), laws, starts, duration=8)
+for row in found.rows():
+    print(row["law"], row["success"])
+
+# %% sweep | map.png: Success, settling time, excursion and cause of failure over the sphere of the rod
+import flypend as fp
+
+study = {"vehicle": "hehn2011", "law": {"name": "lqr"}, "runs": 200, "duration": 6.0}
+runs = fp.sweep(study | {"vary": {"start": {"y": "uniform"}}}, "small.zarr")
+print(float(runs.success.mean()))
+
+# %% check, Check | check.png: Success of the inverted law against delay, lag, length, mass and noise
+import flypend as fp
+
+found = fp.check(fp.vehicle("hehn2011"), runs=20, margins=False)
+print(found.feasibility.agility)
+print({name: int(runs.success.sum()) for name, runs in found.tasks.items()})
+
+# %% trial, Trial
+import flypend as fp
+
+found = fp.trial(fp.vehicle("hehn2011"), runs=4, seed=1)
+print(found.uptime)
+
+# %% study, Study
+
+import flypend as fp
+
+settings = {"vehicle": "hehn2011", "law": {"name": "lqr"}, "runs": 100, "duration": 6.0}
+found = fp.study(settings | {"vary": {"start": {"y": "uniform"}}})
+print(found.samples, found.seed, found.axes)
+
+# %% tune, Tuned
+
+import flypend as fp
+
+study = {
+    "vehicle": "nayak2018",
+    "law": {"name": "corrected"},
+    "plant": "ideal",
+    "duration": 6.5,
+    "criterion": {"target": "e3", "position": float("inf")},
+    "runs": 50,
+    "vary": {"start": {"y": "uniform"}},
+    "tune": {
+        "runs": 20,
+        "generations": 2,
+        "gains": {"k_d": [0.3, 5.0], "k_1": [3.0, 100.0]},
+    },
+}
+found = fp.tune(study)
+print(found.gains, found.before, found.after)
+
+# %% Objective
+import flypend as fp
+
+print(fp.Objective(failure=1.0, settling=0.5, excursion=0.2))
+
+# %% identify, Identified
+import flypend as fp
+from flypend.identification.manoeuvre import rehearsal_of, write_log
+
+guess, flown = rehearsal_of(
+    fp.vehicle("hehn2011"), duration=11
+)  # your own log would be here
+write_log("flight.csv", flown.columns)
+found = fp.identify("flight.csv", guess)
+print(found.vehicle, found.bands["rod_length"])  # m
+
+# %% sensitivity, Sensitivity
+
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0.6, 0.8))
+found = fp.sensitivity(vehicle, fp.laws.inverted(), start, 2.0, gains=("rod_bandwidth",))
+print(found.by_start.shape, found.by_gains.shape, found.on_manifold[0].shape)
+
+# %% InputError
+import flypend as fp
+
+try:
+    fp.laws.inverted(rod_bandwith=7.0)
+except fp.InputError as error:
+    print(error)
+
+# %% export_app
+import flypend as fp
+
+fp.export_app("crazyflie", fp.laws.inverted(), fp.vehicle("crazyflie"), "app")
+
+# %% export_c
+import flypend as fp
+
+fp.export_c(fp.laws.inverted(), fp.vehicle("hehn2011"), "computer", precision="float")
+
+# %% export.compiled
+import flypend as fp
+from flypend.export import compiled
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.28, 0, 0.96))
+controller = compiled(fp.laws.inverted(), vehicle)  # needs a C compiler
+print(fp.simulate(vehicle, controller, start, duration=2).outcome)
+
+# %% envs.environment
+import flypend.envs
+
+world = flypend.envs.environment("swing_up", vehicle="hehn2011", mount="hub")
+print(world.vehicle.mount, world.rate)
+
+# %% envs.Environment
+import flypend.envs
+
+print(flypend.envs.environment("balance", action="rates").action)
+
+# %% envs.Randomisation
+import flypend.envs
+
+spread = flypend.envs.Randomisation(mass=(0.9, 1.1), delay=(0.0, 0.02))  # ratio, s
+print(spread.mass, spread.delay)
+
+# %% envs.World
+import gymnasium
+
+import flypend.envs
+
+world = gymnasium.make("flypend/Balance-v0")
+seen, _ = world.reset(seed=0)
+seen, reward, terminated, truncated, _ = world.step(world.action_space.sample())
+print(seen.shape, reward)
+
+# %% envs.World.save_state, envs.World.restore_state
+import gymnasium
+
+import flypend.envs
+
+world = gymnasium.make("flypend/Balance-v0")
+world.reset(seed=0)
+state = world.unwrapped.save_state()
+first = world.step(world.action_space.low)[0]
+world.unwrapped.restore_state(state)
+print((first == world.step(world.action_space.low)[0]).all())
+
+# %% envs.VectorWorlds
+import gymnasium
+
+import flypend.envs
+
+worlds = gymnasium.make_vec(
+    "flypend/SwingUp-v0", 64, vectorization_mode="vector_entry_point"
+)
+seen, _ = worlds.reset(seed=1)
+seen, rewards, _, _, _ = worlds.step(worlds.action_space.sample())
+print(seen.shape, rewards.mean())
+
+# %% envs.SavedState
+import pickle
+
+import gymnasium
+
+import flypend.envs
+
+world = gymnasium.make("flypend/Balance-v0")
+world.reset(seed=0)
+state = world.unwrapped.save_state()
+print(pickle.loads(pickle.dumps(state)) == state)
+
+# %% envs.Task
+import dataclasses
+
+import flypend.envs
+
+longer = dataclasses.replace(flypend.envs.swing_up(), duration=20.0)
+print(flypend.envs.environment(longer).task.duration)
+
+# %% envs.Moment
+import dataclasses
+
+import flypend.envs
+
+
+def upright(moment):
+    return moment.state.y[2] - 0.01 * (moment.error.x[0] ** 2 + moment.error.x[1] ** 2)
+
+
+task = dataclasses.replace(flypend.envs.balance(), reward=upright)
+world = flypend.envs.World(task)
+world.reset(seed=0)
+print(world.step(world.action_space.sample())[1])
+
+# %% envs.balance | env-balance.svg: The rod is kept up and brought home
+import flypend.envs
+
+print(flypend.envs.balance().name, flypend.envs.balance().duration)
+
+# %% envs.swing_up | env-swing-up.svg: The rod is thrown from hanging and caught upright
+import flypend.envs
+
+print(flypend.envs.swing_up().name, flypend.envs.swing_up().duration)
+
+# %% envs.track | env-track.svg: The rod stands while the vehicle follows a circle
+import flypend.envs
+
+print(flypend.envs.track(shape="lemniscate", size=0.8, turn_rate=1.2).name)
+
+# %% envs.catch_in_cup | env-catch-in-cup.svg: A rod that topples is caught in a cup
+import flypend.envs
+
+print(flypend.envs.catch_in_cup().name, flypend.envs.catch_in_cup().duration)
+
+# %% sb3.make_vec_env
+from flypend.envs.sb3 import make_vec_env
+
+worlds = make_vec_env("flypend/Balance-v0", n_envs=64, seed=0)
+print(worlds.reset().shape)
+
+# %% sb3.VecWorlds
+from flypend.envs import VectorWorlds
+from flypend.envs.sb3 import VecWorlds
+
+worlds = VecWorlds(VectorWorlds("track", 64, shape="lemniscate"))
+print(worlds.reset().shape)

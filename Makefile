@@ -6,9 +6,10 @@ BIN := $(VENV)/bin
 OLDEST := .venv-lowest
 FRESH := .venv-size
 BASE := .venv-base
+LEARNERS := .venv-learners
 OUT ?= paper-out
 
-.PHONY: setup paper lab docs test lowest first-contact size bench test-tools fuzz loops web lint lock release clean
+.PHONY: setup paper lab docs test mutants lowest learners first-contact size bench results test-tools fuzz loops web lint lock release clean
 
 setup: $(VENV)/.ready
 
@@ -34,10 +35,19 @@ lint: setup
 test: lint test-tools
 	$(BIN)/pytest -n 2 --durations=20
 
+# Plants 200 mutations in the source, and reports those that no test catches; parts of it: make mutants WHERE=board
+mutants: setup test-tools
+	$(BIN)/python tests/mutants.py $(WHERE)
+
 # The kernels and their peers side by side; the peers are locked by themselves, so that the tests need none of them.
 bench: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
 	$(BIN)/python -m benchmarks bench-out
+
+# Which results of the ledger are older than the code that they measure; make results ONLY="mounts circles" measures
+# those again.
+results: setup
+	$(BIN)/python -m benchmarks.results $(ONLY)
 
 # The site of the documentation, in docs/_build: open index.html there. Needs no network once set up.
 docs: setup
@@ -46,7 +56,8 @@ docs: setup
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
 # rebuilds the bundle of the pages.
-TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake chromium
+TEST_PACKAGES := g++ clang libclang-rt-14-dev cppcheck gcc-arm-none-eabi libnewlib-arm-none-eabi valgrind cmake chromium \
+    qemu-system-arm
 AS_ROOT := $(shell test "$$(id -u)" = 0 || echo sudo)
 
 INSTALL := $(AS_ROOT) apt-get update --quiet=2 && $(AS_ROOT) apt-get install --yes --quiet=2 --no-install-recommends
@@ -71,11 +82,12 @@ fuzz: test-tools setup
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
     --custom-compile-command "make lock" --upgrade pyproject.toml
-OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl
+OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl --extra proof
 
 lock:
 	$(COMPILE) --all-extras --group dev --output-file requirements.lock
 	$(COMPILE) --all-extras --group bench --constraint requirements.lock --output-file requirements-bench.lock
+	$(COMPILE) --extra rl --group learners --output-file requirements-learners.lock
 	$(COMPILE) $(OLDEST_EXTRAS) --resolution lowest-direct --output-file requirements-lowest.lock
 
 # The lower bounds of pyproject.toml, installed as a wheel and flown, with every extra: a minute and a half.
@@ -93,6 +105,21 @@ $(OLDEST)/.ready: requirements-lowest.lock
 	    -r requirements-lowest.lock
 	touch $@
 
+# The first lines of five training libraries, in an environment of their own, which takes seven gigabytes.
+learners: setup $(LEARNERS)/.ready
+	rm -rf $(LEARNERS)/wheel
+	$(BIN)/python -m hatchling build --target wheel --directory $(LEARNERS)/wheel
+	$(LEARNERS)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
+	    $(LEARNERS)/wheel/*.whl
+	FLYPEND_CACHE=$(LEARNERS)/machine-code $(LEARNERS)/bin/python -m pytest --noconftest \
+	    -o filterwarnings=default tests/envs/learners.py
+
+$(LEARNERS)/.ready: requirements-learners.lock
+	$(PYTHON) -m venv --clear $(LEARNERS)
+	$(LEARNERS)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+	    -r requirements-learners.lock
+	touch $@
+
 # Sets the version, builds wheel and sdist, tries both in empty environments, commits and tags: make release VERSION=0.3.0
 release: setup
 	$(BIN)/python .ci/release.py $(VERSION)
@@ -101,7 +128,7 @@ release: setup
 first-contact: setup
 	rm -rf $(BASE)/wheel
 	$(BIN)/python -m hatchling build --target wheel --directory $(BASE)/wheel
-	$(BIN)/python tests/first_contact.py $(BASE)/wheel/*.whl $(BASE)
+	$(BIN)/python -m tests.first_contact $(BASE)/wheel/*.whl $(BASE)
 
 # Megabytes of a fresh installation without extras; more than 700 is an error.
 size:
@@ -111,4 +138,4 @@ size:
 	test $$(cut -f1 $(FRESH)/size) -le 700
 
 clean:
-	rm -rf $(VENV) $(OLDEST) $(FRESH) $(BASE) web/node_modules paper-out bench-out docs/_build docs/jupyter_execute .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) $(OLDEST) $(FRESH) $(BASE) $(LEARNERS) web/node_modules paper-out bench-out docs/_build docs/jupyter_execute .pytest_cache .mypy_cache .ruff_cache

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -17,9 +18,12 @@ OPTIONS = [
 
 
 def pytest_configure(config):
-    """Keep the machine code of tests, and of what they start, away from the user's."""
+    """Keep the machine code of tests, and of what they start, away from the user's; keep bytecode."""
     os.environ["FLYPEND_CACHE"] = str(config.rootpath / ".pytest_cache" / "machine-code")
     os.environ.pop("FLYPEND_CACHE_LIMIT", None)
+    # Without bytecode each of the many processes that tests start compiles all of its imports again.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False
 
 
 @pytest.fixture(scope="module")

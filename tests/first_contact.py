@@ -1,12 +1,12 @@
 """What a newcomer types, on an installation without extras: `make first-contact`.
 
-python tests/first_contact.py WHEEL FOLDER
+python -m tests.first_contact WHEEL FOLDER
 
 Each Python from 3.11 to 3.13 that is here gets an environment in FOLDER with WHEEL and what it depends on. There every
 command of README.md, of the examples and of the first pages of the docs is typed as it is printed, in the order of the
 page, together with the Python between them; so is every command that the output of another one suggests. Each ends as
-tests/first_contact.toml says, and prints the numbers of its page. The first Python takes everything, each other one
-what takes seconds.
+tests/first_contact.toml says, and one of the ledger prints the numbers that pages have from it. The first Python takes
+everything, each other one what takes seconds.
 """
 
 import os
@@ -17,9 +17,12 @@ import subprocess
 import sys
 import time
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+from benchmarks.results import Values, measured, results, unknown
+from benchmarks.results import typed as command
 
 ROOT = Path(__file__).parents[1]
 VERSIONS = ("3.11", "3.12", "3.13")
@@ -33,7 +36,7 @@ TYPED = re.compile(
 # In an example: what stands by itself, in a comment, in quotes, or after a colon.
 SHOWN = re.compile(r'(?:^|: |# |`)((?:flypend |python examples/)[^"`\[\n]*)', re.MULTILINE)
 SUGGESTED = re.compile(r"^Try: (flypend .*)$", re.MULTILINE)
-NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?")
+LEDGER = {command(result.command): result for result in results()}
 
 
 class BrokenError(Exception):
@@ -46,11 +49,6 @@ class Step:
 
     text: str
     is_python: bool = False
-
-
-def command(text: str) -> str:
-    """Return a command line without its comment, in one spelling."""
-    return shlex.join(shlex.split(" ".join(text.split()), comments=True))
 
 
 def steps_of(page: str) -> list[Step]:
@@ -76,23 +74,13 @@ def journeys() -> dict[str, list[Step]]:
     return {**found, PAGES[0]: list(dict.fromkeys([*found[PAGES[0]], *steps_of_examples()]))}
 
 
-def agrees(said: str, printed: str, scale: float = 1.0) -> bool:
-    """Whether the number `said` on a page is the one `printed`, times `scale`, to the digits of the page."""
-    decimals = len(said.partition(".")[2])
-    return abs(float(said.replace(",", "")) - scale * float(printed)) <= 0.5 * 10**-decimals * (1 + 1e-9)
-
-
-def check_claim(claim: dict, page: str, printed: str) -> int:
-    """Return how many numbers of the `page` were `printed`. Raises BrokenError for one that was not."""
-    said = re.search(claim["says"], " ".join(page.split()), re.DOTALL)
-    found = re.search(claim["prints"], " ".join(printed.split()), re.DOTALL)
-    if not said or not found:
-        raise BrokenError(f"{claim['page']}: /{claim['says' if not said else 'prints']}/ is not found")
-    numbers = said.groupdict()
-    for name, number in numbers.items():
-        if not agrees(number, found[name], claim.get("scale", 1.0)):
-            raise BrokenError(f"{claim['page']} says {number} in {said[0]!r}, {claim['command']} prints {found[name]}")
-    return len(numbers)
+def check_numbers(page: str, line: str, printed: Values) -> int:
+    """Return how many numbers of a `page` come from `line`. Raises BrokenError for one that is not `printed` now."""
+    text, path = (ROOT / page).read_text(encoding="utf-8"), ROOT / page
+    fresh = [replace(result, values=printed) if result is LEDGER[line] else result for result in LEDGER.values()]
+    if wrong := unknown(text, path, fresh):
+        raise BrokenError(f"{page} says {wrong[0].text} in {wrong[0].line!r}, {line} prints another number")
+    return len(unknown(text, path, [result for result in fresh if result.values is not printed]))
 
 
 class Machine:
@@ -128,11 +116,9 @@ class Machine:
             return told
         done = self.call(shlex.split(RULES["smaller"].get(line, line)), folder)
         printed = self.ended(done, line)
-        for claim in RULES["claim"]:
-            if claim["command"] == line:
-                file = (folder / claim["file"]).read_text(encoding="utf-8") if "file" in claim else ""
-                page = (ROOT / claim["page"]).read_text(encoding="utf-8")
-                self.numbers += check_claim(claim, page, printed + file)
+        if line in LEDGER and line not in RULES["smaller"]:
+            fresh = measured(printed, folder)
+            self.numbers += sum(check_numbers(page, line, fresh) for page, steps in journeys().items() if step in steps)
         for other in SUGGESTED.findall(printed):
             self.type(Step(command(other)), folder)
         return printed

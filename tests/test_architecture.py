@@ -27,6 +27,7 @@ SOURCE = Path(flypend.__file__).parent
 # names, stands after everything that it imports.
 ORDER = [
     "signals",
+    "registry",
     "errors",
     "geometry",
     "palette",
@@ -40,6 +41,7 @@ ORDER = [
     "flight",
     "envs",
     "planning",
+    "identification",
     "learning",
     "export",
     "paper",
@@ -309,7 +311,6 @@ PUBLIC = (
     "flight.metrics",
     "flight.ensemble",
     "flight.sensitivity",
-    "planning",
     "learning",
     "export",
     "paper",
@@ -501,9 +502,13 @@ INSTALLERS = ("pyproject.toml", "Makefile", "run")
 
 def test_what_installs_names_no_registry():
     files = [path for path in _tracked() if path.suffix == ".lock" or path.name in INSTALLERS]
-    assert {*INSTALLERS, "requirements.lock", "requirements-lowest.lock", "requirements-bench.lock"} <= {
-        path.name for path in files
-    }
+    assert {
+        *INSTALLERS,
+        "requirements.lock",
+        "requirements-lowest.lock",
+        "requirements-bench.lock",
+        "requirements-learners.lock",
+    } <= {path.name for path in files}
     for path in files:
         # A homepage is no registry.
         text = re.sub(r"(?ms)^\[project\.urls\].*?(?=^\[|\Z)", "", _text(path))

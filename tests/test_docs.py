@@ -1,16 +1,19 @@
 """The documentation: the site builds without a warning or a dead link, and what its pages tell one to run runs."""
 
+import importlib.util
 import re
 import subprocess
 import sys
 from pathlib import Path
 from urllib.parse import quote
 
+import gymnasium
 import pytest
 
 import flypend as fp
 import flypend.envs
 from benchmarks.commands import LINES
+from benchmarks.diagrams import DIAGRAMS
 from flypend.cli.app import app
 from flypend.studies.sweep.chunk import CAUSES
 
@@ -87,6 +90,11 @@ QUESTIONS = {
     "why a flight failed": "how-to/why-failed", "how to fly a circle": "how-to/circle",
     "how to export": "how-to/export", "how to step the simulator": "how-to/step",
     "which plant is the default": "how-to/plant", "how long does it take": "reference/times",
+    "video": "how-to/video", "python api simulate": "reference/api/flypend.simulate", "units": "model/conventions",
+    "real hardware": "how-to/export", "cite": "how-to/cite", "why does LQR fail": "how-to/lqr",
+    "my own drone": "how-to/vehicle", "ulog": "how-to/flight-log", "train ppo": "envs/environments",
+    "plot": "how-to/plot", "install on mac": "how-to/install", "gpu": "how-to/gpu", "px4": "how-to/export",
+    'error "singular"': "flight/causes", "how fast": "how-to/gpu",
 }  # fmt: skip
 FIRST = 3  # results that one sees without looking for them
 
@@ -113,7 +121,8 @@ def test_the_search_of_the_site_answers_what_newcomers_ask(site, searching, ques
 VIEWS = {"phone": (390, "light"), "desk": (1280, "dark")}
 SEEN = (
     "index.html", "gallery.html", "tutorials/your-law.html", "how-to/step.html", "model/equations.html",
-    "model/machine.html", "reference/commands.html", "reference/python.html", "genindex.html",
+    "model/machine.html", "reference/commands.html", "reference/python.html",
+    "reference/api/flypend.Trajectory.html", "genindex.html",
     "search.html?q=own law in map",
 )  # fmt: skip
 
@@ -136,6 +145,14 @@ def look(looking, site, name):
     looking.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
+# What one reads line by line must fit; tables and code may be scrolled, each by itself.
+SIDEWAYS = """() => [...document.querySelectorAll("article :is(p, li, dd, h1, h2, h3, div.math)")]
+  .filter((one) => !one.querySelector("table, pre"))
+  .filter((one) => !one.closest("pre, .table-wrapper, .output, .sig"))
+  .filter((one) => one.scrollWidth > one.clientWidth + 1 && getComputedStyle(one).display !== "inline")
+  .map((one) => one.textContent.trim().slice(0, 60))"""
+
+
 def wider(page):
     """By how many pixels the page is wider than its window."""
     return page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
@@ -146,6 +163,20 @@ def test_a_page_is_for_everyone_and_fits(site, looking, axe, name):
     look(looking, site, name)
     assert axe(looking) == []
     assert wider(looking) <= 0
+
+
+def test_prose_and_formulas_fit_a_phone(site, chromium):
+    context = chromium.new_context(offline=True, viewport={"width": 390, "height": 844})
+    page = context.new_page()
+    pages = [
+        path.relative_to(ROOT / "docs").with_suffix(".html").as_posix() for path in PAGES if "_build" not in path.parts
+    ]
+    faults = {}
+    for name in pages:
+        look(page, site, name)
+        faults[name] = page.evaluate(SIDEWAYS)
+    context.close()
+    assert {name: found for name, found in faults.items() if found} == {}
 
 
 @pytest.mark.slow
@@ -181,13 +212,65 @@ def test_every_command_says_how_long_it_takes_as_the_benchmark_types_it():
     assert {line.split()[1] for line in LINES} == set(app.commands)
 
 
-def test_every_public_name_is_in_the_reference(site):
-    page = (site / "reference" / "python.html").read_text(encoding="utf-8")
-    described = set(re.findall(r'<dt class="sig sig-object py" id="flypend\.([\w.]+)"', page))
+def test_every_public_name_has_a_page_with_an_example(site):
+    pages = {path.stem: path.read_text(encoding="utf-8") for path in (site / "reference" / "api").glob("*.html")}
+    assert all("highlight-python" in page for page in pages.values())
+    described = {
+        name
+        for page in pages.values()
+        for name in re.findall(r'<dt class="sig sig-object py" id="flypend\.([\w.]+)"', page)
+    }
     names = {*fp.__all__} - {"laws"} | {f"laws.{name}" for name in fp.laws.__all__} - {"laws.AnyLaw"}  # a type alone
     names |= {f"envs.{name}" for name in flypend.envs.__all__} | {"export.compiled"}
     same = {name.rpartition(".")[2] for name in described}  # Law is an attribute of fp and of fp.laws
     assert not {name for name in names if name.rpartition(".")[2] not in same}
+
+
+CELLS = re.split(
+    r"^# %% (.+)\n", (ROOT / "docs" / "reference" / "examples.py").read_text(encoding="utf-8"), flags=re.MULTILINE
+)
+LEARNERS = ("sb3.make_vec_env", "sb3.VecWorlds")  # where Stable-Baselines3 is: tests/envs/learners.py
+SLOW = ("trial, Trial",)  # it flies for minutes of flight
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        pytest.param(name, code, id=name.partition(" | ")[0], marks=[pytest.mark.slow] if name in SLOW else [])
+        for name, code in zip(CELLS[1::2], CELLS[2::2], strict=True)
+    ],
+)
+def test_the_example_of_an_object_runs(name, code, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    if name in LEARNERS and importlib.util.find_spec("stable_baselines3") is None:
+        with pytest.raises(fp.InputError, match=r"^flypend\.envs\.sb3: expected Stable-Baselines3 \(pip install"):
+            exec(compile(code, name, "exec"), {"__name__": "__main__"})
+        return
+    exec(compile(code, name, "exec"), {"__name__": "__main__"})
+
+
+def test_diagrams_are_those_that_the_command_draws():
+    drawn = set(DIAGRAMS) - {"lyapunov", "throw-phases"}  # those two are drawn from flights
+    found = {name: (ROOT / "docs" / "img" / f"{name}.svg").read_text(encoding="utf-8") for name in drawn}
+    assert found == {name: DIAGRAMS[name]().svg() for name in drawn}
+
+
+def test_clips_are_small():
+    sizes = {path.stem: path.stat().st_size for path in (ROOT / "docs" / "img").glob("*.svg")}
+    clips = {name: size for name, size in sizes.items() if name.startswith(("cause-", "env-"))}
+    assert {f"cause-{cause}" for cause in set(CAUSES) - {"success"}} < set(clips)
+    assert max(clips.values()) < 150e3
+    assert sum(size for name, size in clips.items() if name.startswith("cause-")) < 900e3
+
+
+def test_the_card_of_an_environment_counts_its_observations():
+    cards = (ROOT / "docs" / "envs" / "tasks.md").read_text(encoding="utf-8").split("\n## ")[1:-1]
+    for card in cards:
+        world = gymnasium.make(f"flypend/{card.partition(chr(10))[0]}")
+        ranges = [(int(a), int(b)) for a, b in re.findall(r"^\| (\d+)–(\d+) \|", card, flags=re.MULTILINE)]
+        assert [a for a, _ in ranges] == [0, *(b + 1 for _, b in ranges[:-1])]
+        assert ranges[-1][1] + 1 == world.observation_space.shape[0]
+    assert len(cards) == 4
 
 
 def test_every_cause_of_failure_is_explained():

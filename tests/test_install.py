@@ -57,7 +57,6 @@ def test_everything_is_in_the_wheel(site):
         "py.typed",
         "pages/web/replay.js",
         "pages/web/lab.js",
-        "pages/web/live.js",
         "vehicles/hehn2011.toml",
         "examples/my_law.py",
     }

@@ -8,10 +8,11 @@ import pytest
 from cbuild import build
 
 import flypend as fp
-from flypend.compile.c99 import function, literal, routine_function, statements, used_inputs
+from flypend.compile.c99 import SCRATCH, function, literal, routine_function, routine_scratch, statements, used_inputs
 from flypend.compile.matrices import matrices
-from flypend.compile.program import Operation, Program, interpret, lower
+from flypend.compile.program import FOLD, Operation, Program, interpret, lower, needed
 from flypend.compile.routine import lower_calls
+from flypend.compile.scratch import SPAN, TRUTHS, Scratch, scratch_size
 
 
 def _compiled(program, folder, precision="double"):
@@ -102,9 +103,10 @@ def test_a_constant_below_zero_keeps_its_sign_behind_a_minus():
     program = Program("f", (1,), (Operation("input", (0, 0)), Operation("constant", (), -2.0), Operation("sub", (0, 1)),
                                   Operation("neg", (2,))), ((3,),))  # fmt: skip
     assert statements(program, [["x"]], [["y"]], "double") == [
-        "const flypend_real v0 = x - (-2.0);",
-        "const flypend_real v1 = -v0;",
-        "y = v1;",
+        "const flypend_real v0 = x;",
+        "const flypend_real v1 = v0 - (-2.0);",
+        "const flypend_real v2 = -v1;",
+        "y = v2;",
     ]
 
 
@@ -123,7 +125,9 @@ def test_a_routine_calls_its_programs_on_stretches_of_memory(tmp_path):
     assert text.count("static void turn(") == 1
     assert text.count("turn(") == 3
     head = "void f(const double *state, double *out)"
-    (tmp_path / "f.c").write_text(f"{text}\n\n{head};\n{head}\n{{\n    whole(state, out);\n}}\n")
+    (tmp_path / "f.c").write_text(
+        f"{text}\n\n{head};\n{head}\n{{\n    double w[{routine_scratch(routine)}];\n    whole(w, state, out);\n}}\n"
+    )
     library = ctypes.CDLL(str(build(tmp_path, ("f.c",), "f.so", flags=("-shared", "-fPIC"))))
     given, found = np.array([0.3, -1.2, 2.5]), np.empty(5)
     library.f(given.ctypes.data_as(ctypes.c_void_p), found.ctypes.data_as(ctypes.c_void_p))
@@ -153,7 +157,9 @@ def test_layers_are_tables_and_change_no_bit(tmp_path, precision):
     assert text.count("* ") < 60  # of 500 products
     head = f"#include <math.h>\ntypedef {precision} flypend_real;\n"
     end = "void f(const flypend_real *in, flypend_real *out);\nvoid f(const flypend_real *in, flypend_real *out)"
-    (tmp_path / "f.c").write_text(f"{head}{text}\n{end}\n{{\n    net(in, out);\n}}\n")
+    (tmp_path / "f.c").write_text(
+        f"{head}{text}\n{end}\n{{\n    flypend_real w[{scratch_size(program)}];\n    net(w, in, out);\n}}\n"
+    )
     library = ctypes.CDLL(str(build(tmp_path, ("f.c",), "f.so", flags=("-shared", "-fPIC"))))
     real = np.float64 if precision == "double" else np.float32
     operations = {"add": lambda a, b: a + b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b, "sqrt": np.sqrt}
@@ -181,3 +187,50 @@ def test_what_is_no_number_is_written_as_such():
     text = "\n".join(statements(program, [["x"]], [["y"]], "float"))
     assert "INFINITY" in text
     assert "NAN" in text
+
+
+def _long_program(rng, length=600):
+    """Random operations, truths among them, each on values that were computed at any time before, or on inputs."""
+    operations = [Operation("input", (0, i)) for i in range(5)] + [Operation("constant", (), 0.75)]
+    kinds = {"add": 2, "sub": 2, "mul": 2, "fmin": 2, "neg": 1, "lt": 2, "ne": 2, "not": 1, "and": 2, "select": 2}
+    for number in range(6, length):
+        name = str(rng.choice(list(kinds)))
+        arguments = tuple(int(number - 1 - rng.integers(number) ** 2 // number) for _ in range(kinds[name]))
+        operations.append(Operation(name, arguments))
+    outputs = tuple(int(place) for place in [*rng.integers(0, length, 20), 2, 0])  # inputs in another order, too
+    return needed(Program("f", (5,), tuple(operations), (outputs,)))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_values_that_are_kept_change_no_bit(seed, tmp_path):
+    """A program much longer than `SPAN`, whose output takes the place of its input."""
+    rng = np.random.default_rng(seed)
+    program = _long_program(rng)
+    assert len(program.operations) > 3 * SPAN
+    size = scratch_size(program)
+    assert 0 < size < len(program.operations) // 2
+    head = "#include <math.h>\ntypedef double flypend_real;\n"
+    end = "void g(double *both);\nvoid g(double *both)"
+    text = function(program, "double")
+    assert text.count(f"{SCRATCH}[") > size
+    (tmp_path / "f.c").write_text(f"{head}{text}\n{end}\n{{\n    double w[{size}];\n    f(w, both, both);\n}}\n")
+    library = ctypes.CDLL(str(build(tmp_path, ("f.c",), "f.so", flags=("-shared", "-fPIC", "-ffp-contract=off"))))
+    for _ in range(10):
+        given = rng.standard_normal(len(program.outputs[0]))
+        (wanted,) = interpret(program, [lambda i, given=given: float(given[i])], FOLD, float)
+        library.g(given.ctypes.data_as(ctypes.c_void_p))
+        np.testing.assert_array_equal(given, wanted)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_place_is_taken_again_only_when_its_value_is_not_needed_any_more(seed):
+    program = _long_program(np.random.default_rng(seed))
+    places = Scratch(program).places
+    last = {n: len(program.operations) for n in program.outputs[0]}
+    for number, operation in reversed(list(enumerate(program.operations))):
+        for argument in operation.arguments if operation.name != "input" else ():
+            last.setdefault(argument, number)
+    for a, b in ((a, b) for a in places for b in places if a < b and places[a] == places[b]):
+        assert last[a] < b
+    numbers = {n for n, it in enumerate(program.operations) if it.name not in ("input", "constant", *TRUTHS)}
+    assert {n for n in numbers if last[n] - n > SPAN} == places.keys()

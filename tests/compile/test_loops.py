@@ -10,6 +10,7 @@ import pytest
 import flypend
 from flypend.compile.llvm import runge_kutta
 from flypend.compile.llvm.loops import file_of
+from flypend.compile.llvm.random import normals
 from flypend.compile.methods import NAMES, method
 from flypend.compile.touch import LONGEST
 
@@ -32,24 +33,30 @@ def test_the_bitcode_is_that_of_the_source(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("width", "bits", "pointer"),
-    [(8, 64, 64), (16, 64, 64), (16, 32, 64), (32, 32, 64), (1, 64, 32), (2, 64, 32), (1, 32, 32), (2, 32, 32)],
+    ("loop", "width", "bits", "pointer"),
+    [
+        *(("runge_kutta", width, bits, 64) for width, bits in ((8, 64), (16, 64), (16, 32), (32, 32))),
+        *(("runge_kutta", width, bits, 32) for width, bits in ((1, 64), (2, 64), (1, 32), (2, 32))),
+        *(("sampled", width, 64, pointer) for width, pointer in ((1, 64), (8, 64), (1, 32), (2, 32))),
+        *((loop, 8, 64, 64) for loop in ("worlds", "normals")),
+    ],
 )
-def test_every_width_that_kernels_ask_for_is_there(width, bits, pointer):
-    assert (SOURCE / file_of("runge_kutta", width, bits, pointer)).read_bytes()[:2] == b"BC"
+def test_every_width_that_kernels_ask_for_is_there(loop, width, bits, pointer):
+    assert (SOURCE / file_of(loop, width, bits, pointer)).read_bytes()[:2] == b"BC"
 
 
 SIZES = {
     "N": 4, "PARAMETERS": 1, "WRENCH": 1, "GAUGES": 2, "BOUNDS": (0.0, 1.0), "SMOOTH": 1, "GUARDED": 1, "TOUCHES": 1,
     "MOST_STATE": 1e6, "LONGEST": LONGEST,
 }  # fmt: skip
-SANITISERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
-FLAGS = ("-std=c++17", "-O1", "-g", "-fno-strict-aliasing", "-Wno-psabi", "-Wno-pass-failed", "-DWIDTH=2", "-DBITS=64")
+# The check of function types, at MuJoCo's addresses, needs a runtime that clang links to C++ alone.
+SANITISERS = ("-fsanitize=address,undefined", "-fno-sanitize=function", "-fno-sanitize-recover=all")
+FLAGS = ("-std=c++17", "-O1", "-g", "-fno-strict-aliasing", "-Wno-psabi", "-Wno-pass-failed", "-DBITS=64")
 
 
-def defined(constants):
-    """C++ that defines what `open.hpp` declares."""
-    lines = ['#include "open.hpp"', 'extern "C" {']
+def defined(constants, *headers):
+    """C++ that defines what `headers` declare."""
+    lines = [*(f'#include "{header}"' for header in headers), 'extern "C" {']
     for name, value in constants.items():
         if isinstance(value, int):
             lines.append(f"const int64_t {name} = {value};")
@@ -61,21 +68,27 @@ def defined(constants):
     return "\n".join([*lines, "}\n"])
 
 
-def flown(folder, name, smooth=1, extra=""):
-    """Rows that the oscillators print, built with sanitizers; `extra` is added to the source of the programs."""
-    constants = folder / "constants.cpp"
-    constants.write_text(defined({**SIZES, "SMOOTH": smooth, **runge_kutta._tableau(method(name))}), encoding="utf-8")
-    programs = folder / "oscillators.cpp"
-    programs.write_text(
-        Path(__file__).with_name("oscillators.cpp").read_text(encoding="utf-8").replace(*(extra or ("", "")))
-    )
-    sources = [SOURCE / "runge_kutta.cpp", constants, programs]
-    subprocess.run(
-        [clang(), "-x", "c++", *FLAGS, *SANITISERS, "-I", SOURCE, *sources, "-lstdc++", "-lm", "-o", folder / "fly"],
-        check=True,
-    )
+def run(folder, loop, constants, headers, programs, width=2):
+    """Run `programs` around a `loop`, built with sanitizers; return what it tells, and rows of numbers."""
+    given, around = folder / "constants.cpp", folder / "programs.cpp"
+    given.write_text(defined(constants, *headers), encoding="utf-8")
+    around.write_text(programs, encoding="utf-8")
+    sources = [SOURCE / f"{loop}.cpp", given, around]
+    options = [*FLAGS, *SANITISERS, f"-DWIDTH={width}", "-I", SOURCE]
+    subprocess.run([clang(), "-x", "c++", *options, *sources, "-lstdc++", "-lm", "-o", folder / "fly"], check=True)
     told = subprocess.run([folder / "fly"], capture_output=True, text=True)
     return told, [[float(word) for word in line.split()] for line in told.stdout.splitlines()]
+
+
+def source(name):
+    """The programs in C++ beside this file."""
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+def flown(folder, name, smooth=1, extra=("", "")):
+    """Rows that the oscillators print; in the source of the programs, the second of `extra` replaces the first."""
+    constants = {**SIZES, "SMOOTH": smooth, **runge_kutta._tableau(method(name))}
+    return run(folder, "runge_kutta", constants, ["open.hpp"], source("oscillators.cpp").replace(*extra))
 
 
 def exact(start, omega, t):
@@ -128,3 +141,83 @@ def test_a_write_beyond_a_vector_is_found(tmp_path):
     told, _ = flown(tmp_path, "dp5", extra=("i < 3; i++) drift", "i < 4; i++) drift"))
     assert told.returncode != 0
     assert "AddressSanitizer" in told.stderr
+
+
+def test_philox_gives_its_known_answers(tmp_path):
+    """Vectors of Salmon et al. (2011), philox4x32 with ten rounds, in both lanes."""
+    program = tmp_path / "words.cpp"
+    program.write_text(source("random_words.cpp"), encoding="utf-8")
+    options = [*FLAGS, *SANITISERS, "-DWIDTH=2", "-I", SOURCE]
+    subprocess.run([clang(), "-x", "c++", *options, program, "-lm", "-o", tmp_path / "words"], check=True)
+    told = subprocess.run([tmp_path / "words"], capture_output=True, text=True, check=True)
+    words = [[f"{int(word):08x}" for word in line.split()] for line in told.stdout.splitlines()]
+    assert words[:2] == [["6627e8d5", "e169c58d", "bc57ac4c", "9b00dbd8"]] * 2
+    assert words[2:] == [["408f276d", "41c83b0e", "a20bc7c6", "6d5451fd"]] * 2
+
+
+# Sampled flights ------------------------------------------------------------------------------------------------------
+
+CARTS = {
+    "STATE": 4, "ROTORS": 2, "MEMORY": 3, "SLIDE": 1, "MEASURED": 4, "COMMAND": 2, "GAINS": 1, "NOISE": 1, "WIND": 1,
+    "PARAMS": 1, "GUST": 1, "VALUES": 4, "PERIOD": 0.01, "STRETCHES": 2, "TIMING": 1, "AGES": (1, 0), "STEPS": (1, 2),
+    "DEPTH": 2, "PIECES": 0, "RANDOM": 1, "DRAWS": 24, "FIRST_DRAW": 0,
+    "END_DRAW": 19, "GUSTS": 18, "RATES": 0, "MEASURES": 1, "TOUCHES": 1,
+    "SENSES": 0, "SENSED": 0, "START_TICK": 9, "START_DRAWS": 0, "MOST_STATE": 1e3, "KINDS": (0, 1, 2, 3),
+    "MUJOCO": 0, "QPOS": 2, "QVEL": 2, "FILTERED": 0, "DRIVEN": 0, "BLOWN": 0, "FILTER_STRIDE": 10, "MOST_FORCE": 1e3,
+}  # fmt: skip
+VARIANTS = {
+    "plain": (2, {}),
+    "pieces": (2, {"PIECES": 1}),
+    "sensors": (2, {"SENSES": 1, "MEASURES": 0, "NOISE": 0, "SENSED": 1, "START_DRAWS": 4}),
+    "engine": (1, {"MUJOCO": 1, "TIMING": 2, "FILTERED": 1, "DRIVEN": 1, "BLOWN": 1}),
+}
+
+
+def driven(start, gain, seed, ticks=200):
+    """States and forces of two carts at each tick, step by step."""
+    start, gust, rows = np.array(start, dtype=float), 0.0, [np.array(start, dtype=float)]
+    state, held = start[:4].copy(), start[4:]
+    for tick in range(ticks):
+        draws = normals(seed, 1, first=tick)[0]
+        told = state + 0.001 * draws[:4]
+        before, held = held, -gain * told[:2] - 1.5 * told[2:]
+        gust += 0.01 * draws[18]
+        for command, h, steps in ((before, 0.004, 1), (held, 0.003, 2)):
+            force = command + np.array([gust, 0])
+            for _ in range(steps):
+                state[:2] += h * state[2:] + h * h * force / 2
+                state[2:] += h * force
+        rows.append(np.append(state, held))
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_carts_fly_without_undefined_behaviour(tmp_path, variant):
+    """Five flights: samples, reductions, statuses and touches, against the same step by step."""
+    width, other = VARIANTS[variant]
+    headers = ["sampled.hpp", "mujoco.hpp"]
+    told, rows = run(tmp_path, "sampled", CARTS | other, headers, source("carts.cpp"), width)
+    assert told.returncode == 0, told.stderr
+    C, D, U, T = (getattr(runge_kutta, name) for name in ("COMPLETED", "DIVERGED", "UNDEFINED", "COLLIDED"))
+    assert [row[0] for row in rows] == [C, C, T, U, D]
+    assert [row[1] for row in rows] == [-1, -1, 7, -1, -1]
+    starts = [(1, 0.5, 0, 0, 0, 0), (0, 1, 0.3, 0.5, 1, -1), (0, 1, 0, 9, 0, 0)]
+    t = np.arange(201) / 100
+    for i, (row, start) in enumerate(zip(rows, starts, strict=False)):
+        states, samples = driven(start, i + 1, 3 + i), np.reshape(row[12:], (201, 6))
+        flew = ~np.isnan(samples[:, 0])
+        x, value = states[:, 1], states[:, 0] - 0.2
+        if row[0] == T:
+            hit = int(np.argmax(x >= 1.5))
+            assert row[2] == pytest.approx(t[hit - 1] + 0.01 * (1.5 - x[hit - 1]) / (x[hit] - x[hit - 1]))
+            assert flew[:hit].all()
+            np.testing.assert_allclose(samples[:hit], states[:hit], atol=1e-12)
+            continue
+        assert row[2] == 2
+        assert row[3] == pytest.approx(1.5 - np.max(x))
+        np.testing.assert_allclose(samples, states, atol=1e-12)
+        late = np.flatnonzero(value > 0)
+        last = t[late[-1]] if late.size else -1
+        since = np.inf if value[-1] > 0 else t[late[-1] + 1] if late.size else 0
+        np.testing.assert_allclose(row[4:8], [np.max(value), np.trapezoid(value, t) / 2, last, since])
+        np.testing.assert_allclose(row[8:12], states[-1, :4], atol=1e-12)

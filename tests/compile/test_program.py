@@ -1,5 +1,9 @@
 """Scalar programs: what CasADi says, in fewer operations."""
 
+import contextlib
+import itertools
+import operator
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -8,7 +12,7 @@ from hypothesis import strategies as st
 from programs import OPERATIONS, evaluate, program_of
 
 import flypend as fp
-from flypend.compile.program import Program, lower
+from flypend.compile.program import FOLD, LIBRARY, Program, lower
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.plants import Ideal
@@ -157,3 +161,23 @@ def test_arguments_stand_before_what_takes_them():
     for place, operation in enumerate(program.operations):
         assert operation.name == "input" or all(number < place for number in operation.arguments)
         assert operation.name in ("input", "constant") or operation.name in OPERATIONS
+
+
+AS_OPERATORS = {
+    "add": operator.add, "sub": operator.sub, "mul": operator.mul, "div": operator.truediv, "neg": operator.neg,
+    "lt": operator.lt, "le": operator.le, "eq": operator.eq, "ne": operator.ne, "pow": operator.pow,
+    "not": ca.logic_not, "and": ca.logic_and, "or": ca.logic_or, "select": lambda c, a: ca.if_else(c, a, 0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FOLD)
+def test_constants_are_folded_as_casadi_evaluates_them(name):
+    values, compared = (-2.0, -0.5, 0.0, 0.5, 1.0, 2.0), 0
+    unary = {"not", "neg", "sqrt", "fabs", "sign"} | set(LIBRARY)
+    for some in itertools.product(values, repeat=1 if name in unary else 2):
+        with contextlib.suppress(ValueError, ZeroDivisionError):  # left to the machine
+            found = FOLD[name](*some)
+            expected = float(AS_OPERATORS.get(name, getattr(ca, name, None))(*map(ca.DM, some)))
+            assert found == pytest.approx(expected, rel=1e-15, nan_ok=True), some
+            compared += 1
+    assert compared > 0

@@ -34,7 +34,7 @@ def agrees(function, width=2, seed=1):
 @pytest.mark.parametrize("name", ["rotors", "hehn2011"])
 def test_a_board_as_calls_is_what_casadi_says(name):
     vehicle = fp.vehicle("hehn2011")
-    agrees(board(Loop(vehicle, fp.laws.inverted().bind(vehicle), PRESETS[name])).step)
+    agrees(board(Loop(vehicle, fp.laws.inverted().bind(vehicle), PRESETS[name])))
 
 
 def double(n, name="double"):

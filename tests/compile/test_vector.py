@@ -11,9 +11,9 @@ from programs import evaluate, program_of
 import flypend as fp
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import define
-from flypend.compile.llvm.random import PER_TICK, normals, philox
+from flypend.compile.llvm.random import PER_TICK, normals
 from flypend.compile.llvm.rows import BLOCK, define_turn
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
+from flypend.compile.llvm.vector import POINTER, VOID, Lanes
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.laws.closed_loop import close_loop
@@ -119,26 +119,6 @@ def test_rows_are_the_transpose_of_lanes(width, precision, length):
 
 
 # Random numbers --------------------------------------------------------------------------------------------------
-
-
-def test_philox_gives_its_known_answers():
-    """Vectors of Salmon et al. (2011), philox4x32 with ten rounds."""
-    module = ir.Module("test")
-    function = ir.Function(module, ir.FunctionType(VOID, [POINTER] * 2), "words")
-    code = Code(Lanes(module, 8), ir.IRBuilder(function.append_basic_block()))
-    given = [code.builder.load(code.scalar_at(function.args[0], ir.Constant(I64, i), I64), typ=I64) for i in range(6)]
-    for i, word in enumerate(philox(code.builder, given[:4], given[4:])):
-        code.put(word, function.args[1], ir.Constant(I64, i))
-    code.builder.ret_void()
-    native = jit.Native(jit.compiled(module), "words", (ctypes.c_void_p,) * 2)
-
-    def words(value):
-        counter_and_key, out = np.full(6, value, dtype=np.int64), np.zeros(4, dtype=np.int64)
-        native(counter_and_key.ctypes.data, out.ctypes.data)
-        return [f"{word:08x}" for word in out]
-
-    assert words(0) == ["6627e8d5", "e169c58d", "bc57ac4c", "9b00dbd8"]
-    assert words(0xFFFFFFFF) == ["408f276d", "41c83b0e", "a20bc7c6", "6d5451fd"]
 
 
 def test_normal_numbers_are_normal_and_independent():

@@ -10,7 +10,7 @@ import flypend as fp
 from flypend.geometry import E3, norm
 from flypend.paper import experiment_names
 from flypend.paper.basin import basin, planar
-from flypend.paper.descent import RISES, descend, laws, relative_rises, wide_starts
+from flypend.paper.descent import PROVED, RISES, any_rotors, descend, laws, relative_rises, wide_starts
 from flypend.paper.proved import SWING_UPS, claims_of, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
 from flypend.paper.stability import RUNAWAYS, runaway_starts
 from flypend.pictures.descent import basin_figure
@@ -76,27 +76,41 @@ def test_all_random_starts_converge_under_both_theorems(runs):
 
 
 def test_theorem_b_flies_with_rotors_as_well():
-    # No theorem says so: limits, lag and sampling are outside it. 2,000 of 2,000: docs/laws/theorem.md.
+    # No theorem says so: limits, lag and sampling are outside it. 2,000 of 2,000: docs/laws/theorem-appendix.md.
     flown = fp.simulate_ensemble(HEHN, fp.laws.almost_global(), fp.random_starts(100, 31), 15.0)
     assert flown.rate >= 0.99
 
 
-@pytest.mark.parametrize("name", ["repaired", "almost_global"])
+@pytest.mark.parametrize("name", PROVED)
 def test_v_never_rises_from_the_wide_box(name):
     found = descend(name, 60, 3)
     assert (found.converged, found.ended, found.rising) == (60, 0, 0)
     assert found.worst_rise < 1e-9
 
 
+@pytest.mark.parametrize(("vehicle", "lag"), [("hehn2011", 0.06), ("crazyflie", 0.072)])
+def test_v_never_rises_through_a_longer_lag(vehicle, lag):
+    found = descend("almost_global_lag", 32, 3, machine=fp.vehicle(vehicle).replace(rotor_lag=lag))
+    assert (found.converged, found.ended, found.rising) == (32, 0, 0)
+    assert found.worst_rise < 1e-9
+
+
+def test_rotors_that_lag_begin_at_forces_of_their_own():
+    forces = any_rotors(HEHN, 500, 3)
+    assert forces.shape == (500, 4)
+    assert 0 <= np.min(forces) < 0.01 * HEHN.weight
+    assert 0.49 * HEHN.weight < np.max(forces) <= 0.5 * HEHN.weight
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["repaired", "almost_global"])
+@pytest.mark.parametrize("name", PROVED)
 def test_v_never_rises_from_ten_thousand_wide_starts(name):
     found = descend(name, 10_000, 17)
     assert (found.converged, found.ended, found.rising) == (10_000, 0, 0)
     assert found.worst_rise < 1e-9
 
 
-LACKING = [name for name in laws() if name not in ("repaired", "almost_global")]
+LACKING = [name for name in laws() if name not in PROVED]
 SPINNING = "corrected, beta regularized"  # at 1e4 rad/s and more, which takes a minute
 
 

@@ -56,5 +56,6 @@ def _basin(out: Path, runs: int, seed: int, vehicle: str) -> None:
         found = measure_basin(model.vehicle(vehicle), runs, seed, progress=tell)
         found.save(folder / "basin.json")
     console.print(f"{found.vehicle}, {found.law} law, rotor limits, no lag; certified set V ≤ {found.c:.3g} m²/s²")
-    console.print(f"{found.entered} of {found.runs} random starts enter it, the last after {found.slowest:g} s.")
+    last = "" if found.slowest is None else f", the last after {found.slowest:g} s"
+    console.print(f"{found.entered} of {found.runs} random starts enter it{last}.")
     console.print(f"At 95 %, at least {100 * found.least:.5f} % of such starts do. Numbers are in {bold(out)}.")

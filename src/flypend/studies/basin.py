@@ -7,8 +7,9 @@ distribution of the starts, and k of n independent ones bound it from below (Clo
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,6 @@ from flypend.laws.certified import CertifiedSet
 from flypend.laws.closed_loop import lyapunov_function
 from flypend.model import State, Vehicle
 from flypend.plants import Ideal
-from flypend.report import text
 from flypend.studies.starts import check_starts
 
 CONFIDENCE = 0.95
@@ -52,8 +52,8 @@ class MeasuredBasin:
         Flights that enter.
     again : int
         Flights that were flown again, at tighter tolerances.
-    slowest : float
-        Longest time until a flight is inside, s; NaN if none is.
+    slowest : float, optional
+        Longest time until a flight is inside, s; None if none is.
     least : float
         Largest share p of which the flights say, at 95 %, that starts outside the basin are fewer than 1 − p.
     """
@@ -66,13 +66,13 @@ class MeasuredBasin:
     seed: int
     entered: int
     again: int
-    slowest: float
+    slowest: float | None
     least: float
 
     def save(self, path: str | Path) -> None:
         """Write the numbers to the file `path`, as JSON."""
         with whole.whole_file(path, (".json",)) as file:
-            text.write_json(file, self.__dict__)
+            file.write_text(json.dumps(asdict(self), indent=2) + "\n", encoding="utf-8")
 
 
 def measure_basin(
@@ -125,7 +125,7 @@ def measure_basin(
     entering = np.concatenate(times)
     entered = int(np.sum(np.isfinite(entering)))
     least = float(beta.ppf(1 - CONFIDENCE, entered, runs - entered + 1)) if entered else 0.0
-    slowest = float(np.nanmax(entering)) if entered else np.nan
+    slowest = float(np.nanmax(entering)) if entered else None
     return MeasuredBasin(
         vehicle.name, law.name, certified.c, certified.yaw_rate, runs, seed, entered, again, slowest, least
     )
@@ -140,10 +140,12 @@ def _entering(
     assert value is not None
     measures = []
     for rtol in (loose, tight):
-        packed = simulate_ensemble(
+        samples = simulate_ensemble(
             law.vehicle, law, starts, until, plant=Ideal(limits=True), rtol=rtol, times=times, judge_period=until,
             criterion=Criterion(position=np.inf),
-        ).samples.packed()  # fmt: skip
+        ).samples  # fmt: skip
+        assert samples is not None
+        packed = samples.packed()
         V = np.array(value(0.0, packed.reshape(-1, packed.shape[-1]).T, [])).reshape(packed.shape[:2])
         measures.append(np.stack([V / certified.c, np.abs(packed[..., 17]) / certified.yaw_rate]))
     rough, fine = measures

@@ -167,8 +167,11 @@ print(run.y[-1].round(3))  # it hangs
 import flypend as fp
 
 vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
-run = fp.simulate(vehicle, fp.laws.supervised(handover=4.0), hanging, duration=8)
-print(fp.metrics(run).success)
+law, plant = fp.laws.supervised(first=fp.laws.inverted()), fp.Ideal(limits=True)
+run = fp.simulate(vehicle, law, hanging, duration=8, plant=plant)
+print(
+    fp.metrics(run).success, run.t[run.signals["certified"] == 1][0]
+)  # s, at the handover
 
 # %% laws.learned
 import flypend as fp

@@ -1,5 +1,6 @@
 """The command line: what it writes is what the library computes; bad input is one line, code 2, and no trace."""
 
+import dataclasses
 import errno
 import importlib.metadata
 import json
@@ -24,6 +25,7 @@ from flypend.paper.claims import SETTLED, theorem_claims
 from flypend.pictures import animate, figures
 from flypend.report import paper
 from flypend.settings import runfile
+from flypend.studies.basin import measure_basin
 
 ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
 
@@ -716,3 +718,11 @@ def test_what_is_left_behind_names_its_law_relative_to_itself(call, tmp_path):
     left = tmp_path / "there" / "out" / "failed" / "fall-0.toml"
     assert str(tmp_path) not in left.read_text(encoding="utf-8")
     assert call("run", str(left), "--no-figures")[0] == 0
+
+
+def test_the_basin_is_that_of_the_library(call, tmp_path):
+    code, told, _ = call("theorem", "--basin", "--runs", "25", "--seed", "5", "-o", "out")
+    found = measure_basin(fp.vehicle("hehn2011"), 25, 5)
+    assert code == 0
+    assert json.loads((tmp_path / "out" / "basin.json").read_text(encoding="utf-8")) == dataclasses.asdict(found)
+    assert f"{found.entered} of 25" in told

@@ -1,4 +1,4 @@
-"""The command that checks the two theorems."""
+"""The command that checks the theorems."""
 
 from __future__ import annotations
 
@@ -6,21 +6,36 @@ from pathlib import Path
 
 import click
 
-from flypend.cli.options import out_option, style_option
+from flypend.cli.options import out_option, refuse_idle, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter
 
 
 @click.command()
 @out_option("theorem-out")
-@click.option("--runs", type=click.IntRange(min=1), default=200, help="Random flights of each law.")
+@click.option(
+    "--runs", type=click.IntRange(min=1), default=200, show_default="200; 100000 with --basin",
+    help="Random flights of each law.",
+)  # fmt: skip
 @click.option("--seed", type=click.IntRange(min=0), default=7, help="Seed of the random starts.")
+@click.option("--basin", is_flag=True, help="Count the random starts that end in the certified set, within limits.")
+@vehicle_option
 @style_option
-def theorem(out: Path, runs: int, seed: int, style: str) -> None:
+@click.pass_context
+def theorem(context: click.Context, out: Path, runs: int, seed: int, basin: bool, vehicle: str, style: str) -> None:
     """Fly both theorems and check every claim: Theorem 1 repaired, and the inverted pendulum.
 
     Writes V(t) with its terms, the regions of attraction with their exceptional sets, report.md and report.json.
     Printed, corrected and other laws that lack a part of the proof fly beside them as negative controls.
+
+    With --basin, measures the basin of the inverted law followed by Theorem B's, on --vehicle with rotor limits and
+    without lag, and writes basin.json.
     """
+    if basin:
+        refuse_idle("style", why="with --basin, which draws nothing")
+        given = context.get_parameter_source("runs") is click.core.ParameterSource.COMMANDLINE
+        _basin(out, runs if given else 100_000, seed, vehicle)
+        return
+    refuse_idle("vehicle", why="without --basin")
     from flypend.report.text import summary_table
     from flypend.report.theorem import check_theorems, descent_table
 
@@ -30,3 +45,17 @@ def theorem(out: Path, runs: int, seed: int, style: str) -> None:
     console.print(summary_table(result.almost_global, title="Theorem B: inverted from almost every start"))
     console.print(descent_table(result.descents))
     console.print(f"Report and figures are in {bold(out)}; docs/laws/theorem-proof.md has the proofs.")
+
+
+def _basin(out: Path, runs: int, seed: int, vehicle: str) -> None:
+    from flypend import model
+    from flypend.files.staging import staged
+    from flypend.studies.basin import measure_basin
+
+    with staged(out) as folder, counter() as tell:
+        found = measure_basin(model.vehicle(vehicle), runs, seed, progress=tell)
+        found.save(folder / "basin.json")
+    console.print(f"{found.vehicle}, {found.law} law, rotor limits, no lag; certified set V ≤ {found.c:.3g} m²/s²")
+    last = "" if found.slowest is None else f", the last after {found.slowest:g} s"
+    console.print(f"{found.entered} of {found.runs} random starts enter it{last}.")
+    console.print(f"At 95 %, at least {100 * found.least:.5f} % of such starts do. Numbers are in {bold(out)}.")

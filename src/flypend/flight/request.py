@@ -197,7 +197,7 @@ class Flight:
         """Raise InputError if rotors with limits cannot lift the vehicle."""
         vehicle = self.vehicle
         most = len(vehicle.rotor_spins) * vehicle.rotor_limits[1]
-        if isinstance(self.plant, Sampled) and self.plant.limits and most <= vehicle.weight:
+        if self.plant.limits and most <= vehicle.weight:
             told = f"{most:.4g} N from {len(vehicle.rotor_spins)} rotors"
             masses = f"mass {vehicle.mass:g} kg + bob_mass {vehicle.bob_mass:g} kg (not g)"
             wanted = f"rotors that lift it: more than its weight, {vehicle.weight:.4g} N with {masses}"
@@ -227,7 +227,7 @@ class Flight:
     @property
     def loop(self) -> Loop:
         """The part of the request that compiled code depends on."""
-        plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else Ideal(lag=self.plant.lag)
+        plant = self.plant.replace(seed=0) if isinstance(self.plant, Sampled) else replace(self.plant, rotors=None)
         return Loop(self.vehicle, self.law, plant, tuple(self.gains))
 
     @property
@@ -286,7 +286,7 @@ def _setter(record: Any) -> Any:
 def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
     """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
     if isinstance(plant, Ideal) and isinstance(law, Controller):
-        return Sampled(limits=False, lag=None if plant.lag else 0.0, rate=law.rate)
+        return Sampled(limits=plant.limits, lag=None if plant.lag else 0.0, rate=law.rate)
     return plant
 
 

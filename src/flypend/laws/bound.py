@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
@@ -19,6 +20,7 @@ from flypend.laws.guarantee import Guarantee, unmodelled
 from flypend.laws.located import LawError, Located, beginning, check_finite, innermost, is_own, wrench_of
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
+from flypend.model.allocation import allocate
 from flypend.model.state import FLIP_PACKED, SIZE, E3Direction
 
 TRIED = 2  # states in which a law of the user's own is evaluated at binding
@@ -128,6 +130,8 @@ class BoundLaw:
         noise (see `calmed`); None for a law that has no such gains.
     calm : float
         That share, of this law.
+    within_limits : bool
+        Whether `evaluate` keeps the wrench within what the rotors of `vehicle` give: see `limited`.
     """
 
     name: str
@@ -149,6 +153,7 @@ class BoundLaw:
     check: Callable[[Mapping[str, Any]], None] | None = None
     calmer: Callable[[float], BoundLaw] | None = None
     calm: float = 0.0
+    within_limits: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
@@ -193,6 +198,11 @@ class BoundLaw:
             return self
         found = self.calmer(share)
         return found if found.path is self.path else replace(found, path=self.path, reference=self.reference)
+
+    @cached_property
+    def limited(self) -> BoundLaw:
+        """The same law with its wrench kept within the rotor limits; one object, as long as the law itself lives."""
+        return replace(self, within_limits=True, theorem=None)
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -247,7 +257,12 @@ class BoundLaw:
         answer = Located(self.control, self.name) if is_own(self.control) else self.control
         control = answer(t, state, vehicle, given, *known, **followed)
         wrench = wrench_of(control, self.control, self.name)
-        return control if isinstance(control, Control) else Control(wrench=wrench)
+        if self.within_limits:
+            # The map between the frames is its own inverse.
+            stacked = ca.vertcat(wrench.thrust, wrench.moment) * (1 if self.e3 == "up" else FLIP_WRENCH)
+            forced = vehicle.mixing(self.e3) @ allocate(stacked[0], stacked[1:], vehicle)
+            wrench = Wrench(forced[0], forced[1:])
+        return replace(control, wrench=wrench) if isinstance(control, Control) else Control(wrench=wrench)
 
     def tried(self) -> BoundLaw:
         """Return the law itself. Raises LawError if its equations fail, or answer no finite wrench in random states."""

@@ -44,7 +44,8 @@ class Law:
     guard : Guard or callable, optional
         Where the law stops being defined, or a function of the gain values that returns it.
     computer : Computer or callable
-        Lead, prediction and observer around the law in a sampled flight, or a function of the gains that returns them.
+        Lead, prediction and observer around the law in a sampled flight, or a function that returns them, of the gains
+        and of what `prepare` computed.
     uses_forces : bool
         Whether the law compensates external forces.
     uses_wrench : bool
@@ -161,6 +162,7 @@ class Law:
 
     def _bind(self, vehicle: Vehicle) -> BoundLaw:
         gains = self.gains_for(vehicle)
+        prepared = {} if self.prepare is None else self.prepare(vehicle, gains)
         bound = BoundLaw(
             name=self.name,
             e3=self.e3,
@@ -168,9 +170,9 @@ class Law:
             control=self.control,
             table=self.gains,
             gains=gains,
-            prepared={} if self.prepare is None else self.prepare(vehicle, gains),
+            prepared=prepared,
             guard=self.guard(gains) if callable(self.guard) else self.guard,
-            computer=self.computer(gains) if callable(self.computer) else self.computer,
+            computer=self.computer({**prepared, **gains}) if callable(self.computer) else self.computer,
             uses_forces=self.uses_forces,
             uses_wrench=self.uses_wrench,
             reference=self.reference,

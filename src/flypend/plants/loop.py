@@ -37,7 +37,8 @@ class Loop:
     def __post_init__(self) -> None:
         object.__setattr__(self, "vehicle", self.vehicle.commanded())
         if isinstance(self.law, BoundLaw):
-            object.__setattr__(self, "law", calmed(self.law, self.plant))
+            limited = isinstance(self.plant, Ideal) and self.plant.limits
+            object.__setattr__(self, "law", self.law.limited if limited else calmed(self.law, self.plant))
 
     @property
     def symbolic(self) -> BoundLaw:

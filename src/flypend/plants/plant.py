@@ -103,13 +103,15 @@ _KINDS: tuple[tuple[str, Any, str], ...] = (
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Ideal:
-    """The ideal plant of the theorems: continuous time, no limits, and the wrench acts as commanded or after a lag.
+    """The ideal plant of the theorems: continuous time. The wrench acts as commanded, or within limits or after a lag.
 
     Parameters
     ----------
+    limits : bool
+        Whether commands are kept within `vehicle.rotor_limits`; priority: roll and pitch, thrust, yaw.
     lag : bool
         Whether every rotor's force follows its command through the first-order lag of the vehicle, `rotor_lag`; so do
-        thrust and moment, whose commands have no limits and either sign.
+        thrust and moment. Without limits, commands have either sign.
     rotors : array, optional
         With `lag`, forces of the n rotors at the start, N: (n,) for all runs, or (runs, n) for each. Default: their
         minimum.
@@ -120,12 +122,14 @@ class Ideal:
         If a field is not of this kind.
     """
 
+    limits: bool = False
     lag: bool = False
     rotors: Any = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.lag, bool):
-            raise InputError("plant.lag", "true or false", repr(self.lag))
+        for name in ("limits", "lag"):
+            if not isinstance(getattr(self, name), bool):
+                raise InputError(f"plant.{name}", "true or false", repr(getattr(self, name)))
         if self.rotors is None:
             return
         if not self.lag:

@@ -1,0 +1,153 @@
+"""The basin of inverted hover within rotor limits, as a number: how many random starts end in the certified set.
+
+A flight of any law that enters the set of Theorem C converges if the almost global law takes over there
+(`laws.supervised`). So the share of starts whose flights enter is the measure of the composite's basin under the
+distribution of the starts, and k of n independent ones bound it from below (Clopper and Pearson, 1934).
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from flypend import errors
+from flypend.files import whole
+from flypend.flight.criterion import Criterion
+from flypend.flight.ensemble import simulate_ensemble
+from flypend.geometry import Numbers
+from flypend.laws import BoundLaw, Law, almost_global, inverted
+from flypend.laws.certified import CertifiedSet
+from flypend.laws.closed_loop import lyapunov_function
+from flypend.model import State, Vehicle
+from flypend.plants import Ideal
+from flypend.studies.starts import check_starts
+
+CONFIDENCE = 0.95
+CHUNK = 20_000  # flights at a time: 70 MB of states
+TICK = 0.5  # s, how often a flight is asked whether it is in the set
+# A flight counts as inside if it still is after SAFETY times what a looser tolerance changes. Those that are not are
+# flown again, longer and at tighter ones: until (s), tolerance, tighter tolerance.
+SAFETY = 10.0
+PASSES = ((10.0, 1e-6, 1e-8), (40.0, 1e-9, 1e-11))
+
+
+@dataclass(frozen=True)
+class MeasuredBasin:
+    """How many of `runs` random starts end in the certified set.
+
+    Parameters
+    ----------
+    vehicle, law : str
+        Names of the vehicle and of the law that flies until the set is entered.
+    c, yaw_rate : float
+        The certified set, m²/s² and rad/s.
+    runs, seed : int
+        Starts, drawn like `random_starts`, and their seed.
+    entered : int
+        Flights that enter.
+    again : int
+        Flights that were flown again, at tighter tolerances.
+    slowest : float, optional
+        Longest time until a flight is inside, s; None if none is.
+    least : float
+        Largest share p of which the flights say, at 95 %, that starts outside the basin are fewer than 1 − p.
+    """
+
+    vehicle: str
+    law: str
+    c: float
+    yaw_rate: float
+    runs: int
+    seed: int
+    entered: int
+    again: int
+    slowest: float | None
+    least: float
+
+    def save(self, path: str | Path) -> None:
+        """Write the numbers to the file `path`, as JSON."""
+        with whole.whole_file(path, (".json",)) as file:
+            file.write_text(json.dumps(asdict(self), indent=2) + "\n", encoding="utf-8")
+
+
+def measure_basin(
+    vehicle: Vehicle,
+    runs: int,
+    seed: int,
+    *,
+    first: Law | None = None,
+    progress: Callable[[str, int, int], Any] = lambda *_: None,
+) -> MeasuredBasin:
+    """Fly `runs` random starts within the rotor limits of `vehicle` until they are in the certified set.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        One that Theorem B models.
+    runs, seed : int
+        Number of starts, and their seed.
+    first : Law, optional
+        A law with e₃ up; default `inverted`.
+    progress : callable
+        Called with (task, done, total).
+
+    Raises
+    ------
+    InputError
+        If runs or seed are invalid, the law has e₃ down, the theorem does not cover the vehicle, or one of the extras
+        "proof" and "studies" is missing.
+    """
+    errors.require("scipy", extra="studies", for_="basin")
+    from scipy.stats import beta  # slow to import
+
+    check_starts(runs, seed)
+    law = (first or inverted()).bind(vehicle)
+    errors.one_of("first.e3", law.e3, ("up",))
+    progress("proving the certified set", 0, 1)
+    certified = almost_global().bind(vehicle).certified_set()
+    times, again = [], 0
+    for begin in range(0, runs, CHUNK):
+        progress("flying", begin, runs)
+        rng = np.random.default_rng((seed, begin // CHUNK))
+        starts = State.random(rng, CHUNK)[: runs - begin]
+        found = _entering(law, certified, starts, *PASSES[0])
+        left = np.flatnonzero(np.isnan(found))
+        if len(left):
+            again += len(left)
+            found[left] = _entering(law, certified, starts[left], *PASSES[1])
+        times.append(found)
+    progress("flying", runs, runs)
+    entering = np.concatenate(times)
+    entered = int(np.sum(np.isfinite(entering)))
+    least = float(beta.ppf(1 - CONFIDENCE, entered, runs - entered + 1)) if entered else 0.0
+    slowest = float(np.nanmax(entering)) if entered else None
+    return MeasuredBasin(
+        vehicle.name, law.name, certified.c, certified.yaw_rate, runs, seed, entered, again, slowest, least
+    )
+
+
+def _entering(
+    law: BoundLaw, certified: CertifiedSet, starts: State, until: float, loose: float, tight: float
+) -> Numbers:
+    """Return the times (n,), s, at which flights from `starts` (n,) are inside for sure; NaN for none up to `until`."""
+    times = np.arange(TICK, until + TICK / 2, TICK)
+    value = lyapunov_function(certified.law.vehicle, certified.law)
+    assert value is not None
+    measures = []
+    for rtol in (loose, tight):
+        samples = simulate_ensemble(
+            law.vehicle, law, starts, until, plant=Ideal(limits=True), rtol=rtol, times=times, judge_period=until,
+            criterion=Criterion(position=np.inf),
+        ).samples  # fmt: skip
+        assert samples is not None
+        packed = samples.packed()
+        V = np.array(value(0.0, packed.reshape(-1, packed.shape[-1]).T, [])).reshape(packed.shape[:2])
+        measures.append(np.stack([V / certified.c, np.abs(packed[..., 17]) / certified.yaw_rate]))
+    rough, fine = measures
+    inside = np.all(fine + SAFETY * np.abs(fine - rough) <= 1, axis=0)  # false after a flight's end, which is NaN
+    return np.where(np.any(inside, axis=1), times[np.argmax(inside, axis=1)], np.nan)

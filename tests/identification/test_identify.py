@@ -71,6 +71,15 @@ def test_bands_hold_the_truth_and_say_more_than_the_guess(found):
         assert high - low < 0.1 * GUESS.rod_length
 
 
+def test_gusts_are_as_strong_as_found_and_leave_the_bob_alone(found):
+    """Gusts found too strong on the bob take the place of its mass: then it comes out 5 % off, outside its band."""
+    noises = found._fit.noises
+    on_vehicle, on_bob = np.sqrt(noises.driving[4:] / (1 - noises.decay**2))
+    assert on_vehicle == pytest.approx(PLANT.wind.gust_on_vehicle, rel=0.2)  # of 20 s: some 5 % by chance
+    assert on_bob < 0.1 * PLANT.wind.gust_on_vehicle  # there are none
+    assert inside(found, "bob_mass", TRUE.bob_mass)
+
+
 def test_the_machine_carries_its_bands_and_the_plant_its_rotors(found):
     assert dict(found.vehicle.bands) == found.bands
     assert found.vehicle.thrust_scale == pytest.approx(SCALE, rel=0.04)  # of which sag takes its share

@@ -132,3 +132,14 @@ def test_another_machines_log_is_refused(log):
         fp.identify(log, six)
     with pytest.raises(InputError, match=r"no-such\.csv"):
         fp.identify("no-such.csv", GUESS)
+
+
+@pytest.mark.slow
+def test_bands_hold_on_logs_that_mujoco_flew():
+    """Two machines of the benchmark, which counts more; 20 numbers each, of which a twentieth may be outside."""
+    from benchmarks.identified import identified
+
+    for k in range(2):
+        found = identified(k, 11, 30, "mujoco")
+        missed = [name for name, held in found["held"].items() for one in held if not one]
+        assert len(missed) <= 5, missed  # six or more once in 70 pairs of logs

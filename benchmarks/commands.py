@@ -41,6 +41,7 @@ LINES = (
     "flypend export-c --precision float",
     "flypend export-app crazyflie crazyflie --out app",
     "flypend learn --updates 20",
+    "flypend vehicle new --mass 620g --arm 17cm --propeller 8x4.5 --rod-length 90cm --bob-mass 40g",
     "flypend identify flight.csv --rehearse --duration 20",
 )
 FOR_OTHERS = LINES[:2]

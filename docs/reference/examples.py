@@ -103,6 +103,15 @@ vehicle = fp.vehicle("hehn2011").replace(mass=0.62, rotor_lag=0.035, mount="hub"
 print(vehicle.weight, vehicle.l)  # N, m
 print(fp.Vehicle(**vehicle.to_dict()) == vehicle)
 print(vehicle.to_mjcf().splitlines()[0])  # for MuJoCo
+parts = {
+    "mass": "620 g",
+    "arm": "17 cm",
+    "propeller": "8x4.5",
+    "motor": "920 KV",
+    "battery": "3S",
+}
+mine = fp.Vehicle.estimate(**parts, rod_length="90 cm", rod_mass=0.03, bob_mass=0.04)
+print(mine.inertia.diagonal(), mine.bands["inertia"])  # a guess, and its band
 
 # %% Body | machine.png: hehn2011 to scale: discs, arms, and the gaps between them
 import flypend as fp

@@ -43,6 +43,9 @@ NEEDED = {
     "run": ["run.toml", "--no-figures"], "sweep": ["study.toml", "-o", "s.zarr"], "map": ["study.toml"],
     "tune": ["study.toml"], "check": ["hehn2011"], "replay": ["run.nc"], "movie": ["run.nc"], "figures": ["run.nc"],
     "lab": ["--no-browser"], "export-app": ["crazyflie", "crazyflie"], "identify": ["log.csv", "--rehearse"],
+    "vehicle": [
+        "new", "--mass", "0.6", "--arm", "0.17", "--propeller", "8x4.5", "--rod-length", "1", "--bob-mass", "0.04",
+    ],
 }  # fmt: skip
 # Where work begins.
 WORK = (

@@ -71,6 +71,15 @@ def test_bands_hold_the_truth_and_say_more_than_the_guess(found):
         assert high - low < 0.1 * GUESS.rod_length
 
 
+def test_gusts_are_as_strong_as_found_and_leave_the_bob_alone(found):
+    """Gusts found too strong on the bob take the place of its mass: then it comes out 5 % off, outside its band."""
+    noises = found._fit.noises
+    on_vehicle, on_bob = np.sqrt(noises.driving[4:] / (1 - noises.decay**2))
+    assert on_vehicle == pytest.approx(PLANT.wind.gust_on_vehicle, rel=0.2)  # of 20 s: some 5 % by chance
+    assert on_bob < 0.1 * PLANT.wind.gust_on_vehicle  # there are none
+    assert inside(found, "bob_mass", TRUE.bob_mass)
+
+
 def test_the_machine_carries_its_bands_and_the_plant_its_rotors(found):
     assert dict(found.vehicle.bands) == found.bands
     assert found.vehicle.thrust_scale == pytest.approx(SCALE, rel=0.04)  # of which sag takes its share
@@ -123,3 +132,14 @@ def test_another_machines_log_is_refused(log):
         fp.identify(log, six)
     with pytest.raises(InputError, match=r"no-such\.csv"):
         fp.identify("no-such.csv", GUESS)
+
+
+@pytest.mark.slow
+def test_bands_hold_on_logs_that_mujoco_flew():
+    """Two machines of the benchmark, which counts more; 20 numbers each, of which a twentieth may be outside."""
+    from benchmarks.identified import identified
+
+    for k in range(2):
+        found = identified(k, 11, 30, "mujoco")
+        missed = [name for name, held in found["held"].items() for one in held if not one]
+        assert len(missed) <= 5, missed  # six or more once in 70 pairs of logs

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from flypend.errors import InputError
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.identification.log import NEEDED, parse_log
+from flypend.identification.log import CRAZYFLIE, NEEDED, parse_log
 
 NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
 
@@ -40,6 +40,26 @@ def test_every_cell_is_read_where_it_stands():
     assert log.rod[7] == pytest.approx([cell["rx"], cell["ry"], cell["rz"]], rel=1e-12)  # made of length 1 again
     quaternion = np.array([cell["qx"], cell["qy"], cell["qz"], cell["qw"]])
     assert log.rotation[7] == pytest.approx(rotation_from_quat_xyzw(quaternion), abs=1e-12)
+
+
+def test_a_crazyflie_s_log_is_the_same_in_its_names_and_units():
+    rows = table()
+    ours = parse_log(text(rows))
+    header = {name: (theirs, unit) for theirs, (name, unit) in CRAZYFLIE.items()}
+    places = [i for i, name in enumerate(NAMES) if name in header]
+    theirs = [[header[NAMES[i]][0] for i in places]]
+    theirs += [[repr(float(row[i]) / header[NAMES[i]][1]) for i in places] for row in rows[1:]]
+    log = parse_log(text(theirs))
+    assert {"locSrv.x", "gyro.z", "motor.m4"} <= set(theirs[0])
+    for name in ("t", "position", "rotation", "gyro", "force", "command"):
+        assert getattr(log, name) == pytest.approx(getattr(ours, name), rel=1e-12, abs=1e-12)
+    assert log.gyro[5, 1] == pytest.approx(np.radians(float(theirs[6][theirs[0].index("gyro.y")])))  # it logs deg/s
+    theirs[0][0] = "tick"
+    with pytest.raises(InputError, match="row 1, column"):
+        parse_log(text(theirs))
+    theirs[0][:2] = "timestamp", "stateEstimateZ.x"
+    with pytest.raises(InputError, match=r"stateEstimateZ\.x"):
+        parse_log(text(theirs))
 
 
 def test_empty_cells_are_no_readings_and_commands_are_held():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,6 +42,7 @@ from flypend.errors import InputError, require
 
 if TYPE_CHECKING:
     from flypend.flight.request import Flight
+    from flypend.plants import AnyPlant
 
 
 class _Commands(click.Group):
@@ -276,6 +277,7 @@ def compare(
     "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
 )
 @click.option("--sensors", help="Fly what may be wrong with these sensors instead: mocap or onboard.")
+@click.option("--bands", is_flag=True, help="Fly vehicles drawn from the bands of --vehicle instead.")
 def ladder(
     law: tuple[str, ...],
     out: Path,
@@ -286,16 +288,23 @@ def ladder(
     duration: float,
     rung: tuple[str, ...],
     sensors: str | None,
+    bands: bool,
 ) -> None:
     """Find what breaks each law: limits, lag, motors, air, sampling, delay, noise, wrong models, or several at once."""
     from flypend.files.staging import check_writable
-    from flypend.plants import plant
+    from flypend.plants import plant, sampled_plant
     from flypend.report.studies import ladder_table, write_ladder
+    from flypend.settings.runfile import plant_of
     from flypend.studies import ladder as climb
+    from flypend.studies.bands import worlds_within
     from flypend.studies.ladder import rung_named, rungs_for, sensor_rungs
 
     laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
-    rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
+    if bands:
+        world = sampled_plant(plant_of(plant_asked("rotors", sensors or "perfect")))
+        rungs: Mapping[str, AnyPlant] = worlds_within(machine, world, seed)
+    else:
+        rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
     chosen = {
         name: rung_named(name, rungs)
         for name in rung or rungs

@@ -1,9 +1,9 @@
-"""The command that finds a machine's numbers in a flight log."""
+"""The commands that find a machine's numbers: from its parts, and in a flight log."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,6 +12,48 @@ from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
     from flypend.identification import Command
+
+
+@click.group(invoke_without_command=True)
+@click.pass_context
+def vehicle(context: click.Context) -> None:
+    """Describe a machine of your own: flypend vehicle new."""
+    if context.invoked_subcommand is None:
+        raise click.UsageError("Missing command: new")
+
+
+@vehicle.command()
+@click.option("--mass", required=True, help="Without the rod, battery included: 0.62, 620g.")
+@click.option("--arm", required=True, help="From the centre to a rotor: 0.17, 17cm.")
+@click.option("--propeller", required=True, help="Inches 10x4.5 or 1045, a diameter 254mm, or a name.")
+@click.option("--rod-length", required=True, help="From the pivot to the end of the rod: 0.9, 90cm.")
+@click.option("--rod-mass", default="0", help="Of a uniform rod.")
+@click.option("--bob-mass", default="0", help="At the end of the rod.")
+@click.option("--motor", help="Speed per volt, 920KV, or a name; with --battery.")
+@click.option("--battery", help="Cells, 4S, or volts.")
+@click.option("--thrust", help="Largest force of one rotor, if measured: 8, 820gf.")
+@click.option("--inertia", nargs=3, type=float, help="Principal moments, if known, kg m².")
+@click.option("--rotors", default=4, help="At equal angles.")
+@click.option("--mount", default="gimbal", help="gimbal, hub or cup.")
+@out_option("mine.toml", "The vehicle, with bands and sources.")
+def new(out: Path, **measured: Any) -> None:
+    """Write a vehicle from what a scale, a ruler and its parts tell; every other number is a guess with a band.
+
+    Quantities are SI numbers or have a unit: 620g, 17cm, 820gf.
+    """
+    from flypend.files.whole import check_file, whole_file
+    from flypend.model import Vehicle
+    from flypend.model.estimate import guess
+
+    check_file(out, (".toml",))
+    found = guess(**measured, name=out.stem)
+    machine = Vehicle(**found.fields)
+    with whole_file(out, (".toml",)) as partial:
+        partial.write_text(found.text(), encoding="utf-8")
+    surplus = len(machine.rotor_spins) * machine.rotor_limits[1] / machine.weight
+    console.print(f"{machine!r}", markup=False, highlight=False, soft_wrap=True)
+    console.print(f"Its rotors push {surplus:.2g} times its weight, by this guess.")
+    console.print(f"The vehicle is in {bold(out)}; next: flypend identify flight.csv --vehicle {out}", soft_wrap=True)
 
 
 @click.command()
@@ -68,4 +110,4 @@ def identify(
     console.print(f"The machine is in {bold(out)}.")
 
 
-COMMANDS = (identify,)
+COMMANDS = (vehicle, identify)

@@ -21,10 +21,12 @@ from flypend.identification.rotors import Forces
 
 SEGMENT = 2.0  # s, over which scores are summed: some correlation times of gusts and swings
 SETTLING = 1.0  # s at the beginning, in which the filter finds the state; they do not count
+BLOCK = 10.0  # s, over which later readings tell of a gust; memory grows with it
 GATE = 6.0  # standard deviations beyond which a channel's reading is taken to be of something else
 GUST_TIME = 1.0  # s
-# Power of the ratio by which what drives is corrected: prediction errors feel a part of an error of a slow gust.
-HASTE = 2.0
+# Power of the ratio by which what drives is corrected: scores feel a part of an error of a slow gust.
+HASTE = 1.5
+ABSENT = 0.6  # a ratio below which the noise is probably none; it leaves twice as fast
 # Parts of a local error of the state that share one density of noise.
 NOISY = {
     "x": slice(0, 3), "x_dot": slice(3, 6), "phi": slice(6, 9), "omega": slice(9, 11), "omega_3": slice(11, 12),
@@ -113,18 +115,18 @@ def run_filter(
     R, Q = noises.matrices()
     (s, gusts, P), D = _beginning(grid, R, noises), np.zeros((LOCAL, p))
     information, settled = np.zeros((p, p)), round(SETTLING / h)
-    per_segment = max(1, round(SEGMENT / h))
+    per_segment, per_block = max(1, round(SEGMENT / h)), round(BLOCK / h)
     scores = np.zeros((count // per_segment + 1, p))
     errors, spreads = np.full((count, 15), np.nan), np.full((count, 15), np.nan)
     there = np.repeat(grid.counts > 0, 3, axis=1)
     variances = R / np.repeat(np.maximum(grid.counts, 1), 3, axis=1)
-    moved_sum, gained_sum, refused = np.zeros(LOCAL), np.zeros(LOCAL), 0
+    back, refused = _Backward(), 0
     F, A, B = np.eye(LOCAL), np.zeros((LOCAL, LOCAL)), np.zeros((LOCAL, p))
     eye, e_all, nothing = np.eye(LOCAL), np.zeros(15), np.zeros(LOCAL)
     for k in range(count):
         if k % 500 == 0:
             signals.poll()
-        correction, seen = nothing, there[k]
+        correction, seen, told, kept = nothing, there[k], None, eye
         if seen.any():
             z, H_all = programs.read(s, gusts, forces.now[k], grid.age[k], moving, reading)
             H_all, y = H_all.reshape(-1, 15).T, grid.values[k]
@@ -156,11 +158,13 @@ def run_filter(
                 information += J.T @ weighed
                 scores[k // per_segment] += e @ weighed
                 errors[k, rows], spreads[k, rows] = e, S.diagonal()
-                moved_sum += correction**2  # E[K e eᵀ Kᵀ] = P before − P after
-                gained_sum += (K * PHt).sum(axis=1)
+                told = (H.T @ (S_inv @ e), H.T @ S_inv @ H)
+            kept = eye - K @ H
             P = P - K @ PHt.T
             D = D - K @ J
         if k + 1 == count:
+            back.add(told, kept)
+            back.close()
             break
         s, gusts, by = programs.move(
             s, gusts, correction, forces.mean[k], forces.change[k], h, noises.decay, moving
@@ -174,18 +178,45 @@ def run_filter(
         across = np.eye(3) - s[18:21, None] * s[18:21]  # what was along the rod is gone: it is a unit vector
         for part in (slice(12, 15), slice(15, 18)):
             F[part], added[part] = across @ F[part], across @ added[part]
+        back.add(told, F @ kept)
+        if (k + 1) % per_block == 0:
+            back.close()
         P = F @ P @ F.T
         P = (P + P.T) / 2
         P.flat[:: LOCAL + 1] += Q
         D = F @ D + added
-    ratio = np.array([moved_sum[NOISY[name]].sum() / gained_sum[NOISY[name]].sum() for name in DRIVEN])
+    ratio = np.array([back.found[NOISY[name]].sum() / back.expected[NOISY[name]].sum() for name in DRIVEN])
     ratio[[name not in SOUGHT for name in DRIVEN]] = 1.0
-    told = Noises(
-        noises.reading,
-        noises.driving * np.clip(ratio**HASTE, 0.1, 10),
-        noises.decay,
-    )
-    return Pass(information, scores, told, errors, np.sqrt(spreads), refused)
+    change = np.clip(ratio ** np.where(ratio < ABSENT, 2 * HASTE, HASTE), 1e-3, 10)
+    better = Noises(noises.reading, noises.driving * change, noises.decay)
+    return Pass(information, scores, better, errors, np.sqrt(spreads), refused)
+
+
+class _Backward:
+    """Scores of the noise that drives, by the adjoint of the filter (de Jong, "Smoothing and interpolation", 1989).
+
+    With r the gradient of the log-likelihood of later readings by the predicted state, and N its variance if the model
+    is right, the likelihood is stationary in the noise of a step where the sums of r² and of N are equal.
+    """
+
+    def __init__(self) -> None:
+        self.found, self.expected = np.zeros(LOCAL), np.zeros(LOCAL)
+        self._steps: list[tuple[Any, Any]] = []
+
+    def add(self, told: tuple[Any, Any] | None, onward: Any) -> None:
+        """Keep a step: (Hᵀ S⁻¹ e, Hᵀ S⁻¹ H) of its readings, and F (1 − K H)."""
+        self._steps.append((told, onward))
+
+    def close(self) -> None:
+        """Go back over the steps kept, and forget them."""
+        r, N = np.zeros(LOCAL), np.zeros((LOCAL, LOCAL))
+        for told, onward in reversed(self._steps):
+            r, N = onward.T @ r, onward.T @ N @ onward
+            if told is not None:
+                r, N = r + told[0], N + told[1]
+            self.found += r**2
+            self.expected += N.diagonal()
+        self._steps = []
 
 
 def _beginning(grid: Grid, R: Numbers, noises: Noises) -> tuple[Any, Any, Any]:

@@ -28,10 +28,8 @@ READ = {"position": 2e-3, "attitude": 5e-3, "gyro": 2e-2, "force": 0.3, "rod": 5
 # ... and of what drives, in 1 s, with which the search begins: m/s, rad/s (tilt and yaw), 1/s, and gusts over weight.
 DRIVE = (5e-3, 0.3, 0.1, 0.01)
 GUST = 0.02
-ON_BOB = (
-    4.0  # gusts on the bob over those of its share in the mass: too small ones bias its mass, too large ones do not
-)
-QUIETEST = 1e-6  # of a variance, over that with which the search begins
+ON_BOB = 4.0  # gusts on the bob over those of its share in the mass, where the search begins
+QUIETEST = 1e-4  # of a variance, over that with which the search begins
 
 
 @dataclass(frozen=True)

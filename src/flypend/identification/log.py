@@ -22,6 +22,16 @@ FORCE = ("ax", "ay", "az")
 ROD = ("rx", "ry", "rz")
 NEEDED = ("t", *POSE, *GYRO)
 OPTIONAL = (*FORCE, *ROD, "vbat")
+# The Crazyflie's log variables, as cflib and cfusdlog name them, by our columns with the unit of each; `locSrv` is the
+# pose that it was sent. Commands are fractions of 65535.
+CRAZYFLIE = {
+    "timestamp": ("t", 1e-3),
+    "pm.vbat": ("vbat", 1.0),
+    **{f"{group}.{name}": (name, 1.0) for group in ("stateEstimate", "locSrv") for name in POSE},
+    **{f"gyro.{axis}": (f"g{axis}", np.pi / 180) for axis in "xyz"},
+    **{f"acc.{axis}": (f"a{axis}", 9.81) for axis in "xyz"},
+    **{f"motor.m{i}": (f"u{i}", 1 / 65535) for i in range(1, 5)},
+}
 SHORTEST = 10.0  # s; a rod of half a metre swings seven times
 SLOWEST = 50.0  # Hz; the rotation answers a kick within some 20 ms
 LONGEST_GAP = 0.5  # s without any row, over which no prediction is worth its name
@@ -82,17 +92,29 @@ def read_log(path: str | Path) -> Log:
 
 
 def parse_log(text: str, field: str = "log") -> Log:
-    """Read a log from the `text` of a CSV file, `field` in messages. Raises InputError that names row and column."""
+    """Read a log from the `text` of a CSV file, `field` in messages. Raises InputError that names row and column.
+
+    With a column `timestamp`, columns have the names and units of `CRAZYFLIE`.
+    """
     rows = csv.reader(io.StringIO(text.rstrip(), newline=""), strict=True)
     try:
         names = [name.strip() for name in next(rows, [])]
+        units = np.ones(len(names))
+        if "timestamp" in names:
+            names, units = _of_crazyflie(names, field)
         rotors = _check_header(names, field)
         table = [_numbers(row, names, number, field) for number, row in zip(count(2), rows, strict=False)]
     except csv.Error as error:
         raise InputError(field, f"CSV (line {rows.line_num})", error) from None
-    values = np.array(table, dtype=float).reshape(len(table), len(names))
+    values = np.array(table, dtype=float).reshape(len(table), len(names)) * units
     columns = dict(zip(names, values.T, strict=True))
     return _checked(columns, rotors, field)
+
+
+def _of_crazyflie(names: list[str], field: str) -> tuple[list[str], Any]:
+    """Return our names of a Crazyflie's columns, and their units. Raises InputError for a column that is unknown."""
+    found = [CRAZYFLIE[errors.one_of(f"{field}, row 1, column", name, CRAZYFLIE)] for name in names]
+    return [name for name, _ in found], np.array([unit for _, unit in found])
 
 
 def _check_header(names: list[str], field: str) -> int:

@@ -9,7 +9,7 @@ import numpy as np
 
 from flypend.geometry import Numbers
 from flypend.identification.model import MOVING, READING, sizes, split
-from flypend.identification.rotors import rotor_table
+from flypend.identification.rotors import patterns, rotor_table
 from flypend.model import Vehicle
 
 # Standard deviation of a guess: of its logarithm, for what is positive and of unknown size ...
@@ -22,6 +22,8 @@ PLAIN = {
     "pivot_offset": 5e-3, "scale": 0.15, "shares": 0.05, "sag": 0.05, "delay": 0.02, "latency": 0.01, "gyro_bias": 0.05,
     "force_bias": 0.3, "misalignment": 0.02, "curve": 0.3,
 }  # fmt: skip
+FIELDS = {"scale": "thrust_scale", "lag": "rotor_lag", "shares": "strength"}  # of a vehicle's bands, by name here
+NORMAL_975 = 1.96  # standard deviations from the middle of a band of 95 % to its end
 LAG, DELAY, SAG, PWM_CURVE = 0.04, 0.01, 0.03, 0.7  # where a search begins if the guess says nothing
 LEAST, MOST = {"delay": 0.0, "sag": 0.0, "curve": 0.0}, {"delay": 0.2, "sag": 0.25, "curve": 1.0}
 DRAG_TIME, WIND = 5.0, 0.03  # s in which drag stops a machine; steady wind over weight
@@ -86,22 +88,35 @@ def places(of: dict[str, int]) -> dict[str, slice]:
 
 
 def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
-    """Return the search that begins at `vehicle`; with `pwm` the thrust curve is searched too."""
+    """Return the search that begins at `vehicle`; with `pwm` the thrust curve is searched too.
+
+    Bands of the vehicle are what is known before; numbers without one have the usual spreads.
+    """
     n = len(vehicle.rotor_spins)
     hover = vehicle.weight / n
     drag = vehicle.weight / vehicle.gravity / DRAG_TIME / n / np.sqrt(hover)
     known = 0.0 if vehicle.air is None else vehicle.air.rotor_drag
-    given = {
+    given: dict[str, Any] = {
         "rod_length": vehicle.rod_length, "bob_mass": vehicle.bob_mass, "inertia": np.diag(vehicle.inertia),
         "drag_ratio": vehicle.drag_ratio, "pivot_offset": vehicle.pivot_offset, "rotor_drag": known,
         "lag": vehicle.rotor_lag or LAG, "spin_up": 1.0, "sag": SAG, "delay": DELAY,
-        "curve": PWM_CURVE if pwm else 0.0,
+        "curve": PWM_CURVE if pwm else 0.0, "scale": np.log(vehicle.thrust_scale),
     }  # fmt: skip
-    spreads = {**RATIOS, **PLAIN, "rotor_drag": drag, "wind": WIND * vehicle.weight}
+    spreads: dict[str, Any] = {**RATIOS, **PLAIN, "rotor_drag": drag, "wind": WIND * vehicle.weight}
+    for name in spreads:
+        if (field := FIELDS.get(name, name)) in (vehicle.bands or {}):
+            low, high = (np.array(end) for end in vehicle.bands[field])
+            logarithmic = name in RATIOS or name in ("scale", "shares")
+            spreads[name] = (np.log(high / low) if logarithmic else high - low) / (2 * NORMAL_975)
+            if name in ("spin_up", "sag", "delay", "latency"):  # no fields of a vehicle: the band's middle
+                given[name] = (low + high) / 2
+            if name == "shares":
+                given[name], spreads[name] = patterns(n).T @ np.log(low * high) / 2, spreads[name].mean()
     of = table(n)
     fixed = {*(() if pwm else ("curve",)), *(() if accelerometer else ("force_bias",))}
     parts = [
-        (np.broadcast_to(given.get(name, 0.0), size), np.full(size, 0.0 if name in fixed else spreads[name]),
+        (np.broadcast_to(given.get(name, 0.0), size),
+         np.broadcast_to(0.0 if name in fixed else spreads[name], size).astype(float),
          np.full(size, name in RATIOS))
         for name, size in of.items()
     ]  # fmt: skip

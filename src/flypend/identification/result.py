@@ -11,7 +11,7 @@ from flypend import errors
 from flypend.geometry import Numbers
 from flypend.identification.fit import Fit
 from flypend.identification.model import CHANNELS, PLACES
-from flypend.identification.numbers import places
+from flypend.identification.numbers import FIELDS, places
 from flypend.identification.rotors import patterns
 from flypend.model import Vehicle
 from flypend.plants.plant import Plant
@@ -19,9 +19,8 @@ from flypend.plants.plant import Plant
 # Student's t with as many degrees of freedom as scores of segments, 30 in a minute, at 97.5 %.
 T_975 = 2.05
 TOLD = 0.5  # of the guess's standard deviation; a log that leaves more has told next to nothing
-# Numbers that are known but for the mass, as no log tells masses and forces apart; and their fields.
+# Numbers that are known but for the mass, as no log tells masses and forces apart.
 WITH_MASS = ("bob_mass", "inertia", "scale", "rotor_drag")
-FIELDS = {"scale": "thrust_scale", "lag": "rotor_lag", "shares": "strength"}
 WHITE = 0.1  # autocorrelation beyond which prediction errors are called coloured
 MORE = {
     "rod_length": "let the rod swing by 20° and more, once a few seconds",
@@ -73,7 +72,7 @@ class Identified:
         for name, (low, high) in self.bands.items():
             for i, (a, b) in enumerate(zip(np.ravel(low), np.ravel(high), strict=True)):
                 label = name if np.size(low) == 1 else f"{name}[{i}]"
-                said = "  the log does not tell" if name in self.untold else ""
+                said = "  as known before" if name in self.untold else ""
                 lines.append(f"{label:16s} {(a + b) / 2:12.5g}   {a:.5g} to {b:.5g}{said}")
         low, high = self.torque_over_inertia
         lines.append(f"{'drag_ratio / I_3':16s} {(low + high) / 2:12.5g}   {low:.5g} to {high:.5g}")

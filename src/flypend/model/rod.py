@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from flypend import errors
 from flypend.geometry import Vector
-from flypend.model.vehicle import Vehicle
 
 
 @errors.named_arguments
@@ -34,12 +35,12 @@ def rod_with_bob(mass: float, length: float, bob_mass: float) -> dict[str, float
     }
 
 
-def is_point(vehicle: Vehicle) -> bool:
+def is_point(vehicle: Any) -> bool:
     """Whether the rod of `vehicle`, whose numbers may be symbols, is a point mass."""
     return vehicle.M is vehicle.mass or vehicle.rod_inertia == 0
 
 
-def shared_out(on_rod: Vector, vehicle: Vehicle) -> tuple[Vector, Vector]:
+def shared_out(on_rod: Vector, vehicle: Any) -> tuple[Vector, Vector]:
     """Return the parts of a force `on_rod` (..., 3), at its centre of mass, that act at the pivot and at the bob."""
     if is_point(vehicle):
         return 0 * on_rod, on_rod

@@ -17,6 +17,7 @@ from flypend.geometry import Matrix, Numbers, Vector
 from flypend.model.air import Air, air_from
 from flypend.model.bands import bands_from
 from flypend.model.body import MOUNTS, Body, MountKind, body_from
+from flypend.model.estimate import guess
 from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
 from flypend.model.state import FLIP, E3Direction
@@ -79,7 +80,7 @@ class Vehicle:
         Ratio of the force of every rotor to that commanded. Limits, commands and flights are in commanded force; see
         `commanded`.
     bands : dict, optional
-        Field → (low, high), as `flypend.identify` found them; nothing is computed with them.
+        Field → (low, high), of `Vehicle.estimate` or `flypend.identify`, to which those of its guess are known before.
 
     Raises
     ------
@@ -316,6 +317,48 @@ class Vehicle:
             return cls(**values)
         except InputError as error:
             raise InputError(f"{field}.{error.field}", error.expected, error.got) from None
+
+    @classmethod
+    @errors.named_arguments
+    def estimate(
+        cls, *, mass: Any, arm: Any, propeller: Any, rod_length: Any, rod_mass: Any = 0.0, bob_mass: Any = 0.0,
+        motor: str | None = None, battery: Any = None, thrust: Any = None, inertia: Any = None, rotors: int = 4,
+        mount: MountKind = "gimbal", name: str = "mine",
+    ) -> Self:  # fmt: skip
+        """Return a vehicle from what a person can measure, the rest by scaling laws, with a band for each number.
+
+        Each quantity is a number in SI or text with a unit: "620 g", "17 cm", "1.2 kgf". `flypend vehicle new` writes
+        the same as TOML, with the source of each guess.
+
+        Parameters
+        ----------
+        mass, arm : float or str
+            Mass without the rod, kg; distance from the centre to a rotor, m.
+        propeller : float or str
+            Diameter, m; inches as "10x4.5" or "1045"; or a name of `flypend.model.estimate.parts`.
+        rod_length, rod_mass, bob_mass : float or str
+            Length of a uniform rod from the pivot to its end, m; its mass, and that of a bob at its end, kg.
+        motor, battery : str, optional
+            "920 KV" or a name of the table; "4S" or volts. Both, or neither.
+        thrust : float or str, optional
+            Largest force of one rotor, N, if it was measured.
+        inertia : (3,), optional
+            Principal moments, kg m², if they are known.
+        rotors : int
+            How many, at equal angles.
+        mount, name
+            As in `Vehicle`.
+
+        Raises
+        ------
+        InputError
+            For a number that no such machine has, with the unit that was probably meant, or rotors too weak to hover.
+        """
+        found = guess(
+            mass=mass, arm=arm, propeller=propeller, rod_length=rod_length, rod_mass=rod_mass, bob_mass=bob_mass,
+            motor=motor, battery=battery, thrust=thrust, inertia=inertia, rotors=rotors, mount=mount, name=name,
+        )  # fmt: skip
+        return cls(**found.fields)
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

@@ -1,0 +1,48 @@
+"""Worlds drawn from the bands of a vehicle: what may fly where its file says something near."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from flypend.errors import InputError
+from flypend.model import Vehicle
+from flypend.plants import Sampled
+
+DRAWS = 8  # each is compiled
+LEAST = 1e-3  # factor of a number whose band begins at zero
+
+
+def worlds_within(vehicle: Vehicle, plant: Sampled, seed: int, draws: int = DRAWS) -> dict[str, Sampled]:
+    """Return `plant` for `vehicle` as written, then for vehicles drawn from its bands, uniformly and independently.
+
+    Drawn are masses, rod, inertia (one factor), torque ratio, lag, thrust and strengths, spin-up, sag, delay and the
+    pivot's offset; limits and drag of rotors and the latency of poses stay. The law believes `vehicle`. Raises
+    InputError if it has no bands.
+    """
+    if not vehicle.bands:
+        raise InputError("vehicle.bands", "bands, as flypend vehicle new and flypend identify write them", "none")
+    rng = np.random.default_rng(seed)
+    worlds = [_drawn(vehicle, plant, rng) for _ in range(draws)]
+    return {"as written": plant, **{f"drawn {i + 1}": world for i, world in enumerate(worlds)}}
+
+
+def _drawn(vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> Sampled:
+    bands = dict(vehicle.bands or {})
+    found: dict[str, Any] = {name: rng.uniform(*map(np.array, band)) for name, band in bands.items()}
+    written = {name: getattr(vehicle, name) for name in ("mass", "bob_mass", "rod_length", "drag_ratio", "rotor_lag")}
+    factors = {name: found[name] / value for name, value in written.items() if name in found and value > 0}
+    if "inertia" in found:
+        factors["inertia"] = float(np.exp(np.mean(np.log(found["inertia"] / np.diag(vehicle.inertia)))))
+    factors["rod_inertia"] = factors.get("bob_mass", 1.0) * factors.get("rod_length", 1.0) ** 2
+    mismatch = {
+        name: float(max(LEAST, plant.mismatch.get(name, 1.0) * factors.get(name, 1.0)))
+        for name in {**plant.mismatch, **factors}
+    }
+    push = found.get("thrust_scale", vehicle.thrust_scale) / vehicle.thrust_scale
+    strength = push * np.broadcast_to(found.get("strength", plant.strength), (len(vehicle.rotor_spins),))
+    changes: dict[str, Any] = {name: float(found[name]) for name in ("spin_up", "sag", "delay") if name in found}
+    if "pivot_offset" in found:
+        changes["pivot_offset"] = found["pivot_offset"] - vehicle.pivot_offset
+    return plant.replace(mismatch=mismatch, strength=strength.tolist(), **changes)

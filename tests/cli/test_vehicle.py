@@ -1,0 +1,43 @@
+"""flypend vehicle new: a file that every command takes, from parts with units; nonsense is one line."""
+
+import pytest
+
+import flypend as fp
+
+PARTS = ("--mass", "620g", "--arm", "17cm", "--propeller", "8x4.5", "--rod-length", "90cm", "--rod-mass", "30g",
+         "--bob-mass", "0.04")  # fmt: skip
+
+
+def test_the_file_is_the_vehicle_with_its_sources(call, tmp_path):
+    code, told, _ = call("vehicle", "new", *PARTS, "--motor", "920KV", "--battery", "3S", "-o", "mine.toml")
+    assert code == 0
+    assert "times its weight" in told
+    mine = fp.vehicle(tmp_path / "mine.toml")
+    estimated = fp.Vehicle.estimate(
+        mass=0.62, arm=0.17, propeller="8x4.5", rod_length=0.9, rod_mass=0.03, bob_mass=0.04, motor="920 KV",
+        battery="3S",
+    )  # fmt: skip
+    assert mine == estimated
+    assert "Leishman" in (tmp_path / "mine.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (("--mass", "620"), "flypend: mass: expected 0.005 to 100 kg, got 620 kg (in g? write 620g)\n"),
+        (("--motor", "920KV"), "flypend: battery: expected the battery that goes with the motor, got nothing\n"),
+        (("-o", "mine.txt"), "flypend: "),
+        (("--mount", "hook"), "flypend: mount: "),
+    ],
+)
+def test_nonsense_is_one_line_and_writes_nothing(call, tmp_path, changes, said):
+    code, _, told = call("vehicle", "new", *PARTS, *changes)
+    assert code == 2
+    assert told.startswith(said)
+    assert told.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_missing_is_said(call):
+    assert call("vehicle")[::2] == (2, "flypend: Missing command: new\n")
+    assert call("vehicle", "new")[::2] == (2, "flypend: Missing option '--mass'.\n")

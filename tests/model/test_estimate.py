@@ -1,0 +1,106 @@
+"""A vehicle from its parts: bands hold what others identified, units are asked back, and every guess has a source."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.errors import InputError
+from flypend.files.toml import parse_toml
+from flypend.model.estimate import AIR, MERIT, THRUST_COEFFICIENT, TORQUE, guess
+
+MINE = {
+    "mass": "620 g", "arm": "17 cm", "propeller": "8x4.5", "motor": "920 KV", "battery": "3S", "rod_length": 0.9,
+    "rod_mass": 0.03, "bob_mass": "40 g",
+}  # fmt: skip
+# Machines of the package whose numbers come from elsewhere: parts, and what lies outside its band, for a reason.
+FLOWN = {
+    "crazyflie": ({"propeller": "45mm", "motor": "14000 KV", "battery": "1S"}, {}),
+    "crazyflie-brushless": ({"propeller": "55mm", "motor": "10000 KV", "battery": "1S"}, {}),
+    "hummingbird": ({"propeller": "8x4.5"}, {"rotor_lag": "RotorPy takes 5 ms, a fifth of other motors"}),
+    "x500": (
+        {"propeller": "1045", "motor": "920 KV", "battery": "4S"},
+        {"drag_ratio": "several times that of a propeller on a stand, as the vehicle's file says"},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FLOWN)
+def test_bands_hold_the_numbers_that_others_identified(name):
+    parts, outside = FLOWN[name]
+    true = fp.vehicle(name)
+    arm = float(np.linalg.norm(true.rotor_positions[0]))
+    found = fp.Vehicle.estimate(mass=true.mass, arm=arm, rod_length=true.reach, rod_mass=true.bob_mass, **parts)
+    truth = {"inertia": np.diag(true.inertia), **{one: getattr(true, one) for one in ("drag_ratio", "rotor_lag")}}
+    truth["rotor_limits"] = true.rotor_limits
+    if true.air is not None:
+        truth["rotor_drag"] = true.air.rotor_drag
+    missed = set()
+    for field, value in truth.items():
+        low, high = (np.array(end) for end in found.bands[field])
+        if not np.all((low <= value) & (value <= high)):
+            missed.add(field)
+    assert missed == set(outside)
+
+
+def test_the_torque_ratio_is_that_of_momentum_theory():
+    """Torque is power over speed, and power the ideal T √(T/2ρA) over the figure of merit, whatever size and speed."""
+    diameter, turns = 0.23, 90.0  # m, 1/s
+    thrust = THRUST_COEFFICIENT * AIR * turns**2 * diameter**4
+    power = thrust * np.sqrt(thrust / (2 * AIR * np.pi * diameter**2 / 4)) / MERIT
+    assert pytest.approx(TORQUE * diameter, rel=1e-12) == power / (2 * np.pi * turns) / thrust
+
+
+def test_units_and_names_mean_the_same_as_numbers():
+    plain = {**MINE, "mass": 0.62, "arm": 0.17, "propeller": 8 * 0.0254, "battery": 3 * 3.7, "bob_mass": 0.04}
+    assert fp.Vehicle.estimate(**plain) == fp.Vehicle.estimate(**MINE)
+    named = fp.Vehicle.estimate(**{**MINE, "propeller": "hummingbird"})
+    assert named.drag_ratio == 0.0244  # of the table, not of the scaling law
+    assert fp.Vehicle.estimate(**{**MINE, "propeller": "0845"}) == fp.Vehicle.estimate(**MINE)
+
+
+def test_the_text_is_the_vehicle_with_a_source_for_every_number():
+    found = guess(**MINE)
+    table = parse_toml("mine", found.text())
+    assert fp.Vehicle.from_dict(table) == fp.Vehicle.estimate(**MINE)
+    without = {name for name in table if name not in found.sources}
+    assert without == {"name", "gravity", "mount"}
+    unknown = {"gravity", "rod_end", "rod_inertia", "rotor_positions", "rotor_spins"}  # measured, or of what is banded
+    banded = {name for name in table if name not in ("name", "mount", "body", "air", "bands")} - unknown
+    assert banded <= set(table["bands"])
+
+
+def test_bands_are_taken_as_known_before_by_identification():
+    from flypend.identification.numbers import places, search_from
+
+    mine = fp.Vehicle.estimate(**MINE)
+    search = search_from(mine, pwm=False, accelerometer=True)
+    at = places(search.table)
+    assert search.spread[at["lag"]] == pytest.approx(np.log(2.2) / 1.96, rel=1e-3)
+    assert search.spread[at["delay"]] == pytest.approx(0.025 / 1.96)
+    assert search.guess[at["delay"]] == pytest.approx(0.025)
+    plain = search_from(mine.replace(bands=None), pwm=False, accelerometer=True)
+    assert plain.spread[at["delay"]] == 0.02
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"mass": 620}, r"mass: expected .* \(in g\? write 620g\)"),
+        ({"arm": 170}, "in mm. write 170mm"),
+        ({"arm": "17 furlongs"}, "m, cm, mm, in"),
+        ({"propeller": 8}, "10x4.5"),
+        ({"propeller": "99x4"}, "propeller"),
+        ({"motor": None}, "motor that goes with the battery"),
+        ({"battery": None}, "battery that goes with the motor"),
+        ({"motor": "fast"}, "920 KV"),
+        ({"mass": "5 kg"}, "thrust: expected at least 12.4 N"),
+        ({"motor": "9200 KV"}, "at most 20 times the weight"),
+        ({"inertia": [5000, 5000, 9000]}, "in g·mm². write 5e-06"),
+        ({"rotors": 5}, "an even number"),
+        ({"rod_mass": 0, "bob_mass": 0}, "the mass of the rod"),
+        ({"rod_length": -1}, "rod_length"),
+    ],
+)
+def test_nonsense_is_refused_with_what_would_be_plausible(changes, said):
+    with pytest.raises(InputError, match=said):
+        fp.Vehicle.estimate(**{**MINE, **changes})

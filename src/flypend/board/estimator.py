@@ -31,10 +31,12 @@ from flypend.plants.sensing import mean_force, readings_record
 from flypend.plants.sensors import Sensors
 
 # Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last and for a bias of the
-# accelerometer. It is FIRST in the beginning, when nothing is known of them, and falls to LASTING as the Riccati
-# equation of a constant in white noise has it. In a manoeuvre it falls with the square of the departure of the specific
-# force from that of hover, beyond HOVERING (m/s²): what is corrected there is put down to the manoeuvre.
-FIRST_BANDWIDTH, LASTING_BANDWIDTH, HOVERING = 1.3, 0.2, 0.5
+# accelerometer. Where the attitude is measured, it is FIRST in the beginning, when nothing is known of them, and falls
+# to LASTING as the Riccati equation of a constant in white noise has it. Where it is not, a tilt is confused with a
+# force, and only a slow integral leaves the claimed errors true. In a manoeuvre all fall with the square of the
+# departure of the specific force from that of hover, beyond HOVERING (m/s²): what is corrected there is put down to the
+# manoeuvre.
+FIRST_BANDWIDTH, LASTING_BANDWIDTH, UNSEEN_BANDWIDTH, HOVERING = 1.3, 0.2, 0.1, 0.5
 # The same, 1/s, of corrections of a measured attitude for a bias of the gyroscope.
 BIAS_BANDWIDTH = 0.5
 # Prior standard deviation of how much older poses are than told, s, and how it walks, s/√s: cameras do not change. A
@@ -101,7 +103,8 @@ class Filter:
         rows, weight = ca.vec(s.R.T), s.R.T @ (vehicle.g * E3)
         memory = self.record.join({
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
-            "bandwidth": FIRST_BANDWIDTH, "bias": np.zeros(3), "rejections": np.zeros(len(self.gated)),
+            "bandwidth": UNSEEN_BANDWIDTH if self.sensors.attitude is None else FIRST_BANDWIDTH,
+            "bias": np.zeros(3), "rejections": np.zeros(len(self.gated)),
             "felt": felt.begun(vehicle), "late": 0, "late_doubt": LATE**2,
             "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.packed(P),
             "past": self.history.begun(rows, weight),
@@ -138,7 +141,8 @@ class Filter:
         omega = expected.omega(bias, self._gyro_gain())
         s = State(x=s.x, x_dot=s.x_dot, R=s.R, omega=omega, y=s.y, y_dot=s.y_dot)
         pace = calm * parts["bandwidth"]
-        parts["bandwidth"] -= self.period * calm * (parts["bandwidth"] ** 2 - LASTING_BANDWIDTH**2)
+        if self.sensors.attitude is not None:
+            parts["bandwidth"] -= self.period * calm * (parts["bandwidth"] ** 2 - LASTING_BANDWIDTH**2)
         force, difference, outside = _lasting(parts["force"], parts["difference"], error, b, s, vehicle, pace, limit)
         if self.feels:
             parts["felt"] = felt.unbiased(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])

@@ -301,15 +301,15 @@ def test_a_wrong_body_is_left_out_and_a_true_jump_is_taken():
     assert update(0.0, 1.0)[1].item() == 0  # a good reading makes up for a wrong one
 
 
-@pytest.mark.parametrize(("name", "off"), [("mocap", 0.005), ("onboard", 0.01)])
-def test_a_bias_of_the_gyroscope_is_found(name, off):
+@pytest.mark.parametrize(("name", "duration", "off"), [("mocap", 8.0, 0.005), ("onboard", 25.0, 0.01)])
+def test_a_bias_of_the_gyroscope_is_found(name, duration, off):
     """Within four time constants of its integral, as well as what the noise of the attitude leaves of it.
 
-    On board it is as well known as the covariance says, 3 mrad/s after so long, but about the rod, which tells no yaw.
+    On board it takes longer, and what is about the vertical stays unknown: no sensor tells yaw.
     """
     bias = np.array([0.03, -0.02, 0.04])
     suite = SUITES[name]
-    flight = flown(suite, 3, 8.0, world=suite.replace(gyro_bias=tuple(bias)))
+    flight = flown(suite, 3, duration, world=suite.replace(gyro_bias=tuple(bias)))
     filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed.numbers(VEHICLE))
     found = np.array(filtering.record.split(flight[2][-1])["bias"]).ravel()
     kept = slice(None) if suite.attitude is not None else slice(2)

@@ -135,7 +135,7 @@ class Filter:
         calm = 1 / (1 + departure / HOVERING**2)
         bias = parts["bias"]
         if self.sensors.attitude is None:
-            bias = bias + error[error_state.BIAS]
+            bias = bias + calm * error[error_state.BIAS]
         else:
             bias = bias - BIAS_BANDWIDTH * settled * s.R.T @ error[error_state.TURN]
         omega = expected.omega(bias, self._gyro_gain())

@@ -33,8 +33,8 @@ CENTRE, VELOCITY, TURN, ROD, SWING = slice(0, 3), slice(3, 6), slice(6, 9), slic
 ERRORS = 13
 BIAS = slice(13, 16)  # of the gyroscope, where no attitude is measured
 
-# Prior standard deviation of the gyroscope's bias, rad/s, and its random walk, rad/s/√s. With a wider prior, wrong masses are
-# taken for a bias in a swing-up.
+# Prior standard deviation of the gyroscope's bias, rad/s, and its random walk, rad/s/√s. With a wider prior, wrong
+# masses are taken for a bias in a swing-up.
 BIAS_PRIOR, BIAS_WALK = 0.01, 1e-4
 
 # Readings further off than GATE standard deviations are doubted: of 1e7 numbers with a normal distribution some six

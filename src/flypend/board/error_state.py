@@ -10,6 +10,9 @@ With the force φ of the vehicle on its rotors' axes (world frame), u = φ/(M l)
 
     δċ = δv,   δv̇ = δθ × φ/(M+m),   δθ̇ = R δω,   η̇ = σ,   σ̇ = ((y·u − |w|²) 1 + w wᵀ) η + Bᵀ (u × δθ).
 
+Where no attitude is measured, three more numbers follow, δβ of the gyroscope's bias, with δθ̇ = R (δω − δβ). With one,
+the bias is found at once, and the estimator does without (`estimator`).
+
 Error and attitude do not enter where they have no effect: the centre of mass does not feel the rod, neither feels yaw.
 """
 
@@ -28,7 +31,11 @@ from flypend.plants.noise import Noise
 
 CENTRE, VELOCITY, TURN, ROD, SWING = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 11), slice(11, 13)
 ERRORS = 13
-COVARIANCE = ERRORS * (ERRORS + 1) // 2  # numbers of the lower triangle
+BIAS = slice(13, 16)  # of the gyroscope, where no attitude is measured
+
+# Prior standard deviation of the gyroscope's bias, rad/s, and its random walk, rad/s/√s. With a wider prior, wrong
+# masses are taken for a bias in a swing-up.
+BIAS_PRIOR, BIAS_WALK = 0.01, 1e-4
 
 # Readings further off than GATE standard deviations are doubted: of 1e7 numbers with a normal distribution some six
 # are. PATIENCE such readings more than others, and they are believed: of 1 % wrong ones, one in 1e6 finds it so.
@@ -69,20 +76,21 @@ def any_tangent(y: Vector) -> Vector:
 
 
 def unpacked(numbers: Numbers) -> Numbers:
-    """Return the covariance (13, 13) of its `numbers` (91,), the lower triangle by rows."""
-    P = ca.SX(ERRORS, ERRORS)
-    for place, (i, j) in enumerate(zip(*np.tril_indices(ERRORS), strict=True)):
+    """Return the covariance (n, n) of its `numbers` (n (n + 1)/2,), the lower triangle by rows."""
+    size = int(np.sqrt(2 * numbers.numel()))
+    P = ca.SX(size, size)
+    for place, (i, j) in enumerate(zip(*np.tril_indices(size), strict=True)):
         P[int(i), int(j)] = P[int(j), int(i)] = numbers[place]
     return P
 
 
 def packed(P: Numbers) -> Numbers:
-    """Return the numbers (91,) of a covariance (13, 13)."""
-    return ca.vertcat(*(P[int(i), int(j)] for i, j in zip(*np.tril_indices(ERRORS), strict=True)))
+    """Return the numbers (n (n + 1)/2,) of a covariance (n, n)."""
+    return ca.vertcat(*(P[int(i), int(j)] for i, j in zip(*np.tril_indices(P.shape[0]), strict=True)))
 
 
 def first_covariance(start: Noise, s: State, B: Numbers, vehicle: Vehicle) -> Numbers:
-    """Return the covariance (13, 13) of an estimate `s` with errors `start`."""
+    """Return the covariance (13, 13) of an estimate `s` with errors `start`, without a bias."""
     a, y_dot = lever(vehicle), B.T @ s.y_dot
     J = ca.SX.eye(ERRORS)
     J[CENTRE, ROD] = a * B
@@ -94,17 +102,17 @@ def first_covariance(start: Noise, s: State, B: Numbers, vehicle: Vehicle) -> Nu
 
 
 def updated(P: Numbers, streams: Sequence[Sequence[Reading]], rejections: Numbers) -> tuple[Numbers, Numbers, Numbers]:
-    """Return the error (13,) that the readings of `streams` tell, one by one, its covariance, and the `rejections`.
+    """Return the error (n,) that the readings of `streams` tell, one by one, its covariance, and the `rejections`.
 
     A number further from what is expected than GATE standard deviations is left out, unless its stream has had PATIENCE
     more such readings of late than others: then it is the estimate that is wrong.
     """
-    error, after = ca.SX(ERRORS, 1), []
+    error, after = ca.SX(P.shape[0], 1), []
     for readings, rejected in zip(streams, ca.vertsplit(rejections), strict=True):
         gate, far, arrived = rejected < PATIENCE - 0.5, ca.SX(0), ca.SX(0)
         for difference, row, variance, fresh in readings:
-            seen = P @ row.T
-            expected, left = row @ seen + variance, difference - row @ error
+            seen = P[:, :ERRORS] @ row.T
+            expected, left = row @ seen[:ERRORS] + variance, difference - row @ error[:ERRORS]
             off, arrived = fresh * (left**2 > GATE**2 * expected), fresh
             far = ca.fmax(far, off)
             gain = (fresh - gate * off) * seen / expected
@@ -115,7 +123,7 @@ def updated(P: Numbers, streams: Sequence[Sequence[Reading]], rejections: Number
 
 
 def corrected(s: State, b: Vector, error: Numbers, vehicle: Vehicle) -> tuple[State, Vector, Matrix]:
-    """Return the estimate `s` and the tangent vector `b`, corrected by an `error` (13,), and the turn (3, 3)."""
+    """Return the estimate `s` and the tangent vector `b`, corrected by an `error` (n,), and the turn (3, 3)."""
     B, a = frame(b, s.y), lever(vehicle)
     turn = rotation_by(error[TURN])
     y = unit(s.y + B @ error[ROD])
@@ -140,22 +148,25 @@ class Densities(NamedTuple):
 
 
 def spread(P: Numbers, s: State, b: Vector, force: Vector, vehicle: Vehicle, h: float, densities: Densities) -> Numbers:
-    """Return the covariance (13, 13) a time `h` (s) after `P` at the state `s`, under the vehicle's `force` (3,), N."""
-    B, M, m = frame(b, s.y), vehicle.M, vehicle.m
+    """Return the covariance (n, n) a time `h` (s) after `P` at the state `s`, under the vehicle's `force` (3,), N."""
+    B, M, m, size = frame(b, s.y), vehicle.M, vehicle.m, P.shape[0]
     u, w = force / (M * vehicle.l), B.T @ s.y_dot
-    F = ca.SX.eye(ERRORS)
+    F = ca.SX.eye(size)
     F[CENTRE, VELOCITY] = h * ca.SX.eye(3)
     F[VELOCITY, TURN] = -h / (M + m) * hat(force)
     F[ROD, SWING] = h * ca.SX.eye(2)
     F[SWING, ROD] += h * ((dot(s.y, u) - dot_2(w, w)) * ca.SX.eye(2) + w @ w.T)
     F[SWING, TURN] = h * B.T @ hat(u)
-    Q = ca.SX(ERRORS, ERRORS)
+    Q = ca.SX(size, size)
     for share, pull, density in ((M / (M + m), -1, densities.on_vehicle), (m / (M + m), 1, densities.on_bob)):
-        G = ca.SX(ERRORS, 3)
+        G = ca.SX(size, 3)
         G[VELOCITY, :] = share * ca.SX.eye(3)
         G[SWING, :] = pull / vehicle.l * B.T
         Q += h * density * G @ G.T
     Q[TURN, TURN] += h * densities.turning * ca.SX.eye(3)
+    if size > ERRORS:
+        F[TURN, BIAS] = -h * s.R
+        Q[BIAS, BIAS] += h * BIAS_WALK**2 * ca.SX.eye(3)
     return F @ P @ F.T + Q
 
 

@@ -4,7 +4,7 @@ Each control period it compares what the sensors read with what it expected then
 command is given, moves on by a period with the board's own model of vehicle and rotors. Attitude, rod and centre of
 mass have the covariance of `error_state`; the thrust's scale and force that an accelerometer adds have one of their own
 (`felt`); the angular velocity is followed with a fixed gain, the solution of its scalar Riccati equation. What corrects
-attitude and velocities again and again is put down to the gyroscope's bias and to forces that last.
+attitude and velocities again and again is put down to biases of gyroscope and accelerometer, and to forces that last.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 
 from flypend.board import error_state, felt
 from flypend.board.believed import Believed
-from flypend.board.error_state import COVARIANCE, Densities
+from flypend.board.error_state import Densities
 from flypend.board.expected import GATED, Expected
 from flypend.board.history import REACH, History, finds_latency
 from flypend.board.twin import Twin
@@ -30,14 +30,15 @@ from flypend.plants.schedule import Segment, within_period
 from flypend.plants.sensing import mean_force, readings_record
 from flypend.plants.sensors import Sensors
 
-# Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last. Where the attitude is measured,
-# it is FIRST in the beginning, when nothing is known of them, and falls to LASTING as the Riccati equation of a
-# constant in white noise has it. Where it is not, a tilt is confused with a force, and only a slow integral leaves the
-# claimed errors true. In a manoeuvre all fall with the square of the departure of the specific force from that of
-# hover, beyond HOVERING (m/s²): what is corrected there is put down to the manoeuvre.
-FIRST_BANDWIDTH, LASTING_BANDWIDTH, UNSEEN_BANDWIDTH, HOVERING = 1.3, 0.2, 0.15, 0.5
-# The same, 1/s, of corrections of the attitude for a bias of the gyroscope: where it is measured, and where not.
-BIAS_BANDWIDTH, UNSEEN_BIAS_BANDWIDTH = 0.5, 0.05
+# Bandwidth, 1/s, at which corrections of the velocities are taken for forces that last and for a bias of the
+# accelerometer. Where the attitude is measured, it is FIRST in the beginning, when nothing is known of them, and falls
+# to LASTING as the Riccati equation of a constant in white noise has it. Where it is not, a tilt is confused with a
+# force, and only a slow integral leaves the claimed errors true. In a manoeuvre all fall with the square of the
+# departure of the specific force from that of hover, beyond HOVERING (m/s²): what is corrected there is put down to the
+# manoeuvre.
+FIRST_BANDWIDTH, LASTING_BANDWIDTH, UNSEEN_BANDWIDTH, HOVERING = 1.3, 0.2, 0.1, 0.5
+# The same, 1/s, of corrections of a measured attitude for a bias of the gyroscope.
+BIAS_BANDWIDTH = 0.5
 # Prior standard deviation of how much older poses are than told, s, and how it walks, s/√s: cameras do not change. A
 # swing-up tells 20 ms within a tenth of a second all the same; a wider prior takes noise of slow turns for a latency.
 LATE, LATE_WALK = 0.002, 1e-4
@@ -71,7 +72,9 @@ class Filter:
             Field("late", 0, "how much older poses are than told, s"),
             Field("late_doubt", 0, "variance of that, s^2"),
         ]
-        past = self.history.record
+        past, errors, what = self.history.record, error_state.ERRORS, "centre of mass, velocity, attitude, rod and rate"
+        if self.sensors.attitude is None:
+            errors, what = error_state.BIAS.stop, f"{what}, and the gyroscope's bias"
         fields = (
             Field("state", SIZE, "the estimate, e3 up"),
             Field("rotors", self._believed.rotors, "modelled forces of the rotors, N"),
@@ -84,11 +87,7 @@ class Filter:
             *sensed * self.feels,
             *late * finds_latency(self.sensors),
             *turned * bool(self.history.depths["attitude"]),
-            Field(
-                "covariance",
-                COVARIANCE,
-                "of the 13 errors of centre of mass, velocity, attitude, rod and rate, lower triangle by rows",
-            ),
+            Field("covariance", errors * (errors + 1) // 2, f"of the {errors} errors: {what}, lower triangle by rows"),
             *[Field.of(past)] * bool(past.fields),
         )
         return Record("estimate", "Error-state Kalman filter.", fields)
@@ -99,6 +98,8 @@ class Filter:
         vehicle, s = self._believed.vehicle, State.symbolic(packed)
         b = error_state.any_tangent(s.y)
         P = error_state.first_covariance(self.sensors.start, s, error_state.frame(b, s.y), vehicle)
+        if self.sensors.attitude is None:
+            P = ca.diagcat(P, error_state.BIAS_PRIOR**2 * ca.SX.eye(3))
         rows, weight = ca.vec(s.R.T), s.R.T @ (vehicle.g * E3)
         memory = self.record.join({
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
@@ -132,8 +133,11 @@ class Filter:
         thrust = ca.sum1(parts["rotors"])
         departure = _departure(thrust * before.z + parts["force"] + self._felt(parts, before.R), vehicle)
         calm = 1 / (1 + departure / HOVERING**2)
-        watch = BIAS_BANDWIDTH if self.sensors.attitude is not None else UNSEEN_BIAS_BANDWIDTH * calm
-        bias = parts["bias"] - watch * settled * s.R.T @ error[error_state.TURN]
+        bias = parts["bias"]
+        if self.sensors.attitude is None:
+            bias = bias + calm * error[error_state.BIAS]
+        else:
+            bias = bias - BIAS_BANDWIDTH * settled * s.R.T @ error[error_state.TURN]
         omega = expected.omega(bias, self._gyro_gain())
         s = State(x=s.x, x_dot=s.x_dot, R=s.R, omega=omega, y=s.y, y_dot=s.y_dot)
         pace = calm * parts["bandwidth"]
@@ -141,7 +145,8 @@ class Filter:
             parts["bandwidth"] -= self.period * calm * (parts["bandwidth"] ** 2 - LASTING_BANDWIDTH**2)
         force, difference, outside = _lasting(parts["force"], parts["difference"], error, b, s, vehicle, pace, limit)
         if self.feels:
-            fresh, told = expected.felt(vehicle)
+            parts["felt"] = felt.unbiased(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
+            fresh, told = expected.felt(felt.RECORD.split(parts["felt"])["bias"], vehicle)
             given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
             parts["felt"] = felt.corrected(parts["felt"], *given)
             outside = outside + ca.vertcat(self._felt(parts, s.R), np.zeros(3))

@@ -96,13 +96,15 @@ class Expected:
         expected = self._s.omega + bias + self._history.at(self._past["turning"], 0.0, self._read["gyro_age"])
         return self._s.omega + self.fresh("gyro") * gain * (self._read["gyro"] - expected)
 
-    def felt(self, vehicle: Vehicle) -> tuple[Scalar, Vector]:
+    def felt(self, bias: Vector, vehicle: Vehicle) -> tuple[Scalar, Vector]:
         """Return whether the accelerometer has read, and the force (3,) that it tells beyond the expected, body, N.
 
+        It has a `bias` (3,), m/s².
         A force F on the vehicle accelerates it by F/M across the rod and by F/(M+m) along it, as it moves the bob too.
         """
         felt, s = self._past["force"], self._s
-        difference = self._read["accelerometer"] - self._history.at(felt[1:], felt[0], self._read["accelerometer_age"])
+        expected = self._history.at(felt[1:], felt[0], self._read["accelerometer_age"])
+        difference = self._read["accelerometer"] - bias - expected
         along = s.R.T @ s.y
         return self.fresh("accelerometer"), vehicle.M * difference + vehicle.m * scale(dot(along, difference), along)
 

@@ -9,6 +9,9 @@ each period. A Kalman filter follows s and the third component of d jointly, and
 hardly changes, as in hover, only the sum s f + d₃ is told, and the prior shares it; a manoeuvre tells both. The walk of
 d is that of `Sensors.following`: slow in hover, where the model is better than the accelerometer, and fast in a
 manoeuvre, where it is worse, so that the motion follows what the accelerometer reads.
+
+A bias of the accelerometer is taken for a force. It gives itself away in hover: the pose is corrected against it again
+and again, and the integral of these corrections is the bias.
 """
 
 from __future__ import annotations
@@ -27,6 +30,7 @@ RECORD = Record(
     "What the accelerometer feels beyond the modelled thrust.",
     (
         Field("force", 3, "force beyond the scaled thrust, body, N"),
+        Field("bias", 3, "of the accelerometer, body, m/s^2"),
         Field("scale", 0, "true over modelled thrust, less 1"),
         Field("across", 0, "variance of each of the first two components of the force, N^2"),
         Field("along", 0, "that of the third, N^2"),
@@ -38,22 +42,29 @@ RECORD = Record(
 SCALE, FORCE = 0.1, 0.05
 # Random walk of the scale, 1/√s: a battery and warm motors take minutes, a first estimate should take a second.
 SCALE_WALK = 0.01
-# Largest scale that is believed; a motor that is lost is no scale.
-MOST_SCALE = 0.35
+# Largest scale that is believed; a motor that is lost is no scale. And the largest bias, m/s².
+MOST_SCALE, MOST_BIAS = 0.35, 1.0
 
 
 def begun(vehicle: Vehicle) -> Numbers:
-    """Return the memory (8,) before the first reading, for a `vehicle` of numbers or symbols."""
+    """Return the memory (11,) before the first reading, for a `vehicle` of numbers or symbols."""
     force = (FORCE * vehicle.g * vehicle.M) ** 2
-    return RECORD.join(
-        {"force": ca.DM.zeros(3), "scale": 0, "across": force, "along": force, "doubt": SCALE**2, "shared": 0}
-    )
+    return RECORD.join({
+        "force": ca.DM.zeros(3), "bias": ca.DM.zeros(3), "scale": 0, "across": force, "along": force,
+        "doubt": SCALE**2, "shared": 0,
+    })  # fmt: skip
 
 
 def beyond(memory: Numbers, thrust: Scalar) -> Vector:
     """Return the force (3,) beyond the modelled `thrust` (N), body axes, N."""
     felt = RECORD.split(memory)
     return felt["force"] + ca.vertcat(0, 0, felt["scale"] * thrust)
+
+
+def unbiased(memory: Numbers, correction: Vector) -> Numbers:
+    """Return the memory with the accelerometer's bias corrected by `correction` (3,), m/s², and limited."""
+    felt = RECORD.split(memory)
+    return RECORD.join(felt | {"bias": ca.fmin(ca.fmax(felt["bias"] + correction, -MOST_BIAS), MOST_BIAS)})
 
 
 def corrected(
@@ -70,7 +81,7 @@ def corrected(
 
     Parameters
     ----------
-    memory : (8,)
+    memory : (11,)
         As in RECORD.
     fresh : scalar
         1 if the accelerometer has read, else 0.
@@ -96,6 +107,7 @@ def corrected(
     scale = felt["scale"] + gain_scale * difference[2]
     return RECORD.join({
         "force": felt["force"] + ca.vertcat(gain * difference[:2], gain_along * difference[2]),
+        "bias": felt["bias"],
         "scale": ca.fmin(ca.fmax(scale, -MOST_SCALE), MOST_SCALE),
         "across": (1 - gain) * across,
         "along": along - gain_along * seen,

@@ -33,8 +33,9 @@ KEPT = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
 PLACE = [KEPT.index(COORDINATES.index(f"x_{i}")) for i in (1, 2, 3)]
 AXIS = [KEPT.index(COORDINATES.index(f"theta_{i}")) for i in (1, 2)]
 # Largest tremor of the thrust axis, rad, RMS. Errors of the axis about two directions exceed r at one instant with
-# probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05.
-MOST_TREMOR = 0.05 / 3.3
+# probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05. That
+# takes σ = 0.05/3.3 of sound rotors and sensors, and a seventh less where they are weak, late and off.
+MOST_TREMOR = 0.05 / 3.8
 SHARES = 4  # steps from the default gains to the calmest
 # Densities are of order 1e-8 in SI units; in these the Riccati equation is well conditioned.
 UNIT = 1e-6

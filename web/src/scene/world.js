@@ -6,8 +6,11 @@ import {
 } from "three";
 
 import { roundUp } from "../numbers.js";
+import { NEAR } from "./closeup.js";
 
 const SHADE = 0.3; // opacity of a shadow
+const SPREAD = 0.3, FADE = 1.2; // of what the machine keeps of the sky's light from the ground: wider and paler with its height
+const LAMPS = { alone: { sky: 2.4, fill: 1.3 }, room: { sky: 0.8, fill: 0.8 } }; // strengths beside that of the sun
 const LATTICE = 5; // points to each side of the middle
 
 const GRID_VERTEX = `
@@ -31,7 +34,7 @@ float lines(float step) {
 }
 void main() {
   float fade = 1.0 - smoothstep(0.25, 1.0, length(place - middle) / radius);
-  float strength = max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing));
+  float strength = max(0.09, max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing)));
   gl_FragColor = vec4(color, strength * fade);
   #include <colorspace_fragment>
 }`;
@@ -59,27 +62,44 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
+const SHADE_FRAGMENT = `
+uniform float strength;
+varying vec2 place;
+void main() {
+  float edge = max(1.0 - dot(place, place), 0.0);
+  gl_FragColor = vec4(0.0, 0.0, 0.0, strength * edge * edge);
+}`;
+
+const SHADE_VERTEX = `
+varying vec2 place;
+void main() {
+  place = 2.0 * uv - 1.0;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
 function shader(vertexShader, fragmentShader, uniforms) {
   return new ShaderMaterial({ vertexShader, fragmentShader, uniforms, transparent: true, depthWrite: false });
 }
 
 export class World extends Group {
-  /** With the ground at the height `ground`, for machines that fit a sphere of radius `reach`; m. */
-  constructor(ground, reach) {
+  /** With the ground at the height `ground`, for machines that fit a sphere of radius `reach`; m. A `room` gives light of its own. */
+  constructor(ground, reach, room) {
     super();
-    Object.assign(this, { ground, reach });
+    Object.assign(this, { ground, reach, lamps: room ? LAMPS.room : LAMPS.alone });
     this.grid = new Mesh(new PlaneGeometry(1, 1), shader(GRID_VERTEX, GRID_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 },
     }));
     this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ depthWrite: false }));
     this.floor.receiveShadow = true;
+    this.under = new Mesh(new PlaneGeometry(1, 1), shader(SHADE_VERTEX, SHADE_FRAGMENT, { strength: { value: 0 } }));
     this.dust = new Points(lattice(), shader(DUST_VERTEX, DUST_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, size: { value: 2 }, strength: { value: 1 },
     }));
     this.dust.frustumCulled = false;
     this.grid.renderOrder = -2;
-    this.floor.renderOrder = -1;
-    this.add(this.grid, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, 2.4), this.#sun());
+    for (const shade of [this.under, this.floor]) shade.renderOrder = -1;
+    this.add(this.grid, this.under, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, this.lamps.sky), this.#sun());
+    this.traverse((part) => part.isLight && part.layers.enable(NEAR));
   }
 
   #sun() {
@@ -88,9 +108,9 @@ export class World extends Group {
     this.sun.castShadow = true;
     shadow.mapSize.set(1024, 1024);
     Object.assign(shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.1 * this.reach });
-    shadow.radius = 5;
+    shadow.radius = 2.5;
     const group = new Group();
-    this.fill = new DirectionalLight(0xffffff, 1.3); // from the camera
+    this.fill = new DirectionalLight(0xffffff, this.lamps.fill); // from the camera
     group.add(this.sun, this.sun.target, this.fill);
     return group;
   }
@@ -115,6 +135,10 @@ export class World extends Group {
     const fallen = pivot[2] - this.ground, width = 2.1 * camera.right;
     this.floor.position.set(pivot[0] - 0.12 * fallen, pivot[1] - 0.08 * fallen, this.ground);
     this.floor.scale.set(width, width, 1);
+    const wider = 2 * (this.reach + SPREAD * Math.max(fallen, 0)), near = Math.max(fallen / this.reach, 0);
+    this.under.position.set(pivot[0], pivot[1], this.ground);
+    this.under.scale.set(wider, wider, 1);
+    this.under.material.uniforms.strength.value = this.floor.material.opacity / (1 + FADE * near * near);
     camera.far = 1.2 * (height + Math.max(pivot[2] - this.ground, 0)) + this.reach;
     camera.updateProjectionMatrix();
   }

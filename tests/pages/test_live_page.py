@@ -138,12 +138,12 @@ def test_the_lyapunov_function_of_other_gains_is_plotted(visit):
         page.evaluate("t => flypend.seek(t)", time_)
         until(page, "t => flypend.time() === t", time_)
         page.evaluate("() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
-        told = page.locator(".plot").last.locator("output").inner_text()
+        told = page.locator(".plot", has_text="Lyapunov").locator("output").inner_text()
         digits, exponent = told.split("·10")
         raised = exponent.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
         assert float(f"{digits}e{raised}") == pytest.approx(value, rel=0.051), told
     assert page.locator(".plot").count() == 5
-    said = page.locator(".plot canvas").last.get_attribute("aria-label")
+    said = page.locator(".plot", has_text="Lyapunov").locator("canvas").get_attribute("aria-label")
     assert said.startswith("Lyapunov function V over time, 10⁻")
 
 

@@ -212,7 +212,8 @@ def test_the_chapters_say_what_the_flights_do():
         assert run.e3 == "down"
         assert run.x[-1][2] - run.x[0][2] > 10
     # A faster throw, a higher bob.
-    tops = [np.max((run.x + run.vehicle.rod_length * run.y)[:, 2]) for run, _ in dragged(throw, between[throw["title"]])]
+    thrown = [run for run, _ in dragged(throw, between[throw["title"]])]
+    tops = [np.max((run.x + run.vehicle.rod_length * run.y)[:, 2]) for run in thrown]
     assert tops == sorted(tops)
     assert tops[-1] > 2 * tops[0]
     # The flip fails at both ends of the slider, the catch with too much damping, and with little of it the rod is late.
@@ -226,7 +227,6 @@ def test_the_chapters_say_what_the_flights_do():
         assert (np.diff(V) <= 1e-9 * V[0]).all()
     # The lag at the end of its slider is too much.
     assert not flown(rotors, rotors["drag"], ends[rotors["title"]][1])[1]["good"]
-
 
 
 def test_a_random_start_is_its_seed():

@@ -338,7 +338,6 @@ def test_a_chapter_plays_and_its_slider_flies(visit):
     assert expect_flight(page).law == "inverted"
 
 
-
 def test_presets_random_laws_and_plants(visit):
     page = visit()
     page.get_by_role("button", name="4", exact=True).click()

@@ -86,13 +86,12 @@ def story() -> list[dict[str, Any]]:
     Each has a `title`, `words`, the `setting` of its flight, and `drag`, the path of the slider beside the words; some
     have a `phase` of the flight (web/src/phases.js) at which it is shown.
     """
-    inverted = {"law": "inverted", "plant": "rotors", "duration": 6.0}
     return [
         _step(
             "A rod on a ball joint",
             "No motor turns the rod. The thrust moves the joint: its part across the rod turns the rod, its part along "
             "the rod carries the bob. Let the rod lean further, and the vehicle has to travel further to get below it.",
-            TILT, **inverted, start=_tilted(LEAN),
+            TILT, start=_tilted(LEAN),
         ),
         _paper(
             "printed",
@@ -112,19 +111,19 @@ def story() -> list[dict[str, Any]]:
             "Throw",
             "The inverted law uses both parts of the thrust. To flip a hanging rod it must push down for a moment, and "
             "nothing is held up. So it throws the bob first. Throw faster, and the bob rises higher.",
-            "law.gains.throw_speed", **inverted, start=_tilted(180.0), phase="climbs",
+            "law.gains.throw_speed", start=_tilted(180.0), phase="climbs",
         ),
         _step(
             "Flip",
             "The vehicle turns over, dives past the bob, and the rod swings up. Turning takes time, so the thrust axis "
             "aims at the force that will be needed when it arrives. Look ahead too little or too far, and it fails.",
-            "law.gains.coast_time", **inverted, start=_tilted(180.0), phase="flips",
+            "law.gains.coast_time", start=_tilted(180.0), phase="flips",
         ),
         _step(
             "Catch",
             "Below the bob the vehicle pushes up again, and damping stops the swing. With little damping the rod takes "
             "longer to come to rest; with too much of it the catch is missed.",
-            "law.gains.rod_damping", **inverted, start=_tilted(180.0), phase="catches",
+            "law.gains.rod_damping", start=_tilted(180.0), phase="catches",
         ),
         _step(
             "V falls",
@@ -136,7 +135,7 @@ def story() -> list[dict[str, Any]]:
             "What the rotors forbid",
             "Rotors push one way, up to a limit, and answer late. Drag the lag to its end, and the machine turns too "
             "slowly to catch the rod.",
-            "plant.lag", **inverted, start=_tilted(180.0),
+            "plant.lag", start=_tilted(180.0),
         ),
     ]  # fmt: skip
 
@@ -162,10 +161,10 @@ def _step(
     words: str,
     drag: str,
     *,
-    law: str,
-    plant: str,
     start: dict[str, Any],
-    duration: float,
+    law: str = "inverted",
+    plant: str = "rotors",
+    duration: float = 6.0,
     vehicle: dict[str, str] | None = None,
     gains: dict[str, float] | None = None,
     phase: str | None = None,

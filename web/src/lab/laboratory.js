@@ -46,7 +46,7 @@ export class Laboratory {
       this.rod(y);
       this.show("flight");
     });
-    this.viewer.drew = () => this.handle.show(this.running.on);
+    this.viewer.drew = () => this.handle.show(this.running.on, this.running.pulling);
     this.saving = new Saving(this);
     keys({ p: () => this.panel.poke("bob"), l: () => this.running.toggle(), r: () => this.restart() });
     this.#undoKeys();

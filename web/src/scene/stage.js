@@ -200,6 +200,11 @@ export class Stage {
     return { pivot: project(x, view), bob: project(x.map((value, k) => value + rod * y[k]), view) };
   }
 
+  /** Where a `point` of the world is in the first picture: CSS pixels from the upper left of the canvas. */
+  locate(point) {
+    return project(point, this.views[0]);
+  }
+
   /** Heights over the start that the pole marks near the first machine, m, and their CSS pixels; none side by side or from above. */
   marks() {
     const [view] = this.views;

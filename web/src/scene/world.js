@@ -2,7 +2,7 @@
 
 import {
   BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, HemisphereLight, Mesh, PlaneGeometry, Points,
-  ShaderMaterial, ShadowMaterial, Vector3,
+  ShaderMaterial, ShadowMaterial, Vector3, Vector4,
 } from "three";
 
 import { roundUp } from "../numbers.js";
@@ -25,6 +25,7 @@ const GRID_FRAGMENT = `
 uniform vec3 color;
 uniform vec2 middle;
 uniform float spacing, radius;
+uniform vec4 shade; // middle, radius and strength
 varying vec2 place;
 float lines(float step) {
   vec2 cell = place / step, width = fwidth(cell);
@@ -35,7 +36,9 @@ float lines(float step) {
 void main() {
   float fade = 1.0 - smoothstep(0.25, 1.0, length(place - middle) / radius);
   float strength = max(0.09, max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing)));
-  gl_FragColor = vec4(color, strength * fade);
+  float drawn = strength * fade, edge = max(1.0 - dot(place - shade.xy, place - shade.xy) / (shade.z * shade.z), 0.0);
+  float shaded = shade.w * edge * edge * (1.0 - drawn);
+  gl_FragColor = vec4(color * drawn / max(drawn + shaded, 1e-6), drawn + shaded);
   #include <colorspace_fragment>
 }`;
 
@@ -62,21 +65,6 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-const SHADE_FRAGMENT = `
-uniform float strength;
-varying vec2 place;
-void main() {
-  float edge = max(1.0 - dot(place, place), 0.0);
-  gl_FragColor = vec4(0.0, 0.0, 0.0, strength * edge * edge);
-}`;
-
-const SHADE_VERTEX = `
-varying vec2 place;
-void main() {
-  place = 2.0 * uv - 1.0;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-}`;
-
 function shader(vertexShader, fragmentShader, uniforms) {
   return new ShaderMaterial({ vertexShader, fragmentShader, uniforms, transparent: true, depthWrite: false });
 }
@@ -87,18 +75,17 @@ export class World extends Group {
     super();
     Object.assign(this, { ground, reach, lamps: room ? LAMPS.room : LAMPS.alone });
     this.grid = new Mesh(new PlaneGeometry(1, 1), shader(GRID_VERTEX, GRID_FRAGMENT, {
-      color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 },
+      color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 }, shade: { value: new Vector4() },
     }));
     this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ depthWrite: false }));
     this.floor.receiveShadow = true;
-    this.under = new Mesh(new PlaneGeometry(1, 1), shader(SHADE_VERTEX, SHADE_FRAGMENT, { strength: { value: 0 } }));
     this.dust = new Points(lattice(), shader(DUST_VERTEX, DUST_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, size: { value: 2 }, strength: { value: 1 },
     }));
     this.dust.frustumCulled = false;
     this.grid.renderOrder = -2;
-    for (const shade of [this.under, this.floor]) shade.renderOrder = -1;
-    this.add(this.grid, this.under, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, this.lamps.sky), this.#sun());
+    this.floor.renderOrder = -1;
+    this.add(this.grid, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, this.lamps.sky), this.#sun());
     this.traverse((part) => part.isLight && part.layers.enable(NEAR));
   }
 
@@ -135,10 +122,8 @@ export class World extends Group {
     const fallen = pivot[2] - this.ground, width = 2.1 * camera.right;
     this.floor.position.set(pivot[0] - 0.12 * fallen, pivot[1] - 0.08 * fallen, this.ground);
     this.floor.scale.set(width, width, 1);
-    const wider = 2 * (this.reach + SPREAD * Math.max(fallen, 0)), near = Math.max(fallen / this.reach, 0);
-    this.under.position.set(pivot[0], pivot[1], this.ground);
-    this.under.scale.set(wider, wider, 1);
-    this.under.material.uniforms.strength.value = this.floor.material.opacity / (1 + FADE * near * near);
+    const high = Math.max(fallen, 0), strength = this.floor.material.opacity / (1 + FADE * (high / this.reach) ** 2);
+    grid.shade.value.set(pivot[0], pivot[1], this.reach + SPREAD * high, strength);
     camera.far = 1.2 * (height + Math.max(pivot[2] - this.ground, 0)) + this.reach;
     camera.updateProjectionMatrix();
   }

@@ -8,7 +8,7 @@ from test_lab_page import expect_flight, setting, shown, slider, until
 
 import flypend as fp
 from benchmarks.frames import AT_REST
-from flypend.lab.alone import page_alone
+from flypend.lab.alone import chapters_page, page_alone
 from flypend.lab.controls import offer
 
 WIDE = {"width": 1280, "height": 800}
@@ -73,14 +73,28 @@ def test_gains_pokes_maps_and_live_flights_need_no_server(visit):
 
 def test_the_story_has_the_steps_that_can_be_flown(visit):
     page = visit()
-    said = {step["setting"]["law"]["name"]: i for i, step in enumerate(offer()["story"], 1)}
+    flown = [step for step in offer()["story"] if step["setting"]["law"]["name"] in {"inverted", "lqr", "corrected"}]
     names = page.locator(".story button").all_inner_texts()
-    assert len([name for name in names if name.isdigit()]) == 3  # of five: two laws are not in this file
-    page.get_by_role("button", name="Step 1").click()
+    assert len([name for name in names if name.isdigit()]) == len(flown) < len(offer()["story"])
+    page.get_by_role("button", name="Chapter 1").click()
     shown(page)
-    assert setting(page)["law"]["name"] == min(set(said) & {"inverted", "lqr", "corrected"}, key=said.get)
+    assert setting(page)["law"]["name"] == flown[0]["setting"]["law"]["name"]
     page.evaluate("flypend.pause()")
     expect_flight(page)
+
+
+def test_the_chapters_are_a_page_of_their_own(offline, tmp_path):
+    (tmp_path / "chapters.html").write_text(chapters_page(), encoding="utf-8")
+    assert (tmp_path / "chapters.html").stat().st_size < 1.5e6
+    page = offline((tmp_path / "chapters.html").as_uri(), viewport=WIDE, color_scheme="light")
+    shown(page)
+    assert page.locator(".story .chips button").count() == len(offer()["story"])
+    for step in offer()["story"]:
+        assert page.locator(".step h3").inner_text() == step["title"]
+        assert setting(page) == step["setting"]
+        if page.locator(".step .next").is_visible():
+            page.locator(".step .next").click()
+            shown(page)
 
 
 @pytest.mark.parametrize(

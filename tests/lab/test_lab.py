@@ -1,6 +1,7 @@
 """The laboratory without a browser: flights with gains as inputs, pokes, exports, maps, and the server."""
 
 import asyncio
+import copy
 import json
 import os
 import re
@@ -11,7 +12,7 @@ import time
 import tomllib
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from pathlib import Path
 
 import numpy as np
@@ -169,27 +170,63 @@ def test_presets_are_the_experiments_of_the_paper():
         assert flight.plant == fp.Ideal()
 
 
-def test_the_story_is_what_the_flights_do():
-    settings = [setting_of(step["setting"]) for step in OFFER["story"]]
-    runs = [fly(setting) for setting in settings]
-    printed, corrected, repaired, lqr, inverted = [
-        verdict(run, tuned(setting).criterion) for run, setting in zip(runs, settings, strict=True)
-    ]
-    assert [run.law for run in runs] == ["printed", "corrected", "repaired", "lqr", "inverted"]
-    assert runs[0].outcome.status == "singular"
-    assert printed["words"].startswith("singular after")
-    for run, told in zip(runs[1:3], (corrected, repaired), strict=True):
+def flown(step, path=None, value=None):
+    """Flight and verdict of a chapter, with the value at the path of its slider, or as it is."""
+    setting = copy.deepcopy(step["setting"])
+    if path == "start.y.tilt":
+        setting["start"] |= {"y": [np.sin(value), 0.0, np.cos(value)]}
+    elif path:
+        *keys, last = path.split(".")
+        reduce(dict.__getitem__, keys, setting)[last] = value
+    read = setting_of(setting)
+    run = fly(read)
+    return run, verdict(run, tuned(read).criterion)
+
+
+def dragged(step, values):
+    return [flown(step, step["drag"], value) for value in values]
+
+
+def test_the_chapters_say_what_the_flights_do():
+    """Each sentence about a slider, at its ends and between."""
+    story = OFFER["story"]
+    joint, printed, corrected, throw, flip, catch, proved, rotors = story
+    assert all(flown(step)[1]["good"] for step in story if step not in (printed, corrected))
+    tilts = np.radians([0.0, 5.0, 45.0, 90.0, 135.0, 175.0, 180.0])
+    ends = {}
+    for step in story:
+        for facts in sliders(setting_of(step["setting"])):
+            if facts["path"] == step["drag"]:
+                ends[step["title"]] = facts["low"], facts["high"]
+    assert len(ends) == sum(step["drag"] != "start.y.tilt" for step in story)
+    between = {title: np.geomspace(max(low, 1e-3), high, 5) for title, (low, high) in ends.items()}
+    # A rod that leans further takes the vehicle further.
+    far = [verdict(run)["excursion"] for run, _ in dragged(joint, np.radians([5.0, 20.0, 40.0]))]
+    assert far == sorted(far)
+    # No gain of the slider saves the printed law.
+    assert flown(printed)[0].outcome.status == "singular"
+    assert not any(told["good"] for _, told in dragged(printed, between[printed["title"]]))
+    # Corrected, the rod hangs, and the vehicle falls wherever the rod starts.
+    assert "hangs" in flown(corrected)[1]["words"]
+    for run, _ in dragged(corrected, tilts):
         assert run.e3 == "down"
-        assert run.y[-1][2] > 0.99  # along gravity
-        assert "hangs" in told["words"]
-        assert run.x[-1][2] - run.x[0][2] > 10  # m fallen
-        np.testing.assert_array_equal(run.y[0], runs[0].y[0])
-    assert not lqr["good"]
-    assert inverted["good"]
-    assert "upright" in inverted["words"]
-    np.testing.assert_array_equal(runs[3].states[0].packed(), runs[4].states[0].packed())
-    turned = np.abs(np.diff(np.unwrap(np.arctan2(runs[3].y[:, 0], runs[3].y[:, 2])))).sum()
-    assert turned > 4 * np.pi  # it tumbles
+        assert run.x[-1][2] - run.x[0][2] > 10
+    # A faster throw, a higher bob.
+    thrown = [run for run, _ in dragged(throw, between[throw["title"]])]
+    tops = [np.max((run.x + run.vehicle.rod_length * run.y)[:, 2]) for run in thrown]
+    assert tops == sorted(tops)
+    assert tops[-1] > 2 * tops[0]
+    # The flip fails at both ends of the slider, the catch with too much damping, and with little of it the rod is late.
+    assert [told["good"] for _, told in dragged(flip, ends[flip["title"]])] == [False, False]
+    low, high = dragged(catch, ends[catch["title"]])
+    assert low[1]["settling"] > flown(catch)[1]["settling"]
+    assert not high[1]["good"]
+    # V falls, wherever the rod starts.
+    for run, _ in dragged(proved, tilts[1:-1]):
+        V = run.signals["V"]
+        assert (np.diff(V) <= 1e-9 * V[0]).all()
+    # The lag at the end of its slider is too much.
+    assert not flown(rotors, rotors["drag"], ends[rotors["title"]][1])[1]["good"]
 
 
 def test_a_random_start_is_its_seed():

@@ -301,7 +301,7 @@ def test_a_poke_in_flight_keeps_the_past(visit):
     assert page.evaluate("flypend.duration()") == 6
 
 
-def test_the_story_is_told_step_by_step(visit):
+def test_the_story_is_told_chapter_by_chapter(visit):
     page = visit(reduced_motion="reduce")
     expect(page.locator(".step")).to_be_hidden()
     for i, step in enumerate(OFFER["story"]):
@@ -310,23 +310,32 @@ def test_the_story_is_told_step_by_step(visit):
         assert page.locator(".step h3").inner_text() == step["title"]
         assert page.locator(".story [aria-pressed=true]").inner_text() == str(i + 1)
         assert setting(page) == step["setting"]
+        assert page.locator(".drag .slider").get_attribute("data-path") == step["drag"]
         assert expect_flight(page).law == step["setting"]["law"]["name"]
         assert page.evaluate("flypend.playing()") is False  # whoever wants little motion plays it himself
+        begun = [phase["from"] for phase in page.evaluate("flypend.phases()") if phase["name"] == step["phase"]]
+        assert page.evaluate("flypend.time()") == pytest.approx(max(begun[0] - 0.15, 0) if begun else 0, abs=1e-6)
     expect(page.locator(".step .next")).to_be_hidden()
-    slider(page, "plant.lag").fill("150")
+    page.locator(".drag input").fill("400")  # the end of the slider
     shown(page)
+    assert not page.evaluate("flypend.verdict().good")
     expect(page.locator(".step")).to_be_visible()
     page.locator("select[data-path='law.name']").select_option("lqr")
     shown(page)
     expect(page.locator(".step")).to_be_hidden()
 
 
-def test_a_step_of_the_story_plays(visit):
+def test_a_chapter_plays_and_its_slider_flies(visit):
     page = visit()
-    page.get_by_role("button", name="Step 4").click()
+    page.get_by_role("button", name="Chapter 4").click()
     shown(page)
-    until(page, "() => flypend.time() > 0.2")
-    assert setting(page)["law"]["name"] == "lqr"
+    until(page, "() => flypend.playing() && flypend.time() > 0.1")
+    assert page.locator(".speed select").input_value() == "0.25"
+    page.locator(".drag input").fill("380")
+    shown(page)
+    page.evaluate("flypend.pause()")
+    assert setting(page)["law"]["gains"]["throw_speed"] > 2
+    assert expect_flight(page).law == "inverted"
 
 
 def test_presets_random_laws_and_plants(visit):

@@ -138,12 +138,12 @@ def test_the_lyapunov_function_of_other_gains_is_plotted(visit):
         page.evaluate("t => flypend.seek(t)", time_)
         until(page, "t => flypend.time() === t", time_)
         page.evaluate("() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
-        told = page.locator(".plot").last.locator("output").inner_text()
+        told = page.locator(".plot", has_text="Lyapunov").locator("output").inner_text()
         digits, exponent = told.split("·10")
         raised = exponent.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
         assert float(f"{digits}e{raised}") == pytest.approx(value, rel=0.051), told
     assert page.locator(".plot").count() == 5
-    said = page.locator(".plot canvas").last.get_attribute("aria-label")
+    said = page.locator(".plot", has_text="Lyapunov").locator("canvas").get_attribute("aria-label")
     assert said.startswith("Lyapunov function V over time, 10⁻")
 
 
@@ -339,6 +339,20 @@ def test_the_ideal_plant_flies_is_poked_and_goes_on(visit):
     now = page.evaluate("flypend.live().tick")
     until(page, f"() => flypend.live().tick > {now} + 300")
     assert not page.evaluate("flypend.live().over")
+
+
+def test_the_pull_of_the_hand_is_a_spring_with_its_newtons(visit, run):
+    page = visit(run)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    assert page.locator(".newtons").is_hidden()
+    page.evaluate("flypend.pull([0, 0, 50])")  # too far: the spring has a greatest force
+    until(page, "() => !document.querySelector('.newtons').hidden")
+    most = 1.5 * 9.81 * (run.vehicle.M + run.vehicle.m)
+    assert float(page.locator(".newtons").inner_text().removesuffix(" N")) == pytest.approx(most, abs=0.051)
+    assert page.locator(".coil polyline").get_attribute("points").count(",") > 5
+    page.evaluate("flypend.pull(null)")
+    until(page, "() => document.querySelector('.newtons').hidden")
 
 
 def ideal_states(run, setting, times, moved=0.0):
@@ -722,6 +736,19 @@ def test_a_link_leads_to_the_setting(visit, run):
     other = visit(run, hash_=address)
     assert other.evaluate("flypend.setting()") == setting
     assert_flies(other, run)
+
+
+def test_the_embed_code_is_a_frame_with_the_setting(visit, run):
+    page = visit(run)
+    page.locator("[data-path='law.gains.rod_damping'] input").fill("230")
+    shown(page)
+    clipboard = "{ writeText: async (text) => { copied = text; } }"
+    page.evaluate(f"() => Object.defineProperty(navigator, 'clipboard', {{ value: {clipboard} }})")
+    page.locator("[data-keep=embed]").click()
+    until(page, "() => document.querySelector('[data-keep=embed]').textContent === 'Copied'")
+    page.evaluate("() => { made = document.createElement('div'); made.innerHTML = copied; }")
+    assert page.evaluate("made.firstChild.tagName") == "IFRAME"
+    assert page.evaluate("made.firstChild.src === location.href && location.hash.includes('rod_damping')")
 
 
 def test_a_flight_stays_as_a_ghost_while_sliders_move(visit, run):

@@ -105,3 +105,51 @@ def test_forbidden_starts_are_shaded_and_a_rod_in_one_is_freed(visit):
     page.evaluate("flypend.seek(0.3)")
     page.wait_for_timeout(300)
     assert shaded > 4 * reddish() + 500
+
+
+def test_the_pass_between_the_arms_is_seen_from_near_by_with_its_clearance(visit):
+    run = fp.simulate(MACHINE.replace(mount="hub"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.0)
+    least = run.t[np.argmin(run.clearance)]
+    page = visit(run)
+    near = page.locator(".near")
+    assert near.is_hidden()
+    page.evaluate(f"flypend.seek({least})")
+    until(page, "() => !document.querySelector('.near').hidden")
+    assert float(near.inner_text().removesuffix(" mm gap")) == pytest.approx(1e3 * run.clearance.min(), abs=0.6)
+    shown, frame = picture(page), near.bounding_box()
+    area = page.locator(".picture").bounding_box()
+    left, top, side = (int(value) for value in (frame["x"] - area["x"], frame["y"] - area["y"], frame["width"]))
+    red, _, blue = np.moveaxis(shown[top : top + side, left : left + side], -1, 0)
+    assert np.mean(red - blue > 60) > 0.04  # the rod
+    assert np.mean(red + blue < 200) > 0.1  # hub and arms
+    page.evaluate("flypend.seek(2.9)")
+    until(page, "() => document.querySelector('.near').hidden")
+
+
+def test_a_gimbal_has_no_arms_to_pass(visit):
+    page = visit(fp.simulate(MACHINE, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 1.5))
+    page.evaluate("flypend.seek(1)")
+    until(page, "() => flypend.time() === 1")
+    assert page.locator(".near").is_hidden()
+
+
+def test_a_graphics_card_lights_the_machine_by_a_room(chromium, tmp_path):
+    """Software takes seconds to prepare the room's light, so it goes without; here it passes for a card."""
+    hovering("hub").to_html(tmp_path / "page.html")
+    pictures = []
+    for name in ("SwiftShader", "GPU"):
+        context = chromium.new_context(viewport={"width": 480, "height": 360}, color_scheme="light", offline=True)
+        context.add_init_script(
+            "const told = WebGL2RenderingContext.prototype.getParameter;"
+            f"WebGL2RenderingContext.prototype.getParameter = function (name) {{ return name === 0x9246 ? '{name}' :"
+            " told.call(this, name); }"  # UNMASKED_RENDERER_WEBGL
+        )
+        page, said = context.new_page(), []
+        page.on("pageerror", lambda error, said=said: said.append(str(error)))
+        page.goto((tmp_path / "page.html").as_uri())
+        until(page, "() => window.flypend && flypend.frames().count > 0")
+        page.evaluate(AT_REST)
+        pictures.append(picture(page))
+        assert said == []
+        context.close()
+    assert np.mean(np.any(np.abs(pictures[0] - pictures[1]) > 8, axis=-1)) > 0.001  # of which the machine is a fiftieth

@@ -20,6 +20,8 @@ export class Captions {
       + `<span class="grid"></span>`;
     low.append(key);
     this.grid = key.querySelector(".grid");
+    this.near = Object.assign(document.createElement("p"), { className: "near", hidden: true });
+    parent.append(this.near);
   }
 
   /** For other `flights`. */
@@ -53,8 +55,19 @@ export class Captions {
       write(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     this.#heights(stage.marks());
+    this.#near(stage.near);
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
     write(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
+  }
+
+  /** Frame the pass between the arms, and write how much room it has. */
+  #near(picture) {
+    if (this.near.hidden === Boolean(picture)) this.near.hidden = !picture;
+    if (!picture) return;
+    const { left, top, side, clearance } = picture;
+    place({ root: this.near, box: this.framed }, { left, top, width: side, height: side });
+    this.framed = [left, top, side, side].join();
+    write(this.near, room(clearance));
   }
 
   /** Write the heights at the marks of the pole. */
@@ -74,6 +87,9 @@ export class Captions {
     });
   }
 }
+
+/** Words for the clearance of the rod, m. */
+export const room = (clearance) => (clearance > 0 ? `${(1000 * clearance).toFixed(0)} mm gap` : "touches");
 
 /** Put the words of `view` where its picture is: to write what stands there has styles computed anew. */
 function place(view, { left, top, width, height }) {

@@ -9,6 +9,9 @@ export function clear(context, width, height) {
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
 }
 
+/** A font of `pixels` on a canvas, larger where the page's letters are. */
+export const font = (pixels) => `${(pixels * parseFloat(getComputedStyle(document.documentElement).fontSize)) / 14}px system-ui, sans-serif`;
+
 /** Put `element` to `transform`, unless it is there: to write a style has styles computed anew. */
 export function move(element, transform) {
   if (element.moved === transform) return;

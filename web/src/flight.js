@@ -7,6 +7,7 @@ import { clamp, dot, hermite, indexBefore, matrix, mix, slerp, unit } from "./nu
 import { phases, STANDS } from "./phases.js";
 
 const TURNS_IN_HOVER = 2.5; // drawn turns of a rotor per second of flight that carries its share of the weight
+const ABOUT = 0.15, LEVEL = Math.SQRT1_2; // s and sine: of a pass between the arms
 const QUARTER_TURN = Math.cos(Math.PI / 4); // |<q, q'>| of a quarter turn: beyond it nothing can be interpolated
 
 /** Little-endian 32-bit floats from base64 text. */
@@ -66,6 +67,7 @@ export class Flight {
       rotor_forces: between("rotor_forces", this.rotors),
       x_ref: between("x_ref", 3),
       excess: between("excess", 1)[0],
+      ...(this.columns.clearance && { clearance: between("clearance", 1)[0] }),
       turned: this.turned[i].map((value, k) => mix(value, this.turned[j][k], share)),
     };
   }
@@ -84,6 +86,16 @@ export class Flight {
   /** What the rod does at the time `t`, in one word. */
   phase(t) {
     return (this.phases.find(({ to }) => t < to) ?? this.phases[this.phases.length - 1]).name;
+  }
+
+  /** Whether the rod passes between the arms about the time `t`: within 45° of their plane, on a mount where they are in its way. */
+  passes(t) {
+    if (this.vehicle.mount !== "hub") return false;
+    for (let i = indexBefore(this.t, t - ABOUT); i < this.t.length && this.t[i] <= t + ABOUT; i++) {
+      const axis = matrix(this.sample("quat_xyzw", i, 4)).map((row) => row[2]);
+      if (Math.abs(dot(axis, this.sample("y", i))) < LEVEL) return true;
+    }
+    return false;
   }
 
   /** Values to plot over `t` from sample `from` on: "y3", "z3", "thrust", "distance" from the reference, "clearance", "V", or "rotor k". */

@@ -1,6 +1,6 @@
 // Quantities over time on a canvas, with a cursor that follows the clock and that one can drag.
 
-import { clear, move, write } from "./drawing.js";
+import { clear, font, move, write } from "./drawing.js";
 import { drawMark, markIcon } from "./marks.js";
 import { clamp, indexBefore, mix, roundUp } from "./numbers.js";
 import { large, power, reading, scientific, tick } from "./words.js";
@@ -140,7 +140,7 @@ export class Plot {
   #axes(context, place, colours) {
     const { width, height, span: [low, high] } = this;
     this.#beyond(context, place, colours);
-    context.font = "11px system-ui, sans-serif";
+    context.font = font(11);
     Object.assign(context, { lineWidth: 1, textBaseline: "middle" });
     const line = (x0, y0, x1, y1, colour, dash = []) => {
       context.setLineDash(dash);

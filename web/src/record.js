@@ -1,6 +1,7 @@
 // Movies and pictures of the scene in any size, with title, time and verdict. A movie is drawn frame by frame at times of the
 // flight, however long a drawing takes: it plays at the chosen speed.
 
+import { room } from "./captions.js";
 import { webm } from "./webm.js";
 
 const RATE = 30; // frames per second
@@ -86,8 +87,16 @@ function paint(viewer, film) {
   context.fillText(viewer.title, size, size);
   context.font = `${size}px system-ui, sans-serif`;
   const [flight] = viewer.flights;
+  if (stage.near) frame(context, stage.near, film.height / stage.height, colours);
   context.fillText(`${clock.time.toFixed(2)} s, ${clock.speed}× real time, ${flight.phase(clock.time)}`, size, 2.4 * size);
   return { context, size };
+}
+
+/** Frame what is seen from near by, at `near` in CSS pixels, `scale` times as large, and write how much room the rod has. */
+function frame(context, { left, top, side, clearance }, scale, colours) {
+  Object.assign(context, { strokeStyle: colours.line, lineWidth: 1.5 * scale });
+  context.strokeRect(scale * left, scale * top, scale * side, scale * side);
+  context.fillText(room(clearance), scale * (left + 10), scale * (top + side - 24));
 }
 
 /** Have a picture of `viewer` in a `size` (pixels, or null), with title and time, as a PNG told to `done`. */

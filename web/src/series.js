@@ -32,6 +32,10 @@ export function plots(flights, since = -Infinity) {
       names: [[1, `y₃ = 1: ${poles[0]}`], [-1, `y₃ = −1: ${poles[1]}`]],
       lines: [...line("y3", "<i>y</i>₃", "rod", "disc"), ...line("z3", "<i>z</i>₃", "trail", "square")],
     },
+    ...(proved.length ? [{
+      ...axis, title: "Lyapunov function <i>V</i>", plain: "Lyapunov function V", unit: "", log: true, least: LEAST_V,
+      lines: line("V", "<i>V</i>", "trail", "square", proved),
+    }] : []),
     {
       ...axis, title: "Thrust <i>f</i>", plain: "Thrust", unit: "N", levels: [[weight, "hover"]], scale: Math.abs(weight),
       lines: line("thrust", "<i>f</i>", "thrust", "disc"),
@@ -50,10 +54,6 @@ export function plots(flights, since = -Infinity) {
     ...(free.length ? [{
       ...axis, title: "Clearance of the rod", plain: "Clearance of the rod", unit: "m", levels: [[0, "touches"]],
       lines: line("clearance", "distance", "rod", "disc", free),
-    }] : []),
-    ...(proved.length ? [{
-      ...axis, title: "Lyapunov function <i>V</i>", plain: "Lyapunov function V", unit: "", log: true, least: LEAST_V,
-      lines: line("V", "<i>V</i>", "trail", "square", proved),
     }] : []),
   ];
 }

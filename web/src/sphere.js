@@ -1,6 +1,8 @@
 // The sphere of directions on a disc of equal areas (Lambert's azimuthal projection): one pole in the middle, the other all along
 // the rim, headings as seen from above. Directions have e3 up; places are in radii of the disc, y down as on a screen.
 
+import { font } from "./drawing.js";
+
 const RINGS = [30, 60, 90, 120, 150]; // degrees from the middle
 const LEVEL = 90;
 
@@ -44,7 +46,7 @@ export function rings(context, radius, ring, rim) {
 
 /** Names of the first two axes at the rim, for a frame with `e3` up or down. */
 export function axes(context, radius, e3, colour) {
-  Object.assign(context, { font: "12px system-ui, sans-serif", textAlign: "center", textBaseline: "middle", fillStyle: colour });
+  Object.assign(context, { font: font(12), textAlign: "center", textBaseline: "middle", fillStyle: colour });
   context.fillText("e₁", radius + 15, 0);
   context.fillText("e₂", 0, (e3 === "up" ? -1 : 1) * (radius + 15));
 }

@@ -18,7 +18,7 @@ from flypend.pages import replay
 
 VEHICLES, PLANTS = ("hehn2011", "nayak2018"), ("rotors", "ideal")
 LAWS = tuple(name for name in law_names() if name != "learned")  # its network would double the file
-TITLE = "flypend laboratory"
+TITLE, CHAPTERS = "flypend laboratory", "How a quadrotor throws and catches a rod"
 Tell = Callable[[str, int, int], Any]
 
 
@@ -37,22 +37,35 @@ def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *
     InputError
         If there is none, or the package has no such vehicle or law.
     """
-    every, engines = offer(), {}
+    every = offer()
     for name, chosen in (("vehicle", vehicles), ("law", laws)):
         if not chosen:
             raise errors.InputError(f"{name}s", "one at least", "none")
         for one in chosen:
             errors.one_of(name, one, every[f"{name}s"])
-    settings = [_setting(every["first"], *choice) for choice in product(vehicles, laws, PLANTS)]
+    return _page(every, [_setting(every["first"], *choice) for choice in product(vehicles, laws, PLANTS)], TITLE, tell)
+
+
+def chapters_page() -> str:
+    """Return the derivation in eight chapters as HTML that flies by itself, offline, from the first on."""
+    every = offer()
+    settings = {_kind(step["setting"]): step["setting"] for step in every["story"]}
+    first = every["story"][0]["setting"]
+    return _page({**every, "first": first, "told": True}, list(settings.values()), CHAPTERS, lambda *_: None)
+
+
+def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str, tell: Tell) -> str:
+    """The page that offers of `every` what can be flown with machine code for `settings`."""
+    engines = {}
     for number, setting in enumerate(settings):
         tell(_kind(setting), number, len(settings))
         engines[_kind(setting)] = _engine(setting_of(setting))
     data = {
-        "title": TITLE, "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], "engines": engines,
+        "title": title, "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], "engines": engines,
         "offer": {**_offered(every, settings, engines), **drawn_starts()},
     }  # fmt: skip
     return replay.PAGE.format(
-        policy=html.escape(replay.LIVE_POLICY), title=TITLE, data=replay.embedded(data), program=replay.program("lab")
+        policy=html.escape(replay.LIVE_POLICY), title=title, data=replay.embedded(data), program=replay.program("lab")
     )
 
 
@@ -92,4 +105,5 @@ def _offered(every: dict[str, Any], settings: Sequence[dict[str, Any]], engines:
         "laws": list(dict.fromkeys(setting["law"]["name"] for setting in settings)),
         "plants": {name: every["plants"][name] for name in PLANTS}, "sensors": {"perfect": every["sensors"]["perfect"]},
         "first": first, "starts": every["starts"], "story": story, "experiments": papers, "alone": True,
+        "told": every.get("told", False),
     }  # fmt: skip

@@ -1,8 +1,10 @@
-"""What the page offers: laws, plants, presets, a story in five flights, and the sliders of a setting."""
+"""What the page offers: laws, plants, presets, the derivation in eight chapters, and the sliders of a setting."""
 
 from __future__ import annotations
 
 from typing import Any
+
+import numpy as np
 
 from flypend import palette
 from flypend.lab.own import OwnLaws
@@ -12,7 +14,7 @@ from flypend.model import State
 from flypend.model.table import vehicle_names
 from flypend.pages import replay
 from flypend.pages.sliders import gain_sliders, plant_sliders, slider
-from flypend.pages.starts import STARTS, plain, starts
+from flypend.pages.starts import plain, starts
 from flypend.paper import experiment, experiment_names
 from flypend.plants import Sampled
 
@@ -74,73 +76,104 @@ def sliders(setting: Setting) -> list[dict[str, Any]]:
 
 SHOWN = "3"  # the experiment of the paper whose printed law flies longest
 LASTING = 10.0  # s: the paper ends at 6.5 s, before the rod has come to rest
-LEVEL = plain(State(y=STARTS["level"]))
+TILT = "start.y.tilt"  # of the rod from upright
+LEAN = 20.0  # degrees, of a rod that is balanced at once
 
 
 def story() -> list[dict[str, Any]]:
-    """Return the steps: a `title`, `words` on what to see, and the `setting` of the flight."""
+    """Return the chapters of the derivation, which share one scene.
+
+    Each has a `title`, `words`, the `setting` of its flight, and `drag`, the path of the slider beside the words; some
+    have a `phase` of the flight (web/src/phases.js) at which it is shown.
+    """
     return [
+        _step(
+            "A rod on a ball joint",
+            "No motor turns the rod. The thrust moves the joint: its part across the rod turns the rod, its part along "
+            "the rod carries the bob. Let the rod lean further, and the vehicle has to travel further to get below it.",
+            TILT, start=_tilted(LEAN),
+        ),
         _paper(
             "printed",
-            "As printed, it fails",
-            "Experiment 3 of the paper under its law, letter by letter. The damping has the wrong sign, and a feedback "
-            "term becomes singular: the flight ends there.",
+            "Why the printed law fails",
+            "Experiment 3 of the paper under its law, letter by letter. The damping has the wrong sign: it drives the "
+            "rod. With any gain of this slider the flight ends at a singular term, or the rod never comes to rest.",
+            "law.gains.k_d",
         ),
         _paper(
             "corrected",
-            "Corrected, it hangs",
-            "The sign is right and the singular term gone. The rod comes to the pose that the paper calls inverted, "
-            "along its e₃. But e₃ points along gravity: the rod hangs, and the vehicle falls.",
+            "Carry the bob",
+            "With the sign corrected the rod comes to rest, but along gravity: it hangs, and the vehicle falls. This "
+            "law shapes the thrust across the rod and leaves the bob to gravity. It falls wherever the rod starts.",
+            TILT,
         ),
-        _paper(
-            "repaired",
-            "Repaired, it is proved",
-            "It still hangs, now with a theorem behind it: a Lyapunov function falls along every solution, and from "
-            "almost every start the rod comes to rest.",
+        _step(
+            "Throw",
+            "The inverted law uses both parts of the thrust. To flip a hanging rod it must push down for a moment, and "
+            "nothing is held up. So it throws the bob first. Throw faster, and the bob rises higher.",
+            "law.gains.throw_speed", start=_tilted(180.0), phase="climbs",
         ),
-        _level(
-            "lqr",
-            "Balancing is not swinging up",
-            "LQR about hover, with rotors that have limits and lag. It balances a rod that leans a little. This one "
-            "begins level: the machine tumbles.",
+        _step(
+            "Flip",
+            "The vehicle turns over, dives past the bob, and the rod swings up. Turning takes time, so the thrust axis "
+            "aims at the force that will be needed when it arrives. Look ahead too little or too far, and it fails.",
+            "law.gains.coast_time", start=_tilted(180.0), phase="flips",
         ),
-        _level(
-            "inverted",
-            "Inverted, it stands",
-            "The same start, the same rotors, another law: it throws the bob, flips the rod and catches it. Poke it, "
-            "drag the rod elsewhere, or let it fly live.",
+        _step(
+            "Catch",
+            "Below the bob the vehicle pushes up again, and damping stops the swing. With little damping the rod takes "
+            "longer to come to rest; with too much of it the catch is missed.",
+            "law.gains.rod_damping", start=_tilted(180.0), phase="catches",
         ),
-    ]
+        _step(
+            "V falls",
+            "Another law for the same machine comes with a proof: a Lyapunov function V falls along every solution. "
+            "Start the rod elsewhere, and V still falls (second plot). The proof is for ideal rotors.",
+            TILT, law="almost_global", plant="ideal", start=_tilted(150.0), duration=LASTING,
+        ),
+        _step(
+            "What the rotors forbid",
+            "Rotors push one way, up to a limit, and answer late. Drag the lag to its end, and the machine turns too "
+            "slowly to catch the rod.",
+            "plant.lag", start=_tilted(180.0),
+        ),
+    ]  # fmt: skip
 
 
-def _paper(law: str, title: str, words: str) -> dict[str, Any]:
-    """A step with the paper's vehicle, start and plant, flown for longer; `repaired` has gains of its own."""
+def _tilted(degrees: float) -> dict[str, Any]:
+    """A start at rest with the rod so far from upright."""
+    lean = np.radians(degrees)
+    return plain(State(y=(np.sin(lean), 0.0, np.cos(lean))))
+
+
+def _paper(law: str, title: str, words: str, drag: str) -> dict[str, Any]:
+    """A chapter with the paper's vehicle, start, gains and plant, flown for longer."""
     row = experiment(SHOWN)
-    gains = {} if law == "repaired" else dict(row.gains)
-    machine = {"base": row.vehicle.name, "mount": row.vehicle.mount}
-    return _step(title, words, machine, law, gains, row.plant, plain(row.start.flipped()), LASTING)
-
-
-def _level(law: str, title: str, words: str) -> dict[str, Any]:
-    """A step with rotors, from a level rod."""
-    return _step(title, words, {"base": "hehn2011", "mount": "gimbal"}, law, {}, "rotors", LEVEL, 6.0)
+    machine, start = {"base": row.vehicle.name, "mount": row.vehicle.mount}, plain(row.start.flipped())
+    gains = dict(row.gains)
+    return _step(
+        title, words, drag, law=law, plant=row.plant, start=start, duration=LASTING, vehicle=machine, gains=gains
+    )
 
 
 def _step(
     title: str,
     words: str,
-    vehicle: dict[str, str],
-    law: str,
-    gains: dict[str, float],
-    plant: str,
+    drag: str,
+    *,
     start: dict[str, Any],
-    duration: float,
+    law: str = "inverted",
+    plant: str = "rotors",
+    duration: float = 6.0,
+    vehicle: dict[str, str] | None = None,
+    gains: dict[str, float] | None = None,
+    phase: str | None = None,
 ) -> dict[str, Any]:
     setting = {
-        "vehicle": vehicle, "law": {"name": law, "gains": gains}, "plant": {"base": plant}, "start": start,
-        "duration": duration, "pokes": [],
+        "vehicle": vehicle or {"base": "hehn2011", "mount": "gimbal"}, "law": {"name": law, "gains": gains or {}},
+        "plant": {"base": plant}, "start": start, "duration": duration, "pokes": [],
     }  # fmt: skip
-    return {"title": title, "words": words, "setting": setting}
+    return {"title": title, "words": words, "drag": drag, "setting": setting, "phase": phase}
 
 
 PAGE = """<!doctype html>

@@ -2,11 +2,13 @@
 
 import { Raycaster, Vector2 } from "three";
 
-import { move } from "../drawing.js";
-import { dot, unit } from "../numbers.js";
+import { move, write } from "../drawing.js";
+import { spring } from "../live/spring.js";
+import { dot, norm, unit } from "../numbers.js";
 
 const TURN = Math.PI / 36; // by an arrow key
 const ARM = 0.6; // rod lengths, by which an arrow key pulls
+const COIL = { turns: 9, wide: 5 }; // of the drawn spring; CSS pixels
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class Handle {
@@ -20,7 +22,12 @@ export class Handle {
     this.invite.className = "invite";
     this.root.append(this.invite);
     this.#name(false);
-    viewer.parts.scene.append(this.root);
+    this.coil = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    this.coil.classList.add("coil");
+    this.coil.setAttribute("aria-hidden", "true");
+    this.coil.innerHTML = "<polyline/>";
+    this.newtons = Object.assign(document.createElement("p"), { className: "newtons", hidden: true });
+    viewer.parts.scene.append(this.coil, this.newtons, this.root);
     this.root.addEventListener("pointerdown", (event) => {
       this.root.setPointerCapture(event.pointerId);
       this.#hold(true);
@@ -36,18 +43,32 @@ export class Handle {
     return this.viewer.stage?.flyers[0];
   }
 
-  /** Go where the bob is; there is nothing to drag later than at the start, unless the flight goes on: `going`. */
-  show(going) {
+  /** Go where the bob is; there is nothing to drag later than at the start, unless the flight goes on: `going`. Draw a `pull`. */
+  show(going, pull) {
     const { viewer, flyer } = this, { clock } = viewer;
     if (going !== this.going) this.#name(going);
     this.root.hidden = !flyer || (!going && (clock.playing || clock.time > clock.start + 1e-9));
     const seen = !this.root.hidden && !going;
     if (flyer && viewer.stage.barred.place(seen && flyer.pose.x, viewer.stage.factor * flyer.flight.vehicle.rod_length)) viewer.wake();
+    this.#spring(going && flyer ? pull : null);
     if (this.root.hidden) return;
     const [left, top] = viewer.stage.screen(0, viewer.stage.factor).bob;
     if (!this.held) this.y = flyer.pose.y;
     this.pivot = flyer.pose.x;
     move(this.root, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`);
+  }
+
+  /** Draw the spring of a `pull` from the bob to the hand, with its force; null: none. */
+  #spring(pull) {
+    this.newtons.hidden = !pull;
+    this.coil.classList.toggle("none", !pull);
+    if (!pull) return;
+    const { pose: { x_dot, y_dot }, flight: { vehicle: { rod_length } } } = this.flyer, bob = this.#bob();
+    const force = norm(spring(pull, bob, x_dot.map((value, k) => value + rod_length * y_dot[k])));
+    const from = this.viewer.stage.locate(bob), to = this.viewer.stage.locate(pull.place);
+    this.coil.firstChild.setAttribute("points", coil(from, to).map((place) => place.map((value) => value.toFixed(1)).join()).join(" "));
+    write(this.newtons, `${force.toFixed(1)} N`);
+    move(this.newtons, `translate(${to[0].toFixed(1)}px, ${to[1].toFixed(1)}px)`);
   }
 
   #name(going) {
@@ -110,6 +131,16 @@ export class Handle {
     this.y = unit(this.y.map((value, k) => value + sine * (steps[0] * right[k] + steps[1] * up[k])));
     this.moved(this.y);
   }
+}
+
+/** Corners of a spring on the screen, between two places. */
+function coil(from, to) {
+  const way = to.map((value, k) => value - from[k]), size = Math.hypot(...way) || 1, aside = [-way[1] / size, way[0] / size];
+  const turns = Array.from({ length: COIL.turns }, (_, i) => {
+    const share = (i + 1) / (COIL.turns + 1), out = i % 2 ? COIL.wide : -COIL.wide;
+    return from.map((value, k) => value + share * way[k] + out * aside[k]);
+  });
+  return [from, ...turns, to];
 }
 
 /** Where a ray from `from` along the unit vector `way` meets the unit sphere, nearest to `last`; or comes closest. */

@@ -23,6 +23,7 @@ import { Story } from "./story.js";
 const MAP_DELAY = 250; // ms without a change before a map is asked for
 const AT_ONCE = 0.02; // s: a flight so short has ended where it began
 const ROOM = 0.005; // m of clearance at a start that is free
+const SLOW = 0.25, BEFORE = 0.15; // of the speed, and s before it: of a phase that a chapter shows
 const HOLD = 400; // ms without a slider's move before the camera goes where the new flight needs it
 
 export class Laboratory {
@@ -39,18 +40,19 @@ export class Laboratory {
     this.#header();
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
-    if (this.offer.story?.length) this.story = new Story(this.panel.bar, this.offer.story, (setting) => this.tell(setting));
+    if (this.offer.story?.length) this.story = new Story(this.panel.bar, this.offer.story, this);
     this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => this.running.pull(place));
     this.disc = new Disc(this.main, (y) => {
       this.rod(y);
       this.show("flight");
     });
-    this.viewer.drew = () => this.handle.show(this.running.on);
+    this.viewer.drew = () => this.handle.show(this.running.on, this.running.pulling);
     this.saving = new Saving(this);
     keys({ p: () => this.panel.poke("bob"), l: () => this.running.toggle(), r: () => this.restart() });
     this.#undoKeys();
     if (this.setting.unreadable) this.#notice("The address holds no setting that can be read. This is the usual start.");
-    this.changed();
+    if (this.offer.told && !location.hash) this.story.go(0);
+    else this.changed();
   }
 
   #header() {
@@ -169,11 +171,20 @@ export class Laboratory {
     this.setting.replace(setting);
   }
 
-  /** Show the flight of `setting` from its beginning, and play it. */
-  tell(setting) {
+  /** Show the flight of a chapter and play it, from its beginning or slowly from its phase. */
+  tell({ setting, phase }) {
     this.show("flight");
     this.follow = true;
     this.preset(setting);
+    this.phase = phase;
+    this.viewer.clock.setSpeed(phase ? SLOW : 1);
+  }
+
+  /** Go to the phase that is told. */
+  #seek() {
+    const { clock, flights: [flight] } = this.viewer, begun = flight.phases.find(({ name }) => name === this.phase)?.from;
+    if (begun !== undefined) clock.seek(begun - BEFORE);
+    this.phase = null;
   }
 
   /** Hit a body at the time shown; what was before stays, what came after is flown anew. */
@@ -257,6 +268,8 @@ export class Laboratory {
       this.panel.flight(reply);
       this.#barred();
       if (this.viewer.stage && reply.verdict.part && this.viewer.flights[0].end < AT_ONCE) this.#notice(`${capital(reply.verdict.reason)} at the start. Shaded directions are taken.`, ["Move to a free start", () => this.free()]);
+      this.story?.flown(this.setting.value, reply.sliders);
+      if (this.phase) this.#seek();
       if (this.follow && !calm()) this.viewer.clock.play();
       this.follow = false;
     }
@@ -292,9 +305,9 @@ export class Laboratory {
     });
   }
 
-  /** Once the rod stands, let the flight go on, if the page can: it is there to be grabbed. */
+  /** Once the rod stands, let the flight go on, if the page can and tells no chapter: it is there to be grabbed. */
   #handOver() {
-    if (this.running.able && this.record.e3 === "up") this.running.go(true);
+    if (!this.story?.told && this.running.able && this.record.e3 === "up") this.running.go(true);
     return this.running.on;
   }
 

@@ -7,7 +7,15 @@ const HTML = `<h2>Keep</h2>
   <div class="row two"><button type="button" data-keep="csv" title="Times, states, forces of the flight that is shown">CSV</button>
   <button type="button" data-keep="png" title="The picture as it is, in the size of movies">PNG</button></div>
   <div class="row two"><button type="button" data-keep="link" title="An address that leads to this setting">Copy link</button>
-  <button type="button" data-keep="pin" aria-pressed="false" title="Leave the flight as a ghost while the setting changes">Pin</button></div>`;
+  <button type="button" data-keep="embed" title="The line of HTML that shows this setting in another page">Copy embed code</button></div>
+  <div class="row two"><button type="button" data-keep="pin" aria-pressed="false" title="Leave the flight as a ghost while the setting changes">Pin</button></div>`;
+
+/** The HTML of a frame with the page at `address`. */
+const framed = (address, title) => {
+  const frame = document.createElement("iframe");
+  for (const [name, value] of Object.entries({ src: address, title, width: 960, height: 640, loading: "lazy", style: "border:0" })) frame.setAttribute(name, value);
+  return frame.outerHTML;
+};
 
 export class Saving {
   /** In the panel of the laboratory `lab`. */
@@ -32,11 +40,21 @@ export class Saving {
   }
 
   link(button) {
+    this.#copy(button, (address) => address, "See the address bar");
+  }
+
+  embed(button) {
+    this.#copy(button, (address) => framed(address, this.lab.viewer.title), "No clipboard here");
+  }
+
+  /** Copy what `made` makes of the address of the setting, and say so on `button` for a while, or what to do `otherwise`. */
+  #copy(button, made, otherwise) {
+    const name = (button.dataset.words ??= button.textContent);
     this.lab.setting.keep();
-    const copied = navigator.clipboard?.writeText(location.href) ?? Promise.reject(new Error("no clipboard"));
-    copied.then(() => "Copied", () => "See the address bar").then((words) => {
+    const copied = navigator.clipboard?.writeText(made(location.href)) ?? Promise.reject(new Error("no clipboard"));
+    copied.then(() => "Copied", () => otherwise).then((words) => {
       button.textContent = words;
-      setTimeout(() => (button.textContent = "Copy link"), 1500);
+      setTimeout(() => (button.textContent = name), 1500);
     });
   }
 

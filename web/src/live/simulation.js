@@ -1,6 +1,7 @@
 // A flight that a page flies: the package's own machine code in WebAssembly. Rows of state and rotor forces have e3 up.
 
 import { Engine } from "../engine.js";
+import { spring } from "./spring.js";
 
 /** What flights through both kinds of plant share; sampled.js and ideal.js have the rest. */
 export class Simulation {
@@ -47,8 +48,7 @@ export class Simulation {
   }
 
   /**
-   * As `advance`, while a spring pulls the bob to `pull.place`: the force is told anew at every tick. `pull` has also
-   * `stiffness` (N/m), `damping` (N s/m) and `most` (N).
+   * As `advance`, while a spring pulls the bob as spring.js says: the force is told anew at every tick.
    */
   pulled(ticks, pull, impulses = null) {
     const kept = [];
@@ -56,12 +56,9 @@ export class Simulation {
     return joined(kept);
   }
 
-  #spring({ place, stiffness, damping, most }) {
-    const [x, v, y, w] = [0, 3, 18, 21].map((begin) => Array.from(this.last.subarray(begin, begin + 3)));
-    const rod = this.facts.rod;
-    const force = place.map((value, k) => stiffness * (value - x[k] - rod * y[k]) - damping * (v[k] + rod * w[k]));
-    const size = Math.hypot(...force);
-    return size > most ? force.map((value) => (value * most) / size) : force;
+  #spring(pull) {
+    const [x, v, y, w] = [0, 3, 18, 21].map((begin) => Array.from(this.last.subarray(begin, begin + 3))), { rod } = this.facts;
+    return spring(pull, x.map((value, k) => value + rod * y[k]), v.map((value, k) => value + rod * w[k]));
   }
 
   /** How the flight has ended so far, and what the criterion says of it. */

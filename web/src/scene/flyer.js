@@ -3,13 +3,14 @@
 import { Group, Mesh, MeshBasicMaterial, TorusGeometry } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-import { indexBefore, norm } from "../numbers.js";
+import { clamp, indexBefore, norm } from "../numbers.js";
 import { upright } from "../flight.js";
 import { Model } from "./model.js";
 import { Ribbon } from "./ribbon.js";
 
 const FINEST = 0.06; // rad that the rod may turn between two points of a drawn path
 const MOST = 12000; // points of a path
+const REACHED = 0.2, FAINT = 0.12; // rod lengths from the reference within which its mark gives way to the machine, and how far
 
 export class Flyer extends Group {
   /** A `flight` (flight.js), drawn as a ghost or not. It takes over the machine of `last`, a flyer that goes, if it is of one build. */
@@ -54,7 +55,9 @@ export class Flyer extends Group {
     this.pose = upright(pose, this.flight.e3);
     this.model.show(this.pose);
     this.model.touch(pose.t >= this.flight.end ? this.flight.verdict.part : null);
-    this.marker.position.set(...this.pose.x_ref);
+    const { x, x_ref } = this.pose, off = norm(x.map((value, k) => value - x_ref[k]));
+    this.marker.position.set(...x_ref);
+    this.paint.opacity = 0.9 * clamp(off / (REACHED * this.flight.vehicle.rod_length), FAINT, 1);
   }
 
   /** Draw in a viewport of `width` by `height` pixels, the machine larger by `factor` than it is. */

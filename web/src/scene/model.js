@@ -6,6 +6,7 @@ import {
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
+import { NEAR } from "./closeup.js";
 import { motor, Rotors } from "./rotor.js";
 
 const UP = new Vector3(0, 1, 0); // along which three.js builds cylinders
@@ -16,6 +17,10 @@ const CAGE = { room: 1.08, most: 0.8, thick: 0.007 }; // of a gimbal: radius ove
 const CUP = 0.24; // slant height of a cup over the rod
 const SWOLLEN = 2; // how much thicker an arm that was touched is drawn, to be seen
 
+const MADE = { // carbon, aluminium, lacquer, plastic
+  body: { roughness: 0.42, metalness: 0.25 }, rod: { roughness: 0.32, metalness: 0.08 }, front: { roughness: 0.5, metalness: 0 },
+  rear: { roughness: 0.4, metalness: 0.3 }, thrust: { roughness: 0.6, metalness: 0 },
+};
 const BUILD = ["rod_length", "rod_end", "rotor_positions", "rotor_spins", "rotor_radius", "mount", "body"];
 
 const RIM_VERTEX = `
@@ -49,7 +54,7 @@ function outline(opacity) {
 function paints(ghost) {
   const roles = ["body", "front", "rear", "rod", "thrust"];
   return Object.fromEntries(roles.map((role) => {
-    const paint = new MeshStandardMaterial({ roughness: 0.55, metalness: 0.05, side: DoubleSide });
+    const paint = new MeshStandardMaterial({ ...MADE[role], side: DoubleSide });
     if (ghost) Object.assign(paint, { transparent: true, opacity: 0.38, depthWrite: false, forceSinglePass: true });
     return [role, paint];
   }));
@@ -123,6 +128,8 @@ export class Model extends Group {
     this.#frame(span);
     this.rim = outline(ghost ? 0.4 : 0.85);
     this.thrust = new Arrow(0.085 * rod, arrow(true), this.rim, 1.8); // wide enough for the rod to stand inside
+    for (const part of [this.body, this.pole]) part.traverse((one) => one.layers.enable(NEAR));
+    for (const one of this.arrows) one.traverse((part) => part.layers.disable(NEAR));
     this.body.add(this.thrust);
     this.traverse((part) => (part.frustumCulled = false)); // it is in the picture, and cheaper drawn than looked for
   }

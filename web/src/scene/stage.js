@@ -1,10 +1,12 @@
 // The scene on a canvas: flyers, world, camera; all in one picture, the others as ghosts, or side by side.
 
-import { PerspectiveCamera, PCFShadowMap, Scene, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
+import { Euler, PerspectiveCamera, PCFShadowMap, PMREMGenerator, Scene, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
+import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 
 import { calm } from "../motion.js";
 import { norm, roundUp } from "../numbers.js";
 import { Barred } from "./barred.js";
+import { CloseUp } from "./closeup.js";
 import { Flyer } from "./flyer.js";
 import { Pole } from "./pole.js";
 import { Rig } from "./rig.js";
@@ -13,6 +15,9 @@ import { World } from "./world.js";
 
 const FLOOR = { under: 1.25, below: 0.35 }; // reaches of the machine: of the floor under the start, and below all that a flight passes
 const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
+const ROOM = 0.55, BLURRED = 0.04; // strength of the light that comes from a room, and how far it is blurred, rad
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+const WORDS = { above: 46, below: 36 }; // CSS pixels of the picture with words of their own
 const STEEP = 0.9; // sine of the camera's elevation from which on a pole is a point
 
 export const LAYOUTS = ["overlay", "beside"];
@@ -25,11 +30,24 @@ export class Stage {
     Object.assign(this.renderer.shadowMap, { enabled: true, type: PCFShadowMap });
     Object.assign(this, { canvas, layout: "overlay", views: [], flyers: [], ghosts: [], left: [], holds: new Set() });
     this.scene = new Scene();
+    this.#surround();
+    this.closeUp = new CloseUp();
     this.barred = new Barred();
     this.scene.add(this.barred);
     this.camera = new PerspectiveCamera();
     this.camera.matrixAutoUpdate = false;
     this.load(flights);
+  }
+
+  /** Light from a room, which the machine reflects; not where a processor draws, which would take seconds to prepare it. */
+  #surround() {
+    if (SOFTWARE.test(drawnBy(this.renderer.getContext()))) return;
+    const filter = new PMREMGenerator(this.renderer), room = new RoomEnvironment();
+    this.scene.environment = filter.fromScene(room, BLURRED).texture;
+    this.scene.environmentRotation = new Euler(Math.PI / 2, 0, 0); // from y up, as three.js has its rooms
+    this.scene.environmentIntensity = ROOM;
+    room.dispose();
+    filter.dispose();
   }
 
   /** Show other `flights` (flight.js); the camera follows the first, from where it is if there was one before. */
@@ -43,7 +61,7 @@ export class Stage {
     const box = bounds(this.flyers.flatMap((flyer) => [flyer.pivots, flyer.bobs]));
     const start = Array.from(this.flyers[0].pivots.subarray(0, 3));
     const floor = Math.min(start[2] - FLOOR.under * reach, box.centre[2] - box.half[2] - FLOOR.below * reach);
-    this.world = new World(floor, reach);
+    this.world = new World(floor, reach, Boolean(this.scene.environment));
     this.pole = new Pole(start, flights[0].direction, floor, box.centre[2] + box.half[2], reach);
     this.walls = new Walls(flights[0].windows ?? []);
     this.box = box;
@@ -147,8 +165,23 @@ export class Stage {
       renderer.render(this.scene, this.camera);
       return { ...port, ...seen, camera: this.camera.clone() };
     });
+    this.near = this.#closeUp();
     this.#free();
     return moving;
+  }
+
+  /** Draw the rod near by while it passes between the arms; where, or null. */
+  #closeUp() {
+    const { renderer, scene, closeUp, width, height, flyers: [flyer] } = this;
+    if (this.layout === "beside" || !flyer.flight.passes(flyer.pose.t)) return null;
+    const { left, top, side } = closeUp.place(width, height), rectangle = [left, height - top - side, side, side];
+    this.world.fill.position.copy(closeUp.aim(flyer.model, this.factor));
+    renderer.setViewport(...rectangle);
+    renderer.setScissor(...rectangle);
+    renderer.shadowMap.autoUpdate = false; // it has just been drawn
+    renderer.render(scene, closeUp.camera);
+    renderer.shadowMap.autoUpdate = true;
+    return { left, top, side, clearance: flyer.pose.clearance };
   }
 
   #select(main, width, height) {
@@ -167,14 +200,24 @@ export class Stage {
     return { pivot: project(x, view), bob: project(x.map((value, k) => value + rod * y[k]), view) };
   }
 
+  /** Where a `point` of the world is in the first picture: CSS pixels from the upper left of the canvas. */
+  locate(point) {
+    return project(point, this.views[0]);
+  }
+
   /** Heights over the start that the pole marks near the first machine, m, and their CSS pixels; none side by side or from above. */
   marks() {
     const [view] = this.views;
     if (!view || this.layout === "beside" || Math.abs(view.back[2]) > STEEP) return [];
     const [left, right] = [view.left, view.left + view.width];
     return this.pole.marks(this.flyers[0].pose.x[2]).map(({ height, place }) => ({ height, at: project(place, view) }))
-      .filter(({ at: [across] }) => across > left && across < right);
+      .filter(({ at: [across, down] }) => across > left && across < right && down > WORDS.above && down < view.height - WORDS.below);
   }
+}
+
+/** What draws for `context`, in the words of its maker. */
+function drawnBy(context) {
+  return String(context.getParameter(context.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER));
 }
 
 /** Where a point of the world is in a `view`: CSS pixels from the upper left of the canvas. */

@@ -2,12 +2,15 @@
 
 import {
   BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, HemisphereLight, Mesh, PlaneGeometry, Points,
-  ShaderMaterial, ShadowMaterial, Vector3,
+  ShaderMaterial, ShadowMaterial, Vector3, Vector4,
 } from "three";
 
 import { roundUp } from "../numbers.js";
+import { NEAR } from "./closeup.js";
 
 const SHADE = 0.3; // opacity of a shadow
+const SPREAD = 0.3, FADE = 1.2; // of what the machine keeps of the sky's light from the ground: wider and paler with its height
+const LAMPS = { alone: { sky: 2.4, fill: 1.3 }, room: { sky: 0.8, fill: 0.8 } }; // strengths beside that of the sun
 const LATTICE = 5; // points to each side of the middle
 
 const GRID_VERTEX = `
@@ -22,6 +25,7 @@ const GRID_FRAGMENT = `
 uniform vec3 color;
 uniform vec2 middle;
 uniform float spacing, radius;
+uniform vec4 shade; // middle, radius and strength
 varying vec2 place;
 float lines(float step) {
   vec2 cell = place / step, width = fwidth(cell);
@@ -31,8 +35,10 @@ float lines(float step) {
 }
 void main() {
   float fade = 1.0 - smoothstep(0.25, 1.0, length(place - middle) / radius);
-  float strength = max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing));
-  gl_FragColor = vec4(color, strength * fade);
+  float strength = max(0.09, max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing)));
+  float drawn = strength * fade, edge = max(1.0 - dot(place - shade.xy, place - shade.xy) / (shade.z * shade.z), 0.0);
+  float shaded = shade.w * edge * edge * (1.0 - drawn);
+  gl_FragColor = vec4(color * drawn / max(drawn + shaded, 1e-6), drawn + shaded);
   #include <colorspace_fragment>
 }`;
 
@@ -64,12 +70,12 @@ function shader(vertexShader, fragmentShader, uniforms) {
 }
 
 export class World extends Group {
-  /** With the ground at the height `ground`, for machines that fit a sphere of radius `reach`; m. */
-  constructor(ground, reach) {
+  /** With the ground at the height `ground`, for machines that fit a sphere of radius `reach`; m. A `room` gives light of its own. */
+  constructor(ground, reach, room) {
     super();
-    Object.assign(this, { ground, reach });
+    Object.assign(this, { ground, reach, lamps: room ? LAMPS.room : LAMPS.alone });
     this.grid = new Mesh(new PlaneGeometry(1, 1), shader(GRID_VERTEX, GRID_FRAGMENT, {
-      color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 },
+      color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 }, shade: { value: new Vector4() },
     }));
     this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ depthWrite: false }));
     this.floor.receiveShadow = true;
@@ -79,7 +85,8 @@ export class World extends Group {
     this.dust.frustumCulled = false;
     this.grid.renderOrder = -2;
     this.floor.renderOrder = -1;
-    this.add(this.grid, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, 2.4), this.#sun());
+    this.add(this.grid, this.floor, this.dust, new HemisphereLight(0xffffff, 0xd0ccc4, this.lamps.sky), this.#sun());
+    this.traverse((part) => part.isLight && part.layers.enable(NEAR));
   }
 
   #sun() {
@@ -88,9 +95,9 @@ export class World extends Group {
     this.sun.castShadow = true;
     shadow.mapSize.set(1024, 1024);
     Object.assign(shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.1 * this.reach });
-    shadow.radius = 5;
+    shadow.radius = 2.5;
     const group = new Group();
-    this.fill = new DirectionalLight(0xffffff, 1.3); // from the camera
+    this.fill = new DirectionalLight(0xffffff, this.lamps.fill); // from the camera
     group.add(this.sun, this.sun.target, this.fill);
     return group;
   }
@@ -115,6 +122,8 @@ export class World extends Group {
     const fallen = pivot[2] - this.ground, width = 2.1 * camera.right;
     this.floor.position.set(pivot[0] - 0.12 * fallen, pivot[1] - 0.08 * fallen, this.ground);
     this.floor.scale.set(width, width, 1);
+    const high = Math.max(fallen, 0), strength = this.floor.material.opacity / (1 + FADE * (high / this.reach) ** 2);
+    grid.shade.value.set(pivot[0], pivot[1], this.reach + SPREAD * high, strength);
     camera.far = 1.2 * (height + Math.max(pivot[2] - this.ground, 0)) + this.reach;
     camera.updateProjectionMatrix();
   }

@@ -10,11 +10,12 @@ import { roundUp } from "../numbers.js";
 const SHADE = 0.3; // opacity of a shadow
 const LATTICE = 5; // points to each side of the middle
 
-const GRID_VERTEX = `
-varying vec2 place;
+/** A vertex shader that tells each point its place in the world. */
+export const PLACED = `
+varying vec3 place;
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
-  place = world.xy;
+  place = world.xyz;
   gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
@@ -22,15 +23,15 @@ const GRID_FRAGMENT = `
 uniform vec3 color;
 uniform vec2 middle;
 uniform float spacing, radius;
-varying vec2 place;
+varying vec3 place;
 float lines(float step) {
-  vec2 cell = place / step, width = fwidth(cell);
+  vec2 cell = place.xy / step, width = fwidth(cell);
   vec2 near = abs(fract(cell - 0.5) - 0.5) / max(width, 1e-6);
   vec2 shown = (1.0 - clamp(near - 0.1, 0.0, 1.0)) * (1.0 - smoothstep(0.15, 0.6, width));
   return max(shown.x, shown.y);
 }
 void main() {
-  float fade = 1.0 - smoothstep(0.25, 1.0, length(place - middle) / radius);
+  float fade = 1.0 - smoothstep(0.25, 1.0, length(place.xy - middle) / radius);
   float strength = max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing));
   gl_FragColor = vec4(color, strength * fade);
   #include <colorspace_fragment>
@@ -68,7 +69,7 @@ export class World extends Group {
   constructor(ground, reach) {
     super();
     Object.assign(this, { ground, reach });
-    this.grid = new Mesh(new PlaneGeometry(1, 1), shader(GRID_VERTEX, GRID_FRAGMENT, {
+    this.grid = new Mesh(new PlaneGeometry(1, 1), shader(PLACED, GRID_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 },
     }));
     this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ depthWrite: false }));

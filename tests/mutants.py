@@ -351,6 +351,8 @@ class Nearness:
             layer = {name for name, seen in self._imports.items() if name not in far and seen & layer}
             far |= dict.fromkeys(layer, max(far.values()) + 1)
         for test, seen in self._tests.items():
+            if "templates" in path and Path(path).stem in self._words[test]:
+                near[test] = 0  # a program that is exported is imported by nobody
             if distances := [far[name] for name in seen if name in far]:
                 own = path.split("/")[0].removesuffix(".py") in test.relative_to(ROOT / "tests").as_posix()
                 same = test.stem == f"test_{target.rpartition('.')[2]}"

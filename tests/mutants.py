@@ -11,8 +11,8 @@ to the mutated module by imports come first, quick ones before slow ones, until 
 What catches a mutation must pass without one: that is tried at the end. `mutants.toml` holds survivors that change
 nothing that one could assert, each with its reason.
 
-`--minutes 10` judges a part of them, the next call goes on: what caught each is remembered in .pytest_cache/mutants
-until its line changes, and survivors are tried again. `--minutes 0` tells how many have been judged.
+`--minutes 10` judges a part of them, and the next call goes on: judged.json holds what caught each, until its line
+changes, and survivors are tried again. `--minutes 0` tells how many have been judged.
 
 Not mutmut (it cannot keep a package whose source the tests import from a folder of their own, and instruments functions
 with trampolines, which the CasADi graphs built from them do not see), and not cosmic-ray (a new interpreter for every
@@ -61,6 +61,7 @@ from hypothesis import Phase
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "flypend"
 WORK = ROOT / ".pytest_cache" / "mutants"
+JUDGED = Path(__file__).with_name("judged.json")
 # No room goes without, whatever its size.
 LEAST = 4
 # Read the source as text, build packages, or try the documentation.
@@ -536,9 +537,9 @@ def main() -> None:
         nearness = Nearness()
         planted += [(one, nearness.tests(one)) for one in drawn(given.count)]
     planted = [(one, tests) for one, tests in planted if not given.where or one.path.startswith(tuple(given.where))]
-    durations, judgements = WORK / "durations.json", WORK / "judged.json"
+    durations = WORK / "durations.json"
     seconds = _remembered(durations)
-    judged = {} if given.minutes is None else _remembered(judgements)  # what caught each by name, "" if nothing did
+    judged = {} if given.minutes is None else _remembered(JUDGED)  # what caught each by name, "" if nothing did
     until = np.inf if given.minutes is None else time.monotonic() + 60 * given.minutes
     gc.freeze()  # no child looks through what it shares
     waiting = [(one, tests) for one, tests in planted if not judged.get(one.name())]
@@ -554,15 +555,14 @@ def main() -> None:
         state = "caught" if catcher else "known" if one.name() in reasons else "SURVIVED"
         print(f"{state:8} {found['seconds']:4.0f} s {one.kind}, line {one.line()}, {one.name()}")
         print(f"      {catcher}", flush=True)
-        if given.minutes is not None:
-            judgements.write_text(json.dumps(judged))
     blamed = isolated(None, [(0, sorted(catchers))], np.inf, {})["failed"] if catchers else []
     for test in blamed:
         print(f"fails without a mutation: {test}")
-    judged = {name: "" if catcher in blamed else catcher for name, catcher in judged.items()}
-    if given.minutes is not None:
-        judgements.write_text(json.dumps(judged))
+    judged |= {name: "" for name, catcher in judged.items() if catcher in blamed}
     names = [one.name() for one, _ in planted if one.name() in judged]
+    if given.minutes is not None:
+        kept = judged if given.where else {name: judged[name] for name in names}
+        JUDGED.write_text(json.dumps(kept, indent=0, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
     survived = [name for name in names if not judged[name]]
     new = [name for name in survived if name not in reasons]
     caught, known = len(names) - len(survived), len(survived) - len(new)
@@ -574,7 +574,7 @@ def main() -> None:
 
 
 def _remembered(path: Path) -> dict:
-    return json.loads(path.read_text()) if path.exists() else {}
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
 if __name__ == "__main__":

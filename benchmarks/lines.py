@@ -71,9 +71,9 @@ def sampling(problem: Problem, share: float) -> Iterator[Line]:
     limits, nothing = Limits.of(problem.duration, Tolerances(rtol=1e-6)), np.zeros((len(starts), 0))
     never = np.zeros(1, dtype=np.int64)
     tasks = [
-        partial(fly, judge=False),
+        fly,
         partial(call, kernel.function, starts, nothing, limits, Moments.of(keep_at=times), there, never),
-        partial(fly, keep_at=times, judge=False),
+        partial(fly, keep_at=times),
         partial(fly, judge_at=times),
     ]
     none, kept, new, judged = clock.processor(*tasks, repeats=8)

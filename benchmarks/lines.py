@@ -17,8 +17,9 @@ from benchmarks.problem import Problem
 from flypend.compile.sampled_problem import EquationsProblem
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
-from flypend.flight.kernels.ideal import MAX_STEPS, Moments, call
+from flypend.flight.kernels.ideal import Limits, Moments, call
 from flypend.flight.kernels.sampled import sampled_problem
+from flypend.flight.request import Tolerances
 from flypend.plants import MOTION_CAPTURE, ROTORS, Ideal, Wind
 from flypend.plants.loop import Loop
 
@@ -52,7 +53,7 @@ def threads(problem: Problem, share: float) -> Iterator[Line]:
     """All threads over one."""
     kernel = ideal_kernel(problem.loop, method="dp5")
     starts, count = problem.starts(scaled(16384, share)), os.cpu_count() or 1
-    one, all_ = (partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=n) for n in (1, count))
+    one, all_ = (partial(kernel.fly, starts, problem.duration, Tolerances(rtol=1e-6), workers=n) for n in (1, count))
     alone, together = clock.wall(one, all_)
     yield Line(f"{count} threads over one, on the wall", alone / together, "×", "≥ 1.85")
     # On a machine that others use, too, the wall says little: what do the threads cost each other in processor time?
@@ -64,15 +65,15 @@ def sampling(problem: Problem, share: float) -> Iterator[Line]:
     """What it costs to keep, or to judge, 100 states of a run."""
     kernel = ideal_kernel(problem.loop, method="dp5")
     starts, times = problem.starts(scaled(4096, share)), np.linspace(0, problem.duration, 100)
-    fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, workers=1)
+    fly = partial(kernel.fly, starts, problem.duration, Tolerances(rtol=1e-6), workers=1)
     # The memory of the states comes from the operating system, which fills it with zeros first: that is told apart.
-    there = fly(keep_at=times, judge=False)
-    setting, nothing = (problem.duration, 1e-6, 1e-6, MAX_STEPS), np.zeros((len(starts), 0))
+    there = fly(keep_at=times)
+    limits, nothing = Limits.of(problem.duration, Tolerances(rtol=1e-6)), np.zeros((len(starts), 0))
     never = np.zeros(1, dtype=np.int64)
     tasks = [
-        partial(fly, judge=False),
-        partial(call, kernel.function, starts, nothing, setting, Moments.of(keep_at=times), there, never),
-        partial(fly, keep_at=times, judge=False),
+        fly,
+        partial(call, kernel.function, starts, nothing, limits, Moments.of(keep_at=times), there, never),
+        partial(fly, keep_at=times),
         partial(fly, judge_at=times),
     ]
     none, kept, new, judged = clock.processor(*tasks, repeats=8)
@@ -86,7 +87,7 @@ def floats(problem: Problem, share: float) -> Iterator[Line]:
     starts, tasks = problem.starts(scaled(8192, share)), []
     for precision in ("double", "float"):
         kernel = ideal_kernel(problem.loop, method="dp5", precision=precision)
-        tasks.append(partial(kernel.fly, starts, problem.duration, rtol=1e-3, workers=1))
+        tasks.append(partial(kernel.fly, starts, problem.duration, Tolerances(rtol=1e-3), workers=1))
     double, single = clock.processor(*tasks)
     yield Line("corrected law, rtol 1e-3, doubles", len(starts) / double, "runs/s")
     yield Line("corrected law, rtol 1e-3, floats", len(starts) / single, "runs/s")
@@ -100,7 +101,7 @@ def inverted(problem: Problem, share: float) -> Iterator[Line]:
     starts = fp.State.random(np.random.default_rng(0), scaled(2048, share)).packed()
     kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method="dp5")
     for rtol, goal in ((1e-6, "≥ 25000"), (1e-3, "")):
-        (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, rtol=rtol, workers=1, judge=False))
+        (seconds,) = clock.processor(partial(kernel.fly, starts, 10.0, Tolerances(rtol=rtol), workers=1))
         yield Line(f"inverted law, 10 s, ideal plant, rtol {rtol:.0e}", len(starts) / seconds, "runs/s", goal)
 
 
@@ -110,7 +111,7 @@ def judging(problem: Problem, share: float) -> Iterator[Line]:
     law = fp.laws.inverted().bind(vehicle)
     for method in ("dp5", "dop853"):
         kernel = ideal_kernel(Loop(vehicle, law, Ideal()), method=method)
-        unjudged = partial(kernel.fly, starts.packed(), 10.0, rtol=1e-6, workers=1, judge=False)
+        unjudged = partial(kernel.fly, starts.packed(), 10.0, Tolerances(rtol=1e-6), workers=1)
         judged = partial(
             fp.simulate_ensemble, vehicle, law, starts, 10.0, plant="ideal", rtol=1e-6, method=method, workers=1
         )
@@ -162,7 +163,7 @@ def sizes(problem: Problem, share: float) -> Iterator[Line]:
     costs = {}
     for decade in DECADES:
         starts = problem.starts(scaled(10**decade, share))
-        fly = partial(kernel.fly, starts, problem.duration, rtol=1e-6, judge_at=times)
+        fly = partial(kernel.fly, starts, problem.duration, Tolerances(rtol=1e-6), judge_at=times)
         begin = time.perf_counter()
         (seconds,) = clock.processor(fly, repeats=1 if decade >= 6 else 3)
         costs[decade] = 1e6 * seconds / len(starts)

@@ -151,9 +151,8 @@ def main():
     where = machine()
     print(f"{where['processor']}, {where['cores']} cores (load {where['load']:.1f}), {where['date']}.")
     print(f"{options.burn} processes compute beside.\n")
-    print(
-        "| six heavy pages | alone, ms | beside, ms | ratio | longest alone, beside, ms | ratio of longest | least replies |"
-    )
+    columns = "alone, ms | beside, ms | ratio | longest alone, beside, ms | ratio of longest | least replies"
+    print(f"| six heavy pages | {columns} |")
     print("|---|---|---|---|---|---|---|", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         law = Path(folder) / "mine.py"

@@ -1,6 +1,6 @@
 """Plants mutations in the source and runs the tests that can see each: `make mutants`, or with rooms and files.
 
-    python tests/mutants.py [--count 200] [--jobs 2] [--limit 60] [board laws/passage.py ...]
+    python tests/mutants.py [--count 200] [--limit 60] [--minutes 10] [board laws/passage.py ...]
 
 A mutation is one change of one expression: a sign, a comparison, an index off by one, two arguments in each other's
 place, a term or a check left out, a matrix not transposed, a unit not converted. Which ones are drawn follows from the
@@ -10,6 +10,9 @@ Each runs in a process of its own, forked after the imports of others' packages,
 to the mutated module by imports come first, quick ones before slow ones, until one fails or `--limit` seconds are over.
 What catches a mutation must pass without one: that is tried at the end. `mutants.toml` holds survivors that change
 nothing that one could assert, each with its reason.
+
+`--minutes 10` judges a part of them, and the next call goes on: judged.json holds what caught each, until its line
+changes, and survivors are tried again. `--minutes 0` tells how many have been judged.
 
 Not mutmut (it cannot keep a package whose source the tests import from a folder of their own, and instruments functions
 with trampolines, which the CasADi graphs built from them do not see), and not cosmic-ray (a new interpreter for every
@@ -29,6 +32,7 @@ import re
 import shutil
 import signal
 import sys
+import time
 import tomllib
 import traceback
 from collections import defaultdict
@@ -57,6 +61,7 @@ from hypothesis import Phase
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "flypend"
 WORK = ROOT / ".pytest_cache" / "mutants"
+JUDGED = Path(__file__).with_name("judged.json")
 # No room goes without, whatever its size.
 LEAST = 4
 # Read the source as text, build packages, or try the documentation.
@@ -347,6 +352,8 @@ class Nearness:
             layer = {name for name, seen in self._imports.items() if name not in far and seen & layer}
             far |= dict.fromkeys(layer, max(far.values()) + 1)
         for test, seen in self._tests.items():
+            if "templates" in path and Path(path).stem in self._words[test]:
+                near[test] = 0  # a program that is exported is imported by nobody
             if distances := [far[name] for name in seen if name in far]:
                 own = path.split("/")[0].removesuffix(".py") in test.relative_to(ROOT / "tests").as_posix()
                 same = test.stem == f"test_{target.rpartition('.')[2]}"
@@ -518,6 +525,7 @@ def main() -> None:
     parser.add_argument("where", nargs="*", help="rooms or files; default: all")
     parser.add_argument("--count", type=int, default=200, help="mutations drawn by lot")
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds of tests per mutation")
+    parser.add_argument("--minutes", type=float, help="go on where the last such run stopped, for so long")
     given = parser.parse_args()
     (WORK / "machine-code").mkdir(parents=True, exist_ok=True)
     compileall.compile_dir(SOURCE, quiet=2)
@@ -529,32 +537,44 @@ def main() -> None:
         nearness = Nearness()
         planted += [(one, nearness.tests(one)) for one in drawn(given.count)]
     planted = [(one, tests) for one, tests in planted if not given.where or one.path.startswith(tuple(given.where))]
-    memory = WORK / "durations.json"
-    seconds = json.loads(memory.read_text()) if memory.exists() else {}
+    durations = WORK / "durations.json"
+    seconds = _remembered(durations)
+    judged = {} if given.minutes is None else _remembered(JUDGED)  # what caught each by name, "" if nothing did
+    until = np.inf if given.minutes is None else time.monotonic() + 60 * given.minutes
     gc.freeze()  # no child looks through what it shares
-    catchers: dict[str, list[Mutation]] = defaultdict(list)
-    survived = []
-    for number, (one, tests) in enumerate(planted, 1):
+    waiting = [(one, tests) for one, tests in planted if not judged.get(one.name())]
+    catchers = set()
+    for one, tests in sorted(waiting, key=lambda each: each[0].name() in judged):  # those that survived come last
+        if time.monotonic() > until:
+            break
         found = isolated(one, tests, given.limit, seconds)
-        if found["failed"]:
-            catchers[found["failed"][0]].append(one)
-        else:
-            survived.append(one)
+        catcher = judged[one.name()] = found["failed"][0] if found["failed"] else ""
+        catchers |= {catcher} - {""}
         seconds |= {test: took for test, took in found["took"].items() if test not in found["failed"]}
-        memory.write_text(json.dumps(seconds))
-        state = "caught" if found["failed"] else "known" if one.name() in reasons else "SURVIVED"
-        print(f"{number:3} {state:8} {found['seconds']:4.0f} s {one.kind}, line {one.line()}, {one.name()}")
-        print(f"      {found['failed'][0] if found['failed'] else ''}", flush=True)
+        durations.write_text(json.dumps(seconds))
+        state = "caught" if catcher else "known" if one.name() in reasons else "SURVIVED"
+        print(f"{state:8} {found['seconds']:4.0f} s {one.kind}, line {one.line()}, {one.name()}")
+        print(f"      {catcher}", flush=True)
     blamed = isolated(None, [(0, sorted(catchers))], np.inf, {})["failed"] if catchers else []
     for test in blamed:
         print(f"fails without a mutation: {test}")
-        survived += catchers.get(test, [])
-    new = [one for one in survived if one.name() not in reasons]
-    caught, known = len(planted) - len(survived), len(survived) - len(new)
-    print(f"{len(planted)} mutations: {caught} caught, {known} survived with a reason, {len(new)} without")
-    for one in new:
-        print(f"  {one.name()}")
+    judged |= {name: "" for name, catcher in judged.items() if catcher in blamed}
+    names = [one.name() for one, _ in planted if one.name() in judged]
+    if given.minutes is not None:
+        kept = judged if given.where else {name: judged[name] for name in names}
+        JUDGED.write_text(json.dumps(kept, indent=0, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
+    survived = [name for name in names if not judged[name]]
+    new = [name for name in survived if name not in reasons]
+    caught, known = len(names) - len(survived), len(survived) - len(new)
+    ends = f"{caught} caught, {known} survived with a reason, {len(new)} without"
+    print(f"{len(names)} of {len(planted)} mutations: {ends}")
+    for name in new:
+        print(f"  {name}")
     sys.exit(bool(new))
+
+
+def _remembered(path: Path) -> dict:
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
 if __name__ == "__main__":

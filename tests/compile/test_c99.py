@@ -12,7 +12,7 @@ from flypend.compile.c99 import SCRATCH, function, literal, routine_function, ro
 from flypend.compile.matrices import matrices
 from flypend.compile.program import FOLD, Operation, Program, interpret, lower, needed
 from flypend.compile.routine import lower_calls
-from flypend.compile.scratch import SPAN, TRUTHS, Scratch, scratch_size
+from flypend.compile.scratch import SPAN, TRUTHS, scratch
 
 
 def _compiled(program, folder, precision="double"):
@@ -158,7 +158,7 @@ def test_layers_are_tables_and_change_no_bit(tmp_path, precision):
     head = f"#include <math.h>\ntypedef {precision} flypend_real;\n"
     end = "void f(const flypend_real *in, flypend_real *out);\nvoid f(const flypend_real *in, flypend_real *out)"
     (tmp_path / "f.c").write_text(
-        f"{head}{text}\n{end}\n{{\n    flypend_real w[{scratch_size(program)}];\n    net(w, in, out);\n}}\n"
+        f"{head}{text}\n{end}\n{{\n    flypend_real w[{scratch(program).size}];\n    net(w, in, out);\n}}\n"
     )
     library = ctypes.CDLL(str(build(tmp_path, ("f.c",), "f.so", flags=("-shared", "-fPIC"))))
     real = np.float64 if precision == "double" else np.float32
@@ -207,7 +207,7 @@ def test_values_that_are_kept_change_no_bit(seed, tmp_path):
     rng = np.random.default_rng(seed)
     program = _long_program(rng)
     assert len(program.operations) > 3 * SPAN
-    size = scratch_size(program)
+    size = scratch(program).size
     assert 0 < size < len(program.operations) // 2
     head = "#include <math.h>\ntypedef double flypend_real;\n"
     end = "void g(double *both);\nvoid g(double *both)"
@@ -225,7 +225,7 @@ def test_values_that_are_kept_change_no_bit(seed, tmp_path):
 @pytest.mark.parametrize("seed", range(4))
 def test_a_place_is_taken_again_only_when_its_value_is_not_needed_any_more(seed):
     program = _long_program(np.random.default_rng(seed))
-    places = Scratch(program).places
+    places = scratch(program).places
     last = {n: len(program.operations) for n in program.outputs[0]}
     for number, operation in reversed(list(enumerate(program.operations))):
         for argument in operation.arguments if operation.name != "input" else ():

@@ -138,3 +138,16 @@ def test_a_memory_that_is_damaged_in_flight_begins_again_at_the_last_estimate(mo
     assert run.outcome.status == "completed"
     assert len(struck) == 2
     assert run.packed[-1, 20] > 0.98
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda computer: computer.step(sound_readings()[:-1]),
+        lambda computer: computer.step(sound_readings(), np.zeros(26)),
+        lambda computer: computer.begin(np.ones(3)),
+    ],
+)
+def test_arrays_that_c_would_read_past_are_refused(code, spoil):
+    with pytest.raises(fp.InputError, match="numbers of shape"):
+        spoil(begun(code))

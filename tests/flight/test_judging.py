@@ -8,6 +8,7 @@ import flypend as fp
 from flypend.flight.criterion import Criterion, lean
 from flypend.flight.kernels import ideal_kernel
 from flypend.flight.kernels.ideal import Moments
+from flypend.flight.request import Tolerances
 from flypend.laws import references
 from flypend.plants import Ideal
 from flypend.plants.loop import Loop
@@ -81,7 +82,7 @@ def differences(case, method, runs, seed, precision="double"):
     differ = successes = worst = 0
     for first in range(0, runs, 250):
         starts = fp.State.random(rng, min(250, runs - first)).packed()
-        flown = kernel.fly(starts, duration, rtol=case["rtol"], judge_at=grid, keep_at=grid)
+        flown = kernel.fly(starts, duration, Tolerances(rtol=case["rtol"]), judge_at=grid, keep_at=grid)
         every, own = at_every_time(flown, grid, law, vehicle, criterion), flown.reductions
         differ += np.sum(np.any(own[:, :4] != every[:, :4], axis=1))
         successes += np.sum((flown.code == 0) & np.all(own[:, 1:4] < duration - criterion.hold - 1e-9, axis=1))

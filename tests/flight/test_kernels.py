@@ -5,6 +5,7 @@ import dataclasses
 import operator
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import casadi as ca
 import numpy as np
@@ -18,7 +19,7 @@ from flypend.compile.program import interpret
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import ideal_problem
-from flypend.flight.request import Flight
+from flypend.flight.request import Flight, Tolerances
 from flypend.flight.sampled import fly_stepwise
 from flypend.plants import Ideal, Noise, Plant, Wind
 from flypend.plants.loop import Loop
@@ -70,13 +71,13 @@ def arbiter():
 def sensitivity(starts, kernel):
     """How much each run amplifies a change of its start, over some random directions."""
     rng, size = np.random.default_rng(0), 1e-7
-    before = kernel.fly(starts, DURATION, rtol=1e-12).final
+    before = kernel.fly(starts, DURATION, Tolerances(rtol=1e-12)).final
     found = np.zeros(len(starts))
     for _ in range(8):
         moved = starts.copy()
         moved[:, 15:18] += size * rng.standard_normal((len(starts), 3))
         moved[:, 21:24] += size * np.cross(starts[:, 18:21], rng.standard_normal((len(starts), 3)))
-        found = np.maximum(found, off(kernel.fly(moved, DURATION, rtol=1e-12).final, before) / size)
+        found = np.maximum(found, off(kernel.fly(moved, DURATION, Tolerances(rtol=1e-12)).final, before) / size)
     return found
 
 
@@ -86,7 +87,7 @@ def errors_are_inside_the_tolerance(arbiter, runs):
     for method in ("dop853", "dp5"):
         kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
         for rtol in (1e-9, 1e-12):
-            errors = off(kernel.fly(starts, DURATION, rtol=rtol).final, reference)
+            errors = off(kernel.fly(starts, DURATION, Tolerances(rtol=rtol)).final, reference)
             # Some hundred steps, each allowed `rtol`, and a loop that forgets: the median run is off by 1 to 4 rtol.
             assert np.median(errors) < 10 * rtol
             allowed = 1000 * rtol
@@ -112,7 +113,8 @@ def test_errors_are_inside_the_tolerance_in_ten_thousand_runs(arbiter):
 def test_samples_between_steps_are_as_good_as_the_steps(arbiter, method, rtol):
     starts, times = random_starts(8, seed=3), np.linspace(0.05, 2.0, 37)
     reference = arbiter(starts, times).transpose(1, 0, 2)
-    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method).fly(starts, 2.0, rtol=rtol, keep_at=times)
+    kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
+    flown = kernel.fly(starts, 2.0, Tolerances(rtol=rtol), keep_at=times)
     assert flown.samples.shape == (8, 37, 24)
     # The polynomials are of order 7 and 4; that of order 4 loses a factor of ten or two in the middle of a step.
     assert np.max(off(flown.samples, reference)) < (300 if method == "dp5" else 100) * rtol
@@ -120,7 +122,9 @@ def test_samples_between_steps_are_as_good_as_the_steps(arbiter, method, rtol):
 
 def test_a_sample_at_the_end_is_the_end():
     starts = random_starts(3)
-    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(starts, 1.0, rtol=1e-9, keep_at=[0.0, 0.5, 1.0])
+    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(
+        starts, 1.0, Tolerances(rtol=1e-9), keep_at=[0.0, 0.5, 1.0]
+    )
     np.testing.assert_allclose(flown.samples[:, 0], starts, atol=1e-12)
     np.testing.assert_allclose(flown.samples[:, 2], flown.final, atol=1e-10)
 
@@ -130,7 +134,7 @@ def test_the_error_falls_with_the_order_of_the_method(arbiter, method, order):
     """error ~ steps^(−p): the steps grow by a factor of 1.3 (order 8) or 1.6 (order 5) for a decade of error."""
     starts, kernel = random_starts(64, seed=5), ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
     reference = arbiter(starts, [3.0])[0]
-    flown = [kernel.fly(starts, 3.0, rtol=10.0**decade) for decade in range(-11, -6)]
+    flown = [kernel.fly(starts, 3.0, Tolerances(rtol=10.0**decade)) for decade in range(-11, -6)]
     errors = [np.median(off(some.final, reference)) for some in flown]
     slope = np.polyfit(np.log10([np.mean(some.steps) for some in flown]), np.log10(errors), 1)[0]
     # The cautious first steps are the same for all: the more so in few steps, it looks steeper than it is.
@@ -140,8 +144,9 @@ def test_the_error_falls_with_the_order_of_the_method(arbiter, method, order):
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_a_float_is_a_coarse_double(precision):
     starts = random_starts(64, seed=6)
-    reference = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(starts, 2.0, rtol=1e-10).final
-    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5", precision=precision).fly(starts, 2.0, rtol=1e-4)
+    reference = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(starts, 2.0, Tolerances(rtol=1e-10)).final
+    kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5", precision=precision)
+    flown = kernel.fly(starts, 2.0, Tolerances(rtol=1e-4))
     assert np.all(flown.status == "completed")
     assert np.median(off(flown.final, reference)) < 1e-2
 
@@ -169,7 +174,8 @@ def test_what_becomes_of_a_lane_does_not_change_its_neighbours():
     bad[17, 0] = np.inf
     for method in ("dop853", "dp5"):
         kernel = ideal_kernel(Loop(HEHN, law, Ideal()), method=method)
-        good, mixed = (kernel.fly(some, 1.0, rtol=1e-8, workers=1) for some in (starts, bad))
+        judged = partial(kernel.fly, exact=Tolerances(rtol=1e-8), judge_at=np.linspace(0, 1, 11), workers=1)
+        good, mixed = (judged(some, 1.0) for some in (starts, bad))
         assert np.all(good.status == "completed")
         assert mixed.status[[3, 10, 17]].tolist() == ["singular", "diverged", "diverged"]
         assert mixed.code[3] == runge_kutta.UNDEFINED
@@ -184,19 +190,19 @@ def test_a_singular_lane_ends_as_singular_and_its_neighbours_go_on():
     law = fp.laws.printed().bind(NAYAK)
     kernel = ideal_kernel(Loop(NAYAK, law, Ideal()))
     starts = random_starts(16, seed=9)
-    flown = kernel.fly(starts, 1.0, rtol=1e-9, workers=1)
+    flown = kernel.fly(starts, 1.0, Tolerances(rtol=1e-9), workers=1)
     singular = flown.status == "singular"
     assert singular.any()
     assert np.all(flown.end[singular] < 1.0)
     for i in (int(np.argmax(singular)), int(np.argmin(singular))):
-        alone = kernel.fly(starts[i : i + 1], 1.0, rtol=1e-9)
+        alone = kernel.fly(starts[i : i + 1], 1.0, Tolerances(rtol=1e-9))
         np.testing.assert_array_equal(alone.final[0], flown.final[i])
         assert alone.end[0] == flown.end[i]
 
 
 def test_a_run_that_needs_too_many_steps_ends(monkeypatch):
     monkeypatch.setattr("flypend.flight.kernels.ideal.MAX_STEPS", 20)
-    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(random_starts(9), DURATION, rtol=1e-9)
+    flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(random_starts(9), DURATION, Tolerances(rtol=1e-9))
     assert np.all(flown.code == runge_kutta.TOO_MANY)
     assert np.all(flown.steps == 20)
     assert np.all((flown.end > 0) & (flown.end < DURATION))
@@ -206,7 +212,7 @@ def test_samples_after_the_end_are_nan():
     law, starts = explosive(HEHN), random_starts(4, seed=8)
     starts[:, 15] = 20.0
     times = np.linspace(0, 1, 11)
-    flown = ideal_kernel(Loop(HEHN, law, Ideal())).fly(starts, 1.0, rtol=1e-8, keep_at=times)
+    flown = ideal_kernel(Loop(HEHN, law, Ideal())).fly(starts, 1.0, Tolerances(rtol=1e-8), keep_at=times)
     assert np.all(flown.status == "diverged")
     for end, samples in zip(flown.end, flown.samples, strict=True):
         np.testing.assert_array_equal(np.isnan(samples).all(axis=1), times > end)
@@ -220,12 +226,12 @@ def test_a_run_is_the_same_in_any_company(method, rtol):
     starts = random_starts(1300, seed=4)
     kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method=method)
     times = np.linspace(0, 2, 9)
-    together = kernel.fly(starts, 2.0, rtol=rtol, judge_at=times, keep_at=times, workers=3)
-    one = kernel.fly(starts[::-1], 2.0, rtol=rtol, judge_at=times, keep_at=times, workers=1)
+    together = kernel.fly(starts, 2.0, Tolerances(rtol=rtol), judge_at=times, keep_at=times, workers=3)
+    one = kernel.fly(starts[::-1], 2.0, Tolerances(rtol=rtol), judge_at=times, keep_at=times, workers=1)
     for name in ("final", "end", "code", "reductions", "samples", "steps"):
         np.testing.assert_array_equal(getattr(together, name), getattr(one, name)[::-1])
     for i in (0, 7, 523, 1299):
-        alone = kernel.fly(starts[i : i + 1], 2.0, rtol=rtol, judge_at=times, keep_at=times)
+        alone = kernel.fly(starts[i : i + 1], 2.0, Tolerances(rtol=rtol), judge_at=times, keep_at=times)
         np.testing.assert_array_equal(alone.samples[0], together.samples[i])
         np.testing.assert_array_equal(alone.reductions[0], together.reductions[i])
 
@@ -233,8 +239,8 @@ def test_a_run_is_the_same_in_any_company(method, rtol):
 def test_states_that_are_kept_need_not_be_judged():
     starts, times = random_starts(20), np.linspace(0, 1, 7)
     kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5")
-    both = kernel.fly(starts, 1.0, rtol=1e-6, judge_at=times, keep_at=times)
-    kept = kernel.fly(starts, 1.0, rtol=1e-6, keep_at=times, judge=False)
+    both = kernel.fly(starts, 1.0, Tolerances(rtol=1e-6), judge_at=times, keep_at=times)
+    kept = kernel.fly(starts, 1.0, Tolerances(rtol=1e-6), keep_at=times)
     assert kept.reductions is None
     np.testing.assert_array_equal(kept.samples, both.samples)
 
@@ -244,14 +250,14 @@ def test_what_is_kept_changes_nothing_of_how_a_run_is_judged():
     starts, judged, kept = random_starts(40), np.linspace(0, 2, 21), np.array([0.0, 0.1, 0.777, 1.3, 2.0])
     for precision, rtol in (("double", 1e-8), ("float", 1e-4)):
         kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()), method="dp5", precision=precision)
-        plain = kernel.fly(starts, 2.0, rtol=rtol, judge_at=judged)
-        both = kernel.fly(starts, 2.0, rtol=rtol, judge_at=judged, keep_at=kept)
-        only = kernel.fly(starts, 2.0, rtol=rtol, keep_at=kept, judge=False)
+        plain = kernel.fly(starts, 2.0, Tolerances(rtol=rtol), judge_at=judged)
+        both = kernel.fly(starts, 2.0, Tolerances(rtol=rtol), judge_at=judged, keep_at=kept)
+        only = kernel.fly(starts, 2.0, Tolerances(rtol=rtol), keep_at=kept)
         np.testing.assert_array_equal(both.reductions, plain.reductions)
         np.testing.assert_array_equal(both.samples, only.samples)
         assert both.samples.shape == (40, 5, 24)
     # Negative control: judged where it is kept, a run is judged otherwise.
-    assert np.any(kernel.fly(starts, 2.0, rtol=rtol, judge_at=kept).reductions != plain.reductions)
+    assert np.any(kernel.fly(starts, 2.0, Tolerances(rtol=rtol), judge_at=kept).reductions != plain.reductions)
 
 
 def test_what_is_kept_of_a_sampled_flight_changes_nothing_of_how_it_is_judged():
@@ -267,10 +273,10 @@ def test_what_is_kept_of_a_sampled_flight_changes_nothing_of_how_it_is_judged():
 def test_other_python_threads_run_during_a_call():
     starts, ticks = random_starts(3000), []
     kernel = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal()))
-    kernel.fly(starts[:8], DURATION, rtol=1e-9)
+    kernel.fly(starts[:8], DURATION, Tolerances(rtol=1e-9))
 
     def fly_all():
-        kernel.fly(starts, DURATION, rtol=1e-11, workers=1)
+        kernel.fly(starts, DURATION, Tolerances(rtol=1e-11), workers=1)
         return time.perf_counter()
 
     with ThreadPoolExecutor(1) as pool:
@@ -291,11 +297,11 @@ def test_an_interruption_leaves_the_queue_empty_and_is_raised_soon():
         raise KeyboardInterrupt
 
     begin = time.perf_counter()
-    kernel.fly(starts[:256], DURATION, rtol=1e-9)
+    kernel.fly(starts[:256], DURATION, Tolerances(rtol=1e-9))
     for_256 = time.perf_counter() - begin
     begin = time.perf_counter()
     with pytest.raises(KeyboardInterrupt):
-        kernel.fly(starts, DURATION, rtol=1e-9, progress=interrupted)
+        kernel.fly(starts, DURATION, Tolerances(rtol=1e-9), progress=interrupted)
     (taken, runs) = told[0]
     assert 0 < taken < runs == 200_000
     assert time.perf_counter() - begin < 1 + for_256  # all of them would take some hundred times that

@@ -41,7 +41,7 @@ def flown_here(loop, packed, exact=EXACT):
     kernel = ideal_kernel(loop, goal(loop.law.e3), method=exact.method_for(loop.law), precision=exact.precision)
     rows = np.arange(round(DURATION / PERIOD) + 1)
     flown = kernel.fly(
-        packed[None], DURATION, rtol=exact.rtol, judge_at=rows[::5] * PERIOD, keep_at=rows[EVERY::EVERY] * PERIOD,
+        packed[None], DURATION, exact, judge_at=rows[::5] * PERIOD, keep_at=rows[EVERY::EVERY] * PERIOD,
         workers=1,
     )  # fmt: skip
     return np.concatenate([packed[None], flown.samples[0]]), flown
@@ -140,7 +140,7 @@ def test_flights_that_take_the_lanes_in_turn_end_as_in_the_package(tmp_path):
     loop, starts = loop_of("lqr"), fp.random_starts(21, 5)
     codes, ends, reductions = ended_by_page(loop, starts, tmp_path)
     flown = ideal_kernel(loop, goal("up")).fly(
-        starts.packed(), DURATION, rtol=EXACT.rtol, judge_at=PERIOD * np.arange(0, round(DURATION / PERIOD) + 1, 5)
+        starts.packed(), DURATION, EXACT, judge_at=PERIOD * np.arange(0, round(DURATION / PERIOD) + 1, 5)
     )
     assert codes == flown.code.tolist()
     np.testing.assert_allclose(ends, flown.end, rtol=1e-6)

@@ -3,7 +3,9 @@
 from copy import copy
 from dataclasses import replace
 from functools import cache, partial
+from types import SimpleNamespace
 
+import casadi as ca
 import numpy as np
 import pytest
 from balls import RateCheck
@@ -12,6 +14,8 @@ import flypend as fp
 from benchmarks.withstood import withstood
 from flypend.geometry import E3, norm, rotation_from_vector
 from flypend.laws import references
+from flypend.laws.almost_global_bounds import slopes
+from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.guarantee import least_distance, rate_bound
 from flypend.laws.repaired import repaired_control, stiffness
 from flypend.laws.step import Step
@@ -215,6 +219,31 @@ def test_the_least_thrust_guaranteed_is_not_lost_to_cancellation():
     bound = fp.laws.almost_global().bind(HEHN)
     starts = fp.random_starts(200, 2024)
     assert all(bound.guarantee(start).thrust[0] > 0 for start in (fp.State(y=-E3), *(starts[i] for i in range(200))))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_slope_of_the_outer_loop_is_steeper_than_its_bound(seed):
+    """First derivatives as matrices, second ones along a direction; near 0, where slopes are steepest, and anywhere."""
+    rng = np.random.default_rng(seed)
+    names = [
+        *(f"{of}_{name}" for of in ("position", "height") for name in ("stiffness", "reach", "damping", "speed")),
+        "fall_damping", "fall_speed",
+    ]  # fmt: skip
+    k = SimpleNamespace(**dict(zip(names, rng.uniform(0.5, 2.0, len(names)), strict=True)), shear=rng.uniform(0.8, 1.5))
+    at, way, found = ca.SX.sym("e", 3), ca.SX.sym("d", 3), slopes(k)
+    for value, first, second in ((spring(at, k)[1], found.p, found.bend_p), (damper(at, k), found.v, found.bend_v)):
+        slope = ca.jacobian(value, at)
+        bend = ca.jtimes(ca.mtimes(slope, way), at, way)
+        both = ca.Function("slopes", [at, way], [slope, bend])
+        steepest = sharpest = 0.0
+        for size in (1e-3, 0.3, 1.0, 10.0):
+            for _ in range(50):
+                e, d = size * rng.standard_normal(3), rng.standard_normal(3)
+                matrix, along = (np.array(part) for part in both(e, d / np.linalg.norm(d)))
+                steepest = max(steepest, np.linalg.norm(matrix, 2))
+                sharpest = max(sharpest, np.linalg.norm(along))
+        assert 0.3 * first < steepest <= first
+        assert 0.05 * second < sharpest <= second
 
 
 def test_a_barrier_thinner_than_doubles_can_hold_bounds_nothing():

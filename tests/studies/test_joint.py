@@ -84,7 +84,7 @@ def test_each_rung_of_the_sensors_has_one_defect_and_every_defect_has_one():
     sizes = {"vibration_rate", "outlier_off", "outlier_turned", "burst_time"}
     assert seen == {*CONSTANT, *NUMBERS} - sizes - {"accelerometer_scale", "frame_off"}
     assert {name for changes in DEFECTS.values() for name in changes} == seen
-    assert NEEDS["vibration"] == ("accelerometer",)
+    assert NEEDS["vibration"] == "accelerometer"
     assert "accelerometer vibrates 5 m/s^2" not in sensor_rungs("mocap-without-accelerometer")
     with pytest.raises(fp.InputError, match="sensors that can be wrong"):
         sensor_rungs("perfect")

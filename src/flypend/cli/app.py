@@ -6,6 +6,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,13 +30,14 @@ from flypend.cli import (
 from flypend.cli.options import (
     LAW_HELP,
     laws_option,
+    option,
+    options_of,
     out_option,
     path,
     plant_asked,
     refuse_idle,
     sensors_option,
     style_option,
-    vehicle_option,
 )
 from flypend.cli.terminal import ahead, bold, console, counter, draw, lacking, pictures_of_studies, say, tell_how
 from flypend.errors import InputError, require
@@ -185,10 +187,10 @@ def run(
 
 def _changes(override: Sequence[str], law: str | None, controller: str | None) -> list[str]:
     """Return the overrides of a run file. Raises InputError for a --set that says what --law or --controller says."""
-    for option, given, key in (("--law", law, "law"), ("--controller", controller, "controller")):
+    for named, given, key in (("--law", law, "law"), ("--controller", controller, "controller")):
         for one in override if given is not None else ():
             if one.partition("=")[0].strip() in (key, f"{key}.name", f"{key}.function"):
-                raise InputError(option, f"nothing beside --set {one}", repr(given))
+                raise InputError(named, f"nothing beside --set {one}", repr(given))
     return [*override, *([f"controller={controller}"] if controller is not None else [])]
 
 
@@ -201,35 +203,50 @@ def check_live(flight: Flight, html: Path | None) -> None:
     live_loop(flight)
 
 
-starts_option = click.option(
-    "--starts", default="random", help="random, or paper: the five starts of the paper, in the e₃-up frame."
-)
-runs_option = click.option("--runs", type=click.IntRange(min=1), default=100, help="Number of random starts.")
-seed_option = click.option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
-duration_option = click.option("--duration", type=float, default=10.0, help="Seconds per flight.")
+@dataclass(frozen=True)
+class Starts:
+    """Which vehicle flies from where, and for how long."""
+
+    starts: str = option(
+        "--starts", default="random", help="random, or paper: the five starts of the paper, in the e₃-up frame."
+    )
+    runs: int = option("--runs", type=click.IntRange(min=1), default=100, help="Number of random starts.")
+    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
+    vehicle: str = option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
+    duration: float = option("--duration", type=float, default=10.0, help="Seconds per flight.")
+
+    def of(self, names: Sequence[str]) -> tuple[list[Any], Any, Any, dict[str, Any]]:
+        """Return the laws called `names`, starts and vehicle, and the settings for a report. Raises InputError."""
+        from flypend import errors, model
+        from flypend.studies import law_named, paper_starts, random_starts
+
+        laws = [law_named(name) for name in names]
+        for law in laws:
+            tell_how(law)
+        machine = model.vehicle(self.vehicle)
+        errors.number("--duration", self.duration, above=0, unit="s")
+        kind = errors.one_of("--starts", self.starts, ("random", "paper"))
+        if kind == "paper":
+            refuse_idle("runs", "seed", why="beside --starts paper, which are five")
+        batch = paper_starts() if kind == "paper" else random_starts(self.runs, self.seed)
+        settings = {"laws": list(names), "vehicle": machine.name, "starts": kind, "runs": len(batch)}
+        settings["duration"] = self.duration
+        return laws, batch, machine, settings | ({"seed": self.seed} if kind == "random" else {})
 
 
 @app.command()
 @laws_option
 @out_option("compare-out")
-@starts_option
-@runs_option
-@seed_option
-@vehicle_option
+@options_of(Starts, "chosen")
 @click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
 @sensors_option
-@duration_option
 @click.option("--keep", type=path, metavar="DIR", help="Also save each failed flight in DIR (.nc).")
 def compare(
     law: tuple[str, ...],
     out: Path,
-    starts: str,
-    runs: int,
-    seed: int,
-    vehicle: str,
+    chosen: Starts,
     plant: str,
     sensors: str,
-    duration: float,
     keep: Path | None,
 ) -> None:
     """Compare laws, your own included, from the same starts, in one table and one figure.
@@ -245,16 +262,16 @@ def compare(
     from flypend.studies import compare as fly
     from flypend.studies.failed import failed_runs, flown_again
 
-    asked = plant_asked(plant, sensors)
-    chosen = plant_of(asked)
+    asked, duration = plant_asked(plant, sensors), chosen.duration
+    world = plant_of(asked)
     names = law or ("inverted", "lqr", "corrected", "detuned")
-    laws, batch, machine, settings = _study(names, starts, runs, seed, vehicle, duration)
+    laws, batch, machine, settings = chosen.of(names)
     settings = {**settings, "plant": asked}
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
     ahead(pictures_of_studies)
     with counter() as tell:
-        result = fly(machine, laws, batch, duration, plant=chosen, progress=tell)
+        result = fly(machine, laws, batch, duration, plant=world, progress=tell)
     failed = failed_runs(result, names, asked, duration)
     write_comparison(result, settings, out, failed)
     if keep is not None:
@@ -268,11 +285,7 @@ def compare(
 @app.command()
 @laws_option
 @out_option("ladder-out")
-@starts_option
-@runs_option
-@seed_option
-@vehicle_option
-@duration_option
+@options_of(Starts, "chosen")
 @click.option(
     "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
 )
@@ -281,11 +294,7 @@ def compare(
 def ladder(
     law: tuple[str, ...],
     out: Path,
-    starts: str,
-    runs: int,
-    seed: int,
-    vehicle: str,
-    duration: float,
+    chosen: Starts,
     rung: tuple[str, ...],
     sensors: str | None,
     bands: bool,
@@ -299,13 +308,13 @@ def ladder(
     from flypend.studies.bands import worlds_within
     from flypend.studies.ladder import rung_named, rungs_for, sensor_rungs
 
-    laws, batch, machine, settings = _study(law or ("inverted", "lqr"), starts, runs, seed, vehicle, duration)
+    laws, batch, machine, settings = chosen.of(law or ("inverted", "lqr"))
     if bands:
         world = sampled_plant(plant_of(plant_asked("rotors", sensors or "perfect")))
-        rungs: Mapping[str, AnyPlant] = worlds_within(machine, world, seed)
+        rungs: Mapping[str, AnyPlant] = worlds_within(machine, world, chosen.seed)
     else:
         rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
-    chosen = {
+    flown = {
         name: rung_named(name, rungs)
         for name in rung or rungs
         if rung or not lacking(f"the rung {name}", partial(plant, rungs[name]))
@@ -313,7 +322,7 @@ def ladder(
     check_writable(out)
     ahead(pictures_of_studies)
     with counter() as tell:
-        result = climb(machine, laws, batch, duration, rungs=chosen, progress=tell)
+        result = climb(machine, laws, batch, chosen.duration, rungs=flown, progress=tell)
     write_ladder(result, settings, out)
     console.print(ladder_table(result))
     console.print(f"Report and figure are in {bold(out)}.")
@@ -377,26 +386,6 @@ for _command in (
     *export.COMMANDS,
 ):
     app.add_command(_command)
-
-
-def _study(
-    names: Sequence[str], starts: str, runs: int, seed: int, vehicle: str, duration: float
-) -> tuple[list[Any], Any, Any, dict[str, Any]]:
-    """Return the validated laws, starts and vehicle of a study, and the settings for its report."""
-    from flypend import errors, model
-    from flypend.studies import law_named, paper_starts, random_starts
-
-    laws = [law_named(name) for name in names]
-    for law in laws:
-        tell_how(law)
-    machine = model.vehicle(vehicle)
-    errors.number("--duration", duration, above=0, unit="s")
-    kind = errors.one_of("--starts", starts, ("random", "paper"))
-    if kind == "paper":
-        refuse_idle("runs", "seed", why="beside --starts paper, which are five")
-    batch = paper_starts() if kind == "paper" else random_starts(runs, seed)
-    settings = {"laws": list(names), "vehicle": machine.name, "starts": kind, "runs": len(batch), "duration": duration}
-    return laws, batch, machine, settings | ({"seed": seed} if kind == "random" else {})
 
 
 def main() -> None:

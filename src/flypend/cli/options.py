@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import field, fields
+from functools import wraps
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -16,9 +18,8 @@ LAW_HELP = "a name that flypend laws lists, file.py:function or module:function"
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
-sensors_option = click.option(
-    "--sensors", default="perfect", help="perfect, mocap, onboard or laboratory, with the estimator; not ideal."
-)
+SENSORS_HELP = "perfect, mocap, onboard or laboratory, with the estimator; not ideal."
+sensors_option = click.option("--sensors", default="perfect", help=SENSORS_HELP)
 style_option = click.option(
     "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."
 )
@@ -28,6 +29,28 @@ def out_option(default: str, describe: str = "Output folder.") -> Callable[[_Com
     """Return the option --out with this default: a folder, or a file if the default has an ending."""
     kind = "FILE" if Path(default).suffix else "DIR"
     return click.option("--out", "-o", type=path, default=default, metavar=kind, help=describe)
+
+
+def option(name: str, **settings: Any) -> Any:
+    """Return a field of a dataclass that is the option `name` of a command, with the `settings` of `click.option`."""
+    return field(metadata={"name": name, "settings": settings})
+
+
+def options_of(record: type, name: str) -> Callable[[_Command], Any]:
+    """Return a decorator that adds an option for each field of a `record`, and passes the record as argument `name`."""
+    options = fields(record)
+
+    def decorate(function: _Command) -> Any:
+        @wraps(function)
+        def called(**given: Any) -> Any:
+            own = {each.name: given.pop(each.name) for each in options}
+            return function(**given, **{name: record(**own)})
+
+        for each in reversed(options):
+            click.option(each.metadata["name"], each.name, **each.metadata["settings"])(called)
+        return called
+
+    return decorate
 
 
 def refuse_idle(*names: str, why: str) -> None:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass, field, fields
-from functools import wraps
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING
 
 import click
 
-from flypend.cli.options import out_option, path, refuse_idle, vehicle_option
+from flypend.cli.options import option, options_of, out_option, path, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
@@ -19,31 +17,6 @@ if TYPE_CHECKING:
     from flypend.model import State, Vehicle
     from flypend.planning.constraints import Constraints
     from flypend.planning.result import Plan
-
-
-F = TypeVar("F", bound=Callable[..., Any])
-
-
-def option(name: str, **settings: Any) -> Any:
-    """Return a field of a dataclass that is the option `name` of a command, with the `settings` of `click.option`."""
-    return field(metadata={"name": name, "settings": settings})
-
-
-def options_of(record: type, name: str) -> Callable[[F], Any]:
-    """Return a decorator that adds an option for each field of a `record`, and passes the record as argument `name`."""
-    options = fields(record)
-
-    def decorate(function: F) -> Any:
-        @wraps(function)
-        def called(**given: Any) -> Any:
-            own = {each.name: given.pop(each.name) for each in options}
-            return function(**given, **{name: record(**own)})
-
-        for each in reversed(options):
-            click.option(each.metadata["name"], each.name, **each.metadata["settings"])(called)
-        return called
-
-    return decorate
 
 
 @dataclass(frozen=True)
@@ -214,12 +187,12 @@ def _check_files(files: dict[str, tuple[Path | None, tuple[str, ...]]]) -> None:
     from flypend.files.whole import check_file
 
     taken: dict[Path, str] = {}
-    for option, (file, endings) in files.items():
+    for named, (file, endings) in files.items():
         if file is None:
             continue
         check_file(file, endings)
-        if (other := taken.setdefault(file.absolute(), option)) != option:
-            raise InputError(option, f"another file than {other}", str(file))
+        if (other := taken.setdefault(file.absolute(), named)) != named:
+            raise InputError(named, f"another file than {other}", str(file))
 
 
 def _from(what: str | None, name: str) -> tuple[Vehicle, State]:

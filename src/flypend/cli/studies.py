@@ -4,13 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
 
-from flypend.cli.options import LAW_HELP, out_option, path, plant_asked, refuse_idle, sensors_option
+from flypend.cli.options import (
+    LAW_HELP,
+    SENSORS_HELP,
+    option,
+    options_of,
+    out_option,
+    path,
+    plant_asked,
+    refuse_idle,
+)
 from flypend.cli.terminal import ahead, bold, complaints, console, lines, maps, resumable, stepped, tell_how
 
 workers_option = click.option("--workers", type=click.IntRange(min=1), help="Number of cores to use; default all.")
@@ -51,18 +61,25 @@ def sweep(
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
 
+@dataclass(frozen=True)
+class Standard:
+    """The study of a law from random starts."""
+
+    law: str | None = option("--law", help=f"Fly this law from random starts instead of a study: {LAW_HELP}.")
+    vehicle: str | None = option("--vehicle", help="With --law: vehicle name or TOML file.")
+    plant: str = option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
+    sensors: str = option("--sensors", default="perfect", help=SENSORS_HELP)
+    runs: int = option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")
+    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="With --law: seed of the starts.")
+    duration: float | None = option("--duration", type=float, help="With --law: seconds per run.")
+
+
 @click.command("map")
 @click.argument("what", type=path, required=False)
 @out_option("map.png", "Output file: .png, .pdf or .svg.")
 @click.option("--x", help="Quantity on the horizontal axis, such as tilt, rate or gains.k_d.")
 @click.option("--y", help="Quantity on the vertical axis.")
-@click.option("--law", help=f"Fly this law from random starts instead of a study: {LAW_HELP}.")
-@click.option("--vehicle", help="With --law: vehicle name or TOML file.")
-@click.option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
-@sensors_option
-@click.option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")
-@click.option("--seed", type=click.IntRange(min=0), default=1, help="With --law: seed of the starts.")
-@click.option("--duration", type=float, help="With --law: seconds per run.")
+@options_of(Standard, "own")
 @workers_option
 @force_option
 def draw_map(
@@ -70,13 +87,7 @@ def draw_map(
     out: Path,
     x: str | None,
     y: str | None,
-    law: str | None,
-    vehicle: str | None,
-    plant: str,
-    sensors: str,
-    runs: int,
-    seed: int,
-    duration: float | None,
+    own: Standard,
     workers: int | None,
     force: bool,
 ) -> None:
@@ -93,7 +104,7 @@ def draw_map(
 
     for module in ("zarr", "xarray", "scipy"):
         require(module, extra="studies", for_="map")
-    if (what is None) == (law is None):
+    if (what is None) == (own.law is None):
         raise InputError("map", "a store, a study, or --law", "none" if what is None else "two of them")
     if out.suffix.lower() not in FIGURES:
         raise InputError("--out", "a file name ending in " + " or ".join(FIGURES), str(out))
@@ -102,8 +113,9 @@ def draw_map(
         why = "beside a study or a store, which has its own"
         refuse_idle("vehicle", "plant", "sensors", "runs", "seed", "duration", why=why)
     content = None
-    if law is not None:
-        content = standard(law, vehicle, plant_asked(plant, sensors), runs, seed, duration)
+    if own.law is not None:
+        plant = plant_asked(own.plant, own.sensors)
+        content = standard(own.law, own.vehicle, plant, own.runs, own.seed, own.duration)
     elif what is not None and what.suffix == ".toml":
         content = study_from(what).settings
     else:

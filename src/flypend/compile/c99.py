@@ -7,10 +7,10 @@ from typing import Literal
 
 import numpy as np
 
-from flypend.compile.matrices import Matrix, matrices
+from flypend.compile.matrices import Matrix
 from flypend.compile.program import Operation, Program
 from flypend.compile.routine import Call, Cell, Routine, stretches
-from flypend.compile.scratch import SPAN, Scratch, scratch_size
+from flypend.compile.scratch import SPAN, scratch
 from flypend.errors import InputError, one_of
 
 Precision = Literal["double", "float"]
@@ -54,7 +54,7 @@ class _Statements:
 
     def __init__(self, program: Program, inputs: Sequence[Sequence[str]], precision: Precision) -> None:
         self.program, self.inputs, self.precision = program, inputs, precision
-        self.scratch, self.lines = Scratch(program), list[str]()
+        self.scratch, self.lines = scratch(program), list[str]()
         self._known: dict[int, tuple[str, int]] = {}  # C expressions of numbers, and where they were read or computed
         self._truths: dict[int, str] = {}  # and of truths
         root = "sqrt" if precision == "double" else "sqrtf"
@@ -129,7 +129,7 @@ def statements(
     """C statements that compute `program`: `inputs[i][j]` is the C expression of entry j of input vector i.
 
     `outputs[i][j]` receives entry j of output i, after everything has been computed: it may be an input as well.
-    What is needed later is kept in the array `SCRATCH` of `scratch_size(program)` numbers. That and the inputs should
+    What is needed later is kept in the array `SCRATCH` of `scratch(program).size` numbers. That and the inputs should
     be volatile, or a compiler keeps copies on the stack. Products with constant matrices are calls of the functions of
     `layers`. What is selected is computed in any case: no branch decides how long a call takes.
 
@@ -144,7 +144,8 @@ def statements(
 
 def layers(program: Program, precision: Precision) -> list[str]:
     """C functions of the products with constant matrices in `program`, each with its table, in order."""
-    return [_layer(matrix, f"{program.name}_{place}", precision) for place, matrix in enumerate(matrices(program))]
+    found = enumerate(scratch(program).matrices)
+    return [_layer(matrix, f"{program.name}_{place}", precision) for place, matrix in found]
 
 
 def _layer(matrix: Matrix, name: str, precision: Precision) -> str:
@@ -194,7 +195,7 @@ def function(program: Program, precision: Precision) -> str:
     taken = [vector for vector in range(len(program.inputs)) if reads(program, vector)]
     inputs = [[f"in{i}[{k}]" for k in range(length)] for i, length in enumerate(program.inputs)]
     outputs = [[f"out{i}[{k}]" for k in range(len(numbers))] for i, numbers in enumerate(program.outputs)]
-    given = [f"volatile {REAL} *{SCRATCH}"] * bool(scratch_size(program))
+    given = [f"volatile {REAL} *{SCRATCH}"] * bool(scratch(program).size)
     given += [f"const volatile {REAL} *in{i}" for i in taken]
     wanted = [f"volatile {REAL} *out{i}" for i, numbers in enumerate(program.outputs) if numbers]
     whole = _defined(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
@@ -205,7 +206,7 @@ def call(program: Program, inputs: Sequence[str], outputs: Sequence[str], memory
     """The call of what `function` writes, with C expressions of pointers for all vectors and for scratch `memory`."""
     taken = [text for vector, text in enumerate(inputs) if reads(program, vector)]
     given = [text for text, numbers in zip(outputs, program.outputs, strict=True) if numbers]
-    return f"{program.name}({', '.join([*[memory] * bool(scratch_size(program)), *taken, *given])});"
+    return f"{program.name}({', '.join([*[memory] * bool(scratch(program).size), *taken, *given])});"
 
 
 def used_inputs(routine: Routine) -> list[int]:
@@ -223,7 +224,7 @@ def routine_scratch(routine: Routine) -> int:
     return (
         sum(routine.memories)
         + max(gathered, default=0)
-        + max((scratch_size(program) for program in routine.programs), default=0)
+        + max((scratch(program).size for program in routine.programs), default=0)
     )
 
 

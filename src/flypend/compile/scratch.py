@@ -6,6 +6,7 @@ control task of a flight controller has little more. Generated code therefore st
 
 from __future__ import annotations
 
+from functools import lru_cache
 from heapq import heappop, heappush
 
 from flypend.compile.matrices import Matrix, matrices
@@ -91,6 +92,7 @@ class Scratch:
         return self.size - count
 
 
-def scratch_size(program: Program) -> int:
-    """Return how many numbers of scratch memory `program` takes."""
-    return Scratch(program).size
+@lru_cache(maxsize=32)
+def scratch(program: Program) -> Scratch:
+    """Return the places of `program`, found once for its function and for each call of it."""
+    return Scratch(program)

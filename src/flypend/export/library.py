@@ -28,6 +28,7 @@ from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 from flypend.plants import AnyPlant, Ideal
 from flypend.plants.loop import Loop
+from flypend.plants.sensing import readings_record
 from flypend.plants.sensors import Sensors
 from flypend.signals import waiting
 
@@ -71,14 +72,19 @@ class Library:
         """Another process compiles for itself."""
         return (Library, self._of)
 
-    def array(self, values: Any) -> Any:
-        """`values` as C takes them."""
-        return np.ascontiguousarray(values, dtype=self.real)
+    def array(self, values: Any, *shape: int) -> Any:
+        """`values` as C takes them. Raises InputError unless they have the `shape`, if told: C would read past them."""
+        found = np.ascontiguousarray(values, dtype=self.real)
+        if shape and found.shape != shape:
+            raise InputError("values", f"numbers of shape {shape}", f"{found.shape}")
+        return found
 
     def step(self, state: Any, reference: Any) -> tuple[Any, Any, Any]:
         """Wrenches (n, 4), rotor forces (n, k) and statuses (n,) for states (n, 30) and references (n, 30)."""
-        state, reference = self.array(np.atleast_2d(state)), self.array(np.atleast_2d(reference))
+        state, reference = np.atleast_2d(state), np.atleast_2d(reference)
         count = len(state)
+        state = self.array(state, count, records.STATE.length)
+        reference = self.array(reference, count, records.REFERENCE.length)
         wrench, rotors = np.empty((count, 4), self.real), np.empty((count, self.made.rotors.length), self.real)
         status = np.empty(count, np.int32)
         self.call("flypend_many", count, state, reference, self.gains, self.params, wrench, rotors, status)
@@ -87,14 +93,20 @@ class Library:
     def follow(self, path: Any, state: Any) -> Any:
         """The reference (30,) on a `path` (27,) for the forces in a `state` (30,)."""
         reference = np.empty(records.REFERENCE.length, self.real)
-        self.call("flypend_follow", self.array(path), self.array(state), self.params, reference)
+        path, state = self.array(path, records.PATH.length), self.array(state, records.STATE.length)
+        self.call("flypend_follow", path, state, self.params, reference)
         return reference
 
     def lead(self, wanted: Any, modelled: Any, lead: float) -> Any:
         """Commands (k,) for `wanted` and `modelled` rotor forces (k,) and a `lead`."""
-        command = np.empty(self.made.rotors.length, self.real)
-        self.call("flypend_lead", self.array(wanted), self.array(modelled), self.real.type(lead), self.params, command)
+        count = self.made.rotors.length
+        wanted, modelled, command = self.array(wanted, count), self.array(modelled, count), np.empty(count, self.real)
+        self.call("flypend_lead", wanted, modelled, self.real.type(lead), self.params, command)
         return command
+
+    def rotors(self, forces: Any) -> Any:
+        """Rotor `forces` (n,), N, as C takes them; None for the least."""
+        return None if forces is None else self.array(forces, self.made.rotors.length)
 
     def call(self, name: str, *values: Any) -> int:
         """The status of the C function `name`: arrays are passed as pointers, integers and reals as they are."""
@@ -138,7 +150,7 @@ class CompiledBoard:
 
     def begin(self, rotors: Any = None) -> None:
         """Begin with forces `rotors` (n,), N, of the rotors, by default the least; sets `status`."""
-        code, given = self.code, None if rotors is None else self.code.array(rotors)
+        code, given = self.code, self.code.rotors(rotors)
         self.status = code.call("flypend_board_restart", self.numbers, code.gains, code.params, given)
 
     @property
@@ -188,6 +200,7 @@ class CompiledSensors:
         self.status = NOT_BEGUN
         self._rotors = np.zeros(code.made.rotors.length, code.real)
         self._hover = code.array(np.zeros(records.PATH.length))
+        self._reads = readings_record(code.made.sensing.sensors).length
 
     @property
     def memory(self) -> Any:
@@ -204,13 +217,13 @@ class CompiledSensors:
 
     def begin(self, rotors: Any = None) -> None:
         """Begin with the last estimate and forces `rotors` (n,), N, by default the least; sets `status`."""
-        code, given = self.code, None if rotors is None else self.code.array(rotors)
+        code, given = self.code, self.code.rotors(rotors)
         self.status = code.call("flypend_sensors_restart", self.numbers, code.gains, code.params, self._estimate, given)
 
     def step(self, readings: Any, path: Any = None) -> Any:
         """Rotor forces (n,) for numbers of the readings, or None for none, and of `records.PATH`; sets `status`."""
-        code, given = self.code, None if readings is None else self.code.array(readings)
-        along = self._hover if path is None else code.array(path)
+        code, given = self.code, None if readings is None else self.code.array(readings, self._reads)
+        along = self._hover if path is None else code.array(path, records.PATH.length)
         self.status = code.call("flypend_sensors_step", self.numbers, given, along, code.params, self._rotors)
         return self._rotors.astype(float)
 

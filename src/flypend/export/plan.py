@@ -11,7 +11,7 @@ import numpy as np
 from flypend import errors
 from flypend.compile.c99 import REAL, SCRATCH, Precision, call, function, literal
 from flypend.compile.program import lower
-from flypend.compile.scratch import scratch_size
+from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.source import ascii_of
 from flypend.files.staging import staged
@@ -155,7 +155,7 @@ def _values(plan: Plan, precision: Precision) -> dict[str, Any]:
         return ",\n".join("    {" + ", ".join(number(value) for value in row) + "}" for row in values)
 
     gains = ",\n".join(f"    {{\n{rows(each)}\n    }}" for each in feedback.gains)
-    size = max(scratch_size(program) for program in programs)
+    size = max(scratch(program).size for program in programs)
     return {
         "scratch": f"{REAL} {SCRATCH}[{size}];\n    " if size else "",
         "title": ascii_of(f"Plan for {vehicle.name}: {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),

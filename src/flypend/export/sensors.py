@@ -6,7 +6,7 @@ from typing import Any
 
 from flypend.compile.c99 import Precision, call, function, routine_function, routine_scratch, used_inputs
 from flypend.compile.program import Program
-from flypend.compile.scratch import scratch_size
+from flypend.compile.scratch import scratch
 from flypend.export import records
 from flypend.export.interface import Interface, Sensing
 from flypend.export.source import initializer, numbers_of, offsets, record_of, struct
@@ -26,7 +26,7 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
     inputs += [records.PATH] * made.follows
     given = ("computer->memory", "in->readings", "path", "gains_numbers(&computer->gains)", "p")
     fly = ["in->rest", *(given[i] for i in used_inputs(sensing.board)), "in->memory", "in->command"]
-    sizes = [scratch_size(program) for program in (sensing.begin, sensing.sound)]
+    sizes = [scratch(program).size for program in (sensing.begin, sensing.sound)]
     locals_, fill = "    (void)reference;\n", ""
     if made.follows:
         locals_ = ""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from flypend.compile.c99 import Precision, call, function, literal, routine_function, routine_scratch, used_inputs
 from flypend.compile.record import Record
-from flypend.compile.scratch import scratch_size
+from flypend.compile.scratch import scratch
 from flypend.export import records
 from flypend.export.interface import Interface
 
@@ -95,7 +95,7 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     board_inputs = ("board->memory", "in->measurement", "path", "gains_numbers(&board->gains)", "p")
     fly = ["in->rest", *(board_inputs[i] for i in used_inputs(made.board)), "in->memory", "in->command"]
     law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
-    sizes = {name: scratch_size(program) for name, program in programs.items()}
+    sizes = {name: scratch(program).size for name, program in programs.items()}
     largest = max(
         routine_scratch(made.board), routine_scratch(made.unmeasured), sizes["begin"], *(sizes[name] for name in SAFE)
     )

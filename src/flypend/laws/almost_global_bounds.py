@@ -33,6 +33,15 @@ class Bob(NamedTuple):
     rate: float
 
 
+class Slopes(NamedTuple):
+    """Bounds on |∇σ_p| (1/s²), |∇σ_v| (1/s), |σ_p″| (1/m s²) and |σ_v″| (1/m) of the outer loop."""
+
+    p: float
+    v: float
+    bend_p: float
+    bend_v: float
+
+
 def theorem_b(law: BoundLaw, start: State) -> Guarantee:
     """Return what Theorem B says of `start`."""
     return _bounded(law, start, IDEAL)
@@ -88,11 +97,21 @@ def bob_bounds(V: float, k: SimpleNamespace, g: float) -> Bob:
     drag = saturated(k.position_damping, k.position_speed, v)
     brake = saturated(k.height_damping, k.height_speed, v) + 2 * k.fall_damping * v
     most = math.hypot(pull + drag, g + s * pull + lift + brake)
-    # |∇σ_p| ≤ max(k_x, k_z)(1 + s)², |∇σ_v| ≤ max(k_v, k_vz + 2 k_f); the ideal bob has |v̇| ≤ g + |A|.
-    gradient_p = max(k.position_stiffness, k.height_stiffness) * (1 + s) ** 2
-    gradient_v = max(k.position_damping, k.height_damping + 2 * k.fall_damping)
-    error = math.hypot(level + s * upright, upright)
-    return Bob(error, v, g - largest_descent(vars(k)), most, gradient_p * v + gradient_v * (g + most))
+    slope, error = slopes(k), math.hypot(level + s * upright, upright)
+    # The ideal bob has |v̇| ≤ g + |A|.
+    return Bob(error, v, g - largest_descent(vars(k)), most, slope.p * v + slope.v * (g + most))
+
+
+def slopes(k: SimpleNamespace) -> Slopes:
+    """Return the bounds on the derivatives of (B1) and (B2): a saturation k r/√(1 + r²/L²) has |′| ≤ k, |″| ≤ 2 k/L."""
+    s = 1 + abs(k.shear)
+    return Slopes(
+        p=max(k.position_stiffness, k.height_stiffness) * s**2,
+        v=max(k.position_damping, k.height_damping + 2 * k.fall_damping),
+        bend_p=2 * (k.position_stiffness / k.position_reach + k.height_stiffness / k.height_reach) * s**3,
+        bend_v=2 * (k.position_damping / k.position_speed + k.height_damping / k.height_speed)
+        + k.fall_damping / k.fall_speed,
+    )
 
 
 def _farthest(V: float, k: float, reach: float) -> float:
@@ -119,16 +138,10 @@ def _feedforward(k: SimpleNamespace, g: float, bob: Bob, rod: Step, rod_rate: fl
     """Return a bound on |d/dt(ω_d × y + v_*)| along the ideal bob, 1/s²; `near` is the least 1 + c_y."""
     turn, fall, v = bob.rate / bob.least, g + bob.most, bob.speed
     swing = rod_rate + turn  # |ċ| and ½|ė| stay below it
-    # Ä = −σ_p″[v, v] − σ_p′ v̇ − σ_v″[v̇, v̇] − σ_v′ v̈. A saturation k r/√(1 + r²/L²) has |″| ≤ 2 k/L.
-    gradient_p = max(k.position_stiffness, k.height_stiffness) * (1 + abs(k.shear)) ** 2
-    gradient_v = max(k.position_damping, k.height_damping + 2 * k.fall_damping)
-    bend_p = (
-        2 * (k.position_stiffness / k.position_reach + k.height_stiffness / k.height_reach) * (1 + abs(k.shear)) ** 3
-    )
-    bend_v = 2 * (k.position_damping / k.position_speed + k.height_damping / k.height_speed)
-    bend_v += k.fall_damping / k.fall_speed
+    # Ä = −σ_p″[v, v] − σ_p′ v̇ − σ_v″[v̇, v̇] − σ_v′ v̈.
+    slope = slopes(k)
     jerk = bob.rate + bob.most * ((1 - rod.fade) * swing + rod_rate)
-    bending = bend_p * v**2 + gradient_p * fall + bend_v * fall**2 + gradient_v * jerk
+    bending = slope.bend_p * v**2 + slope.p * fall + slope.bend_v * fall**2 + slope.v * jerk
     turn_rate = bending / bob.least + 2 * turn * bob.rate / bob.least
     # v_* = k_e e + |A| h/(k W), |h| ≤ 2|v|, W = (1−ε)(1+c) + 2ε.
     W, weight = (1 - rod.barrier) * near + 2 * rod.barrier, rod.weight * rod.stiffness

@@ -47,7 +47,6 @@ class Scouts:
 
 
 PARTS = 2  # of a batch, each flown by a thread; fixed, so that results do not depend on the machine's cores
-PHASES = ("imitation", "descent")
 
 
 @dataclass(frozen=True)

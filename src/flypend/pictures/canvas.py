@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -38,3 +40,13 @@ def symbol(name: str) -> str:
 def decimals(run: Trajectory) -> int:
     """Number of decimals that distinguish the snapshot times of `run`."""
     return int(np.clip(2 - np.floor(np.log10(run.t[-1])), 2, 6)) if run.t[-1] > 0 else 2
+
+
+def rule(panels: Iterable[Any]) -> None:
+    """Give each of the axes `panels` small numbers, labels of one size, and a light grid behind the data."""
+    for axes in panels:
+        axes.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
+        axes.xaxis.label.set_size(LABEL)
+        axes.yaxis.label.set_size(LABEL)
+        axes.grid(visible=True, color="#e3e3e3", linewidth=0.5)
+        axes.set_axisbelow(True)

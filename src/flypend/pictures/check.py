@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from flypend.palette import GREY, SERIES
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.canvas import SMALL, new_figure, rule
 from flypend.pictures.style import PAGE
 from flypend.studies.check import Check
 from flypend.studies.margins import LEAST_RATE, Margin
@@ -38,12 +38,7 @@ def check_figure(checks: Mapping[str, Check]) -> Figure:
         axes.set_axis_off()
     handles, labels = panels[len(names)].get_legend_handles_labels()
     figure.legend(handles, labels, fontsize=SMALL, loc="outside upper left", ncols=2, frameon=False)
-    for axes in panels[: len(names) + 1]:
-        axes.tick_params(labelsize=SMALL, width=0.6, length=2.5)
-        axes.xaxis.label.set_size(LABEL)
-        axes.yaxis.label.set_size(LABEL)
-        axes.grid(visible=True, color="#e3e3e3", linewidth=0.5)
-        axes.set_axisbelow(True)
+    rule(panels[: len(names) + 1])
     return figure
 
 

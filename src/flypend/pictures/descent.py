@@ -14,7 +14,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.laws.named import THEOREM_1
 from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, PINK, RED
 from flypend.paper.basin import Basin
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
 from flypend.pictures.style import style_named
 
 STYLES = ((INK, "-"), (RED, "--"), (GREEN, "-."), (BLUE, ":"), (ORANGE, (0, (5, 1))), (PINK, (0, (1, 1))))
@@ -55,11 +55,10 @@ def descent_figure(groups: Mapping[str, Mapping[str, Trajectory]], until: float,
     for (law, runs), column in zip(groups.items(), rows.T, strict=True):
         for (name, run), ax in zip(runs.items(), column, strict=True):
             lyapunov_curves(ax, run)
+            rule([ax])
             ax.set_title(f"{law}, {name}", fontsize=SMALL)
             ax.set_ylabel(lyapunov_label(run, "$V$"), fontsize=SMALL)
             ax.set_xlim(0, until)
-            ax.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
-            ax.grid(visible=True, color="#e3e3e3", linewidth=0.5)
             if run.outcome.status != "completed":
                 ax.axvline(run.outcome.time, color=RED, linewidth=1.0, linestyle=":")
     entries = max((ax.get_legend_handles_labels() for ax in rows.flat), key=lambda found: len(found[0]))

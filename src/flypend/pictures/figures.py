@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from flypend.files.whole import save_figure
 from flypend.flight.trajectory import Trajectory
 from flypend.palette import BLUE, RED
-from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
+from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, rule, title
 from flypend.pictures.panels import between_poles, draw_panel, line_style, unit_vectors
 from flypend.pictures.stop_motion import snapshot_times, stop_motion
 from flypend.pictures.style import Style, letter, style_of
@@ -66,11 +66,9 @@ def full_figure(run: Trajectory, *, style: str | Style = "paper") -> Figure:
 def _finish(rows: Any, run: Trajectory) -> None:
     """Style the grid of axes `rows`, label the time axis, and mark the outcome of `run` if it did not complete."""
     end, completed = float(run.t[-1]), run.outcome.status == "completed"
+    rule(rows.flat)
     for ax in rows.flat:
         ax.set_xlim(run.t[0], end if completed else max(1.45 * end, 1e-3))
-        ax.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
-        ax.grid(visible=True, color="#e3e3e3", linewidth=0.5)
-        ax.set_axisbelow(True)
         if not completed:
             ax.axvline(run.outcome.time, color=RED, linewidth=1.2, linestyle=":")
     for ax in rows[-1]:

@@ -15,7 +15,7 @@ from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.palette import BLUE, GREEN, GREY, INK, RED, SERIES
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
 from flypend.pictures.maps import hemisphere
 from flypend.pictures.style import PAGE
 from flypend.planning.result import Plan
@@ -50,7 +50,7 @@ def plan_figure(plan: Plan, flown: Trajectory | None = None, windows: Sequence[W
     distance.legend(fontsize=SMALL, frameon=False)
     lean.set(ylabel="rod from upright (°)", ylim=(0, None))
     forces.set(ylabel="rotor forces (N)", xlabel="$t$ (s)")
-    _finish(figure.axes)
+    rule(figure.axes)
     return figure
 
 
@@ -93,7 +93,7 @@ def front_figure(front: Front, law: Trajectory | None = None) -> Figure:
     axes.set(xlabel="time until hover (s)", ylabel="excursion (m)", yscale="log")
     _plain(axes.yaxis)
     axes.legend(fontsize=SMALL, frameon=False)
-    _finish([axes])
+    rule([axes])
     return figure
 
 
@@ -132,7 +132,7 @@ def strays_figure(strays: Strays) -> Figure:
     _plain(far.xaxis)
     far.legend(fontsize=SMALL, frameon=False)
     spent.set(xlabel="processor time of a plan (ms)", ylabel="plans within (%)")
-    _finish([far, spent])
+    rule([far, spent])
     return figure
 
 
@@ -140,12 +140,3 @@ def _shares(axes: Any, values: Any, color: str, label: str) -> None:
     """Draw the share of `values` up to each; those that are not finite never count."""
     good = np.sort(values[np.isfinite(values)])
     axes.step(good, 100 * np.arange(1, len(good) + 1) / len(values), where="post", color=color, lw=1.2, label=label)
-
-
-def _finish(panels: Sequence[Any]) -> None:
-    for axes in panels:
-        axes.tick_params(labelsize=SMALL, width=0.6, length=2.5)
-        axes.xaxis.label.set_size(LABEL)
-        axes.yaxis.label.set_size(LABEL)
-        axes.grid(visible=True, color="#e3e3e3", linewidth=0.5)
-        axes.set_axisbelow(True)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend.palette import SERIES
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.canvas import SMALL, new_figure, rule
 from flypend.pictures.style import PAGE
 from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
@@ -34,7 +34,7 @@ def comparison_figure(comparison: Comparison) -> Figure:
     )
     for axis in axes:
         _extend(axis)
-    _finish(axes)
+    rule(axes)
     return figure
 
 
@@ -67,18 +67,8 @@ def ladder_figure(ladder: Ladder) -> Figure:
     axes[1].set(ylabel="excursion (m), 95 %", yscale="log")
     axes[1].set_xticks(range(len(rungs)), rungs, rotation=55, ha="right", fontsize=8)
     axes[0].legend(fontsize=SMALL, frameon=False, ncols=len(laws), loc="lower left", bbox_to_anchor=(0, 1))
-    _finish(axes)
+    rule(axes)
     return figure
-
-
-def _finish(axes: Any) -> None:
-    """Set fonts and grid as in the figures of a run."""
-    for axis in axes:
-        axis.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
-        axis.xaxis.label.set_size(LABEL)
-        axis.yaxis.label.set_size(LABEL)
-        axis.grid(visible=True, color="#e3e3e3", linewidth=0.5)
-        axis.set_axisbelow(True)
 
 
 def _dash(i: int) -> str:

@@ -48,16 +48,16 @@ NUMBERS: Mapping[str, tuple[float, str]] = MappingProxyType(
     }
 )
 NAMES = (*CONSTANT, *NUMBERS)
-# What a defect needs a sensor of; any of those named will do.
-NEEDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+# The stream that a defect takes; what is not here is possible with any sensors.
+NEEDS: Mapping[str, str] = MappingProxyType(
     {
-        "accelerometer_bias": ("accelerometer",),
-        "accelerometer_scale": ("accelerometer",),
-        "accelerometer_bias_walk": ("accelerometer",),
-        "vibration": ("accelerometer",),
-        "markers_turned": ("attitude",),
-        "rod_markers_off": ("rod",),
-        "joints_off": ("joints",),
+        "accelerometer_bias": "accelerometer",
+        "accelerometer_scale": "accelerometer",
+        "accelerometer_bias_walk": "accelerometer",
+        "vibration": "accelerometer",
+        "markers_turned": "attitude",
+        "rod_markers_off": "rod",
+        "joints_off": "joints",
     }
 )
 
@@ -74,9 +74,9 @@ def checked(sensors: Any) -> None:
         object.__setattr__(sensors, name, tuple(vector.tolist()) if np.any(vector) else 0.0)
     for name, (largest, unit_) in NUMBERS.items():
         errors.number(f"sensors.{name}", getattr(sensors, name), at_least=0, at_most=largest, unit=unit_)
-    for name, streams in NEEDS.items():
-        if getattr(sensors, name) and not any(stream in sensors.streams for stream in streams):
-            raise InputError(f"sensors.{name}", f"0 without sensors.{streams[0]}", repr(getattr(sensors, name)))
+    for name, stream in NEEDS.items():
+        if getattr(sensors, name) and stream not in sensors.streams:
+            raise InputError(f"sensors.{name}", f"0 without sensors.{stream}", repr(getattr(sensors, name)))
 
 
 def drawn(sensors: Any) -> list[str]:

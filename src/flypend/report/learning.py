@@ -13,7 +13,7 @@ from flypend.files.whole import save_figure
 from flypend.laws.policy import save
 from flypend.learning.training import Entry, Learner
 from flypend.palette import BLUE, GREEN, GREY, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
+from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
 from flypend.pictures.style import PAGE
 from flypend.report.text import write_json
 
@@ -46,9 +46,8 @@ def curve_figure(curve: list[Entry]) -> Figure:
     left.legend(fontsize=SMALL, frameon=False)
     right.plot(place, 100 * rows[:, 3], color=GREEN)
     right.set_ylabel("flights that end near hover (%)", fontsize=LABEL)
+    rule((left, right))
     for axis in (left, right):
         axis.axvline(imitated, color=GREY, lw=0.6)
         axis.set_xlabel("rounds of imitation | updates by descent", fontsize=LABEL)
-        axis.tick_params(which="both", labelsize=SMALL)
-        axis.grid(visible=True, color="#e3e3e3", linewidth=0.5)
     return figure

@@ -12,7 +12,7 @@ from flypend import __version__
 from flypend.files.staging import staged
 from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure, symbol
+from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule, symbol
 from flypend.pictures.style import PAGE
 from flypend.report.text import write_json
 from flypend.settings.runfile import run_text
@@ -67,10 +67,9 @@ def history_figure(result: Tuned) -> Figure:
         right.plot(runs, values, color=colour, ls=style, label=f"{symbol(name)} = {result.gains[name]:g}")
     right.axhline(1.0, color=GREY, lw=0.6)
     right.set_ylabel("gain over initial gain (–)", fontsize=LABEL)
+    rule((left, right))
     for axis in (left, right):
         axis.set_yscale("log")
         axis.set_xlabel("runs flown", fontsize=LABEL)
-        axis.tick_params(which="both", labelsize=SMALL)
-        axis.grid(visible=True, color="#e3e3e3", linewidth=0.5)
         axis.legend(fontsize=SMALL, frameon=False)
     return figure

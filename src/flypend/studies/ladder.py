@@ -106,7 +106,7 @@ def sensor_rungs(suite: str) -> dict[str, AnyPlant]:
         raise InputError("--sensors", "sensors that can be wrong", repr(suite))
     found: dict[str, AnyPlant] = {suite: ROTORS.replace(sensors=base)}
     for name, changes in DEFECTS.items():
-        if all(NEEDS.get(defect, ("gyro",))[0] in base.streams for defect in changes):
+        if all(defect not in NEEDS or NEEDS[defect] in base.streams for defect in changes):
             found[name] = ROTORS.replace(sensors=base.replace(**changes))
     return found | {"laboratory": PRESETS["laboratory"]}
 

@@ -3,25 +3,18 @@
 import { Color, CylinderGeometry, Mesh, ShaderMaterial } from "three";
 
 import { roundUp } from "../numbers.js";
+import { PLACED } from "./world.js";
 
 const ASIDE = 1.5, ABOVE = 2; // reaches of the machine, to the side of the start and over the highest point
 const BAND = 0.25, MARK = 0.8; // reaches, at least, of a band and between two marks with a number
 const NEAR = 1.6; // reaches over and under the machine, as far as there are numbers
 
-const VERTEX = `
-varying float height;
-void main() {
-  vec4 world = modelMatrix * vec4(position, 1.0);
-  height = world.z;
-  gl_Position = projectionMatrix * viewMatrix * world;
-}`;
-
 const FRAGMENT = `
 uniform vec3 dark, bright;
 uniform float band, zero;
-varying float height;
+varying vec3 place;
 void main() {
-  gl_FragColor = vec4(mod(floor((height - zero) / band), 2.0) < 0.5 ? dark : bright, 1.0);
+  gl_FragColor = vec4(mod(floor((place.z - zero) / band), 2.0) < 0.5 ? dark : bright, 1.0);
   #include <colorspace_fragment>
 }`;
 
@@ -29,7 +22,7 @@ export class Pole extends Mesh {
   /** For a flight from `start` in the horizontal `direction`, over the `ground` and up to `top`, by a machine of a `reach`; m. */
   constructor(start, direction, ground, top, reach) {
     const end = top + ABOVE * reach, shape = new CylinderGeometry(0.012 * reach, 0.012 * reach, end - ground, 10).rotateX(Math.PI / 2);
-    super(shape, new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: {
+    super(shape, new ShaderMaterial({ vertexShader: PLACED, fragmentShader: FRAGMENT, uniforms: {
       dark: { value: new Color() }, bright: { value: new Color() }, band: { value: roundUp(BAND * reach) }, zero: { value: start[2] },
     } }));
     const size = Math.hypot(direction[0], direction[1]) || 1;

@@ -13,11 +13,12 @@ const SPREAD = 0.3, FADE = 1.2; // of what the machine keeps of the sky's light 
 const LAMPS = { alone: { sky: 2.4, fill: 1.3 }, room: { sky: 0.8, fill: 0.8 } }; // strengths beside that of the sun
 const LATTICE = 5; // points to each side of the middle
 
-const GRID_VERTEX = `
-varying vec2 place;
+/** A vertex shader that tells each point its place in the world. */
+export const PLACED = `
+varying vec3 place;
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
-  place = world.xy;
+  place = world.xyz;
   gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
@@ -26,17 +27,17 @@ uniform vec3 color;
 uniform vec2 middle;
 uniform float spacing, radius;
 uniform vec4 shade; // middle, radius and strength
-varying vec2 place;
+varying vec3 place;
 float lines(float step) {
-  vec2 cell = place / step, width = fwidth(cell);
+  vec2 cell = place.xy / step, width = fwidth(cell);
   vec2 near = abs(fract(cell - 0.5) - 0.5) / max(width, 1e-6);
   vec2 shown = (1.0 - clamp(near - 0.1, 0.0, 1.0)) * (1.0 - smoothstep(0.15, 0.6, width));
   return max(shown.x, shown.y);
 }
 void main() {
-  float fade = 1.0 - smoothstep(0.25, 1.0, length(place - middle) / radius);
+  float fade = 1.0 - smoothstep(0.25, 1.0, length(place.xy - middle) / radius);
   float strength = max(0.09, max(0.3 * lines(spacing), 0.55 * lines(5.0 * spacing)));
-  float drawn = strength * fade, edge = max(1.0 - dot(place - shade.xy, place - shade.xy) / (shade.z * shade.z), 0.0);
+  float drawn = strength * fade, edge = max(1.0 - dot(place.xy - shade.xy, place.xy - shade.xy) / (shade.z * shade.z), 0.0);
   float shaded = shade.w * edge * edge * (1.0 - drawn);
   gl_FragColor = vec4(color * drawn / max(drawn + shaded, 1e-6), drawn + shaded);
   #include <colorspace_fragment>
@@ -74,7 +75,7 @@ export class World extends Group {
   constructor(ground, reach, room) {
     super();
     Object.assign(this, { ground, reach, lamps: room ? LAMPS.room : LAMPS.alone });
-    this.grid = new Mesh(new PlaneGeometry(1, 1), shader(GRID_VERTEX, GRID_FRAGMENT, {
+    this.grid = new Mesh(new PlaneGeometry(1, 1), shader(PLACED, GRID_FRAGMENT, {
       color: { value: new Color() }, middle: { value: new Vector3() }, spacing: { value: 1 }, radius: { value: 10 }, shade: { value: new Vector4() },
     }));
     this.floor = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ depthWrite: false }));

@@ -26,7 +26,7 @@ from flypend.flight.kernels.flown import Flown, Progress, from_queue, inputs_of,
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import distinct
-from flypend.flight.request import Flight
+from flypend.flight.request import Tolerances
 from flypend.geometry import Numbers, Vector, hat
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop
@@ -58,7 +58,7 @@ class Moments(NamedTuple):
     rate: float
 
     @classmethod
-    def of(cls, judge_at: ArrayLike = (), keep_at: ArrayLike | None = None) -> Moments:
+    def of(cls, judge_at: ArrayLike | None = None, keep_at: ArrayLike | None = None) -> Moments:
         """Prepare the times at which the criterion is evaluated and those at which states are kept."""
         judged, kept = (np.asarray(() if some is None else some, dtype=float) for some in (judge_at, keep_at))
         last = judged[-1] if len(judged) else 0.0
@@ -67,6 +67,20 @@ class Moments(NamedTuple):
         # An edge that rounding would move past a time lies before it.
         bins = np.searchsorted(judged, (1 - ROUNDING) * edges, side="right").astype(float)
         return cls(np.append(kept, np.inf), np.append(judged, np.inf), bins, rate)
+
+
+class Limits(NamedTuple):
+    """What bounds a run, by the names of a kernel's arguments: its end (s), tolerances per step, number of steps."""
+
+    until: float
+    rtol: float
+    atol: float
+    max_steps: int
+
+    @classmethod
+    def of(cls, duration: float, exact: Tolerances) -> Limits:
+        """Return the limits of a run of `duration` seconds that is as `exact`."""
+        return cls(duration, exact.rtol, exact.absolute, exact.max_steps or MAX_STEPS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,14 +108,11 @@ class IdealKernel:
         self,
         starts: Numbers,
         duration: float,
+        exact: Tolerances,
         *,
-        rtol: float,
-        atol: float | None = None,
         parameters: NDArray[np.float64] | None = None,
-        judge_at: ArrayLike = (),
+        judge_at: ArrayLike | None = None,
         keep_at: ArrayLike | None = None,
-        judge: bool = True,
-        max_steps: int | None = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
@@ -111,18 +122,14 @@ class IdealKernel:
         ----------
         starts, duration
             Packed states; flight time, s.
-        rtol, atol : float
-            Tolerances per step; atol defaults to rtol.
+        exact : Tolerances
+            Tolerances per step and the number of steps; method and precision are those of the kernel.
         parameters : (n, k), optional
             Values of the varying gains; default those of the law.
-        judge_at : (j,)
-            Increasing times, s, at which the criterion is evaluated.
+        judge_at : (j,), optional
+            Increasing times, s, at which the criterion is evaluated; without, `Flown.reductions` is None.
         keep_at : (t,), optional
             Increasing times, s, at which states are kept. They do not affect the criterion.
-        judge : bool
-            Whether to evaluate the criterion; if not, `Flown.reductions` is None.
-        max_steps : int
-            A run that needs more steps ends as diverged; default a million.
         workers : int, optional
             Threads; default one per core.
         progress : callable
@@ -130,17 +137,17 @@ class IdealKernel:
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = inputs_of(self.loop, parameters, len(starts))
-        moments = Moments.of(judge_at, keep_at)
-        setting = (duration, rtol, rtol if atol is None else atol, max_steps or MAX_STEPS)
+        moments, limits = Moments.of(judge_at, keep_at), Limits.of(duration, exact)
 
         size = starts.shape[1]
         samples = None if keep_at is None else (len(moments.kept) - 1, size)
         out = Flown.of_size(
-            len(starts), size, samples=samples, steps=True, judged=judge, touching=self.loop.vehicle.mount != "gimbal"
-        )
+            len(starts), size, samples=samples, steps=True, judged=judge_at is not None,
+            touching=self.loop.vehicle.mount != "gimbal",
+        )  # fmt: skip
 
         def fly(queue: Any, stop: Word) -> None:
-            call(self.function, starts, values, setting, moments, out, stop, queue=queue)
+            call(self.function, starts, values, limits, moments, out, stop, queue=queue)
 
         from_queue(fly, len(starts), workers, progress)
         return out
@@ -152,17 +159,11 @@ def lane_count(problem: Problem, precision: str) -> int:
     return size // BYTES[precision]
 
 
-def setting_of(flight: Flight) -> tuple[float, float, float, int]:
-    """Return duration (s), rtol, atol and step limit of `flight`."""
-    exact = flight.tolerances
-    return flight.duration, exact.rtol, exact.absolute, exact.max_steps or MAX_STEPS
-
-
 def integrate(
     function: jit.Native,
     start: NDArray[np.float64],
     values: NDArray[np.float64],
-    setting: tuple[float, float, float, int],
+    limits: Limits,
     times: ArrayLike,
     knots: NDArray[np.float64] | None = None,
     *,
@@ -170,14 +171,14 @@ def integrate(
 ) -> Flown:
     """Fly one run by a compiled ideal kernel from `start` (24,) or (28,), keeping the states at increasing `times`.
 
-    `values` (1, k) are the parameter values, `setting` as in `call`. `knots` receives the number of accepted steps
+    `values` (1, k) are the parameter values. `knots` receives the number of accepted steps
     and four numbers for each: its time, and the drift (3,) before projection. `touching` says whether the rod can touch
     anything.
     """
     moments = Moments.of(keep_at=times)
     size = len(start)
     out = Flown.of_size(1, size, samples=(len(moments.kept) - 1, size), steps=True, judged=False, touching=touching)
-    heard([lambda stop: call(function, start[None], values, setting, moments, out, stop, knots)])
+    heard([lambda stop: call(function, start[None], values, limits, moments, out, stop, knots=knots)])
     return out
 
 
@@ -185,27 +186,23 @@ def call(
     function: jit.Native,
     starts: NDArray[np.float64],
     values: NDArray[np.float64],
-    setting: tuple[float, float, float, int],
+    limits: Limits,
     moments: Moments,
     out: Flown,
     stop: Word,
-    knots: NDArray[np.float64] | None = None,
-    queue: NDArray[np.int64] | None = None,
+    **more: NDArray[Any] | None,
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
-    `setting` is duration (s), rtol, atol and step limit. `out` is filled, and `knots` as in `integrate`. Once
-    `stop` is set, the call returns at its next step. Calls in several threads share the runs through one `queue` (1,),
-    the index of the next run.
+    `out` is filled. Once `stop` is set, the call returns at its next step. `more` may be `knots`, to fill as in
+    `integrate`, and `queue` (1,), the index of the next run, through which calls in several threads share the runs.
     """
-    until, rtol, atol, max_steps = setting
     given = {
-        "starts": starts, "parameters": values, "queue": np.zeros(1, dtype=np.int64) if queue is None else queue,
-        "runs": len(starts), "begin": 0.0, "until": until, "rtol": rtol, "atol": atol, "max_steps": max_steps,
-        "times": moments.kept, "time_count": len(moments.kept) - 1,
+        "starts": starts, "parameters": values, "queue": np.zeros(1, dtype=np.int64), "runs": len(starts),
+        "begin": 0.0, **limits._asdict(), "times": moments.kept, "time_count": len(moments.kept) - 1,
         "judge_times": moments.judged, "bins": moments.bins, "bin_count": len(moments.bins), "bin_rate": moments.rate,
         "samples": out.samples, "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
-        "steps": out.steps, "knots": knots, "clearance": out.clearance, "part": out.part, "stop": stop,
+        "steps": out.steps, "knots": None, "clearance": out.clearance, "part": out.part, "stop": stop, **more,
     }  # fmt: skip
     function(*ordered(ARGUMENTS, given))
 

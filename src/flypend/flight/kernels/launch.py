@@ -45,8 +45,8 @@ def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = 
     kernel, exact, times = kernel_of(flight), flight.tolerances, flight.times
     if isinstance(kernel, IdealKernel):
         return kernel.fly(
-            flight.packed, flight.duration, rtol=exact.rtol, atol=exact.atol, parameters=flight.values,
-            judge_at=flight.grid, keep_at=times, max_steps=exact.max_steps, workers=workers, progress=progress,
+            flight.packed, flight.duration, exact, parameters=flight.values, judge_at=flight.grid, keep_at=times,
+            workers=workers, progress=progress,
         )  # fmt: skip
     plant, duration = kernel.loop.sampled, flight.duration
     return kernel.fly(

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels.flown import STATUS, Flown, inputs_of
-from flypend.flight.kernels.ideal import MAX_STEPS, IdealKernel, integrate, setting_of
+from flypend.flight.kernels.ideal import MAX_STEPS, IdealKernel, Limits, integrate
 from flypend.flight.kernels.sampled import SampledKernel
 from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
@@ -38,9 +38,9 @@ class Solution:
     def __init__(self, kernel: IdealKernel, flight: Flight, parameters: NDArray[np.float64] | None = None) -> None:
         self._function = kernel.function
         self._start = np.ascontiguousarray(flight.packed[0], dtype=float)
-        self._setting = setting_of(flight)
+        self._limits = Limits.of(flight.duration, flight.tolerances)
         self._values = inputs_of(kernel.loop, None if parameters is None else np.asarray(parameters)[None], 1)
-        room = np.empty(1 + 4 * self._setting[-1])
+        room = np.empty(1 + 4 * self._limits.max_steps)
         room[0] = 0
         self._touching = flight.vehicle.mount != "gimbal"
         flown = self._fly(np.zeros(0), room)
@@ -51,7 +51,7 @@ class Solution:
         self.outcome = _judge(int(flown.code[0]), float(flown.end[0]), part, kernel)
 
     def _fly(self, times: NDArray[np.float64], room: NDArray[np.float64] | None = None) -> Flown:
-        return integrate(self._function, self._start, self._values, self._setting, times, room, touching=self._touching)
+        return integrate(self._function, self._start, self._values, self._limits, times, room, touching=self._touching)
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
         """Return the states (len(t), 24 or 28) at times within the run, from the method's dense output, projected."""

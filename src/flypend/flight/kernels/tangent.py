@@ -17,7 +17,7 @@ from flypend.compile.llvm import jit
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.flight.kernels.flown import Flown, inputs_of
-from flypend.flight.kernels.ideal import Moments, call, compiled, setting_of
+from flypend.flight.kernels.ideal import Limits, Moments, call, compiled
 from flypend.flight.kernels.stopping import heard
 from flypend.flight.request import Flight
 from flypend.geometry import Numbers
@@ -45,8 +45,8 @@ def fly_tangents(flight: Flight, gains: tuple[str, ...], directions: Any, rates:
     joined = np.ascontiguousarray(np.concatenate([starts, directions], axis=1))
     parameters = np.ascontiguousarray(np.concatenate([inputs_of(loop, None, len(directions)), rates], axis=1))
     out = Flown.of_size(len(joined), joined.shape[1], samples=None, steps=True, judged=False)
-    kernel, setting = _kernel(loop), setting_of(flight)
-    heard([lambda stop: call(kernel, joined, parameters, setting, Moments.of(), out, stop)])
+    kernel, limits = _kernel(loop), Limits.of(flight.duration, flight.tolerances)
+    heard([lambda stop: call(kernel, joined, parameters, limits, Moments.of(), out, stop)])
     return out
 
 

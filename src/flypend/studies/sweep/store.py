@@ -135,10 +135,6 @@ class Store:
         except InputError:
             return False
 
-    def unmark(self, number: int) -> None:
-        """Mark chunk `number` as not flown."""
-        self._marks[number] = 0
-
     def _mark(self, number: int) -> int:
         layout.check_packed(self.path / MARKS, number, self._marks)
         return int(self._marks[number])

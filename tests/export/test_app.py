@@ -24,7 +24,7 @@ LAW = fp.laws.inverted()
 VEHICLE = limited(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
 HEADERS = (
     "FreeRTOS.h", "task.h", "app.h", "app_channel.h", "controller.h", "controller_pid.h", "estimator.h", "log.h",
-    "param.h", "platform_defaults.h", "pm.h", "stabilizer_types.h", "supervisor.h",
+    "motors.h", "param.h", "platform_defaults.h", "pm.h", "stabilizer_types.h", "supervisor.h",
 )  # fmt: skip
 APP = ("flypend_app.c", "flypend_law.c", "flypend_frames.c")
 CUT, PID, BY_LAW, LANDING = range(4)
@@ -88,15 +88,21 @@ class Firmware:
     def _set(self):
         """The time, battery, estimator, whether it flies, and when the last pose came."""
         ticks = (ctypes.c_uint32(value) for value in (self.tick, self.tick - self.stale))
-        self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks))
+        turning = round(65535 * VEHICLE.weight / 4 / VEHICLE.rotor_limits[1])  # hover, by the stand-in's linear fit
+        self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks), turning)
 
     def app(self, message=b""):
         self._set()
         self.c.standin_app(message, len(message))
 
     def see(self, state, vehicle=VEHICLE):
-        end, speed = state.x + vehicle.l * state.y, state.x_dot + vehicle.l * state.y_dot
-        self.app(struct.pack("<c6f", b"b", *end, *speed))
+        self.app(struct.pack("<c3f", b"b", *(vehicle.l * state.y)))
+
+    def watch(self, state, frames=100, modes=(ABSOLUTE,) * 3):
+        """See the bob for so many frames, 10 ms each, until its rate and the rotors' forces are known."""
+        for _ in range(frames):
+            self.see(state)
+            self.fly(state, modes, steps=10)
 
     def told(self):
         """Calls of PID, mode and velocity of z, position x that it was asked for, whether tumbling is checked."""
@@ -118,8 +124,8 @@ class Firmware:
 
     def begin(self, state):
         """In the air under PID, with the bob in sight, and switched on; the tick is even, the law flies next."""
-        self.tick = 1001
-        self.see(state)
+        self.watch(state)
+        self.tick += 1 - self.tick % 2
         assert self.fly(state)[0] == LEGACY
         self.upload("on", 1)
         assert self.fly(state)[0] == LEGACY  # tumbling is still checked
@@ -175,7 +181,7 @@ def test_a_null_setpoint_stops_the_motors_and_switches_off(firmware):
 
 def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
     state = _state()
-    firmware.see(state)
+    firmware.watch(state)
     before = firmware.told()[0]
     assert firmware.fly(state, steps=20)[0] == LEGACY
     assert firmware.told()[0] == before + 20
@@ -213,17 +219,16 @@ def test_it_does_not_begin_without(firmware, what, why):
     here = _Nowhere(state) if what == "no estimate" else state
     if what == "too low":
         here = fp.State(x=(0, 0, 0.3), y=(0, 0, -1.0))
+    if what != "no bob":
+        firmware.watch(state, modes=modes)
     firmware.upload("on", 1)
-    firmware.tick += firmware.tick % 2
-    firmware.fly(here, modes)
-    if what not in ("no bob", "tumbling is checked"):
-        firmware.see(state)
-    elif what == "tumbling is checked":
-        firmware.see(state)
-        firmware.c.controllerOutOfTreeInit()  # it was off; the app has not turned it on again
-        firmware.app()
-        firmware.see(state)
-        firmware.upload("on", 1)
+    if what != "tumbling is checked":
+        firmware.tick += firmware.tick % 2
+        firmware.fly(here, modes)  # then the app's task turns the check off
+        if what == "no bob":
+            firmware.app()
+        else:
+            firmware.see(state)
     firmware.tick += 1 - firmware.tick % 2  # the law's turn is next
     assert firmware.fly(here, modes)[0] == LEGACY
     assert (firmware.log("flies"), firmware.log("why")) == (PID, why)
@@ -312,7 +317,7 @@ def test_the_switch_gives_it_back_to_pid_at_once(firmware):
 
 def test_a_packet_of_another_kind_or_without_numbers_is_no_bob(firmware):
     state = _state()
-    for message in (b"b", b"c" + bytes(24), struct.pack("<c6f", b"b", np.nan, *[0.0] * 5)):
+    for message in (b"b", b"c" + bytes(12), struct.pack("<c3f", b"b", np.nan, 0.0, 0.0)):
         firmware.app(message)
         firmware.fly(state)
         assert firmware.log("bobAge") == 2**16 - 1

@@ -8,9 +8,19 @@ import pytest
 from cbuild import run
 
 import flypend as fp
-from benchmarks.firmware.__main__ import DURATION, compared, difference, exported, happen, judged, stopped, strayed
+from benchmarks.firmware.__main__ import (
+    DURATION,
+    compared,
+    difference,
+    exported,
+    happen,
+    judged,
+    packed,
+    stopped,
+    strayed,
+)
 from benchmarks.firmware.built import FLAGS, searched
-from benchmarks.firmware.loop import APP, CUT, HOME, HOST, LANDING, LAW, OWN, PID, Vehicle, carried, states
+from benchmarks.firmware.loop import APP, CUT, HOME, HOST, LANDING, LAW, OWN, PID, TICK, Vehicle, carried, states
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +37,7 @@ def test_a_random_start_ends_upright_within_the_space_that_its_readme_asks_for(b
     assert flown.release(start)
     begun = len(flown.log)
     flown.fly(DURATION)
-    upright, far = judged([state for state, *_ in flown.log[begun:]])
+    upright, far = judged(packed(flown, begun), HOME, TICK)
     assert upright
     assert flown.flies == LAW
     assert far < 3.0
@@ -86,7 +96,7 @@ def test_without_the_host_scripts_filter_settings_it_goes_much_further(built, mo
         flown.release(fp.State(x=HOME, y=(1.0, 0.0, 0.0)))
         begun = len(flown.log)
         flown.fly(3.0)
-        far[which] = judged([state for state, *_ in flown.log[begun:]])[1]
+        far[which] = judged(packed(flown, begun), HOME, TICK)[1]
     assert far["the firmware's own"] > 1.4 * far["the script's"]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from flypend import errors, signals
-from flypend.compile.c99 import literal
+from flypend.board import rod
+from flypend.compile.c99 import call, function, literal
+from flypend.compile.program import lower
+from flypend.compile.scratch import scratch_size
 from flypend.errors import InputError
 from flypend.export.interface import interface
 from flypend.export.write import core, filled, values_of
@@ -18,6 +22,7 @@ from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 
 TARGETS = ("crazyflie",)
+PERIOD = 1e-3  # s, of the firmware's stabilizer
 
 
 @dataclass(frozen=True)
@@ -108,10 +113,20 @@ def export_app(
         "least_force": literal(flown.rotor_limits[0], "float"),
         "largest_force": literal(flown.rotor_limits[1], "float"),
         **{name: literal(getattr(flown, name), "float") for name in ("mass", "bob_mass", "rod_length")},
+        "caught_up": literal(1 - math.exp(-PERIOD / flown.rotor_lag) if flown.rotor_lag else 1.0, "float"),
         "idle": "" if frame.idle is None else f"CONFIG_MOTORS_DEFAULT_IDLE_THRUST={frame.idle}\n",
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
         "weight": f"{1e3 * (flown.M + flown.m):.3g}",
         "rod": f"{flown.l:.3g}",
+    }
+    track = lower(rod.tracking(PERIOD))
+    values |= {
+        "track_rod": function(track, "float"),
+        "track_scratch": str(scratch_size(track)),
+        "rod_numbers": str(rod.RECORD.length),
+        "call_track_rod": call(
+            track, ("rod", "end->from_pivot", "&age", "force", "&params.rod_length"), ["rod"], "scratch"
+        ),
     }
     texts = core(made, "float")
     texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}

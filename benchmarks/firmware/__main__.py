@@ -94,7 +94,7 @@ def fly_starts(library, vehicle, given):
 
 
 def in_firmware(library, vehicle, start, given):
-    """Success and excursion (m) of a start in the firmware, and of the same state and rotor forces with ideal mixing."""
+    """Success and excursion (m) of a start in the firmware, and of the same state and forces with ideal mixing."""
     flown = Vehicle(library, vehicle, given.plant, known=given.known)
     flown.lift()
     begun = flown.release(start)

@@ -5,6 +5,9 @@
 
 #define PAINT 0xa5a5a5a5U
 #define DEPTH 4096U /* words that are painted */
+#ifndef ROUNDS
+#define ROUNDS 600 /* ms */
+#endif
 
 extern uint32_t _stack_top, _data, _data_end, _load, _bss, _bss_end;
 extern const standin_entry standin_log_flypend[], standin_param_flypend[];
@@ -121,7 +124,7 @@ int main(void)
     setpoint.mode.x = setpoint.mode.y = setpoint.mode.z = modeAbs;
     controllerOutOfTreeInit();
     *(uint8_t *)standin_param_flypend[0].address = 1;
-    for (int i = 0; i < 600; i++) {
+    for (int i = 0; i < ROUNDS; i++) {
         if (i < 450) {
             see((i / 10 % 2 == 0) ? 1.f : -1.f); /* turning over */
         } /* then it is lost, and the vehicle lands */

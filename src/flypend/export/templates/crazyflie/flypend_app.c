@@ -50,6 +50,7 @@ _Static_assert($least_force >= 0.9999f * THRUST_MIN, "rotor_limits of the vehicl
 #define SINK 0.3f         /* m/s */
 #define GROUND 0.05f      /* m: below it a landing ends, and a flight of the law */
 #define AIR 0.5f          /* m: above it the law may begin */
+#define FOLLOWING 10.0f /* 1/s: how fast the attitude follows the firmware's in hover */
 #define ROD_NUMBERS $rod_numbers
 #define GRAVITY 9.81f          /* m/s^2, in which the firmware's accelerometer counts */
 
@@ -75,6 +76,7 @@ typedef struct {
 
 static flypend_board board;
 static rod_end bob;                    /* written by the app's task, the rest by the stabilizer's, if nothing else is said */
+static float attitude[4];              /* unit quaternion w, x, y, z */
 static float rod[ROD_NUMBERS];         /* what track_rod remembers: direction, rate, age */
 static uint32_t rod_tick, rod_begun;   /* of its newest direction, and of its first */
 static setpoint_t landing;
@@ -156,13 +158,41 @@ bool controllerOutOfTreeTest(void)
     return controllerPidTest();
 }
 
+/* The firmware's Kalman filter turns its attitude on a hundred times a second, so in a turn it is up to 10 ms old. This one
+ * follows the gyroscope in every step, and the filter's the more, the slower the vehicle turns. */
+static void follow_attitude(const sensorData_t *sensors, const state_t *state)
+{
+    const float step = 1.0f / RATE_MAIN_LOOP;
+    const float half = flypend_radians(step) / 2;
+    const float a = half * sensors->gyro.x, b = half * sensors->gyro.y, c = half * sensors->gyro.z;
+    const float told[4] = {state->attitudeQuaternion.w, state->attitudeQuaternion.x, state->attitudeQuaternion.y,
+                           state->attitudeQuaternion.z};
+    const float w = attitude[0], x = attitude[1], y = attitude[2], z = attitude[3];
+    const float turned[4] = {w - x * a - y * b - z * c, x + w * a + y * c - z * b, y + w * b + z * a - x * c,
+                             z + w * c + x * b - y * a};
+    const float rate = 2 * (a * a + b * b + c * c) / (step * step); /* half the square of its rate, rad^2/s^2 */
+    const float share = FOLLOWING * step / (1 + 2 * rate);
+    float along = 0, squares = 0;
+    for (int i = 0; i < 4; i++) {
+        along += turned[i] * told[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        attitude[i] = turned[i] + share * ((along < 0 ? -told[i] : told[i]) - turned[i]);
+        squares += attitude[i] * attitude[i];
+    }
+    const bool far = !(along * along > 0.9f); /* 37 degrees apart: it has begun, or the filter has */
+    const float length = sqrtf(squares);
+    for (int i = 0; i < 4; i++) {
+        attitude[i] = far ? told[i] : attitude[i] / length;
+    }
+}
+
 /* Between frames the rod turns as the accelerometer feels; once a step. */
-static void follow_rod(const sensorData_t *sensors, const state_t *state, const rod_end *end)
+static void follow_rod(const sensorData_t *sensors, const rod_end *end)
 {
     static float scratch[$track_scratch];
     const uint32_t now = xTaskGetTickCount();
     const float felt[3] = {GRAVITY * sensors->acc.x, GRAVITY * sensors->acc.y, GRAVITY * sensors->acc.z};
-    const quaternion_t *q = &state->attitudeQuaternion;
     float R[9], force[3];
     float age = -1;
     if (end->seen && ((end->tick != rod_tick) || (rod[ROD_NUMBERS - 1] < 0))) {
@@ -172,7 +202,7 @@ static void follow_rod(const sensorData_t *sensors, const state_t *state, const 
         }
         rod_tick = end->tick;
     }
-    flypend_rotation_of_wxyz(q->w, q->x, q->y, q->z, R);
+    flypend_rotation_of_wxyz(attitude[0], attitude[1], attitude[2], attitude[3], R);
     flypend_to_world(R, felt, force);
     $call_track_rod
     for (int i = 0; i < ROD_NUMBERS; i++) {
@@ -189,8 +219,7 @@ static void read_measurement(const sensorData_t *sensors, const state_t *from, f
     *to = zero;
     memcpy(to->x, &from->position.x, sizeof to->x);
     memcpy(to->x_dot, &from->velocity.x, sizeof to->x_dot);
-    flypend_rotation_of_wxyz(from->attitudeQuaternion.w, from->attitudeQuaternion.x, from->attitudeQuaternion.y,
-                             from->attitudeQuaternion.z, to->R);
+    flypend_rotation_of_wxyz(attitude[0], attitude[1], attitude[2], attitude[3], to->R);
     to->omega[0] = flypend_radians(sensors->gyro.x);
     to->omega[1] = flypend_radians(sensors->gyro.y);
     to->omega[2] = flypend_radians(sensors->gyro.z);
@@ -333,7 +362,8 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     const rod_end end = bob;
     const bool due = RATE_DO_EXECUTE($rate, step);
     follow_rotors();
-    follow_rod(sensors, state, &end);
+    follow_attitude(sensors, state);
+    follow_rod(sensors, &end);
     const uint8_t found = obstacle(setpoint, state, &end);
     const bool is_null = (setpoint->mode.z == modeDisable) && (setpoint->thrust <= 0);
     if (is_null || grounded) {

@@ -26,13 +26,8 @@ SETPOINT = 0.02  # s between setpoints
 TURN = 0.001  # s between looks at motion capture and keys
 
 # For the firmware's Kalman filter, which in flight takes all lateral force for noise and does not know the rod's: so
-# much noise (m/s²) that velocities follow the poses, which are this good (m, rad).
-FILTER = {
-    "kalman.pNAcc_xy": 20.0,
-    "kalman.pNAcc_z": 20.0,
-    "locSrv.extPosStdDev": 0.001,
-    "locSrv.extQuatStdDev": 0.001,
-}
+# much noise (m/s²) that velocities follow the poses, which are this good (m).
+FILTER = {"kalman.pNAcc_xy": 20.0, "kalman.pNAcc_z": 20.0, "locSrv.extPosStdDev": 0.001}
 
 # What motion capture saw: its own time (s), the vehicle's position (m) and quaternion (x, y, z, w), and the bob's
 # position (m), in a frame with z up; None for a bob that it did not see.

@@ -155,7 +155,9 @@ def test_the_px4_module_sees_the_state_and_commands_the_rotors(folder):
     x, y, z, w = _quat_xyzw(ned.R)
     bob, bob_dot = _bob(ned)
     numbers = [*ned.x, *ned.x_dot, w, x, y, z, *ned.omega, *bob, *bob_dot, *(flip * target)]
-    seen, path, first, same, second, late, invalid, unused = _lines(run([str(program)], given=" ".join(map(repr, map(float, numbers)))))
+    seen, path, first, same, second, late, invalid, unused = _lines(
+        run([str(program)], given=" ".join(map(repr, map(float, numbers))))
+    )
     assert np.allclose(seen, state.packed(), atol=2e-6)  # PX4 speaks single precision
     assert np.allclose(path, [*target, *[0.0] * 24], atol=1e-6)  # and open entries, NaN, count as 0
     least, largest = VEHICLE.rotor_limits
@@ -172,7 +174,6 @@ def test_the_px4_module_sees_the_state_and_commands_the_rotors(folder):
 
 def test_an_adapter_with_a_damaged_board_levels_out_once_and_begins_again(folder):
     state, target = _states(12)[4], np.array([0.3, -0.2, 0.4])
-    bob, bob_dot = _bob(state)
     least, largest = VEHICLE.rotor_limits
 
     for name, place in (("flypend_law.c", "law.o"), ("adapters/flypend_frames.c", "frames.o")):

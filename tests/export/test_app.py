@@ -4,7 +4,6 @@ Around stand-in headers in every run; against the firmware itself where it lies 
 """
 
 import ctypes
-import re
 import struct
 
 import numpy as np
@@ -13,7 +12,7 @@ from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from benchmarks import cortex
+from benchmarks.app_cost import APP, HEADERS, LAWS, exported, stack
 from flypend.board.program import initial_memory
 from flypend.export import records, vectors
 from flypend.export.app import AIRFRAMES, limited
@@ -22,11 +21,6 @@ from flypend.plants.plant import Sampled
 
 LAW = fp.laws.inverted()
 VEHICLE = limited(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
-HEADERS = (
-    "FreeRTOS.h", "task.h", "app.h", "app_channel.h", "controller.h", "controller_pid.h", "estimator.h", "log.h",
-    "motors.h", "param.h", "platform_defaults.h", "pm.h", "stabilizer_types.h", "supervisor.h",
-)  # fmt: skip
-APP = ("flypend_app.c", "flypend_law.c", "flypend_frames.c")
 CUT, PID, BY_LAW, LANDING = range(4)
 FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, ON_GROUND = range(9)
 DISABLE, ABSOLUTE, VELOCITY = range(3)
@@ -192,13 +186,13 @@ def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
 def test_the_law_commands_what_the_board_does(firmware):
     # Near hover, where no rotor is at its limit; at rest, so that the bob is the same whenever it was seen.
     state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0.02, 0, np.sqrt(1 - 0.02**2))), (0.05, -0.02, 1.0)
-    firmware.begin(state)
+    firmware.begin(fp.State(x=state.x, y=state.y))
     wanted = _commands(state, target, 3)
     assert firmware.told()[4] == 0
     for row in wanted:
         mode, forces = firmware.fly(state, setpoint=target)
         assert (mode, firmware.log("flies"), firmware.log("status")) == (FORCE, BY_LAW, 0)
-        assert np.allclose(0.12 * forces, row, rtol=2e-4, atol=1e-5)
+        assert np.allclose(0.12 * forces, row, rtol=5e-3)  # the gyroscope turns the attitude by 1e-4 a step
         again = firmware.fly(state, setpoint=target)[1]  # the loop runs at 1 kHz, the law at 500 Hz
         assert np.array_equal(again, forces)
     assert not np.allclose(wanted[0], wanted[1], rtol=1e-3)  # it remembers
@@ -366,28 +360,18 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 # What it costs --------------------------------------------------------------------------------------------------------
 
 
-def stack_of(folder):
-    """Bytes of stack that a call of the app's controller took at most, and in how many periods the law flew.
-
-    The stack is painted, and QEMU's Cortex-M4F flies 200 ms of the law, refusals and a landing.
-    """
-    flags = (*cortex.FLAGS, "-Os", "-fno-math-errno", "-std=gnu11", "-I.", f"-I{STANDINS / 'crazyflie'}")
-    run(["arm-none-eabi-gcc", *flags, *cortex.LINKED, *APP, STANDINS / "stack.c", "-lm", "-o", "stack.elf"], folder)
-    output = ("-chardev", "stdio,id=said", "-semihosting-config", "enable=on,target=native,chardev=said")
-    said = run([*cortex.QEMU, *output, "-kernel", "stack.elf"], folder)
-    return (int(number) for number in re.search(r"stack (\d+) flown (\d+)", said).groups())
-
-
-@pytest.mark.parametrize("name", ["inverted", "light", "corrected", "lqr", "learned", "almost_global"])
+@pytest.mark.parametrize("name", LAWS)
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
-    law = fp.laws.inverted(form="light") if name == "light" else getattr(fp.laws, name)()
-    fp.export_app("crazyflie", law, fp.vehicle("crazyflie"), tmp_path)
-    for header in HEADERS:
-        (tmp_path / header).write_text('#include "firmware.h"\n')
-    used, flown = stack_of(tmp_path)
-    print(f"{name}: {used} bytes of stack")
+    used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
     assert 150 < used < BUDGET
+
+
+def test_a_law_that_takes_too_long_is_refused_and_told_by_how_much(tmp_path, monkeypatch):
+    monkeypatch.setattr("flypend.export.app.MOST_CYCLES", 40_000)
+    with pytest.raises(fp.InputError, match=r"law: .*at most 40,000 cycles.*\d+ % too many"):
+        fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app")
+    assert not (tmp_path / "app").exists()
 
 
 # Against the firmware itself ------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch_size
 from flypend.errors import InputError
-from flypend.export.interface import interface
+from flypend.export.interface import Interface, interface
 from flypend.export.write import core, filled, values_of
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
@@ -23,6 +23,9 @@ from flypend.model import Vehicle
 
 TARGETS = ("crazyflie",)
 PERIOD = 1e-3  # s, of the firmware's stabilizer
+# Of the 168,000 cycles of that period, what the law may take, the rest being the firmware's; and cycles of
+# an operation, about those of the learned law, whose step is the longest (benchmarks/app_cost.py).
+MOST_CYCLES, CYCLES_OF_OPERATION = 100_000, 7
 
 
 @dataclass(frozen=True)
@@ -93,7 +96,7 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, and for a vehicle that is no such airframe.
+        As `export_c`, for another target, for a vehicle that is no such airframe, and for a law that takes too long.
     """
     errors.one_of("target", target, TARGETS)
     if not isinstance(vehicle, Vehicle):
@@ -107,6 +110,7 @@ def export_app(
     _check_motors(vehicle, name, frame)
     flown = limited(vehicle, frame)
     made = interface(law, flown, rate, None)
+    _check_fits(made)
     values = values_of(made, "float") | {
         "airframe": name,
         "arm": literal(arm, "float"),
@@ -148,6 +152,14 @@ def limited(vehicle: Vehicle, frame: Airframe) -> Vehicle:
         what = f"a vehicle lighter than 4 × {largest:g} N, which the firmware gives"
         raise InputError("vehicle", what, f"{vehicle.weight:.3g} N")
     return vehicle.replace(rotor_limits=(least, largest))
+
+
+def _check_fits(made: Interface) -> None:
+    """Raise InputError for a law whose step takes too long for the firmware."""
+    cycles = CYCLES_OF_OPERATION * made.board.operations()
+    if cycles > MOST_CYCLES:
+        over = f"{made.law.name}, about {cycles:,}: {100 * (cycles / MOST_CYCLES - 1):.0f} % too many"
+        raise InputError("law", f"a step of at most {MOST_CYCLES:,} cycles of the Crazyflie's processor", over)
 
 
 def _check_motors(vehicle: Vehicle, name: str, frame: Airframe) -> None:

@@ -4,7 +4,9 @@
 #include "firmware.h"
 
 #define PAINT 0xa5a5a5a5U
+#ifndef DEPTH
 #define DEPTH 4096U /* words that are painted */
+#endif
 #ifndef ROUNDS
 #define ROUNDS 600 /* ms */
 #endif

@@ -26,10 +26,14 @@ import flypend as fp
 from benchmarks.firmware.built import build
 from benchmarks.firmware.loop import CUT, HOME, LANDING, LAW, OWN, PID, TICK, Vehicle
 from flypend.export.app import AIRFRAMES, limited
+from flypend.flight.request import Flight
+from flypend.flight.sampled import fly_stepwise
+from flypend.plants.plant import sampled_plant
 from flypend.studies.starts import random_starts
 
 VEHICLES = {"cf2": "crazyflie", "cf21bl": "crazyflie-brushless"}
-DURATION = 10.0  # s
+DURATION = 8.0  # s
+LAW_FLOWN = fp.laws.inverted()
 SETTLED = fp.Criterion(position=0.3)  # the same pose as everywhere; the Kalman filter's position wanders by centimetres
 NAMES = {CUT: "cut", PID: "PID", LAW: "law", LANDING: "landing"}
 
@@ -59,7 +63,7 @@ def main() -> None:
 def exported(firmware: Path, app: Path, airframe: str) -> tuple[Path, fp.Vehicle]:
     """The library of the firmware with a fresh app, and the vehicle that it flies."""
     vehicle = fp.vehicle(VEHICLES[airframe])
-    fp.export_app("crazyflie", fp.laws.inverted(), vehicle, app, airframe=airframe)
+    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe)
     return build(firmware, app, airframe), limited(vehicle, AIRFRAMES[airframe])
 
 
@@ -83,48 +87,58 @@ def starts(count: int, seed: int) -> dict[str, list[fp.State]]:
 
 
 def fly_starts(library, vehicle, given):
-    """For each kind: whether each flight succeeded in the firmware and ideally, and both excursions, m."""
+    """For each kind: whether each flight succeeded and its excursion, m, in the firmware and with ideal mixing."""
     for kind, batch in starts(given.starts, given.seed).items():
-        rows = []
-        for start in batch:
-            flown = Vehicle(library, vehicle, given.plant, known=given.known)
-            flown.lift()
-            begun = flown.release(start)
-            begins = len(flown.log)
-            flown.fly(DURATION, lambda flown=flown: flown.flies != LAW)
-            here, far = judged([state for state, *_ in flown.log[begins:]])
-            rows.append((begun and flown.flies == LAW and here, far, flown.log[begins][0]))
-        released = fp.State.from_packed(np.stack([state.packed() for *_, state in rows]))
-        fields = {name: getattr(released, name) for name in ("x_dot", "R", "omega", "y", "y_dot")}
-        moved = fp.State(x=released.x - HOME, **fields)
-        law = fp.laws.inverted()
-        ideal = fp.simulate_ensemble(vehicle, law, moved, DURATION, plant=given.plant, criterion=SETTLED)
-        yield kind, np.array([row[0] for row in rows]), np.array([row[1] for row in rows]), ideal
+        rows = [in_firmware(library, vehicle, start, given) for start in batch]
+        yield kind, *(np.array([(row[i], row[i + 1]) for row in rows]).T for i in (0, 2))
 
 
-def judged(flight: list[fp.State]) -> tuple[bool, float]:
-    """Whether the last second was inverted hover at HOME, and the excursion from there, m."""
-    x = np.array([state.x for state in flight]) - HOME
-    last = flight[-round(SETTLED.hold / TICK) :]
-    far = np.linalg.norm(x, axis=1)
-    inverted = all(
-        np.linalg.norm(s.y - [0, 0, 1]) < SETTLED.rod and np.linalg.norm(s.R[:, 2] - [0, 0, 1]) < SETTLED.axis
-        for s in last
+def in_firmware(library, vehicle, start, given):
+    """Success and excursion (m) of a start in the firmware, and of the same state and forces with ideal mixing."""
+    flown = Vehicle(library, vehicle, given.plant, known=given.known)
+    flown.lift()
+    begun = flown.release(start)
+    begins, rotors = len(flown.log), flown.engine.rotors.copy()
+    at = flown.state
+    flown.fly(DURATION, lambda: flown.flies != LAW)
+    stood, far = judged(packed(flown, begins), HOME, TICK)
+    moved = fp.State(x=at.x - HOME, x_dot=at.x_dot, R=at.R, omega=at.omega, y=at.y, y_dot=at.y_dot)
+    plant = sampled_plant(given.plant)
+    flight = Flight(vehicle=vehicle, law=LAW_FLOWN.bind(vehicle), starts=moved, duration=DURATION, plant=plant)
+    ideal = judged(fly_stepwise(flight, rotors).packed, np.zeros(3), 1 / plant.rate)
+    return begun and flown.flies == LAW and stood, far, *ideal
+
+
+def packed(flown: Vehicle, begins: int) -> np.ndarray:
+    """Packed states (n, 24) of a flight from the tick `begins`."""
+    return np.array([state.packed() for state, *_ in flown.log[begins:]])
+
+
+def judged(flight: np.ndarray, home: np.ndarray, step: float) -> tuple[bool, float]:
+    """Whether the last second of packed states, one every `step` (s), was inverted hover, and the excursion, m."""
+    states = fp.State.from_packed(flight)
+    far = np.linalg.norm(states.x - home, axis=1)
+    last = slice(-round(SETTLED.hold / step), None)
+    upright = np.array([0, 0, 1])
+    off = (
+        (np.linalg.norm(states.y - upright, axis=1), SETTLED.rod),
+        (np.linalg.norm(states.R[:, :, 2] - upright, axis=1), SETTLED.axis),
+        (far, SETTLED.position),
     )
-    return bool(inverted and far[-len(last) :].max() < SETTLED.position), float(far.max())
+    return all((value[last] < limit).all() for value, limit in off), float(far.max())
 
 
 def table(kinds):
     """Lines of the table of starts."""
-    yield "| starts | in the firmware | excursion, m, p50 / p95 | ideal mixing | its excursion, m, p50 / p95 |"
-    yield "|---|---|---|---|---|"
-    for kind, stood, far, ideal in kinds:
-        own, other = np.percentile(far, (50, 95)), [ideal.percentile("excursion", q) for q in (50, 95)]
-        success = f"{round(ideal.rate * len(ideal))} of {len(ideal)}"
-        yield (
-            f"| {kind} | {stood.sum()} of {len(stood)} | {own[0]:.2f} / {own[1]:.2f} | "
-            f"{success} | {other[0]:.2f} / {other[1]:.2f} |"
-        )
+    yield "| starts | in the firmware | excursion, m, p50 / p95 | ideal mixing | its excursion, m, p50 / p95 | ratio |"
+    yield "|---|---|---|---|---|---|"
+    for kind, *flights in kinds:
+        cells, percentiles = [kind], []
+        for stood, far in flights:
+            percentiles.append(np.percentile(far, (50, 95)))
+            cells += [f"{stood.sum():.0f} of {len(stood)}", "{:.2f} / {:.2f}".format(*percentiles[-1])]
+        cells.append("{:.2f} / {:.2f}".format(*(percentiles[0] / percentiles[1])))
+        yield f"| {' | '.join(cells)} |"
 
 
 # Scenarios ------------------------------------------------------------------------------------------------------------

@@ -148,8 +148,8 @@ class Vehicle:
                 quaternion = geometry.quat_xyzw_from_rotation(state.R)
                 self.firmware.packet(6, 1, struct.pack("<B7f", 8, *state.x, *quaternion))
             if self.sees_bob:
-                end, speed = (a + self.vehicle.l * b for a, b in ((state.x, state.y), (state.x_dot, state.y_dot)))
-                self.firmware.packet(13, 2, struct.pack("<c6f", b"b", *end, *speed))
+                frame = HOST.Frame(self.ticks * TICK, state.x, None, state.x + self.vehicle.l * state.y)
+                self.firmware.packet(13, 2, HOST.rod_packet(frame))
         if self.setpoints and self.ticks % SETPOINTS == 0:
             self.firmware.packet(7, 0, struct.pack("<B4f", 7, *self.target, 0.0))
 

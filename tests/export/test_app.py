@@ -4,7 +4,6 @@ Around stand-in headers in every run; against the firmware itself where it lies 
 """
 
 import ctypes
-import re
 import struct
 
 import numpy as np
@@ -13,7 +12,7 @@ from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from benchmarks import cortex
+from benchmarks.app_cost import APP, HEADERS, LAWS, exported, stack
 from flypend.board.program import initial_memory
 from flypend.export import records, vectors
 from flypend.export.app import AIRFRAMES, limited
@@ -22,11 +21,6 @@ from flypend.plants.plant import Sampled
 
 LAW = fp.laws.inverted()
 VEHICLE = limited(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
-HEADERS = (
-    "FreeRTOS.h", "task.h", "app.h", "app_channel.h", "controller.h", "controller_pid.h", "estimator.h", "log.h",
-    "param.h", "platform_defaults.h", "pm.h", "stabilizer_types.h", "supervisor.h",
-)  # fmt: skip
-APP = ("flypend_app.c", "flypend_law.c", "flypend_frames.c")
 CUT, PID, BY_LAW, LANDING = range(4)
 FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, ON_GROUND = range(9)
 DISABLE, ABSOLUTE, VELOCITY = range(3)
@@ -88,15 +82,21 @@ class Firmware:
     def _set(self):
         """The time, battery, estimator, whether it flies, and when the last pose came."""
         ticks = (ctypes.c_uint32(value) for value in (self.tick, self.tick - self.stale))
-        self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks))
+        turning = round(65535 * VEHICLE.weight / 4 / VEHICLE.rotor_limits[1])  # hover, by the stand-in's linear fit
+        self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks), turning)
 
     def app(self, message=b""):
         self._set()
         self.c.standin_app(message, len(message))
 
     def see(self, state, vehicle=VEHICLE):
-        end, speed = state.x + vehicle.l * state.y, state.x_dot + vehicle.l * state.y_dot
-        self.app(struct.pack("<c6f", b"b", *end, *speed))
+        self.app(struct.pack("<c3f", b"b", *(vehicle.l * state.y)))
+
+    def watch(self, state, frames=100, modes=(ABSOLUTE,) * 3):
+        """See the bob for so many frames, 10 ms each, until its rate and the rotors' forces are known."""
+        for _ in range(frames):
+            self.see(state)
+            self.fly(state, modes, steps=10)
 
     def told(self):
         """Calls of PID, mode and velocity of z, position x that it was asked for, whether tumbling is checked."""
@@ -118,8 +118,8 @@ class Firmware:
 
     def begin(self, state):
         """In the air under PID, with the bob in sight, and switched on; the tick is even, the law flies next."""
-        self.tick = 1001
-        self.see(state)
+        self.watch(state)
+        self.tick += 1 - self.tick % 2
         assert self.fly(state)[0] == LEGACY
         self.upload("on", 1)
         assert self.fly(state)[0] == LEGACY  # tumbling is still checked
@@ -175,7 +175,7 @@ def test_a_null_setpoint_stops_the_motors_and_switches_off(firmware):
 
 def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
     state = _state()
-    firmware.see(state)
+    firmware.watch(state)
     before = firmware.told()[0]
     assert firmware.fly(state, steps=20)[0] == LEGACY
     assert firmware.told()[0] == before + 20
@@ -186,13 +186,13 @@ def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
 def test_the_law_commands_what_the_board_does(firmware):
     # Near hover, where no rotor is at its limit; at rest, so that the bob is the same whenever it was seen.
     state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0.02, 0, np.sqrt(1 - 0.02**2))), (0.05, -0.02, 1.0)
-    firmware.begin(state)
+    firmware.begin(fp.State(x=state.x, y=state.y))
     wanted = _commands(state, target, 3)
     assert firmware.told()[4] == 0
     for row in wanted:
         mode, forces = firmware.fly(state, setpoint=target)
         assert (mode, firmware.log("flies"), firmware.log("status")) == (FORCE, BY_LAW, 0)
-        assert np.allclose(0.12 * forces, row, rtol=2e-4, atol=1e-5)
+        assert np.allclose(0.12 * forces, row, rtol=5e-3)  # the gyroscope turns the attitude by 1e-4 a step
         again = firmware.fly(state, setpoint=target)[1]  # the loop runs at 1 kHz, the law at 500 Hz
         assert np.array_equal(again, forces)
     assert not np.allclose(wanted[0], wanted[1], rtol=1e-3)  # it remembers
@@ -213,17 +213,16 @@ def test_it_does_not_begin_without(firmware, what, why):
     here = _Nowhere(state) if what == "no estimate" else state
     if what == "too low":
         here = fp.State(x=(0, 0, 0.3), y=(0, 0, -1.0))
+    if what != "no bob":
+        firmware.watch(state, modes=modes)
     firmware.upload("on", 1)
-    firmware.tick += firmware.tick % 2
-    firmware.fly(here, modes)
-    if what not in ("no bob", "tumbling is checked"):
-        firmware.see(state)
-    elif what == "tumbling is checked":
-        firmware.see(state)
-        firmware.c.controllerOutOfTreeInit()  # it was off; the app has not turned it on again
-        firmware.app()
-        firmware.see(state)
-        firmware.upload("on", 1)
+    if what != "tumbling is checked":
+        firmware.tick += firmware.tick % 2
+        firmware.fly(here, modes)  # then the app's task turns the check off
+        if what == "no bob":
+            firmware.app()
+        else:
+            firmware.see(state)
     firmware.tick += 1 - firmware.tick % 2  # the law's turn is next
     assert firmware.fly(here, modes)[0] == LEGACY
     assert (firmware.log("flies"), firmware.log("why")) == (PID, why)
@@ -312,7 +311,7 @@ def test_the_switch_gives_it_back_to_pid_at_once(firmware):
 
 def test_a_packet_of_another_kind_or_without_numbers_is_no_bob(firmware):
     state = _state()
-    for message in (b"b", b"c" + bytes(24), struct.pack("<c6f", b"b", np.nan, *[0.0] * 5)):
+    for message in (b"b", b"c" + bytes(12), struct.pack("<c3f", b"b", np.nan, 0.0, 0.0)):
         firmware.app(message)
         firmware.fly(state)
         assert firmware.log("bobAge") == 2**16 - 1
@@ -361,28 +360,18 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 # What it costs --------------------------------------------------------------------------------------------------------
 
 
-def stack_of(folder):
-    """Bytes of stack that a call of the app's controller took at most, and in how many periods the law flew.
-
-    The stack is painted, and QEMU's Cortex-M4F flies 200 ms of the law, refusals and a landing.
-    """
-    flags = (*cortex.FLAGS, "-Os", "-fno-math-errno", "-std=gnu11", "-I.", f"-I{STANDINS / 'crazyflie'}")
-    run(["arm-none-eabi-gcc", *flags, *cortex.LINKED, *APP, STANDINS / "stack.c", "-lm", "-o", "stack.elf"], folder)
-    output = ("-chardev", "stdio,id=said", "-semihosting-config", "enable=on,target=native,chardev=said")
-    said = run([*cortex.QEMU, *output, "-kernel", "stack.elf"], folder)
-    return (int(number) for number in re.search(r"stack (\d+) flown (\d+)", said).groups())
-
-
-@pytest.mark.parametrize("name", ["inverted", "light", "corrected", "lqr", "learned", "almost_global"])
+@pytest.mark.parametrize("name", LAWS)
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
-    law = fp.laws.inverted(form="light") if name == "light" else getattr(fp.laws, name)()
-    fp.export_app("crazyflie", law, fp.vehicle("crazyflie"), tmp_path)
-    for header in HEADERS:
-        (tmp_path / header).write_text('#include "firmware.h"\n')
-    used, flown = stack_of(tmp_path)
-    print(f"{name}: {used} bytes of stack")
+    used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
     assert 150 < used < BUDGET
+
+
+def test_a_law_that_takes_too_long_is_refused_and_told_by_how_much(tmp_path, monkeypatch):
+    monkeypatch.setattr("flypend.export.app.MOST_CYCLES", 40_000)
+    with pytest.raises(fp.InputError, match=r"law: .*at most 40,000 cycles.*\d+ % too many"):
+        fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app")
+    assert not (tmp_path / "app").exists()
 
 
 # Against the firmware itself ------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include <ucontext.h>
 
 #include "FreeRTOS.h"
+#include "autoconf.h"
 #include "groups.h"
 
 #include "app.h"
@@ -285,6 +286,13 @@ void motorsInit(const MotorPerifDef **map) { (void)map; }
 bool motorsTest(void) { return true; }
 void motorsSetRatio(uint32_t id, uint16_t ratio) { ratios[id] = ratio; }
 uint16_t motorsGetRatio(uint32_t id) { return ratios[id]; }
+#ifdef CONFIG_MOTORS_ARMING_RPM_MIN /* what arming expects of motors that idle; the supervisor asks no more later */
+uint16_t motorsGetRPM(uint32_t id)
+{
+    (void)id;
+    return (CONFIG_MOTORS_ARMING_RPM_MIN + CONFIG_MOTORS_ARMING_RPM_MAX) / 2;
+}
+#endif
 void motorsResetESCs(void) {}
 void motorsBurstDshot(void) {}
 void motorsStop(void)

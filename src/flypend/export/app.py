@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,15 +10,22 @@ from pathlib import Path
 import numpy as np
 
 from flypend import errors, signals
-from flypend.compile.c99 import literal
+from flypend.board import rod
+from flypend.compile.c99 import call, function, literal
+from flypend.compile.program import lower
+from flypend.compile.scratch import scratch_size
 from flypend.errors import InputError
-from flypend.export.interface import interface
+from flypend.export.interface import Interface, interface
 from flypend.export.write import core, filled, values_of
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 
 TARGETS = ("crazyflie",)
+PERIOD = 1e-3  # s, of the firmware's stabilizer
+# Of the 168,000 cycles of that period, what the law may take, the rest being the firmware's; and cycles of
+# an operation, about those of the learned law, whose step is the longest (benchmarks/app_cost.py).
+MOST_CYCLES, CYCLES_OF_OPERATION = 100_000, 7
 
 
 @dataclass(frozen=True)
@@ -88,7 +96,7 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, and for a vehicle that is no such airframe.
+        As `export_c`, for another target, for a vehicle that is no such airframe, and for a law that takes too long.
     """
     errors.one_of("target", target, TARGETS)
     if not isinstance(vehicle, Vehicle):
@@ -102,16 +110,27 @@ def export_app(
     _check_motors(vehicle, name, frame)
     flown = limited(vehicle, frame)
     made = interface(law, flown, rate, None)
+    _check_fits(made)
     values = values_of(made, "float") | {
         "airframe": name,
         "arm": literal(arm, "float"),
         "least_force": literal(flown.rotor_limits[0], "float"),
         "largest_force": literal(flown.rotor_limits[1], "float"),
         **{name: literal(getattr(flown, name), "float") for name in ("mass", "bob_mass", "rod_length")},
+        "caught_up": literal(1 - math.exp(-PERIOD / flown.rotor_lag) if flown.rotor_lag else 1.0, "float"),
         "idle": "" if frame.idle is None else f"CONFIG_MOTORS_DEFAULT_IDLE_THRUST={frame.idle}\n",
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
         "weight": f"{1e3 * (flown.M + flown.m):.3g}",
         "rod": f"{flown.l:.3g}",
+    }
+    track = lower(rod.tracking(PERIOD))
+    values |= {
+        "track_rod": function(track, "float"),
+        "track_scratch": str(scratch_size(track)),
+        "rod_numbers": str(rod.RECORD.length),
+        "call_track_rod": call(
+            track, ("rod", "end->from_pivot", "&age", "force", "&params.rod_length"), ["rod"], "scratch"
+        ),
     }
     texts = core(made, "float")
     texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}
@@ -133,6 +152,14 @@ def limited(vehicle: Vehicle, frame: Airframe) -> Vehicle:
         what = f"a vehicle lighter than 4 × {largest:g} N, which the firmware gives"
         raise InputError("vehicle", what, f"{vehicle.weight:.3g} N")
     return vehicle.replace(rotor_limits=(least, largest))
+
+
+def _check_fits(made: Interface) -> None:
+    """Raise InputError for a law whose step takes too long for the firmware."""
+    cycles = CYCLES_OF_OPERATION * made.board.operations()
+    if cycles > MOST_CYCLES:
+        over = f"{made.law.name}, about {cycles:,}: {100 * (cycles / MOST_CYCLES - 1):.0f} % too many"
+        raise InputError("law", f"a step of at most {MOST_CYCLES:,} cycles of the Crazyflie's processor", over)
 
 
 def _check_motors(vehicle: Vehicle, name: str, frame: Airframe) -> None:

@@ -32,7 +32,6 @@ CORE = (HEADER, "flypend_law.c")
 BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")
 ADAPTERS = (
     "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_px4.cpp", "adapters/flypend_px4.hpp",
-    "adapters/flypend_ros2.cpp", "adapters/flypend_ros2.hpp",
 )  # fmt: skip
 # Largest relative difference of a test vector.
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}

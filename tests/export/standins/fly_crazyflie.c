@@ -14,11 +14,14 @@ static setpoint_t asked;
 static int pid_calls, tumble_check = 1;
 static int flying = 1;
 static uint32_t pose_tick;
+static uint16_t ratio; /* of all motors */
 static int battery_is_low, estimator = StateEstimatorTypeKalman;
 
 uint32_t xTaskGetTickCount(void) { return ticks; }
 StateEstimatorType stateEstimatorGetType(void) { return (StateEstimatorType)estimator; }
 bool pmIsBatteryLow(void) { return battery_is_low != 0; }
+float pmGetBatteryVoltage(void) { return 4.0f; }
+uint16_t motorsGetRatio(uint32_t id) { return (id < 4) ? ratio : 0; }
 bool supervisorIsFlying(void) { return flying != 0; }
 logVarId_t logGetVarId(const char *group, const char *name) { return (group[0] == 'l') && (name[0] == 't'); }
 unsigned int logGetUint(logVarId_t id) { return (id == 1) ? (uint16_t)pose_tick : 0; }
@@ -64,7 +67,7 @@ size_t appchannelReceiveDataPacket(void *buffer, size_t max_length, int timeout_
 }
 
 void standin_app(const void *bytes, int length);
-void standin_set(uint32_t now, int low, int kind, int in_the_air, uint32_t posed);
+void standin_set(uint32_t now, int low, int kind, int in_the_air, uint32_t posed, int turning);
 void standin_get(float *found);
 const standin_entry *standin_entries(int parameters);
 void standin_fly(const float *v, const int *modes, uint32_t step, float *found);
@@ -79,8 +82,9 @@ void standin_app(const void *bytes, int length)
     }
 }
 
-void standin_set(uint32_t now, int low, int kind, int in_the_air, uint32_t posed)
+void standin_set(uint32_t now, int low, int kind, int in_the_air, uint32_t posed, int turning)
 {
+    ratio = (uint16_t)turning;
     flying = in_the_air;
     pose_tick = posed;
     ticks = now;
@@ -111,7 +115,7 @@ void standin_fly(const float *v, const int *modes, uint32_t step, float *found)
                            {v[6], v[7], v[8], v[9]},
                            {ticks, v[0], v[1], v[2]},
                            {ticks, v[3], v[4], v[5]}};
-    const sensorData_t sensors = {{v[10], v[11], v[12]}};
+    const sensorData_t sensors = {.gyro = {v[10], v[11], v[12]}};
     setpoint_t setpoint = {.thrust = v[16], .position = {ticks, v[13], v[14], v[15]}};
     setpoint.mode.x = (stab_mode_t)modes[0];
     setpoint.mode.y = (stab_mode_t)modes[1];

@@ -1,6 +1,6 @@
 // Reads position, velocity, quaternion wxyz, rates, bob, its velocity (all NED and FRD), setpoint position; writes the
 // state and the path as the adapter sees them, the motors with the status, the same half a period later, a period later,
-// and 0.2 s later with the same bob.
+// 0.2 s later with the same bob, and with a new one but no valid position; then a motor that is not used.
 #include <cstdio>
 
 #include "flypend_px4.hpp"
@@ -47,7 +47,7 @@ int main()
             return 1;
         }
     }
-    vehicle_local_position_s position{0, v[0], v[1], v[2], v[3], v[4], v[5]};
+    vehicle_local_position_s position{0, v[0], v[1], v[2], v[3], v[4], v[5], true, true, true, true};
     vehicle_attitude_s attitude{0, {v[6], v[7], v[8], v[9]}};
     vehicle_angular_velocity_s rates{5, 5, {v[10], v[11], v[12]}};
     debug_array_s bob{0, {v[13], v[14], v[15], v[16], v[17], v[18]}};
@@ -69,6 +69,15 @@ int main()
     fly(module, rates, 5);
     fly(module, rates, 1005);
     fly(module, rates, 2005);
+    position.timestamp = attitude.timestamp = 200000;
+    give(position);
+    give(attitude);
     fly(module, rates, 200000);
+    bob.timestamp = 200000;
+    position.v_z_valid = false;
+    give(bob);
+    give(position);
+    fly(module, rates, 202000);
+    std::printf("%g\n", static_cast<double>(standin::Topic<actuator_motors_s>::message.control[FLYPEND_ROTORS]));
     return 0;
 }

@@ -4,7 +4,12 @@
 #include "firmware.h"
 
 #define PAINT 0xa5a5a5a5U
+#ifndef DEPTH
 #define DEPTH 4096U /* words that are painted */
+#endif
+#ifndef ROUNDS
+#define ROUNDS 600 /* ms */
+#endif
 
 extern uint32_t _stack_top, _data, _data_end, _load, _bss, _bss_end;
 extern const standin_entry standin_log_flypend[], standin_param_flypend[];
@@ -12,7 +17,7 @@ extern const standin_entry standin_log_flypend[], standin_param_flypend[];
 int main(void);
 void reset(void);
 static uint32_t ticks = 1000;
-static unsigned char packet[25];
+static unsigned char packet[13];
 static void *back[5];
 
 __attribute__((section(".vectors"), used)) static void *const vectors[2] = {&_stack_top, (void *)reset};
@@ -43,6 +48,8 @@ void reset(void)
 uint32_t xTaskGetTickCount(void) { return ticks; }
 StateEstimatorType stateEstimatorGetType(void) { return StateEstimatorTypeKalman; }
 bool pmIsBatteryLow(void) { return false; }
+float pmGetBatteryVoltage(void) { return 4.0f; }
+uint16_t motorsGetRatio(uint32_t id) { return (uint16_t)(40000U + id); }
 bool supervisorIsFlying(void) { return true; }
 logVarId_t logGetVarId(const char *group, const char *name) { return group[0] == name[0]; }
 unsigned int logGetUint(logVarId_t id) { return (uint16_t)ticks + 0U * (unsigned)id; }
@@ -72,7 +79,7 @@ size_t appchannelReceiveDataPacket(void *buffer, size_t max_length, int timeout_
 /* The bob above (1) or below (-1) the vehicle. */
 static void see(float side)
 {
-    const float numbers[6] = {0.1f, 0, 1 + 0.49f * side, 0, 0, 0};
+    const float numbers[3] = {0.1f, 0, 0.49f * side};
     packet[0] = 'b';
     memcpy(packet + 1, numbers, sizeof numbers);
     if (__builtin_setjmp(back) == 0) {
@@ -83,7 +90,7 @@ static void see(float side)
 static uint32_t used_by(const setpoint_t *setpoint, const state_t *state)
 {
     control_t control;
-    const sensorData_t sensors = {{20, -30, 10}};
+    const sensorData_t sensors = {.acc = {0.1f, 0, 1}, .gyro = {20, -30, 10}};
     volatile uint32_t *here;
     __asm__ volatile("mov %0, sp" : "=r"(here));
     for (uint32_t i = 1; i <= DEPTH; i++) {
@@ -119,11 +126,11 @@ int main(void)
     setpoint.mode.x = setpoint.mode.y = setpoint.mode.z = modeAbs;
     controllerOutOfTreeInit();
     *(uint8_t *)standin_param_flypend[0].address = 1;
-    for (int i = 0; i < 400; i++) {
-        if (i < 250) {
+    for (int i = 0; i < ROUNDS; i++) {
+        if (i < 450) {
             see((i / 10 % 2 == 0) ? 1.f : -1.f); /* turning over */
         } /* then it is lost, and the vehicle lands */
-        if (i == 200) {
+        if (i == 400) {
             state.attitudeQuaternion.w = state.attitudeQuaternion.y = 0; /* no attitude: the law refuses */
         }
         const uint32_t used = used_by(&setpoint, &state);

@@ -20,6 +20,7 @@ typedef struct {
     float x, y, z, w;
 } quaternion_t;
 typedef struct {
+    Axis3f acc;  /* g */
     Axis3f gyro; /* deg/s */
 } sensorData_t;
 typedef struct {
@@ -73,6 +74,8 @@ uint32_t xTaskGetTickCount(void);
 typedef enum { StateEstimatorTypeAutoSelect, StateEstimatorTypeComplementary, StateEstimatorTypeKalman } StateEstimatorType;
 StateEstimatorType stateEstimatorGetType(void);
 bool pmIsBatteryLow(void);
+float pmGetBatteryVoltage(void);
+uint16_t motorsGetRatio(uint32_t id);
 bool supervisorIsFlying(void);
 
 /* Groups of logged variables and parameters are tables that end with an entry without a name. */
@@ -101,4 +104,8 @@ unsigned int logGetUint(logVarId_t id);
 #define ARM_LENGTH 0.046f
 #define THRUST_MIN 0.012817578f
 #define THRUST_MAX 0.12f
+#define VMOTOR2THRUST0 0.0f
+#define VMOTOR2THRUST1 0.03f
+#define VMOTOR2THRUST2 0.0f
+#define VMOTOR2THRUST3 0.0f
 #endif

@@ -3,7 +3,7 @@
  * The law flies only while all of these hold; else the firmware's own PID controller does, on the same setpoint:
  * - it is switched on (parameter flypend.on), and the supervisor's check for tumbling is off, which appMain sees to;
  * - the setpoint holds a position on all three axes, and, to begin with, the vehicle is in the air;
- * - bob and pose were seen within ROD_TICKS and POSE_TICKS, and the estimate of the state is sound;
+ * - bob and pose were seen within ROD_TICKS and POSE_TICKS, to begin with for SETTLE_TICKS, and the estimate is sound;
  * - the battery is not low.
  * A setpoint without thrust, as the supervisor gives it when nobody is armed or the vehicle is stopped, cuts all motors at
  * once and switches the law off. When the law loses bob, pose or battery in flight, it switches itself off, and the PID
@@ -23,6 +23,7 @@
 #include "controller_pid.h"
 #include "estimator.h"
 #include "log.h"
+#include "motors.h"
 #include "param.h"
 #include "platform_defaults.h"
 #include "pm.h"
@@ -42,12 +43,16 @@ _Static_assert($largest_force <= 1.0001f * THRUST_MAX, "rotor_limits of the vehi
 _Static_assert($least_force >= 0.9999f * THRUST_MIN, "rotor_limits of the vehicle: below the firmware's THRUST_MIN");
 
 #define ROD_TICKS M2T(100)
+#define SETTLE_TICKS M2T(200)
 #define POSE_TICKS 200    /* ms */
 #define PAUSE_STEPS 1000U /* of the stabilizer loop, 1 ms: hover before landing */
 #define GRACE_STEPS 3000U /* by which a landing may be late */
 #define SINK 0.3f         /* m/s */
 #define GROUND 0.05f      /* m: below it a landing ends, and a flight of the law */
 #define AIR 0.5f          /* m: above it the law may begin */
+#define FOLLOWING 10.0f /* 1/s: how fast the attitude follows the firmware's in hover */
+#define ROD_NUMBERS $rod_numbers
+#define GRAVITY 9.81f          /* m/s^2, in which the firmware's accelerometer counts */
 
 enum { CUT = 0, PID = 1, LAW = 2, LANDING = 3 };
 /* Why the law does not fly. */
@@ -64,14 +69,16 @@ enum {
 };
 
 typedef struct {
-    float position[3];
-    float velocity[3];
+    float from_pivot[3]; /* m */
     uint32_t tick;
     bool seen;
 } rod_end;
 
 static flypend_board board;
 static rod_end bob;                    /* written by the app's task, the rest by the stabilizer's, if nothing else is said */
+static float attitude[4];              /* unit quaternion w, x, y, z */
+static float rod[ROD_NUMBERS];         /* what track_rod remembers: direction, rate, age */
+static uint32_t rod_tick, rod_begun;   /* of its newest direction, and of its first */
 static setpoint_t landing;
 static stabilizerStep_t landing_step;  /* when it began, */
 static stabilizerStep_t landing_steps; /* how long it may take */
@@ -86,6 +93,7 @@ static uint8_t why = OFF;
 static uint8_t status = FLYPEND_NOT_BEGUN;
 static uint16_t bob_age; /* ms */
 static float forces[4];  /* N, what the law commands */
+static float spinning[4]; /* N, what the rotors give: behind what the motors are told by their lag */
 
 /* What is uploaded, and what is flown: written by the parameters' task. */
 static struct {
@@ -95,12 +103,13 @@ static struct {
 static flypend_params params = $params;
 static float late;
 
-/* Messages of the app channel: 'b', then position (m) and velocity (m/s) of the bob in the world frame, as floats. */
+/* Messages of the app channel: 'b', then the bob's position from the vehicle in the world frame, m, as floats. */
 typedef struct {
     uint8_t kind;
-    float position[3];
-    float velocity[3];
+    float from_pivot[3];
 } __attribute__((packed)) bob_message;
+
+$track_rod
 
 static bool finite3(const float *values)
 {
@@ -116,9 +125,8 @@ void appMain(void)
         const size_t length = appchannelReceiveDataPacket(&message, sizeof message, 20);
         if ((length == sizeof message) && (message.kind == 'b')) {
             rod_end now = {.tick = xTaskGetTickCount(), .seen = true};
-            memcpy(now.position, message.position, sizeof now.position);
-            memcpy(now.velocity, message.velocity, sizeof now.velocity);
-            if (finite3(now.position) && finite3(now.velocity)) {
+            memcpy(now.from_pivot, message.from_pivot, sizeof now.from_pivot);
+            if (finite3(now.from_pivot)) {
                 taskENTER_CRITICAL();
                 bob = now;
                 taskEXIT_CRITICAL();
@@ -142,6 +150,7 @@ void controllerOutOfTreeInit(void)
     grounded = false;
     turning = false;
     bob.seen = false;
+    rod[ROD_NUMBERS - 1] = -1;
 }
 
 bool controllerOutOfTreeTest(void)
@@ -149,25 +158,73 @@ bool controllerOutOfTreeTest(void)
     return controllerPidTest();
 }
 
-static void read_measurement(const sensorData_t *sensors, const state_t *from, const rod_end *end, flypend_measurement *to)
+/* The firmware's Kalman filter turns its attitude on a hundred times a second, so in a turn it is up to 10 ms old. This one
+ * follows the gyroscope in every step, and the filter's the more, the slower the vehicle turns. */
+static void follow_attitude(const sensorData_t *sensors, const state_t *state)
+{
+    const float step = 1.0f / RATE_MAIN_LOOP;
+    const float half = flypend_radians(step) / 2;
+    const float a = half * sensors->gyro.x, b = half * sensors->gyro.y, c = half * sensors->gyro.z;
+    const float told[4] = {state->attitudeQuaternion.w, state->attitudeQuaternion.x, state->attitudeQuaternion.y,
+                           state->attitudeQuaternion.z};
+    const float w = attitude[0], x = attitude[1], y = attitude[2], z = attitude[3];
+    const float turned[4] = {w - x * a - y * b - z * c, x + w * a + y * c - z * b, y + w * b + z * a - x * c,
+                             z + w * c + x * b - y * a};
+    const float rate = 2 * (a * a + b * b + c * c) / (step * step); /* half the square of its rate, rad^2/s^2 */
+    const float share = FOLLOWING * step / (1 + 2 * rate);
+    float along = 0, squares = 0;
+    for (int i = 0; i < 4; i++) {
+        along += turned[i] * told[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        attitude[i] = turned[i] + share * ((along < 0 ? -told[i] : told[i]) - turned[i]);
+        squares += attitude[i] * attitude[i];
+    }
+    const bool far = !(along * along > 0.9f); /* 37 degrees apart: it has begun, or the filter has */
+    const float length = sqrtf(squares);
+    for (int i = 0; i < 4; i++) {
+        attitude[i] = far ? told[i] : attitude[i] / length;
+    }
+}
+
+/* Between frames the rod turns as the accelerometer feels; once a step. */
+static void follow_rod(const sensorData_t *sensors, const rod_end *end)
+{
+    static float scratch[$track_scratch];
+    const uint32_t now = xTaskGetTickCount();
+    const float felt[3] = {GRAVITY * sensors->acc.x, GRAVITY * sensors->acc.y, GRAVITY * sensors->acc.z};
+    float R[9], force[3];
+    float age = -1;
+    if (end->seen && ((end->tick != rod_tick) || (rod[ROD_NUMBERS - 1] < 0))) {
+        age = (float)T2M(now - end->tick) / 1000 + late / 1000;
+        if ((rod[ROD_NUMBERS - 1] < 0) || (end->tick - rod_tick > ROD_TICKS)) {
+            rod_begun = end->tick;
+        }
+        rod_tick = end->tick;
+    }
+    flypend_rotation_of_wxyz(attitude[0], attitude[1], attitude[2], attitude[3], R);
+    flypend_to_world(R, felt, force);
+    $call_track_rod
+    for (int i = 0; i < ROD_NUMBERS; i++) {
+        if (!isfinite(rod[i])) { /* so was the estimate of the state: begin anew */
+            memset(rod, 0, sizeof rod);
+            rod[ROD_NUMBERS - 1] = -1;
+        }
+    }
+}
+
+static void read_measurement(const sensorData_t *sensors, const state_t *from, flypend_measurement *to)
 {
     static const flypend_measurement zero = $zero_measurement;
-    const flypend_real position[3] = {from->position.x, from->position.y, from->position.z};
-    const flypend_real velocity[3] = {from->velocity.x, from->velocity.y, from->velocity.z};
-    const flypend_real age = (flypend_real)(T2M(xTaskGetTickCount() - end->tick)) / 1000 + late / 1000;
-    flypend_real now[3];
     *to = zero;
-    for (int i = 0; i < 3; i++) {
-        to->x[i] = position[i];
-        to->x_dot[i] = velocity[i];
-        now[i] = end->position[i] + age * end->velocity[i];
-    }
-    flypend_rotation_of_wxyz(from->attitudeQuaternion.w, from->attitudeQuaternion.x, from->attitudeQuaternion.y,
-                             from->attitudeQuaternion.z, to->R);
+    memcpy(to->x, &from->position.x, sizeof to->x);
+    memcpy(to->x_dot, &from->velocity.x, sizeof to->x_dot);
+    flypend_rotation_of_wxyz(attitude[0], attitude[1], attitude[2], attitude[3], to->R);
     to->omega[0] = flypend_radians(sensors->gyro.x);
     to->omega[1] = flypend_radians(sensors->gyro.y);
     to->omega[2] = flypend_radians(sensors->gyro.z);
-    flypend_rod(position, velocity, now, end->velocity, to->y, to->y_dot);
+    memcpy(to->y, rod, sizeof to->y);
+    memcpy(to->y_dot, rod + 3, sizeof to->y_dot);
 }
 
 /* The firmware's vectors begin with a time stamp. */
@@ -191,7 +248,7 @@ static uint8_t obstacle(const setpoint_t *setpoint, const state_t *state, const 
 {
     const uint32_t age = xTaskGetTickCount() - end->tick;
     bob_age = (uint16_t)((end->seen && (age < UINT16_MAX)) ? age : UINT16_MAX);
-    if (!end->seen || (age > ROD_TICKS)) {
+    if (!end->seen || (age > ROD_TICKS) || ((flies != LAW) && (end->tick - rod_begun < SETTLE_TICKS))) {
         return NO_BOB;
     }
     if ((stateEstimatorGetType() != StateEstimatorTypeKalman) || (pose_age > POSE_TICKS) || !is_sound(state)) {
@@ -260,12 +317,12 @@ static void land(control_t *control, const setpoint_t *setpoint, const sensorDat
 }
 
 /* One period of the law; false where it refuses. */
-static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state, const rod_end *end)
+static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state)
 {
     static flypend_measurement now;
     static flypend_path path;
     flypend_rotors rotors;
-    read_measurement(sensors, state, end, &now);
+    read_measurement(sensors, state, &now);
     read_path(setpoint, &path);
     status = (uint8_t)flypend_board_step(&board, &now, &path, &params, &rotors);
     if (status == (uint8_t)FLYPEND_NOT_BEGUN) { /* damaged: it levels out for a period, and begins again */
@@ -278,14 +335,25 @@ static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors, const s
     return status == (uint8_t)FLYPEND_OK;
 }
 
-static bool begin(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state, const rod_end *end)
+/* The firmware's own fit of thrust against a motor's voltage, and the rotors' lag; once a step. */
+static void follow_rotors(void)
 {
-    flypend_rotors hover;
     for (int i = 0; i < 4; i++) {
-        hover.force[i] = (params.mass + params.bob_mass) * params.gravity / 4;
+        const uint16_t ratio = motorsGetRatio((uint32_t)i);
+        const float v = pmGetBatteryVoltage() * (float)ratio / UINT16_MAX;
+        const float force = VMOTOR2THRUST0 + v * (VMOTOR2THRUST1 + v * (VMOTOR2THRUST2 + v * VMOTOR2THRUST3));
+        spinning[i] += $caught_up * (((ratio > 0) && (force > 0) ? force : 0) - spinning[i]);
     }
-    return (flypend_board_restart(&board, &flypend_default_gains, &params, &hover) == FLYPEND_OK)
-        && fly(setpoint, sensors, state, end);
+}
+
+static bool begin(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state)
+{
+    flypend_rotors now;
+    for (int i = 0; i < 4; i++) {
+        now.force[i] = isfinite(spinning[i]) ? spinning[i] : 0;
+    }
+    return (flypend_board_restart(&board, &flypend_default_gains, &params, &now) == FLYPEND_OK)
+        && fly(setpoint, sensors, state);
 }
 
 void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
@@ -293,6 +361,9 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
 {
     const rod_end end = bob;
     const bool due = RATE_DO_EXECUTE($rate, step);
+    follow_rotors();
+    follow_attitude(sensors, state);
+    follow_rod(sensors, &end);
     const uint8_t found = obstacle(setpoint, state, &end);
     const bool is_null = (setpoint->mode.z == modeDisable) && (setpoint->thrust <= 0);
     if (is_null || grounded) {
@@ -311,7 +382,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     if (flies == LAW) {
         why = found;
         turned_step = step;
-        if ((found == FLIES) && due && !fly(setpoint, sensors, state, &end)) {
+        if ((found == FLIES) && due && !fly(setpoint, sensors, state)) {
             why = REFUSED;
         }
         if (is_sound(state) && (state->position.z <= GROUND)) {
@@ -331,7 +402,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
         flies = PID;
         why = found;
         if ((found == FLIES) && due) {
-            on = begin(setpoint, sensors, state, &end);
+            on = begin(setpoint, sensors, state);
             flies = (on != 0) ? LAW : PID;
             why = (on != 0) ? FLIES : REFUSED;
         }

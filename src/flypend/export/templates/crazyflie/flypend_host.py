@@ -17,12 +17,11 @@ import tty
 from collections import namedtuple
 
 LATE = 10.0  # ms from the picture to the packet: measure yours
-SMOOTH = 0.3  # share of the newest difference in the velocity of the bob
 HEIGHT = 1.5  # m
 SETTLE = 2.0  # s of poses before it arms: the estimator needs them
 CLIMB = 0.5  # m/s
 LANDING = 4.0  # s
-GAP = 0.1  # s without frame or bob, after which it says so, and the bob's velocity begins anew
+GAP = 0.1  # s without frame or bob, after which it says so
 SETPOINT = 0.02  # s between setpoints
 TURN = 0.001  # s between looks at motion capture and keys
 
@@ -47,23 +46,9 @@ class RefusedError(Exception):
     """The firmware keeps another value of a parameter."""
 
 
-class Bob:
-    """Velocity of the bob from its positions."""
-
-    def __init__(self):
-        self.at = self.position = self.velocity = None
-
-    def packet(self, position, at):
-        """The message of the app channel for a new `position` at time `at`, s; None without a recent one before it."""
-        before, place = self.at, self.position
-        self.at, self.position = at, tuple(position)
-        if before is None or not 0 < at - before <= GAP:
-            self.velocity = None
-            return None
-        new = [(a - b) / (at - before) for a, b in zip(self.position, place, strict=True)]
-        old = new if self.velocity is None else self.velocity
-        self.velocity = [v + SMOOTH * (n - v) for v, n in zip(old, new, strict=True)]
-        return struct.pack("<c6f", b"b", *self.position, *self.velocity)
+def rod_packet(frame):
+    """The message of the app channel: the bob's position from the vehicle, m."""
+    return struct.pack("<c3f", b"b", *(end - here for end, here in zip(frame.bob, frame.position, strict=True)))
 
 
 class Keys:
@@ -119,7 +104,7 @@ class Session:
     def __init__(self, cf, bodies, keys, now=time.monotonic, pause=time.sleep, say=print):
         self.cf, self.bodies, self.keys, self.now, self.pause, self.say = cf, bodies, keys, now, pause, say
         self.armed = False
-        self.frame, self.bob, self.said = None, Bob(), {}
+        self.frame, self.said = None, {}
         self.frame_at = self.bob_at = self.now()
         self.shown_at = self.asked_at = -1e9
 
@@ -178,10 +163,9 @@ class Session:
         if frame is not None and (self.frame is None or frame.time > self.frame.time):
             self.frame, self.frame_at = frame, at
             self.cf.extpos.send_extpose(*frame.position, *frame.quaternion)
-            message = None if frame.bob is None else self.bob.packet(frame.bob, frame.time)
-            if message is not None:
+            if frame.bob is not None:
                 self.bob_at = at
-                self.cf.appchannel.send_packet(message)
+                self.cf.appchannel.send_packet(rod_packet(frame))
         self.tell_changes("motion capture", at - self.frame_at > GAP)
         self.tell_changes("the bob", at - self.bob_at > GAP)
         if setpoint is not None and at - self.asked_at >= SETPOINT:

@@ -5,6 +5,7 @@
 struct vehicle_local_position_s {
     uint64_t timestamp;
     float x, y, z, vx, vy, vz;
+    bool xy_valid, z_valid, v_xy_valid, v_z_valid;
 };
 struct vehicle_attitude_s {
     uint64_t timestamp;

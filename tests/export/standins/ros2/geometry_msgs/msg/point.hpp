@@ -1,2 +1,0 @@
-// Stand-in: see messages.hpp.
-#include <geometry_msgs/msg/messages.hpp>

@@ -13,7 +13,7 @@ from flypend import errors, signals
 from flypend.board import rod
 from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
-from flypend.compile.scratch import scratch_size
+from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.interface import Interface, interface
 from flypend.export.write import core, filled, values_of
@@ -126,7 +126,7 @@ def export_app(
     track = lower(rod.tracking(PERIOD))
     values |= {
         "track_rod": function(track, "float"),
-        "track_scratch": str(scratch_size(track)),
+        "track_scratch": str(scratch(track).size),
         "rod_numbers": str(rod.RECORD.length),
         "call_track_rod": call(
             track, ("rod", "end->from_pivot", "&age", "force", "&params.rod_length"), ["rod"], "scratch"

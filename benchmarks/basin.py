@@ -3,7 +3,7 @@
 import flypend as fp
 from flypend.studies.basin import measure_basin
 
-RUNS = {"hehn2011": 1_000_000, "crazyflie": 100_000, "nayak2018": 100_000}
+RUNS = {"hehn2011": 1_000_000, "crazyflie": 100_000}
 SEED = 20261123  # used for nothing else
 
 

@@ -62,7 +62,9 @@ class Exported:
             "path": np.zeros(records.PATH.length), "params": records.params_of(VEHICLE),
             "gains": [LAW.numbers[field.name] for field in made.gains.fields],
             "wrench": [VEHICLE.weight, 0.01, -0.01, 0.001], "rotors": np.full(4, VEHICLE.weight / 4),
-            "readings": [*packed[:3], 0, *packed[6:15], 0, *packed[18:21], 0, *packed[15:18], 0],
+            "readings": [
+                *packed[:3], 0, *packed[6:15], 0, *packed[18:21], 0, *packed[15:18], 0, 0, 0, VEHICLE.g, 0
+            ],
         }  # fmt: skip
         found = {f"flypend_{name}": np.array(value, self.real) for name, value in values.items()}
         for name, value in found.items():

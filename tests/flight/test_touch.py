@@ -36,12 +36,14 @@ def test_in_the_ideal_plant_kernel_and_scipy_end_at_the_same_touch(mount, e3):
     for i in range(len(ends)):
         single = fp.simulate(vehicle, law, starts[i], 2.0, plant="ideal")
         other = fp.simulate(vehicle, law, starts[i], 2.0, plant="ideal", engine="scipy")
-        assert (single.outcome.status, single.outcome.reason) == (other.outcome.status, other.outcome.reason)
+        assert single.outcome.status == other.outcome.status
         assert single.outcome.time == ends.end[i]
         assert (ends.cause[i] == "collided") == (single.outcome.status == "collided")
         np.testing.assert_array_equal(ends.final.packed()[i], single.packed[-1])
         # The steps differ, and the rod is looked at every half millisecond or less of each.
         assert single.outcome.time == pytest.approx(other.outcome.time, abs=0.6e-3)
+        # Within that time it may meet both an arm and its disc, "arm 4" and "disc 4".
+        assert single.outcome.reason.split()[-1:] == other.outcome.reason.split()[-1:]
         # The trajectory has a sample every 10 ms; in between the rod may come closer.
         assert ends.clearance[i] <= single.clearance.min() + 1e-9
         statuses.add(single.outcome.status)

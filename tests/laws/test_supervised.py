@@ -109,3 +109,14 @@ def test_limits_hold_in_either_frame():
     assert free.rotor_forces.min() < low or free.rotor_forces.max() > high
     assert run.rotor_forces.min() >= low - 1e-9
     assert run.rotor_forces.max() <= high + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("law", "start"), [(fp.laws.corrected, fp.random_starts(1, 6)[0].flipped()), (fp.laws.almost_global, NEAR)]
+)
+def test_limits_that_nothing_meets_change_nothing(law, start):
+    free = fp.simulate(VEHICLE, law(), start, 1.0, plant="ideal")
+    low, high = VEHICLE.rotor_limits
+    assert low < free.rotor_forces.min() < free.rotor_forces.max() < high
+    run = fp.simulate(VEHICLE, law(), start, 1.0, plant=fp.Ideal(limits=True))
+    np.testing.assert_allclose(run.packed, free.packed, rtol=0, atol=1e-6)

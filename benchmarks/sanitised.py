@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from benchmarks import omnidrones_tasks
 from flypend.compile.llvm import jit
+from flypend.compile.llvm.target import native
 from flypend.compile.llvm.worlds import kernel_module
 from flypend.envs import environment, kernel
 from flypend.envs.make import TASKS
@@ -86,6 +87,14 @@ def shortened(source: str, name: str) -> str:
     return BUFFER.sub(lambda found: f"{name}[{found[2]} - 1]" if found[1] == name else found[0], source)
 
 
+def elementary() -> str:
+    """Return the source of the functions that programs call, without what this processor has no instruction for."""
+    source = (SOURCE.parent / "elementary.cpp").read_text()
+    if not native().estimates_roots:
+        source = source.split("#if BITS == 64 && WIDTH % 8 == 0")[0] + "}\n"
+    return '#include "elementary.hpp"\nextern "C" const int64_t FUSES = 1;\n' + source
+
+
 def built(written: str, source: str, folder: Path) -> Path:
     """Compile the loop's `source` and the text of its programs to a library in `folder` that checks each access.
 
@@ -96,7 +105,10 @@ def built(written: str, source: str, folder: Path) -> Path:
     loop, library = folder / "worlds.cpp", folder / "kernel.so"
     loop.write_text(source)
     names = "-I", str(SOURCE.parent), f"-DWIDTH={kernel.WIDTH}", "-DBITS=64", "-fvisibility=default"
-    texts = {"loop": OF_WEB.sub("", tool("clang", *RAW, *names, str(loop), "-o", "-")), "programs": written}
+    functions = folder / "elementary.cpp"
+    functions.write_text(elementary())
+    own = {part: OF_WEB.sub("", tool("clang", *RAW, *names, str(part), "-o", "-")) for part in (loop, functions)}
+    texts = {"loop": own[loop], "programs": written, "elementary": own[functions]}
     objects = [str(folder / f"{name}.o") for name in texts]
     for made, part in zip(objects, texts.values(), strict=True):
         plain, checked = folder / "plain.ll", folder / "checked.ll"
@@ -147,9 +159,9 @@ def exact(array: NDArray[Any], lacking: int = 0) -> NDArray[Any]:
 
 def step(library: Path, case: str, steps: int, count: int, planted: str) -> None:
     """Step `count` worlds with the kernel in `library`, by random actions, some of them absurd."""
-    native = ctypes.CDLL(str(library)).kernel
-    native.restype, native.argtypes = None, kernel.KINDS
-    kernel.compiled = lambda made: native  # type: ignore[assignment, misc]
+    function = ctypes.CDLL(str(library)).kernel
+    function.restype, function.argtypes = None, kernel.KINDS
+    kernel.compiled = lambda made: function  # type: ignore[assignment, misc]
     worlds = kernel.Worlds(environment(**CASES[case]), count)
     worlds.arrays = {name: exact(array, name == planted) for name, array in worlds.arrays.items()}
     worlds.begin(np.arange(count))

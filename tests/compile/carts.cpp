@@ -59,14 +59,6 @@ void judge(const V *, const V *state, const V *, V *values) {
     for (int i = 0; i < 4; i++) values[i] = state[0] - T(0.2);
 }
 
-void logarithm(const V *x, V *out) { EACH_LANE entry(out, 0, lane) = log((*x)[lane]); }
-void sine_and_cosine(const V *r, const V *quarters, V *sine, V *cosine) {
-    EACH_LANE {
-        const T angle = (*r)[lane] + (*quarters)[lane] * T(M_PI_2);
-        entry(sine, 0, lane) = sin(angle), entry(cosine, 0, lane) = cos(angle);
-    }
-}
-
 void room(const V *before, const V *after, const V *seconds, V *bound) {
     *bound = T(1.5) - most(before[1], after[1]) - T(0.01) - 0 * *seconds;
 }

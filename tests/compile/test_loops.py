@@ -32,13 +32,17 @@ def test_the_bitcode_is_that_of_the_source(tmp_path):
     assert [name for name in built if built[name] != tracked[name]] == [], "run `make loops`"
 
 
+BOTH = ("runge_kutta", "elementary")
+
+
 @pytest.mark.parametrize(
     ("loop", "width", "bits", "pointer"),
     [
-        *(("runge_kutta", width, bits, 64) for width, bits in ((8, 64), (16, 64), (16, 32), (32, 32))),
-        *(("runge_kutta", width, bits, 32) for width, bits in ((1, 64), (2, 64), (1, 32), (2, 32))),
+        *((loop, width, bits, 64) for loop in BOTH for width, bits in ((8, 64), (16, 64), (16, 32), (32, 32))),
+        *((loop, width, bits, 32) for loop in BOTH for width, bits in ((1, 64), (2, 64), (1, 32), (2, 32))),
         *(("sampled", width, 64, pointer) for width, pointer in ((1, 64), (8, 64), (1, 32), (2, 32))),
-        *((loop, 8, 64, 64) for loop in ("worlds", "normals")),
+        *((loop, 8, 64, 64) for loop in ("worlds", "normals", "horizon", "riccati")),
+        *((loop, 1, 64, 64) for loop in ("horizon", "elementary")),
     ],
 )
 def test_every_width_that_kernels_ask_for_is_there(loop, width, bits, pointer):
@@ -164,6 +168,7 @@ CARTS = {
     "END_DRAW": 19, "GUSTS": 18, "RATES": 0, "MEASURES": 1, "TOUCHES": 1,
     "SENSES": 0, "SENSED": 0, "START_TICK": 9, "START_DRAWS": 0, "MOST_STATE": 1e3, "KINDS": (0, 1, 2, 3),
     "MUJOCO": 0, "QPOS": 2, "QVEL": 2, "FILTERED": 0, "DRIVEN": 0, "BLOWN": 0, "FILTER_STRIDE": 10, "MOST_FORCE": 1e3,
+    "FUSES": 1,
 }  # fmt: skip
 VARIANTS = {
     "plain": (2, {}),
@@ -195,7 +200,7 @@ def driven(start, gain, seed, ticks=200):
 def test_carts_fly_without_undefined_behaviour(tmp_path, variant):
     """Five flights: samples, reductions, statuses and touches, against the same step by step."""
     width, other = VARIANTS[variant]
-    headers = ["sampled.hpp", "mujoco.hpp"]
+    headers = ["sampled.hpp", "mujoco.hpp", "elementary.hpp"]
     told, rows = run(tmp_path, "sampled", CARTS | other, headers, source("carts.cpp"), width)
     assert told.returncode == 0, told.stderr
     C, D, U, T = (getattr(runge_kutta, name) for name in ("COMPLETED", "DIVERGED", "UNDEFINED", "COLLIDED"))

@@ -4,7 +4,6 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from flypend.compile.llvm.abreast import abreast
 from flypend.compile.llvm.stagewise import WIDTH, lanes, stagewise
 
 STAGES = 7
@@ -71,6 +70,6 @@ def test_stages_abreast_are_those_one_by_one(count):
     function = ca.Function("some", [x, p], [ca.vertcat(x[:8] * p[0], x[10] / p[1]), x[2] + x[9]])
     xs, ps = rng.normal(size=(count, 11)), rng.normal(size=2)
     nine, one = np.zeros((count, 9)), np.zeros((count, 1))
-    abreast(function, shared=(1,))(count, xs, ps, nine, one)
+    stagewise(function, shared=(1,), abreast=True)(count, xs, ps, nine, one)
     np.testing.assert_allclose(nine, np.column_stack([xs[:, :8] * ps[0], xs[:, 10] / ps[1]]), rtol=4e-16, atol=0)
     np.testing.assert_array_equal(one[:, 0], xs[:, 2] + xs[:, 9])

@@ -32,7 +32,7 @@ def asked_of(vehicle=HEHN, seed=501):
 
 
 @pytest.mark.parametrize("rotors", [4, 6])
-def test_the_recursion_by_rows_is_that_by_symbols(rotors):
+def test_the_recursion_of_one_problem_is_that_of_eight(rotors):
     """Six rotors and 22 coordinates: rows end with numbers of no account."""
     rng, compiled = np.random.default_rng(rotors), programs(rotors, Structure(), lanes=False)
     rows, columns = compiled.layout, replace(compiled.layout, block=1)
@@ -54,7 +54,12 @@ def test_the_recursion_by_rows_is_that_by_symbols(rotors):
         return [column(ca.evalf(ca.SX(values))) for values in (after, slopes, of_stage)]
 
     after, F, of_stage = memory(columns)
-    V, K = as_numpy(backward(columns))(after, F, d, of_stage, damping)
+    eight = [lanes(len(values)) for values in (after, F, d, of_stage, damping)]
+    for array, values in zip(eight, (after, F, d, of_stage, damping), strict=True):
+        array.T[:] = values
+    V, K = lanes(columns.of_to_go), lanes(columns.of_gains)
+    backward(columns)(1, *eight, V, K)
+    V, K = V[:, 3], K[:, 3]
     to_go, gains = one(2, rows.of_to_go), one(1, rows.of_gains)
     to_go[1, :, 0], F, of_stage = memory(rows)
     compiled.backward(1, to_go[1:], F, d, of_stage, damping, to_go, gains)

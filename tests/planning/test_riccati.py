@@ -4,6 +4,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.compile.numeric import as_numpy
 from flypend.planning.riccati import Layout, backward, forward, solved
 
@@ -15,11 +16,11 @@ def definite(rng, size):
     return root @ root.T + 0.1 * np.eye(size)
 
 
-@pytest.fixture(scope="module")
-def problem():
+@pytest.fixture(scope="module", params=[1, WIDTH], ids=["a problem per lane", "one problem"])
+def problem(request):
     rng = np.random.default_rng(7)
     square = ca.Sparsity.dense(N, N)
-    dense = Layout(square, ca.Sparsity.dense(N, M), square)
+    dense = Layout(square, ca.Sparsity.dense(N, M), square, request.param)
     stages = [
         {
             "A": rng.normal(size=(N, N)), "B": rng.normal(size=(N, M)), "d": rng.normal(size=N), "Q": definite(rng, N),
@@ -36,19 +37,29 @@ def column(values):
     return np.array(ca.DM(values)).ravel()
 
 
+def in_memory(*vectors, width):
+    """Stages of a recursion, the same in every lane."""
+    array = lanes(len(vectors), len(vectors[0]), width=width)
+    array[:] = np.array(vectors)[..., None]
+    return array
+
+
 def by_recursion(layout, stages, end):
-    back, ahead = as_numpy(backward(layout)), as_numpy(forward(layout))
+    width = WIDTH if layout.block == 1 else 1
     V = column(ca.evalf(layout.to_go(*(ca.SX(ca.DM(end[name])) for name in ("P", "p", "p_e", "c", "g", "v")))))
-    to_go, gains = [V], []
-    for s in reversed(stages):
-        cost = column(ca.evalf(layout.cost(*(ca.SX(ca.DM(s[name])) for name in ("Q", "R", "q", "q_e", "r", "c", "g")))))
-        V, gain = back(V, np.hstack([s["A"], s["B"]]).ravel("F"), s["d"], cost, np.zeros(2))
-        to_go.insert(0, V)
-        gains.insert(0, gain)
-    c, g, v = to_go[0][-3:]
-    epsilon, delta, found = -g / c, np.zeros(N), []
-    for s, gain, after in zip(stages, gains, to_go[1:], strict=True):
-        delta, upsilon, _ = ahead(delta, epsilon, np.hstack([s["A"], s["B"]]).ravel("F"), s["d"], gain, after)
+    costs = [
+        column(ca.evalf(layout.cost(*(ca.SX(ca.DM(s[name])) for name in ("Q", "R", "q", "q_e", "r", "c", "g")))))
+        for s in stages
+    ]
+    F = [column(ca.evalf(layout.slopes(ca.SX(ca.DM(s["A"])), ca.SX(ca.DM(s["B"]))))) for s in stages]
+    to_go, gains = in_memory(*[V] * (STAGES + 1), width=width), lanes(STAGES, layout.of_gains, width=width)
+    given = [in_memory(*values, width=width) for values in (F, [s["d"] for s in stages], costs)]
+    backward(layout)(STAGES, to_go[1:], *given, lanes(2, width=width), to_go, gains)
+    place = layout.of_shared
+    c, g, v = to_go[0, place : place + 3, 0]
+    epsilon, delta, found, ahead = -g / c, np.zeros(N), [], as_numpy(forward(layout))
+    for slopes, s, gain, after in zip(F, stages, gains[..., 0], to_go[1:, :, 0], strict=True):
+        delta, upsilon, _ = ahead(delta, epsilon, slopes, s["d"], gain, after)
         found += [*upsilon, *delta]
     return np.append(found, epsilon), v - g**2 / (2 * c)
 

@@ -69,10 +69,10 @@ def nmpc(
 ) -> Controller:
     """Return a controller that plans the way to inverted hover in flight, and again whenever it is thrown off.
 
-    It is a flight computer: at once, and whenever the rod is not about to stand, it plans from where it will be when
+    It is a flight computer: at once, and whenever the rod is about to fall, it plans from where it will be when
     the plan is ready, and until then the inverted law flies. A plan is flown with feedback, and what is left of it is
     solved again in every stage, by one real-time iteration. In hover the inverted law takes over. docs/planning/nmpc.md
-    says when it changes hands.
+    says who flies when.
 
     Parameters
     ----------

@@ -9,14 +9,13 @@ and the cost to go is ½ δᵀPδ + (p + ε p_e)ᵀδ + ½ c ε² + g ε + v. A,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import reduce
-from itertools import pairwise
-from operator import add
-from typing import Any, NamedTuple
 
 import casadi as ca
+import numpy as np
+
+from flypend.compile.llvm.loops import Constants, Definition
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, horizon
 
 
 @dataclass(frozen=True)
@@ -86,11 +85,6 @@ class Layout:
         """Pattern of [A B]."""
         return ca.horzcat(ca.DM(self.A), ca.DM(self.B)).sparsity()
 
-    @property
-    def filled(self) -> list[list[int]]:
-        """The rows that are not zero of each column of F."""
-        return [self.F.row()[a:b] for a, b in pairwise(self.F.colind())]
-
     def slopes(self, A: ca.SX, B: ca.SX) -> ca.SX:
         """Return [A B], of `A` (n, n) and `B` (n, m) in CasADi, as it lies in memory."""
         F = ca.horzcat(A, B)
@@ -123,6 +117,11 @@ class Layout:
             P = ca.reshape(memory[:first], w, n).T[:, :n]
         return P, memory[first : first + n], memory[first + w : first + w + n]
 
+    def place_of_P(self, i: int, j: int) -> int:
+        """Return the place in a cost to go of entry (i, j) of P, or of (j, i), which is the same."""
+        low, high = min(i, j), max(i, j)
+        return high * (high + 1) // 2 + low if self.block == 1 else low * self.width + high
+
     @property
     def _of_P(self) -> int:
         return self.n * (self.n + 1) // 2 if self.block == 1 else self.n * self.width
@@ -139,103 +138,35 @@ def _to_length(values: ca.SX, length: int) -> ca.SX:
     return ca.vertcat(ca.densify(values), ca.SX.zeros(length - values.numel()))
 
 
-class ToGo(NamedTuple):
-    """A cost to go: rows of P, rows p and p_e, and c, g, v."""
+def backward(layout: Layout) -> Stagewise:
+    """Compile (cost to go after, F, d, cost, damping) → cost to go before, and gains, as they lie in memory.
 
-    P: Iterable[Any]
-    p: Any
-    p_e: Any
-    c: Any
-    g: Any
-    v: Any
-
-
-class Gains(NamedTuple):
-    """The best command υ = K δ + k + k_e ε: rows of K, and the numbers k and k_e."""
-
-    K: Sequence[Any]
-    k: Sequence[Any]
-    k_e: Sequence[Any]
-
-
-class OfStage(NamedTuple):
-    """A stage: rows of F = [A B], numbers d, and of its cost the rows of diag(Q, R), [q r], [q_e 0], and c, g."""
-
-    F: Sequence[Any]
-    d: Any
-    H: Sequence[Any]
-    h: Any
-    h_e: Any
-    c: Any
-    g: Any
-
-
-def before(
-    after: ToGo, stage: OfStage, filled: Sequence[Sequence[int]], kept: Callable[[Iterable[Any]], Sequence[Any]] = list
-) -> tuple[ToGo, Gains]:
-    """Return the cost to go before a `stage` from that `after` it, and the gains.
-
-    It is written for rows, which add up and take factors on their right, so that it can be compiled for many problems,
-    with rows of CasADi symbols, and for one, with rows in registers. Rows of before's P are as long as those of F.
-
-    Parameters
-    ----------
-    after, stage : ToGo, OfStage
-        What is known.
-    filled : sequence of sequences of int
-        For each column of F, its rows that are not zero.
-    kept : callable
-        Computes rows, and returns them as such of which single numbers can be taken.
+    Gains are the rows of K, then k and k_e, of the best command υ = K δ + k + k_e ε. `damping` (2,) is added to the
+    diagonals of Q and R. With a block of 1 there is a problem per lane, else a single one.
     """
-    (_, p, p_e, c, g, v), (F, d, H, h, h_e, c_k, g_k), P = after, stage, list(after.P)
-    n, m = len(P), len(H) - len(P)
-    # What rounding leaves of a difference between P and its transpose would grow like an open loop: half of P is read.
-    PF = kept(_sum(F[j] * P[min(i, j)][max(i, j)] for j in range(n)) for i in range(n))
-    (p_d,) = kept([p + _sum(P[j] * d[j] for j in range(n))])
-    x, e = kept(row + _sum(F[i] * part[i] for i in range(n)) for row, part in ((h, p_d), (h_e, p_e)))
+    n, m, block = layout.n, layout.m, layout.block
+    lengths = [layout.of_to_go, layout.of_slopes, n, layout.of_stage, 2, layout.of_to_go, layout.of_gains]
+    strides = [0 if length == 2 else length * (WIDTH if block == 1 else 1) for length in lengths]
 
-    def quadratic(i: int) -> Any:
-        return _sum([H[i], *(PF[j] * F[j][i] for j in filled[i])])
+    def inner() -> tuple[dict[str, Definition], Constants]:
+        rows, columns = np.array(layout.F.row()), np.array(layout.F.get_col())
+        parts = np.unique(np.stack([columns // block, rows]), axis=1)  # vectors that are not zero, column by column
+        sparse = block == 1  # then only what is not zero is in memory
+        numbers: Constants = {
+            "BY_LANE": int(sparse), "n": n, "m": m, "PARTS": layout.width // block, "SHARED": layout.of_shared,
+            "P_AT": np.array([[layout.place_of_P(i, j) for j in range(n)] for i in range(n)]),
+            "F_COLUMN": np.array(layout.F.colind()), "F_ROW": rows,
+            "F_AT": np.arange(len(rows)) if sparse else rows * layout.width + columns,
+            "F_PART": np.searchsorted(parts[0], np.arange(layout.width // block + 1)), "F_PART_ROW": parts[1],
+            "F_PART_AT": np.arange(len(rows)) if sparse else parts[1] * (layout.width // block) + parts[0],
+            "Q_ENTRIES": layout.Q.nnz(), "Q_AT": np.array([
+                -1 if sparse and i > j else layout.place_of_P(i, j) if sparse else i * layout.width + j
+                for i, j in zip(*layout.Q.get_triplet(), strict=True)
+            ]),
+        }  # fmt: skip
+        return {}, numbers
 
-    Q_u = kept(quadratic(n + i) for i in range(m))
-    parts = factors([[Q_u[i][n + j] for j in range(m)] for i in range(m)])
-    k, k_e = ([-part for part in divided(*parts, [row[n + i] for i in range(m)])] for row in (x, e))
-    K = kept(-row for row in divided(*parts, Q_u))
-    along = [_sum(d[i] * part[i] for i in range(n)) for part in (p_e, p, p_d)]
-    togo = ToGo(
-        (_sum([quadratic(i), *(K[j] * Q_u[j][i] for j in range(m))]) for i in range(n)),
-        _sum([x, *(Q_u[j] * k[j] for j in range(m))]),
-        _sum([e, *(Q_u[j] * k_e[j] for j in range(m))]),
-        c + c_k + _sum(k_e[j] * e[n + j] for j in range(m)),
-        g + g_k + along[0] + _sum(k[j] * e[n + j] for j in range(m)),
-        v + 0.5 * (along[1] + along[2] + _sum(k[j] * x[n + j] for j in range(m))),
-    )
-    return togo, Gains(K, k, k_e)
-
-
-def _sum(terms: Iterable[Any]) -> Any:
-    return reduce(add, terms)
-
-
-def backward(layout: Layout) -> ca.Function:
-    """Return (cost to go after, F, d, cost, damping) → cost to go before, and gains, as they lie in memory.
-
-    Gains are the rows of K, then k and k_e; see `before`. `damping` (2,) is added to the diagonals of Q and R.
-    """
-    n, m, w = layout.n, layout.m, layout.width
-    V, memory, d = ca.SX.sym("V", layout.of_to_go), ca.SX.sym("F", layout.of_slopes), ca.SX.sym("d", n)
-    cost, damping = ca.SX.sym("cost", layout.of_stage), ca.SX.sym("damping", 2)
-    h, h_e, R, c, g, Q = ca.vertsplit(cost, [0, w, 2 * w, 2 * w + m, 2 * w + m + 1, 2 * w + m + 2, cost.numel()])
-    H = ca.diagcat(ca.SX(layout.Q, Q[: layout.Q.nnz()]) + damping[0] * ca.SX.eye(n), ca.diag(R + damping[1]))
-    stage = OfStage(ca.vertsplit(layout.slopes_in(memory)), d, ca.vertsplit(H), h[: n + m].T, h_e[: n + m].T, c, g)
-    P, p, p_e = layout.to_go_in(V)
-    shared = ca.vertsplit(V[layout.of_shared : layout.of_shared + 3])
-    found, gains = before(ToGo(ca.vertsplit(P), p.T, p_e.T, *shared), stage, layout.filled)
-    here = layout.to_go(
-        ca.vertcat(*found.P)[:, :n], found.p[:n].T, found.p_e[:n].T, found.c, found.g, found.v
-    )  # fmt: skip
-    rows = ca.vertcat(*(row[:n].T for row in gains.K), *gains.k, *gains.k_e)
-    return ca.Function("backward", [V, memory, d, cost, damping], [ca.densify(here), ca.densify(rows)])
+    return horizon("riccati", WIDTH, strides, True, inner, repr(layout))
 
 
 def forward(layout: Layout) -> ca.Function:
@@ -259,29 +190,5 @@ def unpacked_gains(gains: ca.SX, n: int, m: int) -> tuple[ca.SX, ca.SX, ca.SX]:
 
 
 def solved(S: ca.SX, right: ca.SX) -> ca.SX:
-    """Return S⁻¹ `right` for a symmetric positive definite `S` (m, m), by its factors L D Lᵀ, in CasADi."""
-    m = S.size1()
-    return ca.vertcat(*divided(*factors([[S[i, j] for j in range(m)] for i in range(m)]), ca.vertsplit(right)))
-
-
-def factors(S: Sequence[Sequence[Any]]) -> tuple[list[list[Any]], list[Any]]:
-    """Return L below its diagonal of ones, row by row, and the diagonal of D in S = L D Lᵀ, symmetric and definite."""
-    L: list[list[Any]] = [[] for _ in S]
-    D: list[Any] = []
-    for j, row in enumerate(S):
-        D.append(row[j] - _sum(L[j][i] * L[j][i] * D[i] for i in range(j)) if j else row[j])
-        for i in range(j + 1, len(S)):
-            rest = S[i][j] - _sum(L[i][h] * L[j][h] * D[h] for h in range(j)) if j else S[i][j]
-            L[i].append(rest / D[j])
-    return L, D
-
-
-def divided(L: Sequence[Sequence[Any]], D: Sequence[Any], right: Sequence[Any]) -> list[Any]:
-    """Return (L D Lᵀ)⁻¹ times the rows or numbers `right`; L and D as in `factors`."""
-    rows: list[Any] = []
-    for i, row in enumerate(right):
-        rows.append(row - _sum(rows[h] * L[i][h] for h in range(i)) if i else row)
-    rows = [row * (1.0 / factor) for row, factor in zip(rows, D, strict=True)]
-    for i in reversed(range(len(rows) - 1)):
-        rows[i] = rows[i] - _sum(rows[h] * L[h][i] for h in range(i + 1, len(rows)))
-    return rows
+    """Return S⁻¹ `right` for a symmetric positive definite `S` (m, m), in CasADi."""
+    return ca.ldl_solve(right, *ca.ldl(S))

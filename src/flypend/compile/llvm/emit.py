@@ -8,10 +8,11 @@ from functools import partial
 
 from llvmlite import ir
 
-from flypend.compile.llvm import elementary
 from flypend.compile.llvm.vector import Code, Lanes, Value
 from flypend.compile.program import LIBRARY, LIBRARY_2, Operation, Program, interpret, needed
 from flypend.compile.routine import Cell, Routine, stretches
+
+ELEMENTARY = ("logarithm", "sine", "cosine", "inverse_root")  # functions of compile/loops/elementary.cpp
 
 
 def emit(code: Code, program: Program, inputs: Sequence[Callable[[int], Value]]) -> list[list[Value]]:
@@ -59,6 +60,10 @@ def _compared(sign: str) -> Callable[[Code, Value, Value], Value]:
     return lambda code, a, b: code.select(a.compare(sign, b), 1.0, 0.0)
 
 
+def _elementary(name: str) -> Callable[[Code, Value], Value]:
+    return lambda code, value: code.elementary(name, value)
+
+
 def _of_library(name: str) -> Callable[..., Value]:
     return lambda code, *values: code.library(name, *values)
 
@@ -72,7 +77,7 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "fmin": Code.least,
     "fmax": Code.most,
     "sqrt": Code.sqrt,
-    "inverse root": elementary.inverse_root,
+    "inverse root": _elementary("inverse_root"),
     "fabs": Code.fabs,
     "sign": lambda code, a: code.select(a > 0.0, 1.0, code.select(a < 0.0, -1.0, 0.0)),
     "select": lambda code, condition, a: code.select(_true(condition), a, 0.0),
@@ -82,9 +87,9 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     **{name: _compared(sign) for name, sign in (("lt", "<"), ("le", "<="), ("eq", "=="), ("ne", "!="))},
     **{name: _of_library(name) for name in (*LIBRARY, *LIBRARY_2)},
     "floor": Code.floor,
-    "log": elementary.log,
-    "sin": elementary.sine,
-    "cos": elementary.cosine,
+    "log": _elementary("logarithm"),
+    "sin": _elementary("sine"),
+    "cos": _elementary("cosine"),
 }
 
 

@@ -18,7 +18,7 @@ import numpy
 
 from flypend.compile import cache
 from flypend.compile.aside import aside
-from flypend.compile.llvm.loops import LoopModule, linked
+from flypend.compile.llvm.loops import linked
 from flypend.compile.llvm.target import Target, native
 
 # Rooms that stand after those that write machine code, and can change it by no more than what is in its key.
@@ -124,8 +124,7 @@ def compiled(module: Any, target: Target | None = None) -> bytes:
     parsed = llvm.parse_assembly(str(module))
     if not target.jit:
         parsed.triple, parsed.data_layout = target.triple, str(machine.target_data)
-    if isinstance(module, LoopModule):
-        parsed = linked(module, parsed, target)
+    parsed = linked(module, parsed, target)
     parsed.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=1)
     llvm.create_pass_builder(machine, options).getModulePassManager().run(

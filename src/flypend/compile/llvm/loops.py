@@ -1,4 +1,4 @@
-"""Loops in C++ around generated programs.
+"""Loops in C++ around generated programs, and elementary functions for these.
 
 `compile/loops` holds the loops' source and, for each width of a vector, LLVM's bitcode of it (`make loops`). Sizes,
 tableaus and programs are left open there, as external constants and functions. They are linked here; LLVM then folds
@@ -7,6 +7,7 @@ the constants, unrolls what they bound and compiles for the processor at hand.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -18,7 +19,7 @@ import numpy as np
 from llvmlite import ir
 from numpy.typing import ArrayLike
 
-from flypend.compile.llvm.emit import define
+from flypend.compile.llvm.emit import ELEMENTARY, define
 from flypend.compile.llvm.target import Target
 from flypend.compile.llvm.vector import I64, Lanes
 from flypend.compile.program import Program
@@ -26,6 +27,7 @@ from flypend.compile.program import Program
 SHORT = 64  # operations; a program of so few becomes part of the loop wherever it is called
 VISIBLE = frozenset(("kernel", "context_size"))  # functions of a loop
 Definition = Callable[[Lanes, str], ir.Function]  # defines a program under a name
+_ELEMENTARY = re.compile(rf"(?:{'|'.join(ELEMENTARY)})\.(\d+)x(\d+)")
 Constants = dict[str, int | float | ArrayLike]
 
 
@@ -48,8 +50,8 @@ def apart(program: Program, *, exact: bool = False) -> Definition:
 class LoopModule(ir.Module):  # type: ignore[misc]  # llvmlite has no types
     """What a loop leaves open: `programs` and `constants` by their names in the loop's source.
 
-    Integers and floats are constants of their own, anything else is an array of doubles. Of the functions of the `loop`
-    those called `VISIBLE` stay so. `vectors` are width, precision and target of its lanes.
+    Integers and floats are constants of their own, arrays of integers are such, anything else is of doubles. Of the
+    functions of the `loop` those called `VISIBLE` stay so. `vectors` are width, precision and target of its lanes.
     """
 
     def __init__(
@@ -80,23 +82,30 @@ def file_of(loop: str, width: int, bits: int, pointer_bits: int) -> str:
 def _constant(value: int | float | ArrayLike) -> ir.Constant:
     if isinstance(value, (int, float)):
         return ir.Constant(I64 if isinstance(value, int) else ir.DoubleType(), value)
-    numbers = [float(number) for number in np.ravel(value)]
-    return ir.Constant(ir.ArrayType(ir.DoubleType(), len(numbers)), numbers)
+    whole = isinstance(value, np.ndarray) and value.dtype.kind == "i"
+    numbers = [int(number) if whole else float(number) for number in np.ravel(value)]
+    return ir.Constant(ir.ArrayType(I64 if whole else ir.DoubleType(), len(numbers)), numbers)
 
 
-def linked(module: LoopModule, given: Any, target: Target) -> Any:
-    """Return the loop of `module` for LLVM, linked to `given`, which is `module` parsed."""
-    loop = llvm.parse_bitcode(_bitcode(module.bitcode))
-    for part in (loop, given):
+def linked(module: ir.Module, given: Any, target: Target) -> Any:
+    """Return `given`, which is `module` parsed, linked to its loop, if any, and the elementary functions it calls."""
+    kinds = {found.groups() for part in given.functions if (found := _ELEMENTARY.fullmatch(part.name))}
+    files = [file_of("elementary", int(width), int(bits), target.pointer_bits) for width, bits in sorted(kinds)]
+    files += [module.bitcode] if isinstance(module, LoopModule) else []
+    parts = [llvm.parse_bitcode(_bitcode(file)) for file in files]
+    parts += [llvm.parse_assembly(f"@FUSES = constant i64 {int(target.fuses)}")] if files else []
+    inner = {one.name for part in parts for one in (*part.functions, *part.global_variables)} - VISIBLE
+    inner |= module.inner if isinstance(module, LoopModule) else set()
+    for part in (given, *parts):
         part.triple, part.data_layout = target.triple, str(target.machine.target_data)
-    inner = {part.name for part in (*loop.functions, *loop.global_variables)} - VISIBLE | module.inner
-    loop.link_in(given)
-    for part in (*loop.functions, *loop.global_variables):
+    for part in parts:
+        given.link_in(part)
+    for part in (*given.functions, *given.global_variables):
         if part.name in inner and not part.is_declaration:
             part.linkage = "internal"
-    return loop
+    return given
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def _bitcode(name: str) -> bytes:
     return resources.files("flypend.compile").joinpath("loops", name).read_bytes()

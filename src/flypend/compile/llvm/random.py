@@ -1,4 +1,4 @@
-"""Counter-based normal random numbers, and the elementary functions that `compile/loops/random.hpp` leaves open."""
+"""Counter-based normal random numbers, those of `compile/loops/random.hpp`."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
 
-from flypend.compile.llvm import elementary, jit
-from flypend.compile.llvm.loops import Definition, LoopModule
-from flypend.compile.llvm.vector import Lanes
+from flypend.compile.llvm import jit
+from flypend.compile.llvm.loops import LoopModule
 
 PER_TICK = 24
 WIDTH = 8
@@ -33,27 +31,7 @@ def normals(seed: int, ticks: int, count: int = PER_TICK, *, first: int = 0) -> 
 @lru_cache(maxsize=8)
 def _compiled(count: int) -> Any:
     def module() -> LoopModule:
-        return LoopModule("normals", (WIDTH, "double", None), ELEMENTARY, {"COUNT": count})
+        return LoopModule("normals", (WIDTH, "double", None), {}, {"COUNT": count})
 
     kinds = [ctypes.c_uint64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p]
     return jit.build(f"normals of {count}", module, "kernel", kinds)
-
-
-def _logarithm(lanes: Lanes, name: str) -> ir.Function:
-    function, code = lanes.function(name, 2, inline=True)
-    x, out = function.args
-    code.store(elementary.log_of_normal(code, code.load(x)), out)
-    code.builder.ret_void()
-    return function
-
-
-def _sine_and_cosine(lanes: Lanes, name: str) -> ir.Function:
-    function, code = lanes.function(name, 4, inline=True)
-    angle, quarters, *out = function.args
-    for value, memory in zip(elementary.turned(code, code.load(angle), code.load(quarters)), out, strict=True):
-        code.store(value, memory)
-    code.builder.ret_void()
-    return function
-
-
-ELEMENTARY: dict[str, Definition] = {"logarithm": _logarithm, "sine_and_cosine": _sine_and_cosine}

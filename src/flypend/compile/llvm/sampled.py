@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from flypend.compile.llvm.emit import define_routine
 from flypend.compile.llvm.loops import Constants, Definition, LoopModule, once, several
-from flypend.compile.llvm.random import ELEMENTARY, PER_TICK, whole_blocks
+from flypend.compile.llvm.random import PER_TICK, whole_blocks
 from flypend.compile.llvm.target import Target
 from flypend.compile.sampled_problem import GUSTS, EquationsProblem, MujocoProblem, SampledProblem
 from flypend.model.state import MAX_STATE
@@ -55,7 +55,7 @@ def _on_board(problem: SampledProblem) -> dict[str, Definition]:
 
 
 def _sensing(problem: SampledProblem) -> dict[str, Definition]:
-    programs = dict(ELEMENTARY)
+    programs: dict[str, Definition] = {}
     if (sensing := problem.sensing) is not None:
         programs["sense_begin"], programs["sense_estimate"] = several(sensing.begin), several(sensing.estimate)
         programs["sense"] = once(sensing.sense)

@@ -1,16 +1,16 @@
-"""A function applied to every stage of a horizon, in order, for one problem per lane.
+"""A function applied to every stage of a horizon, in order, for one problem per lane or for a single one.
 
 What a stage writes, later ones may read, so that the same loop maps a function over stages and runs a recursion through
-them, forward or backward.
+them, forward or backward. The loop is `compile/loops/horizon.cpp`.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from threading import local
 from typing import Any
 
@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import define_routine
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
+from flypend.compile.llvm.loops import Constants, LoopModule
+from flypend.compile.llvm.vector import POINTER, Lanes
 from flypend.compile.routine import Routine, lower_calls
 
 WIDTH = 8
@@ -40,41 +41,34 @@ def lanes(*shape: int, width: int = WIDTH) -> NDArray[np.float64]:
 class Stagewise:
     """A compiled loop over stages.
 
-    Called with the number of stages and one address per input and output, at the first stage. Arrays are of doubles,
-    (stages, length, width), from `lanes`.
-
-    Parameters
-    ----------
-    native : Native
-        The machine code.
-    strides : tuple of int
-        From a stage to the next, in bytes; 0 for what is shared.
+    Called with the number of stages, and an array per input and output that begins at the first stage: of doubles,
+    (stages, length, width), from `lanes`, C-contiguous from its first entry on.
     """
 
     native: jit.Native
-    strides: tuple[int, ...]
 
-    def __call__(self, count: int, *arrays: Any) -> None:
-        """Run all stages; `arrays` are NumPy arrays, C-contiguous from their first entry on."""
-        self.native(count, *(array.ctypes.data for array in arrays))
+    def __call__(self, count: int, *arrays: NDArray[np.float64]) -> None:
+        """Run all stages."""
+        self.on(*arrays)(0, count)
 
-    def on(self, *arrays: Any) -> Callable[[int, int], None]:
+    def on(self, *arrays: NDArray[np.float64]) -> Callable[[int, int], None]:
         """Return a function of number and count, which runs `count` stages from a `first` one of the same `arrays` on.
 
         It saves what it takes to find the address of an array.
         """
-        native, strides, places = self.native, self.strides, tuple(array.ctypes.data for array in arrays)
+        native, places = self.native, (ctypes.c_void_p * len(arrays))(*(array.ctypes.data for array in arrays))
 
         def run(first: int, count: int) -> None:
-            native(count, *(place + first * stride for place, stride in zip(places, strides, strict=True)))
+            native(first, count, places)
 
         run.arrays = arrays  # type: ignore[attr-defined]  # which must live as long as it does
         return run
 
 
 def stagewise(
-    function: ca.Function, shared: Sequence[int] = (), *, backward: bool = False, width: int = WIDTH
-) -> Stagewise:
+    function: ca.Function, shared: Sequence[int] = (), *, backward: bool = False, width: int = WIDTH,
+    abreast: bool = False,
+) -> Stagewise:  # fmt: skip
     """Compile a loop over stages that calls `function` with entry k of every array at stage k.
 
     Parameters
@@ -86,20 +80,49 @@ def stagewise(
     backward : bool
         Whether the last stage comes first.
     width : int
-        Number of lanes.
+        Number of lanes: 8, or 1 for a single problem.
+    abreast : bool
+        Whether the lanes take stages of a single problem, and arrays are (stages, length). There must be at least
+        `WIDTH` stages, and what is written must not be what another stage reads: the last may be computed twice.
     """
     routine = one_routine(function)
     lengths = [*routine.inputs, *(len(cells) for cells in routine.outputs)]
-    strides = [0 if i in shared else length for i, length in enumerate(lengths)]
+    own: Constants = {
+        "INPUTS": len(routine.inputs), "ABREAST": int(abreast), "LENGTHS": lengths, "TOTAL": sum(lengths)
+    }  # fmt: skip
+    strides = [0 if i in shared else length * (1 if abreast else width) for i, length in enumerate(lengths)]
+    stage = partial(_define_stage, routine)
+    return horizon("horizon", width, strides, backward, lambda: ({"stage": stage}, own), f"{own} {routine!r}")
 
-    def module() -> ir.Module:
-        lanes = Lanes(ir.Module("flypend"), width)
-        _write(lanes, routine, strides, backward)
-        return lanes.module
 
-    kinds = [ctypes.c_int64, *[ctypes.c_void_p] * len(lengths)]
-    native = jit.build(f"stagewise {width} {strides} {backward} {routine!r}", module, "kernel", kinds)
-    return Stagewise(native, tuple(8 * width * stride for stride in strides))
+def horizon(
+    loop: str, width: int, strides: Sequence[int], backward: bool, inner: Callable[[], Any], key: str
+) -> Stagewise:
+    """Compile a C++ `loop` around `horizon.hpp` on `width` lanes.
+
+    Parameters
+    ----------
+    loop : str
+        Its name in `compile/loops`.
+    width : int
+        Number of lanes.
+    strides : sequence of int
+        From a stage of an array to the next, in doubles; 0 for what is shared.
+    backward : bool
+        Whether the last stage comes first.
+    inner : callable
+        Returns the programs and constants that the loop leaves open beside those of `horizon.hpp`.
+    key : str
+        It must determine what `inner` returns.
+    """
+    own: Constants = {"ARRAYS": len(strides), "BACKWARD": int(backward), "STRIDES": strides}
+
+    def module() -> LoopModule:
+        programs, constants = inner()
+        return LoopModule(loop, (width, "double", None), programs, own | constants)
+
+    kinds = (ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
+    return Stagewise(jit.build(f"{loop} {width} {own} {key}", module, "kernel", kinds))
 
 
 def alone(function: ca.Function) -> Callable[..., Any]:
@@ -114,11 +137,11 @@ def alone(function: ca.Function) -> Callable[..., Any]:
     def call(*values: Any) -> Any:
         if not hasattr(own, "memory"):
             inputs, outputs = ([lanes(size) for size in kind] for kind in sizes)
-            own.memory = inputs, outputs, [array.ctypes.data for array in (*inputs, *outputs)]
-        inputs, outputs, places = own.memory
+            own.memory = inputs, outputs, compiled.on(*inputs, *outputs)
+        inputs, outputs, run = own.memory
         for array, value in zip(inputs, values, strict=True):
             array.T[:] = value
-        compiled.native(1, *places)
+        run(0, 1)
         return tuple(array[:, 0].copy() for array in outputs)
 
     return call
@@ -132,28 +155,10 @@ def one_routine(function: ca.Function) -> Routine:
     return lower_calls(ca.Function(f"{function.name()}_called", inputs, function.call(inputs)))
 
 
-def _write(lanes: Lanes, routine: Routine, strides: Sequence[int], backward: bool) -> None:
-    stage = define_routine(lanes, routine)
-    code, count, arrays = begin_kernel(lanes, len(strides))
-    with each_stage(code, count, backward) as k:
-        code.call(stage, *(_at(code, array, k, stride) for array, stride in zip(arrays, strides, strict=True)))
+def _define_stage(routine: Routine, lanes: Lanes, name: str) -> ir.Function:
+    """Define `routine` as a function of the addresses of its arrays."""
+    inner, (function, code) = define_routine(lanes, routine), lanes.function(name, 1, inline=True)
+    places = [code.vector_at(function.args[0], i, POINTER) for i in range(len(inner.args))]
+    code.call(inner, *(code.builder.load(place, typ=POINTER) for place in places))
     code.builder.ret_void()
-
-
-def begin_kernel(lanes: Lanes, arrays: int) -> tuple[Code, ir.Value, list[ir.Value]]:
-    """Begin the function "kernel" (number of stages, `arrays` addresses); return its code and its arguments."""
-    kernel = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, *[POINTER] * arrays]), "kernel")
-    kernel.attributes.alignstack = 64
-    count, *addresses = kernel.args
-    return Code(lanes, ir.IRBuilder(kernel.append_basic_block())), count, addresses
-
-
-@contextmanager
-def each_stage(code: Code, count: ir.Value, backward: bool) -> Iterator[ir.Value]:
-    """Emit a loop over `count` stages, the last one first if `backward`; yields the number of the stage."""
-    with code.count(count) as i:
-        yield code.builder.sub(code.builder.sub(count, ir.Constant(I64, 1)), i) if backward else i
-
-
-def _at(code: Code, array: ir.Value, k: ir.Value, stride: int) -> ir.Value:
-    return code.vector_at(array, code.builder.mul(k, ir.Constant(I64, stride))) if stride else array
+    return function

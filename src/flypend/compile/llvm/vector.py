@@ -1,15 +1,12 @@
-"""LLVM code generation on SIMD lanes: memory, operator-overloaded arithmetic and control flow."""
+"""LLVM code generation on SIMD lanes: memory and operator-overloaded arithmetic."""
 
 from __future__ import annotations
-
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 
 from llvmlite import ir
 
 from flypend.compile.llvm.target import Target, native
 
-I1, I64, POINTER, VOID = ir.IntType(1), ir.IntType(64), ir.PointerType(), ir.VoidType()
+I64, POINTER, VOID = ir.IntType(64), ir.PointerType(), ir.VoidType()
 LINE = 64  # bytes of a cache line
 # Allow fused multiply-add, reassociation, ignoring the sign of zero, and shared reciprocals: 10 % faster, with the same
 # result in every lane of a kernel. NaN and infinity keep their meaning.
@@ -26,8 +23,8 @@ class Lanes:
         self.precision = precision
         self.scalar = ir.DoubleType() if precision == "double" else ir.FloatType()
         self.vector = ir.VectorType(self.scalar, width)
-        self.mask = ir.VectorType(I1, width)
         self.size = (8 if precision == "double" else 4) * width
+        self.kind = f"{width}x{8 * self.size // width}"
         self.estimates_roots = precision == "double" and width % 8 == 0 and self.target.estimates_roots
 
     def constant(self, value: float) -> ir.Value:
@@ -78,11 +75,10 @@ class Code:
 
     # Memory -------------------------------------------------------------------------------------------------------
 
-    def reserve(self, length: int, kind: ir.Type | None = None) -> ir.Value:
-        """Allocate `length` vectors (of type `kind`) on the stack."""
-        kind = kind or self.lanes.vector
+    def reserve(self, length: int) -> ir.Value:
+        """Allocate `length` vectors on the stack."""
         with self.builder.goto_entry_block():
-            memory = self.builder.alloca(ir.ArrayType(kind, max(1, length)))
+            memory = self.builder.alloca(self.lanes.array(length))
             memory.align = LINE
             memory.type = POINTER  # make it opaque; llvmlite would insist on the allocated type
         return memory
@@ -102,34 +98,13 @@ class Code:
         """Store `value` to vector `index` of `memory`."""
         self.builder.store(self.value(value).raw, self.vector_at(memory, index)).align = self.lanes.size
 
-    def scalar_at(self, memory: ir.Value, index: ir.Value, kind: ir.Type | None = None) -> ir.Value:
-        """Address of scalar `index` (an i64) in `memory`."""
-        return self.builder.gep(memory, [index], source_etype=kind or self.lanes.scalar)
-
-    def scalar(self, memory: ir.Value, index: ir.Value, kind: ir.Type | None = None) -> ir.Value:
-        """Load scalar `index` of `memory`."""
-        return self.builder.load(self.scalar_at(memory, index, kind), typ=kind or self.lanes.scalar)
-
-    def put(self, value: ir.Value, memory: ir.Value, index: ir.Value) -> None:
-        """Store the scalar `value` at `index` of `memory`."""
-        self.builder.store(value, self.scalar_at(memory, index, value.type))
-
     # Values -------------------------------------------------------------------------------------------------------
 
-    def value(self, value: Value | float | ir.Value) -> Value:
-        """Convert `value` to a vector value; numbers and LLVM scalars are broadcast."""
+    def value(self, value: Value | float) -> Value:
+        """Convert `value` to a vector value; numbers are broadcast."""
         if isinstance(value, Value):
             return value
-        if isinstance(value, (int, float)):
-            return Value(self, self.lanes.constant(float(value)))
-        return Value(self, self.repeated(value))
-
-    def repeated(self, single: ir.Value) -> ir.Value:
-        """Broadcast the scalar `single` to every lane."""
-        width, i32 = self.lanes.width, ir.IntType(32)
-        nothing = ir.Constant(ir.VectorType(single.type, width), ir.Undefined)
-        first = self.builder.insert_element(nothing, single, ir.Constant(i32, 0))
-        return self.builder.shuffle_vector(first, nothing, ir.Constant(ir.VectorType(i32, width), [0] * width))
+        return Value(self, self.lanes.constant(float(value)))
 
     def select(self, mask: Value, yes: Value | float, no: Value | float) -> Value:
         """`yes` where `mask`, else `no`."""
@@ -143,24 +118,9 @@ class Code:
         """Maximum per lane; `b` if either is NaN."""
         return self.select(self.value(a) > b, a, b)
 
-    def any(self, mask: Value) -> ir.Value:
-        """Whether `mask` is true in any lane, as an i1."""
-        bits = ir.IntType(self.lanes.width)
-        return self.builder.icmp_unsigned("!=", self.builder.bitcast(mask.raw, bits), ir.Constant(bits, 0))
-
     def sqrt(self, value: Value) -> Value:
         """Square root."""
         return Value(self, self.builder.call(self.lanes.intrinsic("sqrt"), [value.raw]))
-
-    def power(self, value: Value, exponent: float) -> Value:
-        """`value` > 0 to a power, accurate to a few per cent: the bit pattern of a float approximates its logarithm."""
-        lanes, builder = self.lanes, self.builder
-        bits = 64 if lanes.precision == "double" else 32
-        kind = ir.VectorType(ir.IntType(bits), lanes.width)
-        one = float(0x3FF << 52 if bits == 64 else 0x7F << 23)
-        number = Value(self, builder.sitofp(builder.bitcast(value.raw, kind), lanes.vector))
-        wanted = (number - one) * exponent + one
-        return Value(self, builder.bitcast(builder.fptosi(wanted.raw, kind), lanes.vector))
 
     def floor(self, value: Value) -> Value:
         """Largest integer not above."""
@@ -169,6 +129,12 @@ class Code:
     def fabs(self, value: Value) -> Value:
         """Absolute value."""
         return Value(self, self.builder.call(self.lanes.intrinsic("fabs"), [value.raw]))
+
+    def elementary(self, name: str, value: Value) -> Value:
+        """Call the function `name` of compile/loops/elementary.cpp on all lanes."""
+        lanes = self.lanes
+        function = lanes.declared(f"{name}.{lanes.kind}", ir.FunctionType(lanes.vector, [lanes.vector]))
+        return Value(self, self.builder.call(function, [value.raw]))
 
     def library(self, name: str, *values: Value) -> Value:
         """Call the C library function `name` per lane."""
@@ -179,49 +145,6 @@ class Code:
             scalars = [self.builder.extract_element(value.raw, place) for value in values]
             result = self.builder.insert_element(result, self.builder.call(function, scalars), place)
         return Value(self, result)
-
-    # Control flow -------------------------------------------------------------------------------------------------
-
-    @contextmanager
-    def when(self, bit: ir.Value) -> Iterator[None]:
-        """Emit code that runs if `bit` is set."""
-        with self.builder.if_then(bit):
-            yield
-
-    @contextmanager
-    def count(self, number: int | ir.Value) -> Iterator[ir.Value]:
-        """Emit a loop that runs `number` times; yields the i64 index, from 0."""
-        limit = ir.Constant(I64, number) if isinstance(number, int) else number
-        counter = self.reserve(1, I64)
-        self.builder.store(ir.Constant(I64, 0), counter)
-        with self.loop(lambda: self.builder.icmp_signed("<", self.builder.load(counter, typ=I64), limit)):
-            index = self.builder.load(counter, typ=I64)
-            yield index
-            self.builder.store(self.builder.add(index, ir.Constant(I64, 1)), counter)
-
-    @contextmanager
-    def each(self, mask: Value) -> Iterator[ir.Value]:
-        """Emit a loop over the lanes set in `mask`; yields the i64 lane index."""
-        builder, left = self.builder, self.reserve(1, I64)
-        bits = builder.bitcast(mask.raw, ir.IntType(self.lanes.width))
-        builder.store(builder.zext(bits, I64), left)
-        zero, one = ir.Constant(I64, 0), ir.Constant(I64, 1)
-        with self.loop(lambda: builder.icmp_unsigned("!=", builder.load(left, typ=I64), zero)):
-            rest = builder.load(left, typ=I64)
-            yield builder.cttz(rest, ir.Constant(I1, 1))
-            builder.store(builder.and_(rest, builder.sub(rest, one)), left)
-
-    @contextmanager
-    def loop(self, condition: Callable[[], ir.Value]) -> Iterator[None]:
-        """Emit a loop that runs while the i1 emitted by `condition()` is true."""
-        head, body, after = (self.builder.append_basic_block(name) for name in ("while", "do", "after"))
-        self.builder.branch(head)
-        self.builder.position_at_end(head)
-        self.builder.cbranch(condition(), body, after)
-        self.builder.position_at_end(body)
-        yield
-        self.builder.branch(head)
-        self.builder.position_at_end(after)
 
     def call(self, function: ir.Function, *arguments: ir.Value) -> None:
         """Emit a call of `function`."""

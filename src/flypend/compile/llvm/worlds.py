@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from flypend.compile.llvm.loops import Constants, Definition, LoopModule, apart
-from flypend.compile.llvm.random import ELEMENTARY, whole_blocks
+from flypend.compile.llvm.random import whole_blocks
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.model.state import SIZE
 
@@ -38,7 +38,7 @@ def _programs(problem: WorldsProblem) -> dict[str, Definition]:
         programs |= {"room": apart(touch.room), "touching": apart(touch.touching)}
     if (own := problem.estimating) is not None:
         programs |= {"first_estimate": apart(own.first), "carry": apart(own.carry), "sense": apart(own.sense)}
-    return programs | ELEMENTARY
+    return programs
 
 
 def _constants(problem: WorldsProblem) -> Constants:

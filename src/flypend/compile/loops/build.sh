@@ -22,9 +22,14 @@ build() { # loop, lanes, bits of a number, bits of a pointer
         "$clang" $target $raw -x ir -c -o "$out/$1_$2x$3_p$4.bc" -
 }
 
-for lanes in 8x64 16x64 16x32 32x32; do build runge_kutta "${lanes%x*}" "${lanes#*x}" 64; done
-for lanes in 1x64 2x64 1x32 2x32; do build runge_kutta "${lanes%x*}" "${lanes#*x}" 32; done
+for loop in runge_kutta elementary; do
+    for lanes in 8x64 16x64 16x32 32x32; do build $loop "${lanes%x*}" "${lanes#*x}" 64; done
+    for lanes in 1x64 2x64 1x32 2x32; do build $loop "${lanes%x*}" "${lanes#*x}" 32; done
+done
+build elementary 1 64 64
 for lanes in 1 8; do build sampled "$lanes" 64 64; done
 for lanes in 1 2; do build sampled "$lanes" 64 32; done
 build worlds 8 64 64
 build normals 8 64 64
+for lanes in 1 8; do build horizon "$lanes" 64 64; done
+build riccati 8 64 64

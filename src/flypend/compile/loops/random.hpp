@@ -1,14 +1,7 @@
 // Counter-based random numbers: the draws of a tick depend on seed and tick only, not on their order.
 #pragma once
 
-#include "lanes.hpp"
-
-extern "C" {
-// For all lanes, from `flypend.compile.llvm.elementary`: the logarithm of positive, finite, normal numbers; sine and cosine
-// of r + quarters π/2, where |r| <= π/4 and the quarters are whole numbers.
-void logarithm(const V *x, V *log);
-void sine_and_cosine(const V *r, const V *quarters, V *sine, V *cosine);
-}
+#include "elementary.hpp"
 
 typedef uint64_t U __attribute__((vector_size(W * sizeof(uint64_t))));  // 32 random bits per lane
 
@@ -38,11 +31,10 @@ static INLINE void uniform_block(U seed, U tick, int64_t block, V *out) {
 
 // Two normal numbers from two uniform ones: √(−2 log u) cos 2πv and … sin 2πv (Box and Muller 1958).
 static INLINE void box_muller(V u, V v, V *out) {
-    V log, sine, cosine, quarters = nearest(4 * v);
+    V sine, cosine, quarters = nearest(4 * v);
     V angle = T(2 * 3.141592653589793) * (v - T(0.25) * quarters);  // the difference is exact
-    logarithm(&u, &log);
-    sine_and_cosine(&angle, &quarters, &sine, &cosine);
-    const V radius = root(-2 * log);
+    turned(angle, quarters, sine, cosine);
+    const V radius = root(-2 * log_of_normal(u));
     out[0] = radius * cosine, out[1] = radius * sine;
 }
 

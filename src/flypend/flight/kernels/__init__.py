@@ -2,7 +2,7 @@
 
 from flypend.flight.kernels.flown import STATUS, Flown
 from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel
-from flypend.flight.kernels.launch import fly_all, has_kernel, kernel_for, kernel_of
+from flypend.flight.kernels.launch import building, fly_all, has_kernel, kernel_for, kernel_of
 from flypend.flight.kernels.sampled import SampledKernel, plant_numbers, sampled_kernel, structure
 
 __all__ = [
@@ -10,6 +10,7 @@ __all__ = [
     "Flown",
     "IdealKernel",
     "SampledKernel",
+    "building",
     "fly_all",
     "has_kernel",
     "ideal_kernel",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from threading import RLock
+
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import Flown, Progress
 from flypend.flight.kernels.ideal import IdealKernel, ideal_kernel
@@ -11,6 +13,9 @@ from flypend.flight.sampled import nearest_ticks
 from flypend.laws import BoundLaw
 from flypend.plants import Sampled
 from flypend.plants.loop import Loop
+
+# Expressions of CasADi share nodes, and two threads that build at once have crashed there: one builds at a time.
+building = RLock()
 
 
 def has_kernel(flight: Flight) -> bool:
@@ -25,9 +30,10 @@ def kernel_of(flight: Flight) -> IdealKernel | SampledKernel:
 
 def kernel_for(loop: Loop, criterion: Criterion, exact: Tolerances) -> IdealKernel | SampledKernel:
     """Return the kernel of `loop` for `criterion`; in the ideal plant, with the method and precision of `exact`."""
-    if isinstance(loop.plant, Sampled):
-        return sampled_kernel(loop, criterion)
-    return ideal_kernel(loop, criterion, method=exact.method_for(loop.symbolic), precision=exact.precision)
+    with building:
+        if isinstance(loop.plant, Sampled):
+            return sampled_kernel(loop, criterion)
+        return ideal_kernel(loop, criterion, method=exact.method_for(loop.symbolic), precision=exact.precision)
 
 
 def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = lambda *_: None) -> Flown:

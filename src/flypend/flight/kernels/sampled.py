@@ -105,16 +105,15 @@ class SampledKernel:
         keep_at: ArrayLike | None = None,
         first_seed: int = 0,
         parameters: Numbers = None,
-        rotors: Numbers = None,
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds.
+        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds; with rotor forces (n, 24 + rotors), N.
 
         Parameters
         ----------
         starts, duration
-            Packed states; flight time, s.
+            Packed states, with rotor forces if these are not the least; flight time, s.
         judge_at : (j,) of int
             Increasing control ticks at which the criterion is evaluated.
         keep_at : (t,) of int, optional
@@ -124,22 +123,21 @@ class SampledKernel:
             Seed of the first run, increasing by 1 per run.
         parameters : (n, k), optional
             Values of the varying gains; default those of the law.
-        rotors : (n, rotors), optional
-            Initial rotor forces, N; default their minimum.
         workers : int, optional
             Threads; default one per core.
         progress : callable
             Called with `(done, runs)`.
         """
         loop, vehicle = self.loop, self.loop.vehicle
-        packed = seen_packed(np.ascontiguousarray(starts, dtype=float), loop.law.e3)
-        runs, n = len(packed), len(vehicle.rotor_spins)
+        runs, n = len(starts), len(vehicle.rotor_spins)
+        least = np.full((runs, n), vehicle.rotor_limits[0])
+        rotors = starts[:, SIZE:] if starts.shape[1] > SIZE else least
+        forces = array("rotors", rotors, least.shape)
+        packed = np.concatenate([seen_packed(starts[:, :SIZE], loop.law.e3), forces], axis=1)
         seeds = (first_seed + np.arange(runs)).astype(np.int64)
         moments = Ticks.of(judge_at, keep_at)
         count = number_of_ticks(duration, loop.sampled)
         values = inputs_of(loop, parameters, runs)
-        least = np.full((runs, n), vehicle.rotor_limits[0])
-        packed = np.concatenate([packed, least if rotors is None else array("rotors", rotors, least.shape)], axis=1)
         samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + n)
         memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=True, touching=self.touches)
         numbers = plant_numbers(loop)

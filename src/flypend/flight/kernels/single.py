@@ -83,10 +83,10 @@ def sampled_samples(
     `parameters` (k,) are the kernel's input gains, `rotors` (n,) the initial rotor forces, N.
     """
     law, plant = kernel.loop.law, kernel.loop.sampled
+    start = flight.packed if rotors is None else np.append(flight.packed, [rotors], axis=1)
     fly = partial(
-        kernel.fly, flight.packed, flight.duration, judge_at=(), first_seed=flight.seed or 0,
+        kernel.fly, start, flight.duration, judge_at=(), first_seed=flight.seed or 0,
         parameters=None if parameters is None else np.asarray(parameters)[None],
-        rotors=None if rotors is None else np.asarray(rotors)[None],
     )  # fmt: skip
     ticks = nearest_ticks(flight.moments, plant, flight.duration)
     flown = fly(keep_at=ticks)

@@ -19,7 +19,7 @@ from flypend.flight import sampled
 from flypend.flight.kernels import sampled_kernel
 from flypend.flight.request import Flight
 from flypend.laws import references
-from flypend.model.motion import disturbed_motion
+from flypend.model.motion import Disturbance, disturbed_motion
 from flypend.plants import SUITES, Plant, Sensor, Wind
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
@@ -100,7 +100,7 @@ def test_unknown_forces_drive_the_errors_that_they_drive_in_the_motion(seed):
     def driven(on_vehicle, on_bob):
         """Rates of velocity and swing (5,) by such specific forces, m/s²."""
         forces = {"force_on_vehicle": VEHICLE.M * on_vehicle, "force_on_bob": VEHICLE.m * on_bob}
-        moved = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), VEHICLE, "up", **forces)
+        moved = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), VEHICLE, "up", Disturbance(**forces))
         return np.append(moved.x_ddot + a * moved.y_ddot, B.T @ moved.y_ddot)
 
     rest, none, Q = driven(np.zeros(3), np.zeros(3)), np.zeros(3), np.zeros((ERRORS, ERRORS))
@@ -114,6 +114,48 @@ def test_unknown_forces_drive_the_errors_that_they_drive_in_the_motion(seed):
     given = (ca.DM(b), ca.SX(3, 1), VEHICLE, h, densities)
     found = error_state.spread(zero, fp.State.symbolic(ca.SX(ca.DM(packed))), *given)
     np.testing.assert_allclose(np.asarray(ca.DM(found)), Q, atol=1e-15)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_bias_of_the_accelerometer_drives_the_errors_that_the_force_would_that_it_is_taken_for(seed):
+    packed, b = some_state(seed)
+    state, h, size = fp.State.trusted(packed), 1e-3, error_state.FELT_BIAS.stop
+    a, B = error_state.lever(VEHICLE), np.stack([b, np.cross(state.y, b)], axis=1)
+
+    def driven(force):
+        moved = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), VEHICLE, "up", Disturbance(force_on_vehicle=force))
+        return np.append(moved.x_ddot + a * moved.y_ddot, B.T @ moved.y_ddot)
+
+    symbolic = fp.State.symbolic(ca.SX(ca.DM(packed)))
+    for i, axis in enumerate(np.eye(3)):
+        P = ca.SX(size, size)
+        P[error_state.FELT_BIAS.start + i, error_state.FELT_BIAS.start + i] = 1
+        still = error_state.Densities(0.0, 0.0, 0.0)
+        after = error_state.spread(P, symbolic, ca.DM(b), ca.SX(3, 1), VEHICLE, h, still)
+        found = np.asarray(ca.DM(after))[[3, 4, 5, 11, 12], error_state.FELT_BIAS.start + i]
+        accelerated = state.R @ axis
+        force = np.asarray(felt.force_of(ca.DM(accelerated), ca.DM(state.y), VEHICLE)).ravel()
+        # F accelerates the pivot itself by what the accelerometer wrongly reads.
+        moved = driven(force) - driven(np.zeros(3))
+        pivot = moved[:3] - a * B @ moved[3:]
+        np.testing.assert_allclose(pivot, accelerated, atol=1e-12)
+        np.testing.assert_allclose(found, -h * moved, atol=1e-12)
+
+
+@pytest.mark.parametrize("calm", [0.0, 0.3, 1.0])
+def test_a_share_of_the_gain_leaves_the_covariance_of_that_gain(calm):
+    """Against Joseph's form, which holds for any gain; a whole share is the Kalman filter."""
+    size, rng = error_state.FELT_BIAS.stop, np.random.default_rng(4)
+    root, row, noise = rng.standard_normal((size, size)), np.zeros(size), 0.5
+    row[:ERRORS] = rng.standard_normal(ERRORS)
+    P = root @ root.T
+    share = np.where(np.arange(size) < ERRORS, 1.0, calm)
+    gain = share * (P @ row) / (row @ P @ row + noise)
+    reading = error_state.Reading(ca.SX(2.0), ca.SX(ca.DM(row[:ERRORS])).T, noise, ca.SX(1))
+    error, after, _ = error_state.updated(ca.SX(ca.DM(P)), [[reading]], ca.SX(0), calm)
+    kept = np.eye(size) - np.outer(gain, row)
+    np.testing.assert_allclose(np.asarray(ca.DM(error)).ravel(), 2.0 * gain, atol=1e-12)
+    np.testing.assert_allclose(np.asarray(ca.DM(after)), kept @ P @ kept.T + noise * np.outer(gain, gain), atol=1e-10)
 
 
 def test_a_covariance_of_the_start_is_that_of_its_errors():
@@ -247,7 +289,7 @@ def test_the_accelerometer_tells_the_force_that_accelerates_the_vehicle_so(seed)
     wrench, force = fp.Wrench(rng.uniform(0, 10), np.zeros(3)), rng.standard_normal(3)  # body frame
 
     def acceleration(on_vehicle):
-        motion = disturbed_motion(state, wrench, VEHICLE, "up", force_on_vehicle=on_vehicle, force_on_bob=np.zeros(3))
+        motion = disturbed_motion(state, wrench, VEHICLE, "up", Disturbance(on_vehicle, np.zeros(3)))
         return motion.x_ddot
 
     felt = state.R.T @ (acceleration(state.R @ force) - acceleration(np.zeros(3)))
@@ -301,11 +343,11 @@ def test_a_wrong_body_is_left_out_and_a_true_jump_is_taken():
     assert update(0.0, 1.0)[1].item() == 0  # a good reading makes up for a wrong one
 
 
-@pytest.mark.parametrize(("name", "duration", "off"), [("mocap", 8.0, 0.005), ("onboard", 25.0, 0.01)])
+@pytest.mark.parametrize(("name", "duration", "off"), [("mocap", 8.0, 0.005), ("onboard", 15.0, 0.01)])
 def test_a_bias_of_the_gyroscope_is_found(name, duration, off):
     """Within four time constants of its integral, as well as what the noise of the attitude leaves of it.
 
-    On board it takes longer, and what is about the vertical stays unknown: no sensor tells yaw.
+    On board what is about the vertical stays unknown: no sensor tells yaw.
     """
     bias = np.array([0.03, -0.02, 0.04])
     suite = SUITES[name]
@@ -316,7 +358,7 @@ def test_a_bias_of_the_gyroscope_is_found(name, duration, off):
     np.testing.assert_allclose(found[kept], bias[kept], atol=off)
 
 
-@pytest.mark.parametrize(("name", "duration"), [("mocap", 10.0), ("onboard", 30.0)])
+@pytest.mark.parametrize(("name", "duration"), [("mocap", 10.0), ("onboard", 10.0)])
 def test_a_bias_of_the_accelerometer_is_not_taken_for_a_force(name, duration):
     """In the end of a hover the mean distance is far below the 6 and 11 cm of an integral of forces alone."""
     plant = Plant(sensors=SUITES[name].replace(accelerometer_bias=(0.2, -0.2, 0.2)))

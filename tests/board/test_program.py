@@ -83,7 +83,7 @@ def test_a_control_period_takes_a_fourth_of_the_operations_of_fourteen_steps():
     assert made.operations() < 3000
     find = next(program for program in made.programs if program.name == "find_delay")
     told = (
-        f"{len(made.calls)} calls of {len(made.programs)} programs, {made.operations():,} operations per control "
+        f"{len(made.calls)} calls of {len(made.programs)} programs and {made.operations():,} operations per control "
         f"period, {sum(find.counts().values()):,} of them to find the delay"
     )
     assert told in (Path(__file__).parents[2] / "docs" / "flight" / "engine.md").read_text(encoding="utf-8")

@@ -74,7 +74,8 @@ class Filter:
         ]
         past, errors, what = self.history.record, error_state.ERRORS, "centre of mass, velocity, attitude, rod and rate"
         if self.sensors.attitude is None:
-            errors, what = error_state.BIAS.stop, f"{what}, and the gyroscope's bias"
+            errors = error_state.FELT_BIAS.stop if self.feels else error_state.BIAS.stop
+            what = f"{what}, and the biases of the IMU"
         fields = (
             Field("state", SIZE, "the estimate, e3 up"),
             Field("rotors", self._believed.rotors, "modelled forces of the rotors, N"),
@@ -100,6 +101,8 @@ class Filter:
         P = error_state.first_covariance(self.sensors.start, s, error_state.frame(b, s.y), vehicle)
         if self.sensors.attitude is None:
             P = ca.diagcat(P, error_state.BIAS_PRIOR**2 * ca.SX.eye(3))
+            if self.feels:
+                P = ca.diagcat(P, error_state.FELT_BIAS_PRIOR**2 * ca.SX.eye(3))
         rows, weight = ca.vec(s.R.T), s.R.T @ (vehicle.g * E3)
         memory = self.record.join({
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
@@ -125,17 +128,17 @@ class Filter:
         expected = Expected(self.sensors, self.history, readings, before, frame, known, past, late)
         if finds_latency(self.sensors):
             self._find_latency(parts, expected, settled)
-        error, P, rejections = error_state.updated(
-            error_state.unpacked(parts["covariance"]), expected.readings(vehicle), parts["rejections"]
-        )
-        s, b, turn = error_state.corrected(before, frame, error, vehicle)
-        limit = self._loop.law.computer.force_limit * vehicle.weight
         thrust = ca.sum1(parts["rotors"])
         departure = _departure(thrust * before.z + parts["force"] + self._felt(parts, before.R), vehicle)
         calm = 1 / (1 + departure / HOVERING**2)
+        error, P, rejections = error_state.updated(
+            error_state.unpacked(parts["covariance"]), expected.readings(vehicle), parts["rejections"], calm
+        )
+        s, b, turn = error_state.corrected(before, frame, error, vehicle)
+        limit = self._loop.law.computer.force_limit * vehicle.weight
         bias = parts["bias"]
         if self.sensors.attitude is None:
-            bias = bias + calm * error[error_state.BIAS]
+            bias = bias + error[error_state.BIAS]
         else:
             bias = bias - BIAS_BANDWIDTH * settled * s.R.T @ error[error_state.TURN]
         omega = expected.omega(bias, self._gyro_gain())
@@ -145,7 +148,12 @@ class Filter:
             parts["bandwidth"] -= self.period * calm * (parts["bandwidth"] ** 2 - LASTING_BANDWIDTH**2)
         force, difference, outside = _lasting(parts["force"], parts["difference"], error, b, s, vehicle, pace, limit)
         if self.feels:
-            parts["felt"] = felt.unbiased(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
+            if self.sensors.attitude is None:
+                correction = error[error_state.FELT_BIAS]
+                taken = felt.force_of(correction, s.R.T @ s.y, vehicle)
+                parts["felt"] = felt.unbiased(parts["felt"], correction, taken)
+            else:
+                parts["felt"] = felt.unbiased(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
             fresh, told = expected.felt(felt.RECORD.split(parts["felt"])["bias"], vehicle)
             given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
             parts["felt"] = felt.corrected(parts["felt"], *given)

@@ -6,8 +6,9 @@ import casadi as ca
 
 from flypend.board import error_state as errors
 from flypend.board.error_state import Reading
+from flypend.board.felt import force_of
 from flypend.board.history import REACH, History, finds_latency
-from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, scale, unit
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, unit
 from flypend.model import State, Vehicle
 from flypend.plants.defects import POSES
 from flypend.plants.sensing import readings_record
@@ -100,13 +101,11 @@ class Expected:
         """Return whether the accelerometer has read, and the force (3,) that it tells beyond the expected, body, N.
 
         It has a `bias` (3,), m/s².
-        A force F on the vehicle accelerates it by F/M across the rod and by F/(M+m) along it, as it moves the bob too.
         """
         felt, s = self._past["force"], self._s
         expected = self._history.at(felt[1:], felt[0], self._read["accelerometer_age"])
         difference = self._read["accelerometer"] - bias - expected
-        along = s.R.T @ s.y
-        return self.fresh("accelerometer"), vehicle.M * difference + vehicle.m * scale(dot(along, difference), along)
+        return self.fresh("accelerometer"), force_of(difference, s.R.T @ s.y, vehicle)
 
     # Expectations: the difference of a reading, and its sensitivities -----------------------------------------------
 

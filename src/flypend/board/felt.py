@@ -11,7 +11,7 @@ d is that of `Sensors.following`: slow in hover, where the model is better than 
 manoeuvre, where it is worse, so that the motion follows what the accelerometer reads.
 
 A bias of the accelerometer is taken for a force. It gives itself away in hover: the pose is corrected against it again
-and again, and the integral of these corrections is the bias.
+and again, and the integral of these corrections is the bias. Where no attitude is measured, `error_state` finds it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar, Vector
+from flypend.geometry import Numbers, Scalar, Vector, dot, scale
 from flypend.model import Vehicle
 from flypend.plants.sensors import Sensors
 
@@ -61,10 +61,23 @@ def beyond(memory: Numbers, thrust: Scalar) -> Vector:
     return felt["force"] + ca.vertcat(0, 0, felt["scale"] * thrust)
 
 
-def unbiased(memory: Numbers, correction: Vector) -> Numbers:
-    """Return the memory with the accelerometer's bias corrected by `correction` (3,), m/s², and limited."""
+def force_of(acceleration: Vector, along: Vector, vehicle: Vehicle) -> Vector:
+    """Return the force (3,) on the vehicle, N, that accelerates the pivot by `acceleration` (3,), m/s².
+
+    A force F accelerates it by F/M across the rod, whose direction is `along` (3,), and by F/(M+m) along it, as it
+    moves the bob too. All in the same axes.
+    """
+    return vehicle.M * acceleration + vehicle.m * scale(dot(along, acceleration), along)
+
+
+def unbiased(memory: Numbers, correction: Vector, taken: Vector | float = 0.0) -> Numbers:
+    """Return the memory with the accelerometer's bias corrected by `correction` (3,), m/s², and limited.
+
+    `taken` (3,), body, N, is the force that it had been taken for, which goes.
+    """
     felt = RECORD.split(memory)
-    return RECORD.join(felt | {"bias": ca.fmin(ca.fmax(felt["bias"] + correction, -MOST_BIAS), MOST_BIAS)})
+    bias = ca.fmin(ca.fmax(felt["bias"] + correction, -MOST_BIAS), MOST_BIAS)
+    return RECORD.join(felt | {"bias": bias, "force": felt["force"] - taken})
 
 
 def corrected(

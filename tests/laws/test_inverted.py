@@ -14,12 +14,12 @@ from scipy.spatial.transform import Rotation
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.laws import inverted_gains, throw
+from flypend.laws import course, inverted_gains, throw
 from flypend.laws.closed_loop import close_loop
 from flypend.laws.inverted import SPIN_LAG
 from flypend.laws.inverted_gains import SEPARATION
 from flypend.laws.references import circle, hover, lemniscate, line
-from flypend.model import disturbed_motion
+from flypend.model import Disturbance, disturbed_motion
 from flypend.model.state import SIZE
 from flypend.plants import PRESETS, Plant
 from flypend.settings.laws import DETUNED
@@ -73,7 +73,7 @@ def test_the_force_of_the_derivation_gives_rod_and_bob_what_is_asked():
         force = -M * l * u + ((M + m) * a + M * l * y_dot @ y_dot) * y + M * (on_bob / m - on_vehicle / M)
         turned = fp.State(x_dot=state.x_dot, R=_along(force, rng), omega=state.omega, y=y, y_dot=y_dot)
         wrench = fp.Wrench(geo.norm(force), np.zeros(3))
-        rates = disturbed_motion(turned, wrench, VEHICLE, "up", force_on_vehicle=on_vehicle, force_on_bob=on_bob)
+        rates = disturbed_motion(turned, wrench, VEHICLE, "up", Disturbance(on_vehicle, on_bob))
         np.testing.assert_allclose(rates.y_ddot + y_dot @ y_dot * y, u, rtol=0, atol=ROUNDOFF)
         bob = rates.x_ddot + l * rates.y_ddot
         np.testing.assert_allclose(bob, -g * E3 + on_bob / m + a * y, rtol=0, atol=ROUNDOFF)
@@ -83,10 +83,11 @@ def _rod_force(vehicle, reference, gains):
     """(t, x, x_dot, y, y_dot, z, force on vehicle, on bob) → the law's force on the quadrotor (3,), and the errors."""
     t = ca.SX.sym("t")
     x, x_dot, y, y_dot, z, on_vehicle, on_bob = (ca.SX.sym(name, 3) for name in ("x", "v", "y", "w", "z", "a", "b"))
-    p, v, a, jerk, _ = throw.bob_reference(t, reference, vehicle, on_bob)
+    _, p, _ = throw.carrying(reference)(t, vehicle, on_bob)
+    v, a, jerk = throw.derivatives(p, t, 3)
     e, e_dot = x + vehicle.l * y - p, x_dot + vehicle.l * y_dot - v
     rod = throw.Rod(y, y_dot)
-    pose = throw.Pose(throw.low_rod(rod, z, gains), x[2] - reference(t)[2], np.array([1.0, 0, 0]), 1.0)
+    pose = throw.Pose(throw.low_rod(rod, z, E3, gains), x[2] - reference(t)[2], np.array([1.0, 0, 0]), 1.0)
     F = throw.rod_force(throw.Bob(e, e_dot, a, jerk), rod, pose, (on_vehicle, on_bob), vehicle, gains)
     outputs = [ca.densify(value) for value in (F, e, e_dot, a, jerk)]
     function = ca.Function("rod_force", [t, x, x_dot, y, y_dot, z, on_vehicle, on_bob], outputs)
@@ -126,7 +127,7 @@ def test_near_upright_the_bob_does_what_its_loop_asks_and_the_rod_what_lemma_2_a
 
         turned = fp.State(x_dot=state.x_dot, R=_along(F, rng), omega=state.omega, y=y, y_dot=y_dot)
         wrench = fp.Wrench(geo.norm(F), np.zeros(3))
-        rates = disturbed_motion(turned, wrench, VEHICLE, "up", force_on_vehicle=on_vehicle, force_on_bob=on_bob)
+        rates = disturbed_motion(turned, wrench, VEHICLE, "up", Disturbance(on_vehicle, on_bob))
         np.testing.assert_allclose(rates.y_ddot + y_dot @ y_dot * y, u, rtol=0, atol=1e-6)  # h² and eps/h
         bob = rates.x_ddot + l * rates.y_ddot
         np.testing.assert_allclose(bob, -g * E3 + on_bob / m + (A @ y) * y, rtol=0, atol=1e-8)
@@ -135,7 +136,7 @@ def test_near_upright_the_bob_does_what_its_loop_asks_and_the_rod_what_lemma_2_a
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_the_thrust_axis_follows_its_target_as_stated(share):
     # z̈ = −|ż|² z + u_z with u_z = ω² spring − 2 ζ ω v_e; f = F·z within what the rotors give; yaw is damped.
-    vehicle, reference = _tilted(), lemniscate(0.6, 1.3)
+    vehicle, reference = _tilted(), line((0.1, 0.2, -0.3), (0.6, -0.4, 0.3))
     law = fp.laws.inverted(reference, pump_share=share).bind(vehicle)
     k, rng, h = SimpleNamespace(**law.gains, **law.prepared), np.random.default_rng(3), 1e-5
     force = _rod_force(vehicle, reference, k)
@@ -143,7 +144,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
     wrench = law.evaluate(t, fp.State.symbolic(packed), vehicle, (external[:3], external[3:])).wrench
     function = ca.Function("law", [t, packed, external], [ca.densify(ca.vertcat(wrench.thrust, wrench.moment))])
 
-    low = _numeric(lambda y, y_dot, z: throw.low_rod(throw.Rod(y, y_dot), z, k), (3,), (3,), (3,))
+    low = _numeric(lambda y, y_dot, z: throw.low_rod(throw.Rod(y, y_dot), z, E3, k), (3,), (3,), (3,))
 
     def rod_after(tau, s):
         """The rod after coasting for `tau`, and its rate."""
@@ -172,9 +173,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         assert f == pytest.approx(np.clip(F @ state.z, 0, largest), abs=1e-12)
         seen.add("none" if f == 0 else "some")
 
-        rates = disturbed_motion(
-            state, fp.Wrench(f, np.array(moment)), vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1]
-        )
+        rates = disturbed_motion(state, fp.Wrench(f, np.array(moment)), vehicle, "up", Disturbance(*forces))
         rate = {"x": rates.x_dot, "x_dot": rates.x_ddot, "y": rates.y_dot, "y_dot": rates.y_ddot}
         rate["z"] = state.R @ np.cross(state.omega, E3)
         z_d = target(time, here, forces)
@@ -199,6 +198,70 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
         np.testing.assert_allclose(rates.omega_dot[:2], wanted[:2], rtol=0, atol=close)
         assert rates.omega_dot[2] == pytest.approx(-k.yaw_damping * omega[2], abs=ROUNDOFF)
     assert seen == {"none", "some"}
+
+
+def _bob_path(reference, time):
+    """The bob's position along `reference` at `time` and four derivatives, each (3,)."""
+    t = ca.SX.sym("t")
+    _, path, _ = throw.carrying(reference)(t, VEHICLE, ca.SX.zeros(3))
+    values = [ca.densify(v) for v in (path, *throw.derivatives(path, t, course.DERIVATIVES))]
+    return [np.array(value)[:, 0] for value in ca.Function("path", [t], values)(time)]
+
+
+def _balanced(path, rng):
+    """State, and force (3,) on the quadrotor, of a bob balanced along `path`: position and four derivatives."""
+    p = [ca.SX.sym(f"p{i}", 3) for i in range(course.DERIVATIVES + 1)]
+    ideal, rates = course.motion(p, VEHICLE)
+    motion = ca.Function("motion", p, [ca.densify(v) for v in (ideal.y, ideal.y_dot, ideal.force, rates.z)])
+    y, y_dot, force, axis_dot = (np.array(value)[:, 0] for value in motion(*path))
+    R = _along(force, rng)
+    omega = R.T @ np.cross(R[:, 2], axis_dot)
+    return fp.State(x=path[0] - l * y, x_dot=path[1] - l * y_dot, R=R, omega=omega, y=y, y_dot=y_dot), force
+
+
+def test_the_motion_along_a_path_is_one_of_the_vehicle():
+    """Polynomials of degree four, whose further derivatives are 0."""
+    rng, h = np.random.default_rng(5), 1e-4
+    close = {"rtol": 0, "atol": 1e-5}  # h² by third derivatives
+    for _ in range(20):
+        coefficients = rng.standard_normal((5, 3)) * np.array([1, 2, 2, 1, 0.3])[:, None]
+
+        def balanced(t, coefficients=coefficients):
+            each = [np.polynomial.Polynomial(c) for c in coefficients.T]
+            return _balanced([np.array([(p.deriv(i) if i else p)(t) for p in each]) for i in range(5)], rng)
+
+        (state, force), (later, _), (sooner, _) = (balanced(t) for t in (0.3, 0.3 + h, 0.3 - h))
+        rates = disturbed_motion(state, fp.Wrench(geo.norm(force), np.zeros(3)), VEHICLE, "up")
+        np.testing.assert_allclose((later.x_dot - sooner.x_dot) / (2 * h), rates.x_ddot, **close)
+        np.testing.assert_allclose((later.y - sooner.y) / (2 * h), state.y_dot, **close)
+        np.testing.assert_allclose((later.y_dot - sooner.y_dot) / (2 * h), rates.y_ddot, **close)
+        np.testing.assert_allclose((later.z - sooner.z) / (2 * h), state.R @ np.cross(state.omega, E3), **close)
+
+
+def test_along_its_path_a_balanced_rod_is_no_error_to_the_law(monkeypatch):
+    monkeypatch.setattr(throw, "THRUST_SHARE", 1e3)  # without the limit of thrust, which is soft
+    rng = np.random.default_rng(6)
+    for reference in (lemniscate(0.6, 1.3), circle(1.5, 2.0)):
+        law = fp.laws.inverted(reference).bind(VEHICLE)
+        t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+        asked = law.evaluate(t, fp.State.symbolic(packed), VEHICLE)
+        thrust = ca.Function("thrust", [t, packed], [asked.wrench.thrust])
+        for time in rng.uniform(0, 5, 10):
+            state, force = _balanced(_bob_path(reference, time), rng)
+            assert float(thrust(time, state.packed())) == pytest.approx(geo.norm(force), rel=1e-9)
+
+
+@pytest.mark.parametrize(("speed", "within"), [(3.0, 0.10), (4.0, 0.20)])
+def test_a_circle_is_flown_on_its_line(speed, within):
+    """On rotors that lag, which the law knows, with half of the flight to settle."""
+    reference = circle(1.5, speed / 1.5)
+    law = fp.laws.inverted(reference).bind(VEHICLE)
+    start, _ = _balanced(_bob_path(reference, 0.0), np.random.default_rng(0))
+    run = fp.simulate(VEHICLE, law, start, 12.0, plant="rotors")
+    late = run.t >= 6
+    off = geo.norm(run.x - run.x_ref)[late]
+    assert np.sqrt(np.mean(off**2)) < within / 2
+    assert np.min(run.y[late, 2]) > 0
 
 
 # The parts ---------------------------------------------------------------------------------------------------------
@@ -320,7 +383,7 @@ def test_a_coasted_rod_is_a_rod_turned_on_with_its_speed(seed, time):
 
 
 def test_the_throw_ends_and_the_flip_is_allowed_where_the_gains_say():
-    low = _numeric(lambda y, y_dot, z: throw.low_rod(throw.Rod(y, y_dot), z, GAINS), (3,), (3,), (3,))
+    low = _numeric(lambda y, y_dot, z: throw.low_rod(throw.Rod(y, y_dot), z, E3, GAINS), (3,), (3,), (3,))
     allowed = _numeric(lambda y, h, v: throw.flip_permission(y, h, v, VEHICLE, GAINS), (3,), (), ())
 
     def rod(y_3):

@@ -1,4 +1,4 @@
-"""What docs/laws/inverted.md claims about the law: energy, target, spring, equilibria, clearance."""
+"""What docs/laws/inverted.md and its appendix claim about the law: energy, target, spring, equilibria, clearance."""
 
 import importlib.util
 import re
@@ -16,7 +16,11 @@ from flypend.laws.law import Computer
 from flypend.laws.linearise import linearise
 
 ROOT = Path(__file__).parents[2]
-PAGE = " ".join((ROOT / "docs" / "laws" / "inverted.md").read_text(encoding="utf-8").split())
+PAGE = " ".join(
+    word
+    for name in ("inverted.md", "inverted-appendix.md")
+    for word in (ROOT / "docs" / "laws" / name).read_text(encoding="utf-8").split()
+)
 VEHICLE = fp.vehicle("hehn2011")
 E3 = np.array([0.0, 0.0, 1.0])
 

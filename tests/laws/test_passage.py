@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from flypend.laws.passage import LEVEL_FLOOR, heading, passage_of, steered
+from flypend.laws.passage import LEVEL_FLOOR, STEERING, heading, passage_of, steered
 from flypend.model.mount import clearances
 
 HUB = fp.vehicle("hehn2011").replace(mount="hub")
@@ -28,6 +28,18 @@ def test_yaw_takes_the_nearer_gap_to_the_rod():
     for bearing in np.radians([5, 20, 40, 95, 130, 200]):
         off = (bearing - np.pi / 4 + np.pi / 4) % (np.pi / 2) - np.pi / 4
         assert np.sign(_steered(bearing)[1]) == np.sign(off)  # the rod beyond the gap: turn after it
+
+
+def test_the_yaw_demanded_is_the_slope_of_the_crowding():
+    """A body that yaws forward has the rod at a smaller bearing."""
+    passage = passage_of(HUB)
+
+    def crowding(bearing):
+        return np.sum(((1 + passage.arms @ [np.cos(bearing), np.sin(bearing)]) / 2) ** passage.power)
+
+    for bearing in np.linspace(0.1, 6.2, 9):
+        slope = (crowding(bearing + 1e-5) - crowding(bearing - 1e-5)) / 2e-5
+        assert _steered(bearing)[1] == pytest.approx(STEERING * passage.turning * slope, rel=1e-7, abs=1e-7)
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -23,6 +23,7 @@ from flypend import errors
 from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
+from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
 from flypend.laws.gain import documented
 from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer_of, go_together, scales
 from flypend.laws.law import Law
@@ -46,7 +47,7 @@ from flypend.laws.throw import (
     rod_force,
     steering_force,
 )
-from flypend.model import State, Vehicle, Wrench, disturbed_motion, lie_derivative
+from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion, lie_derivative
 
 # ε in the thrust axis's target F + ε (M+m) g e₃, which points along e₃ where the desired force F vanishes (free fall).
 AXIS_LIFT = 0.028
@@ -159,21 +160,24 @@ def inverted_control(
     `forces` are the estimated external forces on vehicle and bob, each (3, 1), N; `path` is the path of pivot and bob.
     """
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
-    v_ref, a_ref, jerk_ref = derivatives(p_ref, t, 3)
+    p = [ca.densify(value) for value in (p_ref, *derivatives(p_ref, t, DERIVATIVES))]
+    ideal = motion(p, vehicle) if ca.depends_on(p[2], t) else None
 
-    def bob_at(rod: Rod) -> Bob:
-        return Bob(state.x + vehicle.l * rod.y - p_ref, state.x_dot + vehicle.l * rod.y_dot - v_ref, a_ref, jerk_ref)
+    def bob_at(rod: Rod, course: Course) -> Bob:
+        return course.bob(state.x, state.x_dot, rod, vehicle.l)
 
-    def force(rod: Rod, pose: Pose) -> Any:
-        return rod_force(bob_at(rod), rod, pose, forces, vehicle, k)
+    def force(rod: Rod, course: Course, pose: Pose) -> Any:
+        return course.force + rod_force(bob_at(rod, course), rod, pose, forces, vehicle, k)
 
     # The thrust axis serves the rod after it has coasted for the time that the axis takes to turn. So does the thrust
     # of a vehicle that flips its rod; that of one that pumps serves the rod as it is.
     rod = Rod(state.y, state.y_dot)
-    ahead, nearer = coasted(rod, k.coast_time), coasted(rod, (1 - k.pump_share) * k.coast_time)
-    low, steering, height = low_rod(ahead, state.z, k), FREE, state.x[2] - x_ref[2]
+    times = k.coast_time, (1 - k.pump_share) * k.coast_time
+    ahead, nearer = (coasted(rod, time) for time in times)
+    path_ahead, path_nearer = (HELD.compared(time, vehicle) if ideal else resting(p) for time in times)
+    low, steering, height = low_rod(ahead, state.z, path_ahead.up, k), FREE, state.x[2] - x_ref[2]
     if k.mounting.passage is not None:
-        caught = force(ahead, Pose(0, height, E1, 1))
+        caught = force(ahead, path_ahead, Pose(0, height, E1, 1))
         caught = scale(1 / smooth_norm(caught, AXIS_FLOOR * vehicle.weight), caught)
         steering = steered(state, heading(state, ahead.y, caught, k.coast_time), k.mounting.passage)
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
@@ -183,33 +187,40 @@ def inverted_control(
     fast_spin = ca.fmax(inertia[0, 0], inertia[1, 1]) / inertia[2, 2] * ca.sqrt(authority)
     calm = 1 - smooth_step(((state.omega[2] / fast_spin) ** 2 - 1) / (SPUN**2 - 1))
     pose = Pose(low, height, steering.aside, clear)
-    present = force(nearer, pose._replace(low=low_rod(nearer, state.z, k)))
+    present = force(nearer, path_nearer, pose._replace(low=low_rod(nearer, state.z, path_nearer.up, k)))
     f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
-    rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=forces[0], force_on_bob=forces[1])
+    rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(*forces))
 
     def axis(turned: Any) -> Any:
-        return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * E3
+        return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)
 
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
-        bob = bob_at(ahead)
+        bob = bob_at(ahead, path_ahead)
         wish = demand(bob, ahead, low, forces[1], vehicle, k)
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
-        wanted = axis(steering_force(held, bob.v[2], ahead, pose, forces, vehicle, k))
+        wanted = axis(path_ahead.force + steering_force(held, bob.v[2], ahead, pose, forces, vehicle, k))
         turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))
         wanted_dot = lie_derivative(wanted, state, rates, t) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
+        if ideal:
+            wanted_dot += along(wanted, ideal[1])
         wanted, wanted_dot = ca.substitute([wanted, ca.densify(wanted_dot)], list(held), list(wish))
     else:
-        wanted = axis(force(ahead, pose))
+        wanted = axis(force(ahead, path_ahead, pose))
         wanted_dot = lie_derivative(wanted, state, rates, t)
+        if ideal:
+            wanted_dot += along(wanted, ideal[1])
     f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
     # From here on in the body frame, where z = e₃ and half of what follows is zero. ż_d is known up to a component
     # along z_d, which the transport map of Lemma 2 annihilates.
     z_d, z_d_dot = (apply(state.R.T, scale(per_length, v)) for v in (wanted, wanted_dot))
     z_dot = cross(state.omega, E3)
-    v_e = velocity_error(E3, z_dot, z_d, k.rate_feedforward * z_d_dot)
+    fed = k.rate_feedforward * z_d_dot
+    if ideal:
+        fed = fed + (1 - k.rate_feedforward) * apply(state.R.T, ideal[1].z)
+    v_e = velocity_error(E3, z_dot, z_d, fed)
     # Length 2 sin(θ/2), with θ the angle between z and z_d, up to near the antipode θ = π, where it drops to 0.
     spring = scale(1 / ca.sqrt((1 + z_d[2]) / 2 + ANTIPODE_FLOOR), tangent_part(E3, z_d))
     spring = spring + ANTIPODE_PUSH * ((1 - z_d[2]) / 2) ** 4 * E1
@@ -223,5 +234,7 @@ def inverted_control(
     # What is left of the rotors' lag turns a spinning body on before they act.
     yaw = steering.yaw - k.yaw_damping * state.omega[2]
     moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.mounting.lag_left * state.omega[2], compensated=calm)
+    if ideal:
+        f, moment, z_d = ca.substitute([f, moment, z_d], list(HELD), list(ideal[0]))
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}
     return Control(wrench=Wrench(f, moment), signals=signals)

@@ -85,15 +85,6 @@ def carrying(reference: Reference) -> Path:
     return path
 
 
-def bob_reference(t: Any, reference: Reference, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any, Any, Any]:
-    """Return the bob's position, its first three derivatives, and the rod, with the pivot at `reference`(`t`).
-
-    `on_bob` is the external force F_b on the bob of `vehicle`, N. See `carrying`.
-    """
-    _, position, y = carrying(reference)(t, vehicle, on_bob)
-    return position, *derivatives(position, t, 3), y
-
-
 def derivatives(value: Any, t: Any, count: int) -> list[Any]:
     """Return the first `count` derivatives of the expression `value` with respect to the symbol `t`."""
     out = []
@@ -130,16 +121,17 @@ def flip_permission(y: Any, height: Any, climb: Any, vehicle: Vehicle, k: Any) -
     return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / width)
 
 
-def low_rod(rod: Rod, z: Any, k: Any) -> Any:
-    """Return 1 where the `rod` is too low to be caught, and exactly 0 near upright, to leave the equilibrium alone.
+def low_rod(rod: Rod, z: Any, up: Any, k: Any) -> Any:
+    """Return 1 where the `rod` is too low to be caught, and exactly 0 near `up`, to leave the equilibrium alone.
 
-    What counts is the lean 1 − y₃ after coasting for a while, plus z·P_y e₃: a thrust axis on the side to which the rod
-    leans is half way to catching it. With `mounting.side`, also on which side of the rotor plane the rod is.
+    `up` is the direction of a rod that is balanced along the reference, e₃ if that does not accelerate. What counts is
+    the lean 1 − y·up after coasting for a while, plus z·P_y up: a thrust axis on the side to which the rod leans is
+    half way to catching it. With `mounting.side`, also on which side of the rotor plane the rod is.
     """
     y = rod.y
     ahead = coasted(rod, k.catch_time).y
-    along = dot(y, z)
-    lean = 1 - ahead[2] + k.catch_by_axis * (z[2] - y[2] * along) - k.mounting.side * along * (1 - y[2])
+    along, high = dot(y, z), dot(y, up)
+    lean = 1 - dot(ahead, up) + k.catch_by_axis * (dot(z, up) - high * along) - k.mounting.side * along * (1 - high)
     return smooth_step((lean - k.catch_within) / k.catch_width)
 
 

@@ -67,6 +67,7 @@ def test_each_run_of_an_ensemble_has_rotors_of_its_own():
     forces = np.random.default_rng(1).uniform(0, 3, (3, 4))
     times = np.linspace(0, 0.5, 11)
     law, plant = fp.laws.almost_global_lag(), fp.Ideal(lag=True, rotors=forces)
+    assert plant in {fp.Ideal(lag=True, rotors=forces.tolist())}  # equal, and hashable as every plant
     flown = fp.simulate_ensemble(HEHN, law, starts, 0.5, plant=plant, times=times)
     np.testing.assert_allclose(flown.wrenches[:, 0] @ HEHN.unmixing().T, forces, atol=1e-12)
     for i in range(3):

@@ -18,24 +18,27 @@ from flypend.cli.terminal import bold, console, counter
 )  # fmt: skip
 @click.option("--seed", type=click.IntRange(min=0), default=7, help="Seed of the random starts.")
 @click.option("--basin", is_flag=True, help="Count the random starts that end in the certified set, within limits.")
+@click.option("--lag", is_flag=True, help="With --basin: rotors that lag.")
 @vehicle_option
 @style_option
 @click.pass_context
-def theorem(context: click.Context, out: Path, runs: int, seed: int, basin: bool, vehicle: str, style: str) -> None:
-    """Fly both theorems and check every claim: Theorem 1 repaired, and the inverted pendulum.
+def theorem(
+    context: click.Context, out: Path, runs: int, seed: int, basin: bool, lag: bool, vehicle: str, style: str
+) -> None:
+    """Fly the laws of Theorems A and B and check every claim: Theorem 1 repaired, and the inverted pendulum.
 
     Writes V(t) with its terms, the regions of attraction with their exceptional sets, report.md and report.json.
     Printed, corrected and other laws that lack a part of the proof fly beside them as negative controls.
 
-    With --basin, measures the basin of the inverted law followed by Theorem B's, on --vehicle with rotor limits and
-    without lag, and writes basin.json.
+    With --basin, measures the basin of the inverted law followed by Theorem B's, on --vehicle with rotor limits, and
+    writes basin.json. With --lag, its rotors lag, and Theorem D's law follows.
     """
     if basin:
         refuse_idle("style", why="with --basin, which draws nothing")
         given = context.get_parameter_source("runs") is click.core.ParameterSource.COMMANDLINE
-        _basin(out, runs if given else 100_000, seed, vehicle)
+        _basin(out, runs if given else 100_000, seed, vehicle, lag)
         return
-    refuse_idle("vehicle", why="without --basin")
+    refuse_idle("vehicle", "lag", why="without --basin")
     from flypend.report.text import summary_table
     from flypend.report.theorem import check_theorems, descent_table
 
@@ -47,15 +50,16 @@ def theorem(context: click.Context, out: Path, runs: int, seed: int, basin: bool
     console.print(f"Report and figures are in {bold(out)}; docs/laws/theorem-proof.md has the proofs.")
 
 
-def _basin(out: Path, runs: int, seed: int, vehicle: str) -> None:
+def _basin(out: Path, runs: int, seed: int, vehicle: str, lag: bool) -> None:
     from flypend import model
     from flypend.files.staging import staged
     from flypend.studies.basin import measure_basin
 
     with staged(out) as folder, counter() as tell:
-        found = measure_basin(model.vehicle(vehicle), runs, seed, progress=tell)
+        found = measure_basin(model.vehicle(vehicle), runs, seed, lag=lag, progress=tell)
         found.save(folder / "basin.json")
-    console.print(f"{found.vehicle}, {found.law} law, rotor limits, no lag; certified set V ≤ {found.c:.3g} m²/s²")
+    delayed = "lag" if lag else "no lag"
+    console.print(f"{found.vehicle}, {found.law} law, rotor limits, {delayed}; certified set V ≤ {found.c:.3g} m²/s²")
     last = "" if found.slowest is None else f", the last after {found.slowest:g} s"
     console.print(f"{found.entered} of {found.runs} random starts enter it{last}.")
     console.print(f"At 95 %, at least {100 * found.least:.5f} % of such starts do. Numbers are in {bold(out)}.")

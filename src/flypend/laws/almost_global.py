@@ -76,11 +76,12 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
         path=carrying(followed),
         prepare=demand_stays_upward,
         theorem=theorem_b,
-        certify=_certified,
+        certify=certified,
     )
 
 
-def _certified(law: BoundLaw) -> CertifiedSet:
+def certified(law: BoundLaw) -> CertifiedSet:
+    """Return the largest set that is proved for the bound `law`."""
     from flypend.laws.certified import certified_set  # it reads this law another way
 
     return certified_set(law)

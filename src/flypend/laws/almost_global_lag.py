@@ -13,7 +13,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar
 from flypend.laws import almost_global_gains
-from flypend.laws.almost_global import OUTSIDE, almost_global_control
+from flypend.laws.almost_global import OUTSIDE, almost_global_control, certified
 from flypend.laws.almost_global_bounds import theorem_d
 from flypend.laws.bound import Control
 from flypend.laws.gain import documented, table
@@ -70,6 +70,7 @@ def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law
         path=carrying(followed),
         prepare=_prepare,
         theorem=theorem_d,
+        certify=certified,
     )
 
 

@@ -265,7 +265,7 @@ class BoundLaw:
         return replace(control, wrench=wrench) if isinstance(control, Control) else Control(wrench=wrench)
 
     def tried(self) -> BoundLaw:
-        """Return the law itself. Raises LawError if its equations fail, or answer no finite wrench in random states."""
+        """Return the law itself. Raises LawError if its equations fail, or return no finite wrench in random states."""
         t, packed, w = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("w", 4)
         acting = Wrench(w[0], w[1:]) if self.uses_wrench else None
         control = self.evaluate(t, State.symbolic(packed), self.vehicle, acting=acting)

@@ -1,8 +1,9 @@
 """Check a certificate of Theorem C in ball arithmetic: `python -m flypend.laws.certificate FILE`.
 
 The file says: for every state with V ≤ c and |ω₃| ≤ w, at any heading, the law asks each rotor for a force within its
-limits. This module imports nothing of flypend. It evaluates the law's program on Taylor models of degree 2 over the
-unit ball, which contains {V ≤ c} in the coordinates of the chart lemma (docs/laws/theorem-proof.md, section 8):
+limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. This module
+imports nothing of flypend. It evaluates the law's program on Taylor models of degree 2 over the unit ball, which
+contains {V ≤ c} in the coordinates of the chart lemma (docs/laws/theorem-proof.md, section 8):
 
     value = a + l·x + x·Qx + r,   |x| ≤ 1,   ξ = diag(radii) x
 
@@ -19,7 +20,6 @@ from typing import Any
 
 from flint import arb, arb_mat
 
-SIZE = 14
 FORMAT = "flypend certificate 1"
 ZERO = arb(0)
 
@@ -148,18 +148,24 @@ def radii(k: Any, c: Any) -> list[Any]:
             raise NotProvedError(f"{name} is not in (0, 1]")
     level, upright = spring("position_stiffness", "position_reach"), spring("height_stiffness", "height_reach")
     weights = [level, level, upright, *[arb(1)] * 3, *[rod] * 2, *[k["rod_weight"]] * 2, *[axis] * 2]
-    return [up((2 * c / weight).sqrt()) for weight in (*weights, *[k["axis_weight"]] * 2)]
+    weights += [k["axis_weight"]] * 2
+    if "rotor_lag" in k:
+        for name in ("rotor_lag", "wrench_damping", "yaw_damping"):
+            if not k[name] > 0:
+                raise NotProvedError(f"{name} is not positive")
+        weights += [k["thrust_weight"], *[k["moment_weight"]] * 2]
+    return [up((2 * c / weight).sqrt()) for weight in weights]
 
 
-def evaluated(certificate: Any, c: Any) -> list[Taylor]:
-    """Return the outputs of the program on {V ≤ c}: f, u (3) and ż (3)."""
+def evaluated(certificate: Any, c: Any) -> tuple[list[list[Taylor]], list[Taylor]]:
+    """Return (f, u) of each wrench of the program on {V ≤ c}, commanded and then acting, and ż (3)."""
     numbers = {name: arb(value) for name, value in certificate["numbers"].items()}
     sizes = radii(numbers, c)
 
     def given(vector: int, entry: int) -> Taylor:
         if vector == 1:
             return Taylor(numbers[certificate["parameters"][entry]])
-        return Taylor(ZERO, arb_mat([[sizes[entry] if i == entry else ZERO for i in range(SIZE)]]))
+        return Taylor(ZERO, arb_mat([[size if i == entry else ZERO for i, size in enumerate(sizes)]]))
 
     values: list[Taylor] = []
     for name, arguments, number in certificate["operations"]:
@@ -169,7 +175,10 @@ def evaluated(certificate: Any, c: Any) -> list[Taylor]:
             values.append(Taylor(arb(number)))
         else:
             values.append(OPERATIONS[name](*(values[place] for place in arguments)))
-    return [values[place] for place in certificate["outputs"]]
+    found = [values[place] for place in certificate["outputs"]]
+    if len(found) != (11 if "rotor_lag" in numbers else 7):
+        raise NotProvedError("the program has not the outputs of a law")
+    return [found[i : i + 4] for i in range(0, len(found) - 3, 4)], found[-3:]
 
 
 def _length(vector: list[Taylor], *, moved: bool = True) -> Any:
@@ -178,40 +187,63 @@ def _length(vector: list[Taylor], *, moved: bool = True) -> Any:
     return up(sum((size * size for size in sizes), ZERO).sqrt())
 
 
+def _spins(certificate: Any, c: Any, w: Any, wrenches: Any, turn: Any) -> list[tuple[Any, Any, list[Any]]]:
+    """Return what ω₃, |ω₃| ≤ w, adds to each wrench: bounds on I⁻¹ τ, across and along the axis, and on ω × I ω.
+
+    `turn` bounds |ż| = |(ω₁, ω₂)|. The last includes T d/dt(ω × I ω) in what is commanded through a lag T.
+    """
+    k = {name: arb(value) for name, value in certificate["numbers"].items()}
+    I = [[arb(entry) for entry in row] for row in certificate["inertia"]]
+    J = [[up(I[i][j] - (I[0][0] if i == j else 0)) for j in range(3)] for i in range(3)]  # ω × I ω = ω × J ω
+    yaw, speed = up(k["yaw_damping"]) * w, [turn, turn, w]
+
+    def crossed(one: list[Any], two: list[Any]) -> list[Any]:
+        """Bounds on a × J b, from those on the entries of a and b."""
+        momentum = [sum((J[i][j] * two[j] for j in range(3)), ZERO) for i in range(3)]
+        return [one[i - 2] * momentum[i - 1] + one[i - 1] * momentum[i - 2] for i in range(3)]
+
+    gyroscopic = crossed(speed, speed)
+    if "rotor_lag" not in k:
+        return [(w * turn, yaw, gyroscopic)]
+    T, drift, pushed = up(k["rotor_lag"]), 2 * yaw, _length(wrenches[1][1:])  # |ω̇₃| ≤ k_yaw w + |η_α3|
+    both = 2 * pushed + up((2 * c / k["moment_weight"]).sqrt())  # |u| + |u_a|
+    across = w * turn + T * (w * both + drift * turn + w * w * turn)
+    along = yaw * (up(1 - T * k["yaw_damping"]) + up(1 - T * (k["yaw_damping"] + k["wrench_damping"])))
+    alpha = [pushed + w * turn] * 2 + [drift]
+    growing = [
+        here + T * (one + two)
+        for here, one, two in zip(gyroscopic, crossed(alpha, speed), crossed(speed, alpha), strict=True)
+    ]
+    return [(across, along, growing), (w * turn, drift, gyroscopic)]
+
+
 def force_ranges(certificate: Any, c: Any, w: Any) -> list[tuple[Any, Any]]:
-    """Return bounds on each rotor's force, N, over {V ≤ c, |ω₃| ≤ w} at every heading.
+    """Return bounds on each rotor's force, N, over {V ≤ c, |ω₃| ≤ w} at every heading; first on those commanded.
 
     With h_i = (I U_i)₁₂ and U_i the row of the rotor, its force is U_i0 f + |h_i| k·u + spin, k a unit vector.
     """
-    f, u, z_dot = (lambda out: (out[0], out[1:4], out[4:7]))(evaluated(certificate, c))
-    numbers, none = certificate["numbers"], arb_mat([[ZERO] * SIZE])
+    wrenches, z_dot = evaluated(certificate, c)
+    spins = _spins(certificate, c, w, wrenches, _length(z_dot))
     I = [[arb(entry) for entry in row] for row in certificate["inertia"]]
-    J = [[I[i][j] - (I[0][0] if i == j else 0) for j in range(3)] for i in range(3)]
-    linear_f, linear_u = (none if f.l is None else f.l), [none if t.l is None else t.l for t in u]
-    gram = arb_mat([[(p * q.transpose())[0, 0] for q in linear_u] for p in linear_u])
-    fourth = gram * gram
-    largest = up(up((fourth * fourth).trace()).sqrt().sqrt())  # at least the largest eigenvalue
-    inner = [up((p * linear_f.transpose())[0, 0]) for p in linear_u]
-    mixed = up(sum((size * size for size in inner), ZERO).sqrt())
-    turn = _length(z_dot)  # |(ω₁, ω₂)| = |ż|
-    speed = [turn, turn, w]
-    momentum = [sum((up(J[i][j]) * speed[j] for j in range(3)), ZERO) for i in range(3)]
-    gyroscopic = [
-        speed[(i + 1) % 3] * momentum[(i + 2) % 3] + speed[(i + 2) % 3] * momentum[(i + 1) % 3] for i in range(3)
-    ]
-
     out = []
-    for row in certificate["unmixing"]:
-        U = [arb(entry) for entry in row]
-        IU = [sum((I[i][j] * U[1 + j] for j in range(3)), ZERO) for i in range(3)]
-        h = up((IU[0] * IU[0] + IU[1] * IU[1]).sqrt())
-        share = up(U[0])
-        linear = up((share * share * f.norms[0] * f.norms[0] + 2 * share * h * mixed + h * h * largest).sqrt())
-        rest = share * (f.norms[1] + f.r) + h * _length(u, moved=False)
-        spin = h * w * turn + up(IU[2]) * up(arb(numbers["yaw_damping"])) * w
-        spin += sum((up(U[1 + j]) * gyroscopic[j] for j in range(3)), ZERO)
-        spread = up(linear + rest + spin)
-        out.append((U[0] * f.a - spread, U[0] * f.a + spread))
+    for (f, *u), (across, along, gyroscopic) in zip(wrenches, spins, strict=True):
+        none = arb_mat([[ZERO] * (14 if len(wrenches) == 1 else 17)])
+        linear_f, linear_u = (none if f.l is None else f.l), [none if t.l is None else t.l for t in u]
+        gram = arb_mat([[(p * q.transpose())[0, 0] for q in linear_u] for p in linear_u])
+        fourth = gram * gram
+        largest = up(up((fourth * fourth).trace()).sqrt().sqrt())  # at least the largest eigenvalue
+        inner = [up((p * linear_f.transpose())[0, 0]) for p in linear_u]
+        mixed = up(sum((size * size for size in inner), ZERO).sqrt())
+        for row in certificate["unmixing"]:
+            U = [arb(entry) for entry in row]
+            IU = [sum((I[i][j] * U[1 + j] for j in range(3)), ZERO) for i in range(3)]
+            h = up((IU[0] * IU[0] + IU[1] * IU[1]).sqrt())
+            share = up(U[0])
+            linear = up((share * share * f.norms[0] * f.norms[0] + 2 * share * h * mixed + h * h * largest).sqrt())
+            rest = share * (f.norms[1] + f.r) + h * _length(u, moved=False)
+            spin = h * across + up(IU[2]) * along + sum((up(U[1 + j]) * gyroscopic[j] for j in range(3)), ZERO)
+            spread = up(linear + rest + spin)
+            out.append((U[0] * f.a - spread, U[0] * f.a + spread))
     return out
 
 
@@ -227,10 +259,12 @@ def check(certificate: Any) -> str:
         ranges = force_ranges(certificate, c, w)
     except NotProvedError as reason:
         return str(reason)
+    rotors = len(certificate["unmixing"])
     for i, (least, most) in enumerate(ranges):
         if not (least >= low and most <= high):
             found = f"{float(least.mid()):.4g} to {float(most.mid()):.4g} N"
-            return f"rotor {i} may be asked for {found}, outside {float(low):g} to {float(high):g} N"
+            verb = "be asked for" if i < rotors else "give"
+            return f"rotor {i % rotors} may {verb} {found}, outside {float(low):g} to {float(high):g} N"
     return ""
 
 

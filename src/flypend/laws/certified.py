@@ -1,4 +1,4 @@
-"""Theorem C: the largest set {V ≤ c, |ω₃| ≤ w} on which Theorem B's law keeps every rotor within its limits."""
+"""Theorem C: the largest set {V ≤ c, |ω₃| ≤ w} on which the law of Theorem B or D keeps every rotor in its limits."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -17,13 +18,16 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
-from flypend.geometry import E3, cross
+from flypend.geometry import E3, Numbers, Scalar, apply, cross
 from flypend.laws.almost_global_bounds import stands
+from flypend.laws.almost_global_gains import COMPUTER
 from flypend.laws.bound import BoundLaw
-from flypend.laws.chart import SIZE, law_at
-from flypend.laws.closed_loop import lyapunov_function, symbolic_loop
+from flypend.laws.chart import LAGGED, SIZE, law_at
+from flypend.laws.closed_loop import COMMANDS, WRENCH, symbolic_loop, wrench_in
 from flypend.laws.guarantee import unmodelled
-from flypend.model import State
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.dynamics import gyroscopic_moment
+from flypend.model.state import SIZE as PACKED
 
 BODY = ("M", "m", "l", "g")
 # The yaw rate takes this share of the room between hover and the limits, and is at most 1 rad/s.
@@ -39,7 +43,9 @@ class CertifiedSet:
     """A set of states that the law does not leave, and in which it asks no rotor for more or less than it can give.
 
     It is {V ≤ c, |ω₃| ≤ w}, at every heading. The law is `almost_global` about a reference at rest, without lag; every
-    flight that begins in the set converges, limits or not (Theorem C, docs/laws/theorem-proof.md).
+    flight that begins in the set converges, limits or not (Theorem C, docs/laws/theorem-proof.md). For
+    `almost_global_lag` it is a set of states and rotor forces: V is V', |η_α3| ≤ k_yaw w, and every rotor gives a
+    force within its limits, too.
 
     Parameters
     ----------
@@ -50,7 +56,8 @@ class CertifiedSet:
     extent : dict
         How far it reaches along one error while the others vanish: `bob` and `height` (m, of the bob's position),
         `speed` (m/s, of the bob), `rod` and `axis` (degrees, to their targets), `rod_rate`, `axis_rate` and `yaw_rate`
-        (rad/s, of their errors).
+        (rad/s, of their errors). Through a lag also `thrust` (N) and `acceleration` (rad/s², of the vehicle's
+        rotation): errors of what acts.
     law : BoundLaw
         The law.
     certificate : dict
@@ -68,20 +75,62 @@ class CertifiedSet:
         sizes = ", ".join(f"{name} {value:.3g}" for name, value in self.extent.items())
         return f"<CertifiedSet of {self.law.name} on {self.law.vehicle.name}: V <= {self.c:.3g}; {sizes}>"
 
-    def contains(self, state: State) -> Any:
-        """Whether `state`, single or a batch, lies in the set: a bool, or an array of them. e₃ is up."""
-        value = lyapunov_function(self.law.vehicle, self.law)
-        assert value is not None
-        packed = np.atleast_2d(state.packed())
-        V = np.array(value(0.0, packed.T, [])).ravel()
-        # V is computed in double precision: a margin far above its roundoff.
-        inside = (self.c * (1 - 1e-9) >= V) & (np.abs(packed[:, 17]) <= self.yaw_rate)
-        return inside.reshape(state.batch_shape) if state.batch_shape else bool(inside[0])
+    def contains(self, state: State, rotors: Any = None) -> Any:
+        """Whether `state`, single or a batch, lies in the set: a bool, or an array of them. e₃ is up.
+
+        `rotors` are the forces of the n rotors, N, (n,) or one row for each state: those of a law through a lag, else
+        None. Raises InputError for others.
+        """
+        # Computed in double precision: a margin far above its roundoff.
+        inside = np.all(self.ratios(state, self._wrench(rotors)) <= 1 - 1e-9, axis=-1)
+        return inside if state.batch_shape else bool(inside)
+
+    def ratios(self, state: State, wrench: Any = None) -> NDArray[np.float64]:
+        """Return V/c and |ω₃|/w, and through a lag |η_α3|/(k_yaw w), (..., 2 or 3): at most 1 in the set.
+
+        `wrench` (4,) or (..., 4) is the one that acts, thrust (N) and moment (N m): that of a law through a lag, else
+        None.
+        """
+        packed = state.packed()
+        if wrench is not None:
+            packed = np.concatenate([packed, np.broadcast_to(wrench, (*packed.shape[:-1], WRENCH))], axis=-1)
+        found: NDArray[np.float64] = np.array(self._ratios(packed.reshape(-1, packed.shape[-1]).T)).T
+        return found.reshape(*packed.shape[:-1], -1)
+
+    def _wrench(self, rotors: Any) -> NDArray[np.float64] | None:
+        vehicle = self.law.vehicle
+        if self.law.uses_wrench:
+            forces = errors.array("rotors", rotors, (len(vehicle.rotor_spins),), batch=True)
+            return np.asarray(forces @ vehicle.mixing().T)
+        if rotors is not None:
+            raise InputError("rotors", "None: without lag their forces are as commanded", "forces")
+        return None
+
+    @cached_property
+    def _ratios(self) -> ca.Function:
+        """`ratios` of packed states, with the wrench that acts through a lag, (24 or 28, n)."""
+        lag, law = self.law.uses_wrench, self.law
+        t, s = ca.SX.sym("t"), ca.SX.sym("s", PACKED + WRENCH * lag)
+        state, acting = State.symbolic(s[:PACKED]), wrench_in(s) if lag else None
+        V = sum(law.evaluate(t, state, law.vehicle, acting=acting).lyapunov.values())
+        found = ratios(V, state, acting, law.vehicle, law.gains["yaw_damping"], self.c, self.yaw_rate)
+        return ca.Function("ratios", [s], [ca.cse(ca.densify(ca.substitute(found, t, 0)))])
 
     def save(self, path: str | Path) -> None:
         """Write the certificate to the file `path`, as JSON; `python -m flypend.laws.certificate` checks it."""
         with whole_file(path, (".json",)) as whole:
             whole.write_text(json.dumps(self.certificate), encoding="utf-8")
+
+
+def ratios(
+    V: Scalar, state: State, acting: Wrench | None, vehicle: Vehicle, yaw_damping: Scalar, c: Scalar, w: Scalar
+) -> Numbers:
+    """Return V/c and |ω₃|/w, and |η_α3|/(k_yaw w) of the wrench `acting` through a lag: (2 or 3, 1), in CasADi."""
+    found = [V / c, ca.fabs(state.omega[2]) / w]
+    if acting is not None:
+        alpha = apply(vehicle.I_inv, acting.moment - gyroscopic_moment(vehicle.I, state.omega))
+        found.append(ca.fabs(alpha[2] / yaw_damping + state.omega[2]) / w)
+    return ca.vertcat(*found)
 
 
 def certified_set(law: BoundLaw) -> CertifiedSet:
@@ -115,16 +164,17 @@ def certified_set(law: BoundLaw) -> CertifiedSet:
 def statement(law: BoundLaw) -> dict[str, Any]:
     """Return a certificate for `law` without its c: numbers, limits, and the program of the law in the chart."""
     vehicle = law.vehicle
-    gains = {name: value for name, value in law.numbers.items() if name not in ("lead", "latency", "delay_reach")}
+    gains = {name: value for name, value in law.numbers.items() if name not in COMPUTER}
     numbers = {**{name: float(getattr(vehicle, name)) for name in BODY}, **gains}
-    law_alone = chart_function(tuple(numbers)).slice("law", [0, 1], [0]).expand()
-    operations, outputs = _program(law_alone)
+    if law.uses_wrench:
+        numbers["rotor_lag"] = vehicle.rotor_lag
+    operations, outputs = _program(tuple(numbers))
     unmixing, limits = vehicle.unmixing(), [float(limit) for limit in vehicle.rotor_limits]
     hover = unmixing[:, 0] * vehicle.weight
     room = float(min(np.min(hover - limits[0]), np.min(limits[1] - hover)))
     if room <= 0:
         raise InputError("vehicle.rotor_limits", "forces beyond those of hover, both ways", limits)
-    costs = numbers["yaw_damping"] * np.max(np.abs(unmixing[:, 1:] @ vehicle.I[:, 2]))
+    costs = float(numbers["yaw_damping"] * np.max(np.abs(unmixing[:, 1:] @ vehicle.I[:, 2])))
     return {
         "format": "flypend certificate 1", "law": law.name, "vehicle": vehicle.name, "numbers": numbers,
         "parameters": list(numbers), "inertia": np.array(vehicle.I).tolist(), "unmixing": unmixing.tolist(),
@@ -133,14 +183,20 @@ def statement(law: BoundLaw) -> dict[str, Any]:
     }  # fmt: skip
 
 
+@lru_cache(maxsize=8)
 def chart_function(names: tuple[str, ...]) -> ca.Function:
-    """Return (ξ (14,), numbers) → f, u and ż (7,), and p − p_ref, v, y, ẏ and z (15,), of the law in the chart."""
-    xi, values = ca.SX.sym("xi", SIZE), ca.SX.sym("k", len(names))
+    """Return (ξ, numbers) → f and u of each wrench and ż, and p − p_ref, v, y, ẏ and z (15,), of the law in the chart.
+
+    The law is the one through a lag if "rotor_lag" is among the `names` of the numbers.
+    """
+    values = ca.SX.sym("k", len(names))
     k = SimpleNamespace(**{name: values[i] for i, name in enumerate(names)})
-    found = law_at(xi, k, k.M, k.m, k.l, k.g)
+    lag = getattr(k, "rotor_lag", None)
+    xi = ca.SX.sym("xi", SIZE if lag is None else LAGGED)
+    found = law_at(xi, k, k.M, k.m, k.l, k.g, lag)
     return ca.Function(
         "chart", [xi, values],
-        [ca.densify(ca.vertcat(*found[:3])), ca.densify(ca.vertcat(*found[3:]))], {"cse": True},
+        [ca.densify(ca.vertcat(*found.wrenches, found.axis_rate)), ca.densify(ca.vertcat(*found[2:]))], {"cse": True},
     )  # fmt: skip
 
 
@@ -149,8 +205,10 @@ _NAMES = {
 }  # fmt: skip
 
 
-def _program(function: ca.Function) -> tuple[list[Any], list[int]]:
-    """Return the first output of `function` as operations [name, places of arguments, constant], and its places."""
+@lru_cache(maxsize=8)
+def _program(names: tuple[str, ...]) -> tuple[list[Any], list[int]]:
+    """Return the wrenches of the chart as operations [name, places of arguments, constant], and the places of ż too."""
+    function = chart_function(names).slice("law", [0, 1], [0]).expand()
     operations: list[Any] = []
     work: dict[int, int] = {}
     outputs = [0] * function.nnz_out(0)
@@ -190,19 +248,22 @@ def differs(certificate: dict[str, Any], law: BoundLaw) -> str:
     for key in ("law", "vehicle", "numbers", "inertia", "unmixing", "limits"):
         if certificate[key] != own[key]:
             return f"its {key} is not that of the law"
-    value, program = lyapunov_function(law.vehicle, law), chart_function(tuple(own["numbers"]))
-    assert value is not None
-    numbers, rng = list(own["numbers"].values()), np.random.default_rng(0)
-    worst, apart = 0.0, 0.0
-    loop = symbolic_loop(law.vehicle, law)
-    wrench = ca.Function("w", [loop.s], [ca.vertcat(loop.wrench.thrust, loop.wrench.moment)])
+    program, numbers = chart_function(tuple(own["numbers"])), list(own["numbers"].values())
+    worst, apart, rng = 0.0, 0.0, np.random.default_rng(0)
+    loop = symbolic_loop(law.vehicle, law, lag=law.uses_wrench)
+    command = [loop.signals[name] for name in COMMANDS] if law.uses_wrench else [loop.wrench.thrust, loop.wrench.moment]
+    wrench = ca.Function("w", [loop.s], [ca.vertcat(*command)])
     for _ in range(POINTS):
-        xi = rng.uniform(-REACH, REACH, SIZE)
+        xi = rng.uniform(-REACH, REACH, program.size1_in(0))
         asked = _run(certificate, xi, numbers)
         fresh, place = (np.array(part).ravel() for part in program(xi, numbers))
         worst = max(worst, float(np.max(np.abs(asked - fresh)) / np.max(np.abs(fresh))))
-        state = _state(place, asked[4:7], law)
-        apart = max(apart, _apart(asked, np.array(wrench(state.packed())).ravel(), state, law))
+        state = _state(place, asked[-3:], law)
+        command_here, *acting = _wrenches(asked, state, law)
+        found = np.array(wrench(np.concatenate([state.packed(), *acting]))).ravel()
+        scale = np.linalg.norm(command_here[1:]) + 1e-6 * law.vehicle.weight * law.vehicle.l
+        off = np.abs(command_here - found) / np.array([law.vehicle.weight, scale, scale, scale])
+        apart = max(apart, float(np.max(off)))
     if worst <= SAME and apart <= SAME_LAW:  # false where either is not a number
         return ""
     return f"its program differs from the law by {max(worst, apart):.2g}"
@@ -237,12 +298,16 @@ def _state(place: NDArray[np.float64], z_dot: NDArray[np.float64], law: BoundLaw
     return State(x=x_ref + p + l * (E3 - y), x_dot=v - l * y_dot, R=R, omega=(-flat[1], flat[0], 0.0), y=y, y_dot=y_dot)
 
 
-def _apart(asked: NDArray[np.float64], wrench: NDArray[np.float64], state: State, law: BoundLaw) -> float:
-    """Return the largest relative difference of thrust and moment, from f and u that are `asked`, and the `wrench`."""
-    I, omega = np.array(law.vehicle.I), state.omega
-    moment = I @ cross(E3, state.R.T @ asked[1:4]) + cross(omega, I @ omega)
-    scale = np.linalg.norm(moment) + 1e-6 * law.vehicle.weight * law.vehicle.l
-    return float(max(abs(asked[0] - wrench[0]) / law.vehicle.weight, np.linalg.norm(moment - wrench[1:]) / scale))
+def _wrenches(asked: NDArray[np.float64], state: State, law: BoundLaw) -> list[NDArray[np.float64]]:
+    """Return thrust and moment (4,) of each (f, u) in what the program answers, at a `state` without yaw rate."""
+    I, omega, lag = np.array(law.vehicle.I), state.omega, law.vehicle.rotor_lag
+    gyroscopic = cross(omega, I @ omega)
+    turns = [cross(E3, state.R.T @ u) for u in (asked[1:4], asked[5:8])[: 1 + law.uses_wrench]]
+    if law.uses_wrench:
+        gyroscopic_rate = cross(turns[1], I @ omega) + cross(omega, I @ turns[1])
+        moments = [I @ turns[0] + gyroscopic + lag * gyroscopic_rate, I @ turns[1] + gyroscopic]
+        return [np.append(asked[4 * i], moment) for i, moment in enumerate(moments)]
+    return [np.append(asked[0], I @ turns[0] + gyroscopic)]
 
 
 def _extent(law: BoundLaw, c: float, w: float) -> dict[str, float]:
@@ -269,4 +334,9 @@ def _extent(law: BoundLaw, c: float, w: float) -> dict[str, float]:
         "rod_rate": math.sqrt(2 * c / k.rod_weight),
         "axis_rate": math.sqrt(2 * c / k.axis_weight),
         "yaw_rate": w,
+        **(
+            {"thrust": math.sqrt(2 * c / k.thrust_weight), "acceleration": math.sqrt(2 * c / k.moment_weight)}
+            if law.uses_wrench
+            else {}
+        ),
     }

@@ -9,8 +9,10 @@ c_y = √(1 − |a|²) and e_y = R(d) (−c_y a, |a|²), so they are symbols of 
 
     ċ = e·(φ̇ − ω_d × φ),   ė = ḋ − ċ φ − c φ̇
 
-This is another reading of the law than `almost_global`, equal to it: `certified.differs` compares them. Labels are
-those of docs/laws/theorem-proof.md.
+Through a lag ξ goes on with the errors of what acts: η_f, and h (2) with η_u = R(z) (h, 0).
+
+This is another reading of `almost_global` and `almost_global_lag`, equal to them: `certified.differs` compares them.
+Labels are those of docs/laws/theorem-proof.md.
 """
 
 from __future__ import annotations
@@ -25,14 +27,16 @@ from flypend.laws.almost_global_gains import axis_step, rod_step
 from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.step import Step, share
 
-SIZE = 14
+SIZE, LAGGED = 14, 17  # coordinates without and through a lag
 
 
 class Chart(NamedTuple):
-    """What the law does at ξ: thrust f, N; u and ż (3, 1); and the state p − p_ref, v, y, ẏ, z."""
+    """What the law does at ξ: thrust f, N; u and ż (3, 1); and the state p − p_ref, v, y, ẏ, z.
 
-    thrust: Scalar
-    push: Vector
+    `wrenches` are (f, u), each (4, 1): the one commanded, and through a lag the one that acts.
+    """
+
+    wrenches: tuple[Vector, ...]
     axis_rate: Vector
     bob: Vector
     bob_rate: Vector
@@ -48,15 +52,22 @@ class _Known:
         self.pairs = pairs
 
     def rate(self, expression: Vector) -> Vector:
+        """Return the rate of `expression`."""
         symbols, rates = (ca.vertcat(*column) for column in zip(*self.pairs, strict=True))
         return ca.jtimes(expression, symbols, rates)
 
     def and_(self, *pairs: tuple[Vector, Vector]) -> _Known:
+        """Return these and more."""
         return _Known(*self.pairs, *pairs)
 
 
-def law_at(xi: Vector, k: SimpleNamespace, M: Scalar, m: Scalar, l: Scalar, g: Scalar) -> Chart:
-    """Return the law with the gains `k` about hover at `xi` (14, 1), for masses (kg), rod (m) and gravity (m/s²)."""
+def law_at(
+    xi: Vector, k: SimpleNamespace, M: Scalar, m: Scalar, l: Scalar, g: Scalar, lag: Scalar | None = None
+) -> Chart:
+    """Return the law with the gains `k` about hover at `xi`, for masses (kg), rod (m), gravity (m/s²) and a lag (s).
+
+    `xi` is (14, 1), or through a `lag` (17, 1).
+    """
     p, v, y, y_dot, z, z_dot = (ca.SX.sym(name, 3) for name in ("p", "v", "y", "y_dot", "z", "z_dot"))
     c_y, e_y, zeta_y = ca.SX.sym("c_y"), ca.SX.sym("e_y", 3), ca.SX.sym("zeta_y", 3)
     c, e, zeta = ca.SX.sym("c"), ca.SX.sym("e", 3), ca.SX.sym("zeta", 3)
@@ -89,17 +100,41 @@ def law_at(xi: Vector, k: SimpleNamespace, M: Scalar, m: Scalar, l: Scalar, g: S
     G = scale(dot(y, along_v) / (M + m), y) - rod.weight / (M * l) * zeta_y  # (B8)
     f = N * share(c, axis)  # (B7)
 
-    # The true rates, with f and z in them.
-    v_dot = (f * dot(z, y) - M * l * dot(y_dot, y_dot)) / (M + m) * y - g * E3  # (B0)
-    y_ddot = -dot(y_dot, y_dot) * y - tangent_part(y, f / (M * l) * z)  # (1)
-    bob = _Known((p, v), (v, v_dot))
-    pointing = _pointing(d, y, y_dot, c_y, e_y, bob)
-    turning = bob.and_((y, y_dot), *pointing)
-    true = turning.and_((y_dot, y_ddot), (zeta_y, y_ddot - turning.rate(r_y)))
-    z_d_dot = true.rate(z_d)
-    r = cross(cross(z_d, z_d_dot), z) + _wanted(z, c, e, N, G, axis)
-    whole = true.and_((z, z_dot), *_pointing(z_d, z, z_dot, c, e, true))
+    def moving(v_rate: Vector, y_ddot: Vector, places: float = 1.0) -> tuple[_Known, _Known]:
+        """Return what moves, before and after z_d is known; 0 for `places` holds p, y and z."""
+        bob, y_rate, z_rate = _Known((p, places * v), (v, v_rate)), places * y_dot, places * z_dot
+        turning = bob.and_((y, y_rate), *_pointing(d, y, y_rate, c_y, e_y, bob))
+        true = turning.and_((y_dot, y_ddot), (zeta_y, y_ddot - turning.rate(r_y)))
+        return true, true.and_((z, z_rate), *_pointing(z_d, z, z_rate, c, e, true))
+
+    def pushed(thrust: Scalar) -> tuple[Vector, Vector]:
+        """Return v̇ + g e₃ and ÿ that `thrust` alone gives: (B0) and (1)."""
+        return thrust * dot(z, y) / (M + m) * y, -tangent_part(y, thrust / (M * l) * z)
+
+    def flown(thrust: Scalar) -> tuple[_Known, _Known]:
+        """Return what moves along the true motion under the `thrust` that acts."""
+        forth, round_ = pushed(thrust)
+        spin = dot(y_dot, y_dot)
+        return moving(forth - M * l * spin / (M + m) * y - g * E3, round_ - spin * y)
+
+    true, whole = flown(f)
+    r = cross(cross(z_d, true.rate(z_d)), z) + _wanted(z, c, e, N, G, axis)
     u = _force(z, whole.rate(r), c, e, zeta, axis)
+    wrenches, off_f, off_u = [ca.vertcat(f, u)], ca.SX.sym("eta_f"), ca.SX.sym("eta_u", 3)
+    if lag is not None:
+        f_a, u_a = ca.SX.sym("f_a"), ca.SX.sym("u_a", 3)
+        z_ddot, (_, before) = u_a - dot(z_dot, z_dot) * z, flown(f_a)
+        acted = before.and_((z_dot, z_ddot), (zeta, z_ddot - before.rate(r)))
+        # Γ_f, (D4), is the rate of V while v and ẏ alone move, as one newton moves them.
+        kick = pushed(1.0)
+        _, kicked = moving(*kick, places=0.0)
+        gamma_f = dot(v, kick[0]) + rod.weight * dot(zeta_y, kicked.rate(zeta_y))
+        gamma_f -= axis.weight * dot(zeta, kicked.rate(r))
+        for cosine, step in ((c_y, rod), (c, axis)):
+            gamma_f -= step.weight * step.stiffness * _slope(cosine, step) * kicked.rate(cosine)
+        f_next = acted.rate(f) - k.wrench_damping * off_f - gamma_f / k.thrust_weight
+        u_next = tangent_part(z, acted.rate(u)) - k.wrench_damping * off_u - axis.weight / k.moment_weight * zeta
+        wrenches = [ca.vertcat(f_a + lag * f_next, u_a + lag * u_next), ca.vertcat(f_a, u_a)]  # (D1)
 
     # The chart, from the position inwards.
     own_p = ca.vertcat(xi[0] - k.shear * xi[2], xi[1], xi[2])
@@ -119,7 +154,10 @@ def law_at(xi: Vector, k: SimpleNamespace, M: Scalar, m: Scalar, l: Scalar, g: S
         slack = _turned(own, ca.vertcat(xi[first + 2 : first + 4], 0))
         known += [(phi, own), (cosine, near), (error, _turned(aim, ca.vertcat(-near * tilt, ca.sumsqr(tilt))))]
         known += [(off, slack), (phi_dot, at(rate) + slack)]
-    return Chart(at(f), at(u), at(z_dot), at(p), at(v), at(y), at(y_dot), at(z))
+    if lag is not None:
+        own = ca.vertcat(xi[SIZE], _turned(at(z), ca.vertcat(xi[SIZE + 1 :], 0)))
+        known += [(ca.vertcat(off_f, off_u), own), (ca.vertcat(f_a, u_a), at(ca.vertcat(f, u)) + own)]
+    return Chart(tuple(map(at, wrenches)), at(z_dot), at(p), at(v), at(y), at(y_dot), at(z))
 
 
 def _pointing(

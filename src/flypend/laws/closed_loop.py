@@ -127,10 +127,11 @@ def _output(
 def lyapunov_function(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str] = ()) -> ca.Function | None:
     """Return the CasADi function (t, state (24,), gains) → V of `law`; None for a law that has no V.
 
-    The gains are those named in `parameters`; raises InputError as `symbolic_loop`. The rates, which take most of the
-    time of a closed loop, are not derived.
+    The gains are those named in `parameters`; raises InputError as `symbolic_loop`. For a law that takes the wrench
+    that acts, the state is (28,). The rates, which take most of the time of a closed loop, are not derived.
     """
-    t, s, p, control = _output(vehicle, *_checked(vehicle, law, parameters))
+    bound, names = _checked(vehicle, law, parameters)
+    t, s, p, control = _output(vehicle, bound, names, bound.uses_wrench)
     if not control.lyapunov:
         return None
     return ca.Function("V", [t, s, p], [ca.cse(ca.densify(_lyapunov(control)["V"]))])

@@ -2,7 +2,8 @@
 
 The set S = {V ≤ c, |ω₃| ≤ w} is one that the almost global law does not leave (Theorem C, docs/laws/theorem-proof.md).
 So the state alone decides, without memory: outside S the first law flies, in S the almost global law, for good. A
-flight of the first law that enters S converges.
+flight of the first law that enters S converges. Through rotors that lag S is a set of states and rotor forces, and the
+law in it that of Theorem D.
 """
 
 from __future__ import annotations
@@ -19,42 +20,53 @@ from flypend.errors import InputError
 from flypend.geometry import Scalar, Vector
 from flypend.laws.almost_global import almost_global
 from flypend.laws.almost_global_bounds import stands
+from flypend.laws.almost_global_lag import almost_global_lag
 from flypend.laws.bound import Control
+from flypend.laws.certified import ratios
 from flypend.laws.gain import POSITIVE, Gain, documented, table
 from flypend.laws.inverted import inverted
+from flypend.laws.lag import LEAD, led
 from flypend.laws.law import Law
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
 
 
 @lru_cache(maxsize=64)
-def _certified(vehicle: Vehicle) -> tuple[float, float]:
-    """Return c and w of the certified set of the default almost global law on `vehicle`."""
-    found = almost_global().bind(vehicle).certified_set()
+def _certified(vehicle: Vehicle, lag: bool) -> tuple[float, float]:
+    """Return c and w of the certified set of the default almost global law on `vehicle`, through its `lag` or not."""
+    found = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
     return found.c, found.yaw_rate
 
 
-def _of_certificate(place: int) -> Callable[[Vehicle], float]:
-    return lambda vehicle: _certified(vehicle)[place]
+def _gains(lag: bool) -> Mapping[str, Gain]:
+    def of_certificate(place: int) -> Callable[[Vehicle], float]:
+        return lambda vehicle: _certified(vehicle, lag)[place]
+
+    return table(
+        (
+            Gain(
+                "level", of_certificate(0), "m²/s²", "Largest V at which the almost global law flies", POSITIVE,
+                label="c",
+            ),
+            Gain("yaw_rate", of_certificate(1), "rad/s", "Largest |ω₃| at which it flies", POSITIVE, label="w"),
+            *([LEAD] if lag else []),
+        )
+    )  # fmt: skip
 
 
-GAINS = table(
-    (
-        Gain(
-            "level", _of_certificate(0), "m²/s²", "Largest V at which the almost global law flies", POSITIVE, label="c"
-        ),
-        Gain("yaw_rate", _of_certificate(1), "rad/s", "Largest |ω₃| at which it flies", POSITIVE, label="w"),
-    )
-)
+GAINS, LAGGED_GAINS = _gains(lag=False), _gains(lag=True)
 
 
 @errors.named_arguments
 @documented(GAINS)
-def supervised(reference: Reference | None = None, *, first: Law | None = None, **gains: float) -> Law:
+def supervised(
+    reference: Reference | None = None, *, first: Law | None = None, lag: bool = False, **gains: float
+) -> Law:
     """Build the law that flies `first` until the state is in a certified set of `almost_global`, and that law there.
 
-    On a plant with rotor limits and without lag, a flight that enters the set converges: there the limits never act.
-    With lag nothing is proved. `flypend.Ideal(limits=True)` is that plant.
+    On a plant with rotor limits, a flight that enters the set converges: there the limits never act. Without `lag` the
+    plant is `flypend.Ideal(limits=True)`, and with it `flypend.Ideal(limits=True, lag=True)`; what is sampled is not
+    covered.
 
     Parameters
     ----------
@@ -63,8 +75,11 @@ def supervised(reference: Reference | None = None, *, first: Law | None = None, 
         See `laws.references`.
     first : Law, optional
         A law with e₃ up; default `inverted` about the reference. Its flight computer flies both.
+    lag : bool
+        Whether rotors lag. The second law is then `almost_global_lag`, its set one of states and rotor forces, and the
+        first commands with a `lead`, another gain: see `laws.lag.led`.
     **gains : float
-        Any of the gains below, in the stated unit. Their defaults are the `certified_set` of `almost_global` on the
+        Any of the gains below, in the stated unit. Their defaults are the `certified_set` of the second law on the
         vehicle, which takes seconds and the extra "proof".
 
     {gains}
@@ -75,20 +90,23 @@ def supervised(reference: Reference | None = None, *, first: Law | None = None, 
         If a gain is unknown or out of bounds, or `first` has e₃ down or flies only where the wrench is known; and from
         `bind`, as in either law and `certified_set`.
     """
+    errors.check_kind("lag", lag, bool)
     before = first or inverted(reference)
     if before.e3 != "up" or before.uses_wrench:
         raise InputError("first", "a law with e3 up that does not take the wrench", before.name)
     followed = reference or before.reference or hover()
+    second = almost_global_lag(followed) if lag else almost_global(followed)
     return Law(
         name="supervised",
         e3="up",
-        gains=GAINS,
+        gains=LAGGED_GAINS if lag else GAINS,
         given=gains,
         control=_control,
         computer=lambda known: known["first"].computer,
         uses_forces=before.uses_forces,
+        uses_wrench=lag,
         reference=followed,
-        prepare=partial(_both, before, almost_global(followed)),
+        prepare=partial(_both, before, second),
     )
 
 
@@ -99,12 +117,22 @@ def _both(first: Law, second: Law, vehicle: Vehicle, gains: Mapping[str, Any]) -
     return {"first": first.bind(vehicle), "second": second.bind(vehicle)}
 
 
-def _control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *forces: tuple[Vector, Vector]) -> Control:
+def _control(
+    t: Scalar,
+    state: State,
+    vehicle: Vehicle,
+    k: SimpleNamespace,
+    *forces: tuple[Vector, Vector],
+    acting: Wrench | None = None,
+) -> Control:
     """Evaluate both laws for symbols `t` (s) and `state`; `forces` (3, 1), N, on vehicle and bob go to the first."""
     first = k.first.evaluate(t, state, vehicle, *forces).wrench
-    second = k.second.evaluate(t, state, vehicle)
+    if acting is not None:
+        first = led(first, acting, k.lead)
+    second = k.second.evaluate(t, state, vehicle, acting=acting)
     V = sum(second.lyapunov.values())
-    inside = ca.logic_and(k.level >= V, ca.fabs(state.omega[2]) <= k.yaw_rate)  # false where V is not a number
+    found = ratios(V, state, acting, vehicle, k.second.gains["yaw_damping"], k.level, k.yaw_rate)
+    inside = ca.mmax(found) <= 1  # false where V is not a number
     return Control(
         wrench=Wrench(
             ca.if_else(inside, second.wrench.thrust, first.thrust),

@@ -51,7 +51,7 @@ def judged(
 def check_theorems(
     out: str | Path, *, runs: int, seed: int, style: str = "paper", progress: Progress = lambda *_: None
 ) -> Proof:
-    """Fly both theorems and their negative controls; write figures, report.md and report.json into the folder `out`.
+    """Fly the laws of Theorems A and B and negative controls; write figures, report.md and report.json into `out`.
 
     Parameters
     ----------

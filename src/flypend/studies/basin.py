@@ -20,9 +20,9 @@ from flypend.files import whole
 from flypend.flight.criterion import Criterion
 from flypend.flight.ensemble import simulate_ensemble
 from flypend.geometry import Numbers
-from flypend.laws import BoundLaw, Law, almost_global, inverted
+from flypend.laws import BoundLaw, Law, almost_global, almost_global_lag, inverted
 from flypend.laws.certified import CertifiedSet
-from flypend.laws.closed_loop import lyapunov_function
+from flypend.laws.lag import leading
 from flypend.model import State, Vehicle
 from flypend.plants import Ideal
 from flypend.studies.starts import check_starts
@@ -44,6 +44,8 @@ class MeasuredBasin:
     ----------
     vehicle, law : str
         Names of the vehicle and of the law that flies until the set is entered.
+    lag : bool
+        Whether rotors lag.
     c, yaw_rate : float
         The certified set, m²/s² and rad/s.
     runs, seed : int
@@ -60,6 +62,7 @@ class MeasuredBasin:
 
     vehicle: str
     law: str
+    lag: bool
     c: float
     yaw_rate: float
     runs: int
@@ -81,6 +84,7 @@ def measure_basin(
     seed: int,
     *,
     first: Law | None = None,
+    lag: bool = False,
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> MeasuredBasin:
     """Fly `runs` random starts within the rotor limits of `vehicle` until they are in the certified set.
@@ -93,6 +97,8 @@ def measure_basin(
         Number of starts, and their seed.
     first : Law, optional
         A law with e₃ up; default `inverted`.
+    lag : bool
+        Whether rotors lag, by the vehicle's `rotor_lag`. They begin at their minimum.
     progress : callable
         Called with (task, done, total).
 
@@ -106,10 +112,12 @@ def measure_basin(
     from scipy.stats import beta  # slow to import
 
     check_starts(runs, seed)
-    law = (first or inverted()).bind(vehicle)
-    errors.one_of("first.e3", law.e3, ("up",))
+    errors.check_kind("lag", lag, bool)
+    before = first or inverted()
+    errors.one_of("first.e3", before.e3, ("up",))
+    law = (leading(before) if lag else before).bind(vehicle)
     progress("proving the certified set", 0, 1)
-    certified = almost_global().bind(vehicle).certified_set()
+    certified = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
     times, again = [], 0
     for begin in range(0, runs, CHUNK):
         progress("flying", begin, runs)
@@ -127,7 +135,7 @@ def measure_basin(
     least = float(beta.ppf(1 - CONFIDENCE, entered, runs - entered + 1)) if entered else 0.0
     slowest = float(np.nanmax(entering)) if entered else None
     return MeasuredBasin(
-        vehicle.name, law.name, certified.c, certified.yaw_rate, runs, seed, entered, again, slowest, least
+        vehicle.name, law.name, lag, certified.c, certified.yaw_rate, runs, seed, entered, again, slowest, least
     )
 
 
@@ -135,19 +143,15 @@ def _entering(
     law: BoundLaw, certified: CertifiedSet, starts: State, until: float, loose: float, tight: float
 ) -> Numbers:
     """Return the times (n,), s, at which flights from `starts` (n,) are inside for sure; NaN for none up to `until`."""
-    times = np.arange(TICK, until + TICK / 2, TICK)
-    value = lyapunov_function(certified.law.vehicle, certified.law)
-    assert value is not None
+    times, lag = np.arange(TICK, until + TICK / 2, TICK), law.uses_wrench
     measures = []
     for rtol in (loose, tight):
-        samples = simulate_ensemble(
-            law.vehicle, law, starts, until, plant=Ideal(limits=True), rtol=rtol, times=times, judge_period=until,
-            criterion=Criterion(position=np.inf),
-        ).samples  # fmt: skip
-        assert samples is not None
-        packed = samples.packed()
-        V = np.array(value(0.0, packed.reshape(-1, packed.shape[-1]).T, [])).reshape(packed.shape[:2])
-        measures.append(np.stack([V / certified.c, np.abs(packed[..., 17]) / certified.yaw_rate]))
+        flown = simulate_ensemble(
+            law.vehicle, law, starts, until, plant=Ideal(limits=True, lag=lag), rtol=rtol, times=times,
+            judge_period=until, criterion=Criterion(position=np.inf),
+        )  # fmt: skip
+        assert flown.samples is not None
+        measures.append(certified.ratios(flown.samples, flown.wrenches))
     rough, fine = measures
-    inside = np.all(fine + SAFETY * np.abs(fine - rough) <= 1, axis=0)  # false after a flight's end, which is NaN
+    inside = np.all(fine + SAFETY * np.abs(fine - rough) <= 1, axis=-1)  # false after a flight's end, which is NaN
     return np.where(np.any(inside, axis=1), times[np.argmax(inside, axis=1)], np.nan)

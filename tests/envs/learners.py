@@ -225,3 +225,30 @@ def test_rllib():
     told = algo.train()
     algo.stop()
     assert told["env_runners"]["episode_return_mean"] > 0
+
+
+def test_torch_differentiates_a_flight():
+    """Through three steps in double precision, against differences; a network in single precision gets a gradient."""
+    worlds = flypend.envs.DifferentiableWorlds("balance")
+    begun, seen = map(torch.from_numpy, worlds.begin(range(5)))
+
+    def paid(actions):
+        memory, total = begun, 0
+        for action in actions:
+            memory, _, rewards, ended = worlds.torch(memory, action)
+            assert not ended.any()
+            total = total + rewards.sum()
+        return total
+
+    generator = torch.Generator().manual_seed(0)
+    actions, way = (0.1 * torch.randn(3, 5, 4, dtype=torch.float64, generator=generator) for _ in range(2))
+    actions.requires_grad_(True)
+    (gradient,) = torch.autograd.grad(paid(actions), actions)
+    h = 1e-5
+    with torch.no_grad():
+        difference = (paid(actions + h * way) - paid(actions - h * way)) / (2 * h)
+    assert float((gradient * way).sum()) == pytest.approx(float(difference), rel=1e-6)  # h² of the third derivative
+    policy = torch.nn.Linear(32, 4)
+    paid([policy(seen)]).backward()
+    assert policy.weight.grad.dtype == torch.float32
+    assert bool((policy.weight.grad != 0).any())

@@ -119,8 +119,11 @@ def test_other_processes_are_sent_a_law_of_a_file(here):
         ("no-module:f", "--law: expected a module that can be imported, or a file that ends in .py, got 'no-module'"),
         ("invertd", "--law: expected one of printed, .*got 'invertd' (did you mean 'inverted'?)"),
         (3, "law: expected the name of a law, or a table, got 3"),
-        ({"function": "laws/mine.py"}, "law.function: expected file.py:function or module:function, got "),
-        ({"function": ["x"]}, "law.function: expected file.py:function or module:function, got "),
+        (
+            {"function": "laws/mine.py"},
+            "law.function: expected file.py:function, module:function or a file .onnx, got ",
+        ),
+        ({"function": ["x"]}, "law.function: expected file.py:function, module:function or a file .onnx, got "),
         ({"function": "laws/mine.py:balance", "gains": 3}, "law.gains: expected a table of gains, got 3"),
         ({"function": "laws/mine.py:balance", "gains": {"lif": 1}}, "law.gains.lif: expected one of lift, mode, got"),
         ({"function": "laws/mine.py:balance", "gains": {"lift": "x"}}, "law.gains.lift: expected a finite number, got"),

@@ -24,6 +24,7 @@ require("gymnasium", extra="rl", for_="flypend.envs")
 
 import gymnasium  # noqa: E402
 
+from flypend.envs.differentiable import DifferentiableWorlds  # noqa: E402
 from flypend.envs.make import environment  # noqa: E402
 from flypend.envs.problem import Environment  # noqa: E402
 from flypend.envs.randomise import Randomisation  # noqa: E402
@@ -33,6 +34,7 @@ from flypend.envs.task import Moment, Task, balance, catch_in_cup, swing_up, tra
 from flypend.envs.vector import VectorWorlds  # noqa: E402
 
 __all__ = [
+    "DifferentiableWorlds",
     "Environment",
     "Moment",
     "Randomisation",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import fields
@@ -42,6 +42,21 @@ def compiled(made: WorldsProblem) -> jit.Native:
 def _pool() -> ThreadPoolExecutor:
     """The threads that all worlds of this process share; as many are started as ever work at once."""
     return ThreadPoolExecutor(MOST_THREADS, "flypend-worlds")
+
+
+def shares_of(groups: int, workers: int | None = None) -> list[tuple[int, int]]:
+    """Return the first group and the number of groups of each thread; `workers` is the most threads, default cores."""
+    threads = max(1, min(workers or os.cpu_count() or 1, groups // LEAST_GROUPS))
+    bounds = np.linspace(0, groups, threads + 1).astype(int)
+    return list(zip(bounds[:-1].tolist(), np.diff(bounds).tolist(), strict=True))
+
+
+def in_threads(work: Callable[[int, int], None], shares: Sequence[tuple[int, int]]) -> None:
+    """Call `work(first, count)` for each of the `shares`, all at once."""
+    *others, mine = shares
+    waiting = [_pool().submit(work, *share) for share in others]
+    work(*mine)
+    wait(waiting)
 
 
 if hasattr(os, "register_at_fork"):  # a forked process has none of the threads
@@ -93,9 +108,7 @@ class Worlds:
             "seen": (padded if history else 0, (1 + history) * seen, np.float32),
         }
         self.arrays = {name: _own(np.zeros(shape, kind)) for name, (*shape, kind) in shapes.items()}
-        threads = max(1, min(workers or os.cpu_count() or 1, groups // LEAST_GROUPS))
-        bounds = np.linspace(0, groups, threads + 1).astype(int)
-        self._shares = list(zip(bounds[:-1].tolist(), np.diff(bounds).tolist(), strict=True))
+        self._shares = shares_of(groups, workers)
         parts = {entry.name: repr(getattr(env, entry.name)) for entry in fields(env)}
         self.about = {"version": metadata.version("flypend")} | parts | {
             "task": env.task.name, "vehicle": env.vehicle.name, "worlds": str(count), "history": str(history),
@@ -180,10 +193,7 @@ class Worlds:
             values = given | {"first": first, "count": count}
             self._step(*(values[name] for name in ARGUMENTS))
 
-        *others, mine = self._shares
-        waiting = [_pool().submit(work, *share) for share in others]
-        work(*mine)
-        wait(waiting)
+        in_threads(work, self._shares)
 
     def part(self, name: str, length: int) -> NDArray[np.float64]:
         """Return a copy of a part of the worlds' memories (count, `length`); see `WorldsProblem.places`."""

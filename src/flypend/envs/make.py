@@ -14,7 +14,7 @@ from gymnasium.spaces import Box
 from flypend import errors
 from flypend.compile.llvm.worlds import BOUND
 from flypend.envs import task as tasks
-from flypend.envs.problem import Action, Attitude, Environment
+from flypend.envs.problem import Action, Attitude, Environment, Observe
 from flypend.envs.randomise import Randomisation
 from flypend.envs.task import Task
 from flypend.errors import InputError
@@ -48,6 +48,7 @@ def environment(
     rate: float | None = None,
     action: Action = "rotors",
     attitude: Attitude = "matrix",
+    observe: Observe = "all",
     randomise: Randomisation | Mapping[str, Any] | None = None,
     sensors: Any = None,
     duration: float | None = None,
@@ -63,7 +64,7 @@ def environment(
         Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional
         Replaces the vehicle's mount; the task "catch_in_cup" needs a cup.
-    plant, action, attitude, sensors
+    plant, action, attitude, observe, sensors
         See `flypend.envs.Environment`.
     rate : float, optional
         Actions per second; default that of the task, or 100 Hz.
@@ -93,8 +94,9 @@ def environment(
         made = replace(made, duration=duration)
     ranges = _ranges(chosen["randomise"])
     return Environment(
-        made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, randomise=ranges, sensors=sensors
-    )
+        made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, observe=observe, randomise=ranges,
+        sensors=sensors,
+    )  # fmt: skip
 
 
 def _task(task: str | Task, about: Mapping[str, Any]) -> Task:

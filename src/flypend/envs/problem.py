@@ -17,6 +17,7 @@ from flypend.envs.sensing import Estimates
 from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
 from flypend.flight.kernels.touching import touch_of
+from flypend.laws.seen import moment_action, observed, rotor_action, thrust_action
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop, rotor_forces
@@ -28,6 +29,7 @@ from flypend.plants.sensors import sensors_called
 
 Action = Literal["rotors", "wrench", "rates"]
 Attitude = Literal["matrix", "6d"]
+Observe = Literal["all", "state"]
 MOST_RATE = 12.0  # rad/s, of the action "rates"
 LONGEST = 1e9  # s, of an episode
 
@@ -52,6 +54,9 @@ class Environment:
         the plant's inner loop.
     attitude : "matrix" or "6d"
         How the attitude is observed: all columns of R, or the first two.
+    observe : "all" or "state"
+        What is observed: all that `flypend.envs` lists, or what comes before the rotor forces, which `fp.laws.trained`
+        needs to fly the policy as a law.
     randomise : Randomisation
         What differs from world to world.
     sensors : Sensors, str or dict, optional
@@ -72,12 +77,14 @@ class Environment:
     rate: float = 100.0
     action: Action = "rotors"
     attitude: Attitude = "matrix"
+    observe: Observe = "all"
     randomise: Randomisation = field(default_factory=Randomisation)
     sensors: Any = None
 
     def __post_init__(self) -> None:
         errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
         errors.one_of("attitude", self.attitude, ("matrix", "6d"))
+        errors.one_of("observe", self.observe, ("all", "state"))
         self._check_plant()
         errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
         if abs(self.plant.rate / self.rate - self.steps) > 1e-9:
@@ -117,7 +124,7 @@ class Environment:
 
 def problem(env: Environment) -> WorldsProblem:
     """Return the programs of `env`."""
-    parts = _Parts(env)
+    parts = Parts(env)
     return WorldsProblem(
         begin=lower(parts.begin()),
         command=lower(parts.command()),
@@ -133,7 +140,7 @@ def problem(env: Environment) -> WorldsProblem:
     )
 
 
-class _Parts:
+class Parts:
     """The functions of an environment, and the layout of the memory that they share."""
 
     def __init__(self, env: Environment) -> None:
@@ -205,15 +212,13 @@ class _Parts:
     def asked(self) -> ca.Function:
         """(action) → rotor forces (n,), or thrust and body rates (4,) for the inner loop."""
         env, vehicle, a = self.env, self.env.vehicle, ca.SX.sym("a", self.env.actions)
-        low, high = vehicle.rotor_limits
-        thrust = env.rotors * high * (a[0] + 1) / 2
         if env.action == "rotors":
-            command = low + (high - low) * (a + 1) / 2
+            command = rotor_action(a, vehicle)
         elif env.action == "rates":
-            command = ca.vertcat(thrust, MOST_RATE * a[1:])
+            command = ca.vertcat(thrust_action(a[0], vehicle), MOST_RATE * a[1:])
         else:
-            moments = np.abs(vehicle.mixing()[1:]).sum(axis=1) * high / 2
-            command = rotor_forces(thrust, moments * a[1:], vehicle, env.plant.limits)
+            thrust, moment = thrust_action(a[0], vehicle), moment_action(a[1:], vehicle)
+            command = rotor_forces(thrust, moment, vehicle, env.plant.limits)
         return ca.Function("asked", [a], [ca.densify(command)])
 
     def step(self) -> ca.Function:
@@ -257,14 +262,12 @@ class _Parts:
         env = self.env
         t, memory, now, parts = self._moment(lambda before: ca.SX.zeros(env.actions), known=True)
         low, high = env.vehicle.rotor_limits
-        columns = 3 if env.attitude == "matrix" else 2
         here = env.task.goal(t, parts[-1])[0]
         coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
-        state = now.error
-        seen = ca.vertcat(
-            state.x, state.x_dot, ca.vec(state.R[:, :columns]), state.omega, state.y, state.y_dot,
-            2 * (parts[1] - low) / (high - low) - 1, parts[2], *coming, env.task.shown(now),
-        )  # fmt: skip
+        seen = observed(now.error, 3 if env.attitude == "matrix" else 2)
+        if env.observe == "all":
+            rotors = 2 * (parts[1] - low) / (high - low) - 1
+            seen = ca.vertcat(seen, rotors, parts[2], *coming, env.task.shown(now))
         return ca.Function("observe", [t, memory], [ca.densify(seen)])
 
     def judge(self) -> ca.Function:

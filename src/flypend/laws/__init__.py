@@ -21,6 +21,7 @@ from flypend.laws.own import from_function
 from flypend.laws.repaired import repaired
 from flypend.laws.supervised import supervised
 from flypend.laws.theorem1 import corrected, printed
+from flypend.laws.trained import trained
 from flypend.registry import LAWS
 
 AnyLaw = Law | BoundLaw | Controller
@@ -48,6 +49,7 @@ __all__ = [
     "printed",
     "repaired",
     "supervised",
+    "trained",
 ]
 
 # A law that is in the registry alone is an attribute as well; those above are what type checkers see.

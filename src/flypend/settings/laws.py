@@ -18,6 +18,7 @@ from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_n
 from flypend.laws.located import LawError, Located, shown
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
+from flypend.laws.trained import trained
 from flypend.model import Vehicle
 from flypend.planning.receding_horizon import nmpc
 from flypend.planning.tracking import plan_and_track
@@ -30,6 +31,7 @@ OTHERS = {
     "plan": "a plan from the start, tracked with feedback (planning.plan_and_track)",
     "nmpc": "a plan that is made again and again in flight (planning.nmpc)",
 }
+ONNX = ".onnx"
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
@@ -71,8 +73,8 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
         return law_from_dict(value, key)
     only_known(key, value, ("function", "gains", "e3"))
     where, gains = value["function"], value.get("gains", {})
-    if not isinstance(where, str) or ":" not in where:
-        raise InputError(f"{key}.function", "file.py:function or module:function", repr(where))
+    if not isinstance(where, str) or not _is_place(where):
+        raise InputError(f"{key}.function", "file.py:function, module:function or a file .onnx", repr(where))
     if not isinstance(gains, Mapping):
         raise InputError(f"{key}.gains", "a table of gains", repr(gains))
     e3 = one_of(f"{key}.e3", value["e3"], ("up", "down")) if "e3" in value else None
@@ -84,12 +86,12 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
 
     A custom law is `file.py:function`, with the path relative to `folder` (default the current one), or
     `module:function`; modules are also searched for in the current folder. The name must lead to a Law, a Controller,
-    a function without arguments that returns one, or a function for `laws.from_function`. `key` is the field name for
-    error messages.
+    a function without arguments that returns one, or a function for `laws.from_function`. `policy.onnx` is a network in
+    an ONNX file, for `laws.trained`. `key` is the field name for error messages.
 
     Raises InputError if there is no such law, or if it fails to load.
     """
-    if ":" in name:
+    if _is_place(name):
         return _own(name, folder, key, None)
     return law_from({"name": one_of(key, name, (*law_names(), *OTHERS))}, folder, key)
 
@@ -104,8 +106,8 @@ def absolute(value: Any, folder: Path) -> Any:
     """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
     if isinstance(value, Mapping):
         return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
-    file, colon, attribute = value.rpartition(":") if isinstance(value, str) else ("", "", "")
-    return f"{(folder / file).resolve()}:{attribute}" if colon and file.endswith(".py") else value
+    file, attribute = _parted(value) if isinstance(value, str) else ("", "")
+    return f"{(folder / file).resolve()}{attribute}" if file else value
 
 
 def relative(value: Any, folder: Path) -> Any:
@@ -115,13 +117,26 @@ def relative(value: Any, folder: Path) -> Any:
     """
     if isinstance(value, Mapping):
         return {**value, "function": relative(value["function"], folder)} if "function" in value else value
-    file, colon, attribute = value.rpartition(":")
-    if not (colon and file.endswith(".py")):
+    file, attribute = _parted(value)
+    if not file:
         return value
     try:
-        return f"{Path(os.path.relpath(file, folder.resolve())).as_posix()}:{attribute}"
+        return f"{Path(os.path.relpath(file, folder.resolve())).as_posix()}{attribute}"
     except ValueError:
         return value
+
+
+def _is_place(name: str) -> bool:
+    """Whether `name` says where a law is, and is not a law's name."""
+    return ":" in name or name.endswith(ONNX)
+
+
+def _parted(name: str) -> tuple[str, str]:
+    """Return the file in `name`, "" if there is none, and what follows it."""
+    if name.endswith(ONNX):
+        return name, ""
+    file, colon, attribute = name.rpartition(":")
+    return (file, f":{attribute}") if colon and file.endswith(".py") else ("", "")
 
 
 def note(law: AnyLaw) -> str:
@@ -150,11 +165,15 @@ def law_table(value: Any, key: str = "law") -> dict[str, Any]:
 
 def table_of(name: str) -> dict[str, Any]:
     """Return the TOML table that specifies the law `name`, as in `law_named`."""
-    return {"function": name} if ":" in name else {"name": name}
+    return {"function": name} if _is_place(name) else {"name": name}
 
 
 def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:
-    """Return the law `name`, file.py:function or module:function; messages begin with `key`."""
+    """Return the law `name`, file.py:function, module:function or an ONNX file; messages begin with `key`."""
+    if name.endswith(ONNX):
+        if e3 is not None:
+            raise InputError("law.e3", "nothing: a policy flies with e3 up", e3)
+        return trained((folder or Path.cwd()) / name)
     source, _, attribute = name.rpartition(":")
     if not attribute.isidentifier():
         raise InputError(key, "file.py:function or module:function", repr(name))

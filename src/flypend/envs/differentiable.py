@@ -1,0 +1,320 @@
+"""Worlds as a pure function with derivatives: a step's vector-Jacobian product, for PyTorch, JAX and NumPy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property, lru_cache
+from importlib import import_module
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend import errors
+from flypend.compile.chain import Chain
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
+from flypend.compile.llvm.worlds import BOUND
+from flypend.envs.kernel import Worlds, in_threads, shares_of
+from flypend.envs.make import environment
+from flypend.envs.problem import Environment, Parts
+from flypend.errors import InputError
+from flypend.model.state import SIZE
+
+
+class Stepped(NamedTuple):
+    """What a step returns; see `DifferentiableWorlds`.
+
+    Parameters
+    ----------
+    memory : (count, size) of float64
+        The worlds afterwards.
+    observations : (count, k)
+        What is observed then.
+    rewards : (count,)
+        Rewards of the step.
+    ended : (count,) of bool
+        Whether the task has ended, or the world is lost.
+    """
+
+    memory: Any
+    observations: Any
+    rewards: Any
+    ended: Any
+
+
+class DifferentiableWorlds:
+    """Worlds as a function (memory, actions) → (memory, observations, rewards, ended), with derivatives.
+
+    The function is the step of `VectorWorlds`, to roundoff, but that it keeps nothing and begins nothing anew: a world
+    that has ended goes on, until the caller replaces its row of the memory. A world whose state is not finite or beyond
+    all bounds is lost: it stays as it was, and passes no gradient.
+
+    A row of `memory` (count, size), float64, is a world: the number of actions since its beginning, state (24), rotor
+    forces (n), N, the last action (m), commands on their way, wind, timing, what `randomise` drew, and the goal. Rows
+    are independent.
+
+    Parameters
+    ----------
+    task, arguments
+        See `flypend.envs.environment`; the mount must be a gimbal, and sensors "perfect".
+    workers : int, optional
+        Threads; default one per core.
+
+    Raises
+    ------
+    InputError
+        As `flypend.envs.environment`, and for another mount or sensors.
+    """
+
+    def __init__(self, task: Any = "balance", *, workers: int | None = None, **arguments: Any) -> None:
+        self.env = environment(task, **arguments)
+        if self.env.vehicle.mount != "gimbal":
+            raise InputError("mount", "'gimbal': touching has no derivative", repr(self.env.vehicle.mount))
+        if self.env.sensors is not None:
+            raise InputError("sensors", "'perfect', of worlds with derivatives", repr(self.env.sensors))
+        self.workers = None if workers is None else errors.integer("workers", workers, 1)
+
+    def begin(self, seeds: Sequence[int]) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+        """Return memory (count, size) and observations (count, k) of new worlds, one per seed.
+
+        They are those of `VectorWorlds` with these seeds.
+        """
+        worlds = Worlds(self.env, len(seeds), self.workers)
+        worlds.begin(np.asarray(seeds, dtype=np.int64))
+        memory = np.concatenate([np.zeros((len(seeds), 1)), worlds.part("state", self.size - 1)], axis=1)
+        return memory, worlds.observations.copy()
+
+    def step(self, memory: Any, actions: Any) -> Stepped:
+        """Advance worlds (count, size) by `actions` (count, m), each in [−1, 1].
+
+        Raises InputError for other shapes.
+        """
+        memory, actions = self._given(memory, actions)
+        after, seen, judged = self._run(0, memory, actions)
+        lost = _lost(judged, actions)
+        rewards = np.where(lost & ~np.isfinite(judged[:, 0]), 0.0, judged[:, 0])
+        seen = np.where(lost[:, None], np.nan_to_num(seen), seen)
+        return Stepped(np.where(lost[:, None], memory, after), seen, rewards, lost | (judged[:, 1] > 0))
+
+    def pullback(
+        self, memory: Any, actions: Any, to_memory: Any, to_observations: Any, to_rewards: Any
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the gradients of `memory` (count, size) and `actions` (count, m), from those of what `step` returns.
+
+        Where a number is limited, such as an action outside [−1, 1], the derivative is that of the limit: 0.
+        """
+        memory, actions = self._given(memory, actions)
+        given = (to_memory, to_observations, np.reshape(to_rewards, (-1, 1)))
+        before, to_actions, judged = self._run(1, memory, actions, *given)
+        kept = ~_lost(judged, actions)[:, None]
+        return np.where(kept, before, 0.0), np.where(kept, to_actions, 0.0)
+
+    def torch(self, memory: Any, actions: Any) -> Stepped:
+        """`step` for tensors of PyTorch on the CPU, with autograd; observations and rewards are of the actions' type.
+
+        `memory` is a tensor of float64, such as `torch.from_numpy` makes of that of `begin`.
+        """
+        return Stepped(*_torch_step().apply(self, memory, actions))
+
+    def jax(self, memory: Any, actions: Any) -> Stepped:
+        """`step` for arrays of JAX, with `grad`, `jit` and `scan`; results are of the types of `memory` and `actions`.
+
+        Unless JAX works in double precision (`jax_enable_x64`), the memory is rounded after every step.
+        """
+        return Stepped(*self._jax_step(memory, actions))
+
+    @cached_property
+    def _jax_step(self) -> Any:
+        try:
+            jax: Any = import_module("jax")
+        except ModuleNotFoundError as missing:
+            raise InputError("worlds.jax", "JAX (pip install jax)", f"no module {missing.name}") from None
+
+        def called(function: Any, *arguments: Any, like: Any) -> Any:
+            kinds = [jax.ShapeDtypeStruct(shape, kind) for shape, kind in like]
+
+            def on_host(*values: Any) -> Any:
+                found = function(*map(np.asarray, values))
+                return tuple(np.asarray(value, kind.dtype) for value, kind in zip(found, kinds, strict=True))
+
+            return jax.pure_callback(on_host, kinds, *arguments)
+
+        @jax.custom_vjp  # type: ignore[untyped-decorator]
+        def step(memory: Any, actions: Any) -> Any:
+            count, kind, seen = len(memory), actions.dtype, self._programs[0].nnz_out(1)
+            like = [(memory.shape, memory.dtype), ((count, seen), kind), ((count,), kind), ((count,), bool)]
+            return tuple(called(self.step, memory, actions, like=like))
+
+        def back(given: Any, gradients: Any) -> Any:
+            like = [(array.shape, array.dtype) for array in given]
+            return tuple(called(self.pullback, *given, *gradients[:3], like=like))
+
+        step.defvjp(lambda memory, actions: (step(memory, actions), (memory, actions)), back)
+        return step
+
+    @property
+    def size(self) -> int:
+        """Length of a row of the memory."""
+        return int(self._programs[0].nnz_in(0))
+
+    @cached_property
+    def _programs(self) -> tuple[ca.Function, ca.Function]:
+        return step_and_pullback(self.env)
+
+    @cached_property
+    def _loops(self) -> tuple[Stagewise, Stagewise]:
+        forward, backward = self._programs
+        return stagewise(forward), stagewise(backward)
+
+    def _given(self, memory: Any, actions: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        memory, actions = np.asarray(memory, dtype=float), np.asarray(actions, dtype=float)
+        count = len(memory) if memory.ndim else 0
+        for name, array, length in (("memory", memory, self.size), ("actions", actions, self.env.actions)):
+            if array.shape != (count, length) or not count:
+                raise InputError(name, f"numbers of shape (count, {length})", f"shape {array.shape}")
+        return memory, actions
+
+    def _run(self, which: int, *rows: Any) -> list[NDArray[np.float64]]:
+        """Return what program number `which` makes of `rows` (count, …) of its inputs, in rows."""
+        program, loop, count = self._programs[which], self._loops[which], len(rows[0])
+        groups = -(-count // WIDTH)
+        inputs, outputs = (
+            [lanes(groups, length) for length in lengths]
+            for lengths in (
+                [program.nnz_in(i) for i in range(program.n_in())],
+                [program.nnz_out(i) for i in range(program.n_out())],
+            )
+        )
+        filled = np.minimum(np.arange(groups * WIDTH), count - 1)  # the last world fills the last group
+        for array, given in zip(inputs, rows, strict=True):
+            array[:] = np.asarray(given)[filled].reshape(groups, WIDTH, -1).transpose(0, 2, 1)
+        in_threads(loop.on(*inputs, *outputs), shares_of(groups, self.workers))
+        return [array.transpose(0, 2, 1).reshape(groups * WIDTH, -1)[:count] for array in outputs]
+
+
+def _lost(judged: NDArray[np.float64], actions: NDArray[np.float64]) -> NDArray[np.bool_]:
+    return (judged[:, 2] > 0) | ~np.isfinite(actions).all(axis=1)
+
+
+def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
+    """Return a step of `env`, and its vector-Jacobian product, as calls of scalar functions.
+
+    (memory, action) → (memory, observation, (reward, ended, lost)), the last two above 0 if so; and (memory, action,
+    gradients of memory, observation and reward) → (gradients of memory and action, (reward, ended, lost)).
+    """
+    parts, chain = Parts(env), Chain()
+    parts.begin()  # which finds the length of the goal
+    lengths = [1, *parts.lengths, parts.goals]
+    memory, action = ca.MX.sym("memory", sum(lengths)), ca.MX.sym("action", env.actions)
+    before = ca.vertsplit(memory, [0, *np.cumsum(lengths).tolist()])
+    clock, state, rotors, acted, queue, wind, timing, numbers, delay, goal = before
+    command, step, joined = parts.command(), parts.step(), _joined("joined", SIZE, env.rotors)
+    asked = chain.call(_limited(env.actions, 1.0, "asked"), action)
+    inner = env.action == "rates"
+    forces = None if inner else chain.call(command, chain.call(joined, state, rotors), asked, numbers)
+    for i in range(env.steps):
+        if inner:
+            forces = chain.call(command, chain.call(joined, state, rotors), asked, numbers)
+        held = chain.call(_held(env, parts.queued), ca.MX(i), forces, queue, delay) if parts.queued else forces
+        state, rotors = chain.call(step, state, rotors, held, wind, timing, numbers)
+    if parts.queued:
+        queue = chain.call(_queued(env.rotors, parts.queued), forces, queue)
+    clock = chain.call(_ticked(), clock)
+    rest = [queue, wind, timing, numbers, delay, goal]
+    observe, judge = _observe(parts, lengths), _judge(parts, lengths)
+    seen = chain.call(observe, clock, state, rotors, asked, *rest)
+    reward, ended, lost = chain.call(judge, clock, state, rotors, acted, *rest, asked)
+    after = [clock, state, rotors, asked, *rest]
+    judged = ca.vertcat(reward, ended, lost)
+    to_after = ca.MX.sym("to_memory", memory.numel())
+    to_seen, to_reward = ca.MX.sym("to_seen", seen.numel()), ca.MX.sym("to_reward")
+    seeds = [*zip(after, ca.vertsplit(to_after, [0, *np.cumsum(lengths).tolist()]), strict=True)]
+    *to_before, to_action = chain.pullback([*seeds, (seen, to_seen), (reward, to_reward)], [*before, action])
+    return (
+        ca.Function("advance", [memory, action], [ca.vertcat(*after), seen, judged]),
+        ca.Function(
+            "pullback", [memory, action, to_after, to_seen, to_reward], [ca.vertcat(*to_before), to_action, judged]
+        ),
+    )
+
+
+def _symbols(lengths: Sequence[int]) -> list[ca.SX]:
+    return [ca.SX.sym(f"v{i}", length) for i, length in enumerate(lengths)]
+
+
+def _joined(name: str, *lengths: int) -> ca.Function:
+    vectors = _symbols(lengths)
+    return ca.Function(name, vectors, [ca.vertcat(*vectors)])
+
+
+def _limited(length: int, most: float, name: str) -> ca.Function:
+    value = ca.SX.sym("value", length)
+    return ca.Function(name, [value], [ca.fmax(ca.fmin(value, most), -most)])
+
+
+def _ticked() -> ca.Function:
+    clock = ca.SX.sym("clock")
+    return ca.Function("ticked", [clock], [clock + 1])
+
+
+def _held(env: Environment, queued: int) -> ca.Function:
+    """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
+    step, forces, queue, delay = _symbols([1, env.rotors, queued * env.rotors, 1])
+    acting = forces
+    for age in range(queued):
+        earlier = queue[age * env.rotors : (age + 1) * env.rotors]
+        acting = ca.if_else(delay - step > age * env.steps, earlier, acting)
+    return ca.Function("held", [step, forces, queue, delay], [ca.densify(acting)])
+
+
+def _queued(rotors: int, queued: int) -> ca.Function:
+    forces, queue = _symbols([rotors, queued * rotors])
+    return ca.Function("queued", [forces, queue], [ca.vertcat(forces, queue[: (queued - 1) * rotors])])
+
+
+def _observe(parts: Parts, lengths: Sequence[int]) -> ca.Function:
+    """(parts of the memory) → observation, limited as in compile/loops/worlds.cpp."""
+    clock, *memory = vectors = _symbols(lengths)
+    seen = parts.observe()(clock / parts.env.rate, ca.vertcat(*memory))
+    return ca.Function("observe", vectors, [_limited(seen.numel(), BOUND, "bounded")(seen)])
+
+
+def _judge(parts: Parts, lengths: Sequence[int]) -> ca.Function:
+    """(parts of the memory, with the action before; action) → reward, ended, lost."""
+    clock, *memory = vectors = _symbols(lengths)
+    action = ca.SX.sym("action", parts.env.actions)
+    reward, ended = parts.judge()(clock / parts.env.rate, ca.vertcat(*memory), action)
+    lost = ca.logic_not(ca.sumsqr(ca.vertcat(memory[0], memory[1])) < BOUND**2)
+    return ca.Function("judge", [*vectors, action], [reward, ca.densify(ended), lost])
+
+
+@lru_cache(maxsize=1)
+def _torch_step() -> Any:
+    """The function of PyTorch's autograd."""
+    try:
+        torch: Any = import_module("torch")
+    except ModuleNotFoundError as missing:
+        raise InputError("worlds.torch", "PyTorch (pip install torch)", f"no module {missing.name}") from None
+
+    def tensors(values: Sequence[Any], *kinds: Any) -> tuple[Any, ...]:
+        return tuple(torch.from_numpy(value).to(kind) for value, kind in zip(values, kinds, strict=True))
+
+    class Step(torch.autograd.Function):  # type: ignore[misc]
+        @staticmethod
+        def forward(ctx: Any, worlds: DifferentiableWorlds, memory: Any, actions: Any) -> Any:
+            ctx.worlds = worlds
+            ctx.save_for_backward(memory, actions)
+            stepped = worlds.step(memory.detach().numpy(), actions.detach().numpy())
+            found = tensors(stepped, memory.dtype, actions.dtype, actions.dtype, torch.bool)
+            ctx.mark_non_differentiable(found[-1])
+            return found
+
+        @staticmethod
+        def backward(ctx: Any, *gradients: Any) -> Any:
+            memory, actions = ctx.saved_tensors
+            given = [gradient.numpy() for gradient in gradients[:3]]
+            found = ctx.worlds.pullback(memory.detach().numpy(), actions.detach().numpy(), *given)
+            return None, *tensors(found, memory.dtype, actions.dtype)
+
+    return Step

@@ -15,6 +15,7 @@ PLANT = fp.Plant(
     delay=0.0113, sag=0.05, spin_up=1.2, strength=(0.97, 1.02, 1.03, 0.98), wind=fp.Wind(gust_on_vehicle=0.1),
     noise=fp.Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
 )  # fmt: skip
+FLYING = PLANT.replace(strength=tuple(SCALE * np.array(PLANT.strength)))
 GUESS = TRUE.replace(
     rod_length=0.62, inertia=np.diag(TRUE.inertia) * [1.35, 1.3, 1.2], drag_ratio=0.012, rotor_lag=0.04
 )
@@ -23,7 +24,7 @@ GUESS = TRUE.replace(
 @pytest.fixture(scope="module")
 def log(tmp_path_factory):
     path = tmp_path_factory.mktemp("log") / "flight.csv"
-    flown = rehearse(GUESS, TRUE, PLANT, duration=20.0, latency=0.008, bias=0.01, scale=SCALE, seed=4)
+    flown = rehearse(GUESS, TRUE, FLYING, duration=20.0, latency=0.008, bias=0.01, seed=4)
     write_log(path, flown.columns)
     return path
 

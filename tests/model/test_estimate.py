@@ -6,7 +6,17 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.files.toml import parse_toml
-from flypend.model.estimate import AIR, MERIT, THRUST_COEFFICIENT, TORQUE, guess
+from flypend.model.estimate import (
+    AIR,
+    MERIT,
+    THRUST_BAND,
+    THRUST_COEFFICIENT,
+    TORQUE,
+    TORQUE_BAND,
+    Measured,
+    guess,
+    parts,
+)
 
 MINE = {
     "mass": "620 g", "arm": "17 cm", "propeller": "8x4.5", "motor": "920 KV", "battery": "3S", "rod_length": 0.9,
@@ -50,6 +60,14 @@ def test_the_torque_ratio_is_that_of_momentum_theory():
     assert pytest.approx(TORQUE * diameter, rel=1e-12) == power / (2 * np.pi * turns) / thrust
 
 
+@pytest.mark.parametrize("name", parts()["propellers"])
+def test_propellers_in_the_table_lie_within_the_band_of_those_that_are_not(name):
+    part = parts()["propellers"][name]
+    general = THRUST_COEFFICIENT * AIR * part["diameter"] ** 4 / (4 * np.pi**2)
+    assert 1 / THRUST_BAND <= part["thrust_constant"] / general <= THRUST_BAND
+    assert 1 / TORQUE_BAND <= part["drag_ratio"] / (TORQUE * part["diameter"]) <= TORQUE_BAND
+
+
 def test_units_and_names_mean_the_same_as_numbers():
     plain = {**MINE, "mass": 0.62, "arm": 0.17, "propeller": 8 * 0.0254, "battery": 3 * 3.7, "bob_mass": 0.04}
     assert fp.Vehicle.estimate(**plain) == fp.Vehicle.estimate(**MINE)
@@ -59,7 +77,7 @@ def test_units_and_names_mean_the_same_as_numbers():
 
 
 def test_the_text_is_the_vehicle_with_a_source_for_every_number():
-    found = guess(**MINE)
+    found = guess(Measured(**MINE))
     table = parse_toml("mine", found.text())
     assert fp.Vehicle.from_dict(table) == fp.Vehicle.estimate(**MINE)
     without = {name for name in table if name not in found.sources}
@@ -99,6 +117,7 @@ def test_bands_are_taken_as_known_before_by_identification():
         ({"rotors": 5}, "an even number"),
         ({"rod_mass": 0, "bob_mass": 0}, "the mass of the rod"),
         ({"rod_length": -1}, "rod_length"),
+        ({"bob_mass": 5, "rod_length": "12 cm"}, "bob_mass: expected rod and bob of at most"),
     ],
 )
 def test_nonsense_is_refused_with_what_would_be_plausible(changes, said):

@@ -12,7 +12,7 @@ from flypend.compile.program import lower
 from flypend.model import equations_of_motion, total_energy
 from flypend.model.joint import CREEP, friction, on_rod, stiffness, swing
 from flypend.model.mjcf import model_xml
-from flypend.model.motion import disturbed_motion
+from flypend.model.motion import Disturbance, disturbed_motion
 from flypend.plants import Plant
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rotor_step
@@ -32,10 +32,9 @@ def spin_of(vehicle):
 
 
 def motion(state, wrench, vehicle):
-    return disturbed_motion(
-        state, wrench, vehicle, "up", pivot_offset=vehicle.pivot_offset,
-        joint_torque=friction(state, vehicle) if vehicle.rubs else None, spin=spin_of(vehicle),
-    )  # fmt: skip
+    torque = friction(state, vehicle) if vehicle.rubs else None
+    joint = Disturbance(pivot_offset=vehicle.pivot_offset, joint_torque=torque, spin=spin_of(vehicle))
+    return disturbed_motion(state, wrench, vehicle, "up", joint)
 
 
 # Euler-Lagrange on SO(3) × SO(3): the rod is a body with an attitude of its own --------------------------------------
@@ -136,7 +135,7 @@ def test_energy_is_lost_by_friction_alone():
     s = ca.SX.sym("s", 24)
     state = fp.State.symbolic(s)
     rates = disturbed_motion(
-        state, fp.Wrench(ca.SX(0), ca.SX(3, 1)), RUBBING, "up", joint_torque=friction(state, RUBBING)
+        state, fp.Wrench(ca.SX(0), ca.SX(3, 1)), RUBBING, "up", Disturbance(joint_torque=friction(state, RUBBING))
     )
     change = ca.jtimes(total_energy(state, RUBBING, "up"), s, rates.packed())
     power = as_numpy(ca.Function("power", [s], [change, ca.dot(friction(state, RUBBING), swing(state))]))

@@ -5,7 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.geometry import cross
-from flypend.model import disturbed_motion
+from flypend.model import Disturbance, disturbed_motion
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.momenta import angular_acceleration, outside_on_rod, pull_on_rod
 
@@ -19,7 +19,7 @@ def test_rates_of_momenta_are_those_of_the_equations_of_motion(vehicle):
     thrust, moment = rng.uniform(0, 15, 100), rng.normal(size=(100, 3))
     on_vehicle, on_bob = rng.normal(size=(2, 100, 3))
     wrench = fp.Wrench(thrust, moment)
-    rates = disturbed_motion(state, wrench, vehicle, "up", force_on_vehicle=on_vehicle, force_on_bob=on_bob)
+    rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(on_vehicle, on_bob))
 
     turning = angular_acceleration(moment, state.omega, vehicle)
     np.testing.assert_allclose(turning, rates.omega_dot, rtol=1e-12, atol=1e-9)

@@ -17,10 +17,12 @@ from short_study import SHORT, content
 
 import flypend as fp
 from flypend.files.toml import toml_text
+from flypend.flight.kernels import launch
 from flypend.flight.metrics import metrics
 from flypend.geometry import dot, norm
 from flypend.model.state import FLIP
 from flypend.paper import experiment
+from flypend.studies.sweep import chunk as flown
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import CAUSES, fly_range
 from flypend.studies.sweep.claim import lock_of
@@ -161,6 +163,40 @@ def test_the_result_does_not_depend_on_chunks_threads_or_cluster(table, tmp_path
         fp.sweep(table | {"chunk": chunk}, path, workers=workers)
         same(columns(path), whole)
     assert len(np.unique(whole["effort"])) == study.runs  # no two runs are one, those of a grid with noise neither
+
+
+def test_only_other_samplings_than_uniform_need_scipy(monkeypatch):
+    asked = []
+    monkeypatch.setattr(cube, "require", lambda module, **_named: asked.append(module))
+    cube.check_size("uniform", 10, 2)
+    assert asked == []
+    cube.check_size("sobol", 10, 2)
+    assert asked == ["scipy"]
+
+
+def test_one_thread_at_a_time_builds_expressions(tmp_path, monkeypatch):
+    """CasADi's nodes are shared by all threads: two that built at once have ended the process."""
+    inside, most = [], []
+
+    def watched(build):
+        def call(*given, **named):
+            inside.append(1)
+            most.append(len(inside))
+            time.sleep(0.02)
+            try:
+                return build(*given, **named)
+            finally:
+                inside.pop()
+
+        return call
+
+    monkeypatch.setattr(flown, "_study_of", watched(flown._study_of))
+    monkeypatch.setattr(flown, "flights", watched(flown.flights))
+    monkeypatch.setattr(launch, "ideal_kernel", watched(launch.ideal_kernel))
+    fp.sweep(SHORT | {"chunk": 3}, tmp_path / "one.zarr", workers=4)
+    # A study holds a flight, whose kernel is asked for inside.
+    assert len(most) > 3 * fp.study(SHORT).runs // 3 - 3
+    assert max(most) <= 2
 
 
 def test_a_sweep_flies_on_a_cluster_that_is_there(tmp_path):

@@ -10,11 +10,12 @@ import pytest
 import flypend as fp
 from flypend.cli import app as cli
 from flypend.files.toml import toml_text
+from flypend.flight.ensemble import fly_many
 from flypend.flight.simulate import fly
 from flypend.settings.runfile import run_file
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import design
-from flypend.studies.tune import Objective
+from flypend.studies.tune import STANDARD, Objective
 
 STUDY = {
     "vehicle": "nayak2018", "law": {"name": "corrected", "gains": {"k_d": 0.4, "yaw_damping": 1.0}}, "plant": "ideal",
@@ -121,6 +122,35 @@ def test_noise_is_tuned_on_other_seeds_than_it_is_reported_on():
 
 
 # Files and the command ------------------------------------------------------------------------------------------------
+
+
+def test_with_bands_every_gain_vector_flies_vehicles_drawn_and_the_report_flies_others(monkeypatch):
+    flown = []
+
+    def watched(flight, *given, **named):
+        flown.append(flight)
+        return fly_many(flight, *given, **named)
+
+    monkeypatch.setattr("flypend.studies.tune.fly_many", watched)
+    vehicle = fp.vehicle("hehn2011").replace(bands={"mass": [0.4, 0.6], "delay": [0.0, 0.02]})
+    study = {
+        "vehicle": vehicle.to_dict(), "law": {"name": "inverted"}, "plant": {"base": "rotors", "rate": 100.0},
+        "duration": 0.2, "runs": 5, "criterion": {"hold": 0.1}, "vary": {"start": {"y": "uniform"}},
+        "tune": {"bands": 1, "runs": 3, "generations": 1, "population": 2},
+    }  # fmt: skip
+    tuned = fp.tune(study, workers=1)
+    searched, reported = flown[:2], flown[2:]
+    written = fp.study(study).flight.plant
+    assert [flight.plant == written for flight in flown] == [True, False] * 3
+    assert len({flight.plant for flight in searched} & {flight.plant for flight in reported}) == 1
+    assert 0.4 / 0.5 <= searched[1].plant.mismatch["mass"] <= 0.6 / 0.5
+    assert [len(flight.starts.x) for flight in flown] == [4, 2, 3, 2, 3, 2]  # two gain vectors on 2 and 1 starts
+    assert set(tuned.gains) == set(STANDARD)
+    assert tuned.after["runs"] == 5
+    with pytest.raises(fp.InputError, match=r"^vehicle\.bands"):
+        fp.tune(study | {"vehicle": "hehn2011"})
+    with pytest.raises(fp.InputError, match=r"^tune\.bands: expected a sampled plant"):
+        fp.tune(study | {"plant": "ideal"})
 
 
 def test_the_command_leaves_a_file_that_flies(tmp_path, monkeypatch, capsys):

@@ -92,6 +92,22 @@ def paper(out: Path, quick: bool, style: str) -> None:
     console.print(f"Report, figures{', movies' if movies else ''} and runs are in {bold(out)}; start with report.md.")
 
 
+@dataclass(frozen=True)
+class Shown:
+    """What is drawn of a flight."""
+
+    quick: bool = option("--quick", is_flag=True, help="Skip the movies.")
+    figures: bool = option(
+        "--figures/--no-figures", default=True, help="Draw the figures (--no-figures also skips the movies)."
+    )
+    html: Path | None = option(
+        "--html", type=path, metavar="FILE", help="Also write the replay, a page that opens in any browser."
+    )
+    live: bool = option(
+        "--live", is_flag=True, help="Make the page of --html interactive: poke, pull, start anywhere, move gains."
+    )
+
+
 @app.command()
 @click.argument("what")
 @out_option("run-out")
@@ -103,24 +119,16 @@ def paper(out: Path, quick: bool, style: str) -> None:
     multiple=True,
     help="Override a setting, such as law.gains.k_d=2 or law.name=printed.",
 )
-@click.option("--quick", is_flag=True, help="Skip the movies.")
-@click.option("--figures/--no-figures", default=True, help="Draw the figures (--no-figures also skips the movies).")
 @click.option("--controller", help="python, or the law as compiled C: c (double) or c-float.")
-@click.option("--html", type=path, metavar="FILE", help="Also write the replay, a page that opens in any browser.")
-@click.option(
-    "--live", is_flag=True, help="Make the page of --html interactive: poke, pull, start anywhere, move gains."
-)
+@options_of(Shown, "shown")
 @style_option
 def run(
     what: str,
     out: Path,
     law: str | None,
     override: tuple[str, ...],
-    quick: bool,
-    figures: bool,
     controller: str | None,
-    html: Path | None,
-    live: bool,
+    shown: Shown,
     style: str,
 ) -> None:
     """Fly WHAT: an experiment of the paper (1, 2, 2-projected, 3, 4, 5), or a TOML file of your own.
@@ -142,7 +150,7 @@ def run(
     from flypend.settings.laws import told
     from flypend.settings.runfile import run_file
 
-    if not figures:
+    if not shown.figures:
         refuse_idle("style", why="beside --no-figures")
     chosen = run_file(what, _changes(override, law, controller), law)
     flight = chosen.flight
@@ -151,11 +159,11 @@ def run(
         say(f"flypend: warning: {doubt}")
     style_named(style)
     check_writable(out)
-    if html is not None:
-        check_file(html, (".html",))
-    if live:
-        check_live(flight, html)
-    movies = figures and not (quick or lacking("movies", check_movies))
+    if shown.html is not None:
+        check_file(shown.html, (".html",))
+    if shown.live:
+        check_live(flight, shown.html)
+    movies = shown.figures and not (shown.quick or lacking("movies", check_movies))
     trajectory = fly(flight)
     # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
@@ -165,13 +173,13 @@ def run(
         chosen.settings,
         out,
         settled=settled,
-        with_figures=figures,
+        with_figures=shown.figures,
         with_movies=movies,
         style=style,
         progress=draw,
     )
-    if html is not None:
-        trajectory.to_html(html, live=live)
+    if shown.html is not None:
+        trajectory.to_html(shown.html, live=shown.live)
     console.print(
         f"{told(flight.law, flight.vehicle)} on {vehicle_told(flight.vehicle)}: {trajectory.outcome}", markup=False
     )
@@ -179,7 +187,7 @@ def run(
     if verdicts:
         title = f"{THEOREMS.get(trajectory.law, 'Theorem 1')}: which claim holds"
         console.print(summary_table({(trajectory.law, what): verdicts}, title=title))
-    page = f", the {'live page' if live else 'replay'} is {bold(html)}" if html else ""
+    page = f", the {'live page' if shown.live else 'replay'} is {bold(shown.html)}" if shown.html else ""
     console.print(f"Results are in {bold(out)}{page}.")
     if trajectory.outcome.status != "completed":
         sys.exit(1)

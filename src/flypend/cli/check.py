@@ -3,36 +3,39 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
-from flypend.cli.options import laws_option, out_option, plant_asked
+from flypend.cli.options import laws_option, option, options_of, out_option, plant_asked
 from flypend.cli.terminal import bold, console, counter, tell_how
+
+
+@dataclass(frozen=True)
+class Flights:
+    """What is flown."""
+
+    plant: str = option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
+    sensors: str = option(
+        "--sensors", default="perfect", help="Sensor suite; also flies masses, rod and thrust that are wrong."
+    )
+    runs: int | None = option(
+        "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."
+    )
+    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
 
 
 @click.command()
 @click.argument("vehicle")
 @laws_option
 @out_option("check-out")
-@click.option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
-@click.option("--sensors", default="perfect", help="A suite; also flies masses, rod and thrust that are off together.")
-@click.option("--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow.")
-@click.option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
-@click.option("--margins/--no-margins", default=None, help="Search the margins; default unless the law is slow.")
+@options_of(Flights, "own")
+@click.option("--margins/--no-margins", default=None, help="Search for margins; default unless the law is slow.")
 @click.option("--trial", is_flag=True, help="Also fly a minute with 15 knocks, and sweep every number by ±25 %.")
 @click.option("--figures/--no-figures", default=True, help="Draw the figure.")
 def check(
-    vehicle: str,
-    law: tuple[str, ...],
-    out: Path,
-    plant: str,
-    sensors: str,
-    runs: int | None,
-    seed: int,
-    margins: bool | None,
-    trial: bool,
-    figures: bool,
+    vehicle: str, law: tuple[str, ...], out: Path, own: Flights, margins: bool | None, trial: bool, figures: bool
 ) -> None:
     """Report what VEHICLE, a name or a TOML file, can do: hover, lean, swing-up, level and random starts, margins.
 
@@ -50,9 +53,9 @@ def check(
     from flypend.studies.trial import trial as try_
 
     machine = model.vehicle(vehicle)
-    errors.one_of("--plant", plant, [name for name in PRESETS if name != "ideal"])
-    asked = plant_asked(plant, sensors)
-    world = plant_of(asked)
+    errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
+    asked = plant_asked(own.plant, own.sensors)
+    world, seed = plant_of(asked), own.seed
     laws = {name: law_named(name) for name in law or ("inverted",)}
     for each in laws.values():
         tell_how(each)
@@ -60,10 +63,10 @@ def check(
     checks, trials, joints = {}, {}, {}
     with counter() as tell:
         for name, each in laws.items():
-            checks[name] = examine(machine, each, plant=world, runs=runs, seed=seed, margins=margins, progress=tell)
+            checks[name] = examine(machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, progress=tell)
             if trial and checks[name].tasks:
                 trials[name] = try_(machine, each, plant=world, seed=seed, progress=tell)
-            if sensors != "perfect" and checks[name].tasks:
+            if own.sensors != "perfect" and checks[name].tasks:
                 joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
     settings = {"vehicle": vehicle, "laws": list(laws), "plant": asked, "seed": seed}
     write_check(checks, trials, settings, out, figures=figures, joints=joints)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
 @sensors_option
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
-@click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and tell the result.")
+@click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and report the result.")
 def export_c(
     law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
 ) -> None:

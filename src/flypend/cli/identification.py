@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from flypend.cli.options import out_option, refuse_idle, vehicle_option
+from flypend.cli.options import option, options_of, out_option, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
@@ -43,10 +44,10 @@ def new(out: Path, **measured: Any) -> None:
     """
     from flypend.files.whole import check_file, whole_file
     from flypend.model import Vehicle
-    from flypend.model.estimate import guess
+    from flypend.model.estimate import Measured, guess
 
     check_file(out, (".toml",))
-    found = guess(**measured, name=out.stem)
+    found = guess(Measured(**measured, name=out.stem))
     machine = Vehicle(**found.fields)
     with whole_file(out, (".toml",)) as partial:
         partial.write_text(found.text(), encoding="utf-8")
@@ -56,6 +57,17 @@ def new(out: Path, **measured: Any) -> None:
     console.print(f"The vehicle is in {bold(out)}; next: flypend identify flight.csv --vehicle {out}", soft_wrap=True)
 
 
+@dataclass(frozen=True)
+class Rehearsal:
+    """A flight in simulation."""
+
+    asked: bool = option(
+        "--rehearse", is_flag=True, help="First fly the manoeuvre with --vehicle in simulation, and write LOG."
+    )
+    duration: float = option("--duration", default=60.0, help="Of the rehearsal, s.")
+    seed: int = option("--seed", type=click.IntRange(min=0), default=0, help="Seed of the rehearsal.")
+
+
 @click.command()
 @click.argument("log", type=click.Path(path_type=Path))
 @vehicle_option
@@ -63,9 +75,7 @@ def new(out: Path, **measured: Any) -> None:
 @click.option("--marker", nargs=3, type=float, default=(0.0, 0.0, 0.0), help="Tracked point from the pivot, m.")
 @click.option("--command", default="newton", help="What u1, u2, … are: newton, or pwm, fractions from 0 to 1.")
 @click.option("--mass-error", default=0.005, help="Share within which the vehicle's mass is known.")
-@click.option("--rehearse", is_flag=True, help="First fly the manoeuvre with --vehicle in simulation, and write LOG.")
-@click.option("--duration", default=60.0, help="Of the rehearsal, s.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, help="Seed of the rehearsal.")
+@options_of(Rehearsal, "rehearsal")
 def identify(
     log: Path,
     vehicle: str,
@@ -73,14 +83,13 @@ def identify(
     marker: tuple[float, float, float],
     command: Command,
     mass_error: float,
-    rehearse: bool,
-    duration: float,
-    seed: int,
+    rehearsal: Rehearsal,
 ) -> None:
-    """Find a machine's numbers, with bands, in LOG, a CSV file of a flight with the rod hanging.
+    """Find a machine's numbers, with bands, in LOG, a CSV or ULog file of a flight with the rod hanging.
 
     --vehicle is the guess: its mass is taken as weighed, its rotors' places, spins and limits as known. The columns of
-    LOG are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and, if there are, ax, ay, az, rx, ry, rz, vbat.
+    a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and, if there are, ax, ay, az, rx, ry, rz, vbat; PX4's
+    ULog is taken with --command pwm.
     """
     from flypend import model
     from flypend.errors import InputError
@@ -92,11 +101,11 @@ def identify(
     machine = model.vehicle(vehicle)
     check_file(out, (".toml",))
     with counter() as tell:
-        if rehearse:
+        if rehearsal.asked:
             if (marker, command) != ((0.0, 0.0, 0.0), "newton"):
                 raise InputError("--rehearse", "the rehearsal's own log: no --marker, no --command", "them")
             check_file(log, (".csv",))
-            guess, flown = rehearsal_of(machine, duration=duration, seed=seed)
+            guess, flown = rehearsal_of(machine, duration=rehearsal.duration, seed=rehearsal.seed)
             write_log(log, flown.columns)
             machine = guess
         else:
@@ -105,7 +114,7 @@ def identify(
     with whole_file(out, (".toml",)) as partial:
         partial.write_text(toml_text(found.vehicle.to_dict()), encoding="utf-8")
     console.print(found.report(), markup=False, highlight=False, soft_wrap=True)
-    if rehearse:
+    if rehearsal.asked:
         console.print(f"The guess was {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")
     console.print(f"The machine is in {bold(out)}.")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from flypend.cli.options import (
 )
 from flypend.cli.terminal import ahead, bold, complaints, console, lines, maps, resumable, stepped, tell_how
 
+REPORTED = 2000  # starts of the report where no study names them
 workers_option = click.option("--workers", type=click.IntRange(min=1), help="Number of cores to use; default all.")
 law_option = click.option("--law", help=f"Replace the law of the study: {LAW_HELP}.")
 force_option = click.option("--force", is_flag=True, help="Discard the store of an earlier sweep and start over.")
@@ -135,23 +136,39 @@ def draw_map(
 
 
 @click.command()
-@click.argument("study", type=path)
+@click.argument("study", type=path, required=False)
 @out_option("tune-out")
 @workers_option
 @law_option
-def tune(study: Path, out: Path, workers: int | None, law: str | None) -> None:
-    """Tune gains for the objective in STUDY, a TOML file, by CMA-ES, and report on starts not used for tuning.
+@click.option("--vehicle", help="Tune for this vehicle from random starts instead of a study; default law inverted.")
+@click.option("--sensors", default="perfect", help=f"With --vehicle: {SENSORS_HELP}")
+@click.option("--bands", is_flag=True, help="Also fly vehicles drawn from the bands of the vehicle.")
+def tune(
+    study: Path | None, out: Path, workers: int | None, law: str | None, vehicle: str | None, sensors: str, bands: bool
+) -> None:
+    """Tune gains by CMA-ES for the objective in STUDY, a TOML file, or for --vehicle; starts of the report are others.
 
     Costs are saved after every generation, so the same command resumes an interrupted search.
     Writes tuned.toml, an input of flypend run, and the history of the search as JSON and as a figure.
     """
+    from flypend.errors import InputError
     from flypend.files.staging import check_writable
     from flypend.report.tuning import told as told_of
     from flypend.report.tuning import write_tuned
     from flypend.studies.sweep import study as study_from
+    from flypend.studies.sweep.study import standard
+    from flypend.studies.tune import DRAWN
     from flypend.studies.tune import tune as search
 
-    made = study_from(study, law)
+    if (study is None) == (vehicle is None):
+        raise InputError("tune", "a study, or --vehicle", "none" if study is None else "two of them")
+    if study is not None:
+        refuse_idle("sensors", why="beside a study, which has its own")
+        made = study_from(study, law)
+    else:
+        made = study_from(standard(law or "inverted", vehicle, plant_asked("rotors", sensors), REPORTED, 1, None))
+    if bands:
+        made = replace(made, tune={"bands": DRAWN, "runs": 10 * DRAWN, **made.tune})
     tell_how(made.law)
     check_writable(out)
     with resumable(), run_counter("generations") as tell:

@@ -37,7 +37,7 @@ def identify(
     Parameters
     ----------
     log : path
-        A CSV file; docs/how-to/identify.md has its columns.
+        A CSV file or PX4's ULog; docs/how-to/identify.md has its columns and topics.
     vehicle : Vehicle
         The guess. Its mass is taken as weighed, its rotor positions, spins, limits and gravity as known.
     marker : (3,)
@@ -60,6 +60,8 @@ def identify(
     flown, n = read_log(log), len(vehicle.rotor_spins)
     if flown.command.shape[1] != n:
         raise errors.InputError(str(log), f"commands of {n} rotors, as the vehicle has", f"{flown.command.shape[1]}")
+    if flown.fractions and not pwm:
+        raise errors.InputError(str(log), "command='pwm', as such a log has fractions", "'newton'")
     if pwm and flown.command.max() > 1:
         raise errors.InputError(str(log), "fractions up to 1, as the command is pwm", f"{flown.command.max():g}")
     if not pwm and flown.command.max() > 2 * vehicle.rotor_limits[1]:

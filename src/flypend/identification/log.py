@@ -1,4 +1,4 @@
-"""A flight log: a table of what was commanded and measured, read from CSV and checked cell by cell."""
+"""A flight log: a table of what was commanded and measured, read from CSV or ULog and checked cell by cell."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.reading import read_bytes
 from flypend.geometry import Numbers, rotation_from_quat_xyzw
+from flypend.identification.ulog import is_ulog, parse_ulog
 
 POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
 GYRO = ("gx", "gy", "gz")
@@ -57,6 +58,8 @@ class Log:
         Direction from the pivot to the bob, world frame; NaN if not tracked.
     command : (k, n)
         What each rotor was asked for: N, or a fraction from 0 to 1.
+    fractions : bool
+        Whether the format says that commands are fractions.
     """
 
     t: Numbers
@@ -66,6 +69,7 @@ class Log:
     force: Numbers
     rod: Numbers
     command: Numbers
+    fractions: bool = False
 
     @property
     def duration(self) -> float:
@@ -79,15 +83,21 @@ class Log:
 
 
 def read_log(path: str | Path) -> Log:
-    """Read the CSV file at `path`. Raises InputError in one line that names row and column."""
+    """Read the CSV or ULog file at `path`. Raises InputError in one line that names row and column, or the topic.
+
+    A ULog is PX4's: its longest flight is read, in fractions of the largest force.
+    """
     try:
-        text = read_bytes(path, MOST_BYTES, copies=COPIES).decode("utf-8")
+        content = read_bytes(path, MOST_BYTES, copies=COPIES)
+        if is_ulog(content):
+            return _checked(*parse_ulog(content, str(path)), str(path), fractions=True)
+        text = content.decode("utf-8")
     except InputError:
         raise
     except OSError as error:
-        raise InputError(str(path), "a readable CSV file", error.strerror or error) from None
+        raise InputError(str(path), "a readable file", error.strerror or error) from None
     except ValueError as error:  # not UTF-8, or a name that no file can have
-        raise InputError(str(path), "a CSV file in UTF-8", error) from None
+        raise InputError(str(path), "a ULog, or a CSV file in UTF-8", error) from None
     return parse_log(text, str(path))
 
 
@@ -100,7 +110,7 @@ def parse_log(text: str, field: str = "log") -> Log:
     try:
         names = [name.strip() for name in next(rows, [])]
         units = np.ones(len(names))
-        if "timestamp" in names:
+        if theirs := "timestamp" in names:
             names, units = _of_crazyflie(names, field)
         rotors = _check_header(names, field)
         table = [_numbers(row, names, number, field) for number, row in zip(count(2), rows, strict=False)]
@@ -108,7 +118,7 @@ def parse_log(text: str, field: str = "log") -> Log:
         raise InputError(field, f"CSV (line {rows.line_num})", error) from None
     values = np.array(table, dtype=float).reshape(len(table), len(names)) * units
     columns = dict(zip(names, values.T, strict=True))
-    return _checked(columns, rotors, field)
+    return _checked(columns, rotors, field, fractions=theirs)
 
 
 def _of_crazyflie(names: list[str], field: str) -> tuple[list[str], Any]:
@@ -166,7 +176,7 @@ def _check_times(t: Any, field: str) -> None:
         raise InputError(f"{field}, row {_row(gap) + 1}, column t", f"gaps of at most {LONGEST_GAP:g} s", _told(t, gap))
 
 
-def _checked(columns: dict[str, Any], rotors: int, field: str) -> Log:
+def _checked(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool) -> Log:
     t = columns["t"]
     _check_times(t, field)
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)
@@ -190,7 +200,7 @@ def _checked(columns: dict[str, Any], rotors: int, field: str) -> Log:
     known = np.isfinite(w[:, 0])
     rotation = np.full((len(t), 3, 3), np.nan)
     rotation[known] = rotation_from_quat_xyzw(np.concatenate([xyz, w], axis=1)[known])
-    return Log(t, groups["position"], rotation, groups["gyro"], groups["force"], groups["rod"], command)
+    return Log(t, groups["position"], rotation, groups["gyro"], groups["force"], groups["rod"], command, fractions)
 
 
 def _held(values: Any, field: str) -> Any:

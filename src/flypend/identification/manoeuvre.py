@@ -54,7 +54,7 @@ def doublet(t: float) -> Any:
 
 def rehearse(
     vehicle: Vehicle, true: Vehicle, plant: Plant, *, duration: float = 60.0, latency: float = 0.0,
-    accelerometer: float = 0.1, bias: float = 0.0, scale: float = 1.0, seed: int = 0,
+    accelerometer: float = 0.1, bias: float = 0.0, seed: int = 0,
 ) -> Rehearsal:  # fmt: skip
     """Fly the manoeuvre with the rod hanging, and log it.
 
@@ -74,13 +74,10 @@ def rehearse(
         Standard deviation of the accelerometer's noise, m/s².
     bias : float
         Standard deviation of the gyroscope's bias, rad/s; that of the accelerometer is ten times as many m/s².
-    scale : float
-        True over commanded force of every rotor.
     seed : int
         Seed of all noise.
     """
     rng, n, h = np.random.default_rng(seed), len(vehicle.rotor_spins), 1 / RATE
-    plant = plant.replace(strength=tuple(scale * np.broadcast_to(plant.strength, (n,))))
     noise, engine = plant.noise or Noise(), make_engine(true, plant)
     hover = np.full(n, vehicle.weight / n)
     engine.reset(State(y=(0, 0, -1)).packed(), hover)
@@ -166,8 +163,8 @@ def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> 
     gust = 0.02 * vehicle.weight
     plant = Plant(
         delay=rng.uniform(0, 0.02), sag=rng.uniform(0.02, 0.08), spin_up=rng.uniform(1, 1.4),
-        strength=tuple(1 + rng.uniform(-0.05, 0.05, len(vehicle.rotor_spins))),
+        strength=tuple(SCALE * (1 + rng.uniform(-0.05, 0.05, len(vehicle.rotor_spins)))),
         noise=Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
         wind=Wind(gust_on_vehicle=gust, gust_on_bob=gust / 5),
     )  # fmt: skip
-    return guess, rehearse(guess, vehicle, plant, duration=duration, latency=0.008, bias=0.01, scale=SCALE, seed=seed)
+    return guess, rehearse(guess, vehicle, plant, duration=duration, latency=0.008, bias=0.01, seed=seed)

@@ -27,12 +27,13 @@ from flypend.model.dynamics import (
     rod_tension,
     total_energy,
 )
-from flypend.model.motion import disturbed_motion, equations_of_motion
+from flypend.model.motion import Disturbance, disturbed_motion, equations_of_motion
 from flypend.model.shipped import vehicle
 from flypend.model.state import State, Wrench
 from flypend.model.vehicle import Vehicle
 
 __all__ = [
+    "Disturbance",
     "Rates",
     "State",
     "Vehicle",

@@ -28,7 +28,7 @@ CLOSEST = 0.5
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Air:
-    """Coefficients of the air's forces on a vehicle at rest in still air, where they vanish.
+    """Coefficients of the forces of still air on a moving vehicle.
 
     With v the airspeed of a rotor in the body frame and f its force,
 

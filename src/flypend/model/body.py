@@ -21,7 +21,7 @@ MOUNTS: tuple[MountKind, ...] = ("gimbal", "hub", "cup")
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """Solid parts of a machine as far as the rod can touch them, around its pivot, m.
+    """The solid parts of a machine that the rod can touch, around its pivot, m.
 
     Parameters
     ----------

@@ -14,10 +14,11 @@ from importlib import resources
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.model.quantity import quantity
+from flypend.model.quantity import Quantity, quantity
 from flypend.model.rod import rod_with_bob
 
 AIR = 1.225  # kg/m³
@@ -25,8 +26,8 @@ INCH = 0.0254
 EARTH = 9.81  # m/s²
 # Scaling laws: middle, and the factor by which a machine may be off either way.
 ROLL, YAW, INERTIA_BAND = 0.25, 0.45, 1.6  # moments of inertia over mass × arm²
-THRUST_COEFFICIENT, THRUST_BAND = 0.11, 1.6  # of propellers at rest, T/(ρ n² D⁴)
-MERIT, TORQUE_BAND = 0.45, 1.6  # figure of merit, ideal over actual power in hover
+THRUST_COEFFICIENT, THRUST_BAND = 0.12, 1.6  # of propellers at rest, T/(ρ n² D⁴)
+MERIT, TORQUE_BAND = 0.5, 1.6  # figure of merit, ideal over actual power in hover
 TORQUE = np.sqrt(2 * THRUST_COEFFICIENT / np.pi) / (2 * np.pi * MERIT)  # torque over thrust and diameter: T v/(MERIT ω)
 LOADED = 0.70  # full speed under load over that without
 CELL = 3.7  # V, of a lithium polymer cell
@@ -40,8 +41,8 @@ MOST_ROTORS, MOST_SURPLUS = 12, 20.0
 # Bands of what no part of the machine tells.
 OTHERS = {"spin_up": [0.6, 1.8], "sag": [0.0, 0.12], "delay": [0.0, 0.05], "latency": [0.0, 0.03]}
 SCALING = "I/(m arm²) alike for like machines (Kumar and Michael 2012), as of the package's vehicles"
-STATIC = "static thrust coefficient 0.11 (range of Brandt and Selig 2011), speed 0.7 of that without load"
-MOMENTUM = "momentum theory with a figure of merit of 0.45 (range of small rotors: Leishman 2006)"
+STATIC = "static thrust coefficient 0.12 (range of Brandt and Selig 2011), speed 0.7 of that without load"
+MOMENTUM = "momentum theory with a figure of merit of 0.5 (range of small rotors: Leishman 2006)"
 LAGS = "as of identified machines (arXiv 2404.07837)"
 SIZE = re.compile(r"(?P<inches>\d{1,2}(?:\.\d+)?)[x×*]\d+(?:\.\d+)?(?:[x×*]\d)?|(?P<both>\d{4,5})")
 KV = re.compile(r"(\d{2,5}(?:\.\d+)?)\s*[kK][vV]")
@@ -75,29 +76,46 @@ def parts() -> dict[str, Any]:
     return tomllib.loads((resources.files("flypend") / "model" / "parts.toml").read_text(encoding="utf-8"))
 
 
-def guess(
-    *, mass: Any, arm: Any, propeller: Any, rod_length: Any, rod_mass: Any = 0.0, bob_mass: Any = 0.0,
-    motor: str | None = None, battery: Any = None, thrust: Any = None, inertia: Any = None, rotors: int = 4,
-    mount: str = "gimbal", name: str = "mine",
-) -> Guess:  # fmt: skip
+class Measured(NamedTuple):
+    """What a scale, a ruler and the parts of a machine tell: the arguments of `Vehicle.estimate`."""
+
+    mass: Quantity
+    arm: Quantity
+    propeller: Quantity
+    rod_length: Quantity
+    rod_mass: Quantity = 0.0
+    bob_mass: Quantity = 0.0
+    motor: str | None = None
+    battery: Quantity | None = None
+    thrust: Quantity | None = None
+    inertia: ArrayLike | None = None
+    rotors: int = 4
+    mount: str = "gimbal"
+    name: str = "mine"
+
+
+def guess(measured: Measured) -> Guess:
     """Return the fields of a vehicle and their sources; see `Vehicle.estimate`."""
-    m = quantity("mass", mass, "kg", 0.005, 100)
-    a = quantity("arm", arm, "m", 0.01, 3)
-    n = errors.integer("rotors", rotors, 4, MOST_ROTORS)
+    m = quantity("mass", measured.mass, "kg", 0.005, 100)
+    a = quantity("arm", measured.arm, "m", 0.01, 3)
+    n = errors.integer("rotors", measured.rotors, 4, MOST_ROTORS)
     if n % 2:
         raise InputError("rotors", "an even number, of which half spin each way", f"{n}")
-    rod = _rod(rod_mass, rod_length, bob_mass)
-    prop, motor_known = _propeller(propeller), _motor(motor)
+    rod = _rod(measured)
+    if measured.thrust is None and rod["bob_mass"] > m:
+        wanted = f"rod and bob of at most the machine's {m:.3g} kg (g, not kg?), or thrust, as measured"
+        raise InputError("bob_mass", wanted, f"{rod['bob_mass']:.3g} kg")
+    prop, motor_known = _propeller(measured.propeller), _motor(measured.motor)
     weight = (m + rod["bob_mass"]) * EARTH
-    most, pushed, off = _thrust(thrust, motor_known, battery, prop, weight / n)
+    most, pushed, off = _thrust(measured, motor_known, prop, weight / n)
     if n * most * off < weight:
         wanted = f"at least {weight / n:.3g} N, as {weight:.3g} N of weight on {n} rotors need to hover"
         raise InputError("thrust", wanted, f"{most:.3g} N ({pushed})")
     if n * most > MOST_SURPLUS * off * weight:
         wanted = f"rotors of at most {MOST_SURPLUS:g} times the weight ({weight:.3g} N)"
         raise InputError("thrust", wanted, f"{n * most / weight:.3g} times ({pushed})")
-    given = inertia is not None
-    moments = errors.array("inertia", inertia if given else np.array([ROLL, ROLL, YAW]) * m * a**2, (3,))
+    given = measured.inertia is not None
+    moments = errors.array("inertia", measured.inertia if given else np.array([ROLL, ROLL, YAW]) * m * a**2, (3,))
     known = "drag_ratio" in prop
     ratio = prop["drag_ratio"] if known else TORQUE * prop["diameter"]
     lag, slow = (motor_known["lag"], 1.3) if "lag" in motor_known else (LAG, LAG_BAND)
@@ -105,9 +123,9 @@ def guess(
     turns = 2 * np.pi * (np.arange(n) + 0.5) / n  # the nose is between two arms
     places = a * np.column_stack([np.cos(turns), np.sin(turns), 0 * turns])
     fields = {
-        "name": name, "mass": m, **rod, "inertia": _short(moments), "gravity": EARTH, "rotor_positions": _short(places),
-        "rotor_spins": [(-1) ** i for i in range(n)], "drag_ratio": _short(ratio),
-        "rotor_limits": _short([IDLE * most, most]), "rotor_lag": lag, "mount": mount,
+        "name": measured.name, "mass": m, **rod, "inertia": _short(moments), "gravity": EARTH,
+        "rotor_positions": _short(places), "rotor_spins": [(-1) ** i for i in range(n)], "drag_ratio": _short(ratio),
+        "rotor_limits": _short([IDLE * most, most]), "rotor_lag": lag, "mount": measured.mount,
         "body": _short(
             {"disc_radius": prop["diameter"] / 2, "arm_radius": ARM_RADIUS * a, "hub_radius": HUB_RADIUS * a,
              "rod_radius": ROD_RADIUS * rod["rod_end"]}
@@ -140,18 +158,16 @@ def guess(
     return Guess(fields, sources)
 
 
-def _rod(rod_mass: Any, rod_length: Any, bob_mass: Any) -> dict[str, Any]:
+def _rod(measured: Measured) -> dict[str, float]:
     """Return the fields of the rod."""
-    length = quantity("rod_length", rod_length, "m", 0.05, 20)
-    alone, bob = (
-        quantity(name, value, "kg", 0, 20) for name, value in (("rod_mass", rod_mass), ("bob_mass", bob_mass))
-    )
+    length = quantity("rod_length", measured.rod_length, "m", 0.05, 20)
+    alone, bob = (quantity(name, getattr(measured, name), "kg", 0, 20) for name in ("rod_mass", "bob_mass"))
     if alone + bob == 0:
         raise InputError("rod_mass", "the mass of the rod, its bob or both, kg", "none")
     return {name: _short(value) for name, value in rod_with_bob(alone, length, bob).items()}
 
 
-def _propeller(value: Any) -> dict[str, Any]:
+def _propeller(value: Quantity) -> dict[str, Any]:
     """Return what is known of a propeller: its diameter, m, and, of one in the table, its constants."""
     table = parts()["propellers"]
     if isinstance(value, str) and value in table:
@@ -181,11 +197,12 @@ def _motor(value: str | None) -> dict[str, Any]:
     return {"kv": errors.number("motor", float(found[1]), at_least=20, at_most=30000, unit="rpm/V")}
 
 
-def _thrust(thrust: Any, motor: dict[str, Any], battery: Any, prop: dict[str, Any], share: float) -> Any:
+def _thrust(measured: Measured, motor: dict[str, Any], prop: dict[str, Any], share: float) -> tuple[float, str, float]:
     """Return the largest force of a rotor, N, its source, and the factor by which it may be off.
 
     `share` is the weight that a rotor carries, N.
     """
+    thrust, battery = measured.thrust, measured.battery
     if bool(motor) != (battery is not None):
         missing, there = ("battery", "motor") if motor else ("motor", "battery")
         raise InputError(missing, f"the {missing} that goes with the {there}", "nothing")
@@ -198,7 +215,7 @@ def _thrust(thrust: Any, motor: dict[str, Any], battery: Any, prop: dict[str, An
     return float(_short(constant * speed**2)), f"motor, battery and propeller: {STATIC}", THRUST_BAND
 
 
-def _volts(battery: Any) -> float:
+def _volts(battery: Quantity | None) -> float:
     """Return the voltage of a battery, given by its cells, "4S", or in volts."""
     if isinstance(battery, str) and (cells := CELLS.fullmatch(battery.strip())):
         return CELL * errors.number("battery", float(cells[1]), at_least=1, at_most=14, unit="cells")

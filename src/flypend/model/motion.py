@@ -5,6 +5,8 @@ Both functions accept NumPy batches and CasADi expressions.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale
@@ -13,6 +15,31 @@ from flypend.model.joint import on_rod
 from flypend.model.rod import is_point, shared_out
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
+
+
+class Disturbance(NamedTuple):
+    """What laws do not model: external forces, and a joint that need not be free (`model.joint`).
+
+    Parameters
+    ----------
+    force_on_vehicle, force_on_bob : (..., 3)
+        F_v at the vehicle's centre of mass and F_b at that of rod and bob, world frame, N.
+    pivot_offset : (..., 3)
+        o, from the vehicle's centre of mass to the pivot, body frame, m.
+    joint_torque : (..., 3), optional
+        Q, across the rod, world frame, N m; default none.
+    spin : float
+        S, angular momentum of the rod about its own axis, kg m²/s.
+    """
+
+    force_on_vehicle: Vector = (0.0, 0.0, 0.0)
+    force_on_bob: Vector = (0.0, 0.0, 0.0)
+    pivot_offset: Vector = (0.0, 0.0, 0.0)
+    joint_torque: Vector = None
+    spin: float = 0.0
+
+
+UNDISTURBED = Disturbance()
 
 
 def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction) -> Rates:
@@ -26,18 +53,9 @@ def equations_of_motion(state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Di
 
 
 def disturbed_motion(
-    state: State,
-    wrench: Wrench,
-    vehicle: Vehicle,
-    e3: E3Direction,
-    *,
-    force_on_vehicle: Vector = (0.0, 0.0, 0.0),
-    force_on_bob: Vector = (0.0, 0.0, 0.0),
-    pivot_offset: Vector = (0.0, 0.0, 0.0),
-    joint_torque: Vector = None,
-    spin: float = 0.0,
+    state: State, wrench: Wrench, vehicle: Vehicle, e3: E3Direction, disturbance: Disturbance = UNDISTURBED
 ) -> Rates:
-    """Rates of `state` under `wrench` and external forces, with a joint that need not be free (`model.joint`).
+    """Rates of `state` under `wrench` and a `disturbance`.
 
     With c the centre of mass, o the pivot offset in the body frame, x = c + R o the pivot and T the rod tension,
 
@@ -71,14 +89,8 @@ def disturbed_motion(
         Vehicle parameters.
     e3 : "up" or "down"
         Direction of the third axis of the world frame, for all arguments and results.
-    force_on_vehicle, force_on_bob : (..., 3)
-        F_v at the vehicle's centre of mass and F_b at that of rod and bob, world frame, N.
-    pivot_offset : (..., 3)
-        From the vehicle's centre of mass to the pivot, body frame, m.
-    joint_torque : (..., 3), optional
-        Q, across the rod, world frame, N m; default none.
-    spin : float
-        S, angular momentum of the rod about its own axis, kg m²/s.
+    disturbance : Disturbance
+        Forces and joint, in the same frame.
 
     Returns
     -------
@@ -90,12 +102,10 @@ def disturbed_motion(
     R, omega, y = state.R, state.omega, state.y
     f, z = wrench.thrust, state.z
     speed_squared = dot(state.y_dot, state.y_dot)
-    o, I, I_inv, moment, F_v, F_b = _of_rigid_body(
-        vehicle, state, wrench, pivot_offset, scale(1.0, force_on_vehicle), scale(1.0, force_on_bob)
-    )
-    if joint_torque is not None or spin:
-        torque = 0 * state.y if joint_torque is None else joint_torque
-        P = on_rod(state, torque, spin, l)
+    o, I, I_inv, moment, F_v, F_b = _of_rigid_body(vehicle, state, wrench, disturbance)
+    if disturbance.joint_torque is not None or disturbance.spin:
+        torque = 0 * state.y if disturbance.joint_torque is None else disturbance.joint_torque
+        P = on_rod(state, torque, disturbance.spin, l)
         back = _transposed(R)
         F_v, F_b, moment = F_v - P, F_b + P, moment - apply(back, torque) - cross(o, apply(back, P))
 
@@ -115,9 +125,11 @@ def disturbed_motion(
 
 
 def _of_rigid_body(
-    vehicle: Vehicle, state: State, wrench: Wrench, offset: Vector, on_vehicle: Vector, on_rod: Vector
+    vehicle: Vehicle, state: State, wrench: Wrench, disturbance: Disturbance
 ) -> tuple[Vector, Matrix, Matrix, Vector, Vector, Vector]:
     """Return o, I, I⁻¹, the moment, F_v and F_b of the rigid body of vehicle and pivot mass, and the point bob."""
+    offset = disturbance.pivot_offset
+    on_vehicle, on_rod = scale(1.0, disturbance.force_on_vehicle), scale(1.0, disturbance.force_on_bob)
     if is_point(vehicle):
         return offset, vehicle.I, vehicle.I_inv, wrench.moment, on_vehicle, on_rod
     own, M, o = vehicle.mass, vehicle.M, np.asarray(offset, dtype=float)

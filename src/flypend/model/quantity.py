@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
 from flypend import errors
 from flypend.errors import InputError
 
+Quantity = float | str  # SI, or text with a unit
 # Factors to SI, by what is measured.
 UNITS: dict[str, dict[str, float]] = {
     "kg": {"g": 1e-3},
@@ -19,7 +19,7 @@ _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s]*)
 MOST_TEXT = 40  # characters of a quantity
 
 
-def quantity(field: str, value: Any, unit: str, low: float, high: float) -> float:
+def quantity(field: str, value: Quantity | None, unit: str, low: float, high: float) -> float:
     """Return `value`, a number in the SI `unit` or text with a unit, "620 g", as a float in SI.
 
     Raises InputError unless it lies between `low` and `high`, and asks for the unit that was probably meant.

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
@@ -17,9 +18,10 @@ from flypend.geometry import Matrix, Numbers, Vector
 from flypend.model.air import Air, air_from
 from flypend.model.bands import bands_from
 from flypend.model.body import MOUNTS, Body, MountKind, body_from
-from flypend.model.estimate import guess
+from flypend.model.estimate import Measured, guess
 from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
+from flypend.model.quantity import Quantity
 from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
 
@@ -321,8 +323,9 @@ class Vehicle:
     @classmethod
     @errors.named_arguments
     def estimate(
-        cls, *, mass: Any, arm: Any, propeller: Any, rod_length: Any, rod_mass: Any = 0.0, bob_mass: Any = 0.0,
-        motor: str | None = None, battery: Any = None, thrust: Any = None, inertia: Any = None, rotors: int = 4,
+        cls, *, mass: Quantity, arm: Quantity, propeller: Quantity, rod_length: Quantity, rod_mass: Quantity = 0.0,
+        bob_mass: Quantity = 0.0, motor: str | None = None, battery: Quantity | None = None,
+        thrust: Quantity | None = None, inertia: ArrayLike | None = None, rotors: int = 4,
         mount: MountKind = "gimbal", name: str = "mine",
     ) -> Self:  # fmt: skip
         """Return a vehicle from what a person can measure, the rest by scaling laws, with a band for each number.
@@ -354,11 +357,10 @@ class Vehicle:
         InputError
             For a number that no such machine has, with the unit that was probably meant, or rotors too weak to hover.
         """
-        found = guess(
-            mass=mass, arm=arm, propeller=propeller, rod_length=rod_length, rod_mass=rod_mass, bob_mass=bob_mass,
-            motor=motor, battery=battery, thrust=thrust, inertia=inertia, rotors=rotors, mount=mount, name=name,
-        )  # fmt: skip
-        return cls(**found.fields)
+        found = Measured(
+            mass, arm, propeller, rod_length, rod_mass, bob_mass, motor, battery, thrust, inertia, rotors, mount, name
+        )
+        return cls(**guess(found).fields)
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:

@@ -21,11 +21,16 @@ def worlds_within(vehicle: Vehicle, plant: Sampled, seed: int, draws: int = DRAW
     pivot's offset; limits and drag of rotors and the latency of poses stay. The law believes `vehicle`. Raises
     InputError if it has no bands.
     """
-    if not vehicle.bands:
-        raise InputError("vehicle.bands", "bands, as flypend vehicle new and flypend identify write them", "none")
+    check_bands(vehicle)
     rng = np.random.default_rng(seed)
     worlds = [_drawn(vehicle, plant, rng) for _ in range(draws)]
     return {"as written": plant, **{f"drawn {i + 1}": world for i, world in enumerate(worlds)}}
+
+
+def check_bands(vehicle: Vehicle) -> None:
+    """Raise InputError if `vehicle` has no bands."""
+    if not vehicle.bands:
+        raise InputError("vehicle.bands", "bands, as flypend vehicle new and flypend identify write them", "none")
 
 
 def _drawn(vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> Sampled:

@@ -16,6 +16,8 @@ from flypend.flight.ensemble import fly_many
 from flypend.flight.metrics import wilson
 from flypend.model import State
 from flypend.model.state import SHAPES
+from flypend.plants import AnyPlant, Sampled
+from flypend.studies.bands import check_bands, worlds_within
 from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import program_digest
@@ -23,10 +25,15 @@ from flypend.studies.sweep.design import design
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
 
-KEYS = ("gains", "objective", "runs", "generations", "population", "seed", "step")
+KEYS = ("gains", "objective", "bands", "runs", "generations", "population", "seed", "step")
+# What is tuned of a law that has them and no study names others, and how far each may go either way.
+STANDARD = ("position_bandwidth", "height_bandwidth", "rod_bandwidth", "attitude_bandwidth", "throw_speed",
+            "flip_speed", "catch_time")  # fmt: skip
+SPAN = 1.6
 # The settling time of a failed run counts as LATE durations; excursion (m) and effort are capped at FAR.
 LATE, FAR = 2.0, 100.0
 MOST_REPORTED = 20_000
+DRAWN, MOST_DRAWN = 32, 64  # vehicles; gains tuned on eight fit those eight, and are no better on others
 
 
 @errors.named_arguments
@@ -110,9 +117,11 @@ def tune(
 ) -> Tuned:
     """Tune gains on the objective of a study, by CMA-ES in the logarithm of the gains.
 
-    The table `tune` of the study has the keys `gains`, a table of [low, high]; `objective`, the weights of `Objective`;
-    `runs` per gain vector (default 200); `generations` (30); `population` (default that of CMA-ES); `step` (0.2, the
-    initial standard deviation over the range); and `seed` (1). Every gain vector flies the same starts.
+    The table `tune` of the study has the keys `gains`, a table of [low, high] (for `inverted` by default the bandwidths
+    and speeds in `STANDARD`, up to `SPAN` times larger or smaller); `objective`, the weights of `Objective`; `bands`,
+    how many vehicles are drawn from the vehicle's bands to be flown beside it in turn (default 0; the report draws
+    others); `runs` per gain vector (default 200); `generations` (30); `population` (default that of CMA-ES); `step`
+    (0.2, the initial standard deviation over the range); and `seed` (1). Every gain vector flies the same starts.
 
     Parameters
     ----------
@@ -129,14 +138,15 @@ def tune(
     Raises
     ------
     InputError
-        If the study is invalid, or if it varies gains or a grid; if `costs` belongs to another search, or cannot be
-        written.
+        If the study is invalid, varies gains or a grid, or asks for bands that its vehicle lacks; if `costs` belongs
+        to another search, or cannot be written.
     """
     errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
     task = _task(made)
     search = _search(task)
-    kept = Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}")
+    bands = made.flight.vehicle.bands if task.bands else ""
+    kept = Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}{bands}")
     history: list[dict[str, Any]] = []
     best, least = task.start, np.inf
     progress(min(kept.generations, task.generations), task.generations)
@@ -169,6 +179,7 @@ class _Task:
     low: Any
     high: Any
     objective: Objective
+    bands: int
     runs: int
     generations: int
     population: int | None
@@ -190,7 +201,7 @@ class _Task:
         """Return the mean cost of each of `points`, all flown in one call from the tuning starts."""
         values = np.array([list(self.gains(point).values()) for point in points])
         columns = self._flown(values, self.runs, cube.TUNED, workers)
-        return self.objective.cost(columns, self.study.flight.duration).reshape(len(points), self.runs).mean(axis=1)
+        return self.objective.cost(columns, self.study.flight.duration).mean(axis=1)
 
     def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
         """Return the statistics of `gains` on the first `MOST_REPORTED` starts of the study."""
@@ -211,14 +222,26 @@ class _Task:
         }
 
     def _flown(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
-        """Metrics of `runs` runs under each row of gains `values`, concatenated."""
-        study = self.study
-        packed = np.tile(design(study, 0, runs, stream).packed, (len(values), 1))
-        columns = dict(zip(self.names, np.repeat(values, runs, axis=0).T, strict=True))
-        flight = study.flight.replace(starts=State.trusted(packed), gains=columns)
+        """Metrics (k, runs) of `runs` runs under each of k rows of gains `values`, on each world in turn."""
+        flight, worlds = self.study.flight, self._worlds(stream)
         if stream == cube.TUNED:  # its own noise, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
-        return fly_many(flight, workers=workers).columns
+        starts = design(self.study, 0, runs, stream).packed
+        found = []
+        for own, world in ((starts[i :: len(worlds)], world) for i, world in enumerate(worlds[:runs])):
+            gains = dict(zip(self.names, np.repeat(values, len(own), axis=0).T, strict=True))
+            packed = State.trusted(np.tile(own, (len(values), 1)))
+            flown = fly_many(flight.replace(starts=packed, gains=gains, plant=world), workers=workers).columns
+            found.append({name: column.reshape(len(values), len(own)) for name, column in flown.items()})
+        return {name: np.concatenate([one[name] for one in found], axis=1) for name in found[0]}
+
+    def _worlds(self, stream: int) -> list[AnyPlant]:
+        """The study's plant, and with bands those of vehicles drawn, others for the report."""
+        flight = self.study.flight
+        if not self.bands or not isinstance(flight.plant, Sampled):
+            return [flight.plant]
+        seed = 2 * self.seed + (stream == cube.REPORTED)
+        return list(worlds_within(flight.vehicle, flight.plant, seed, self.bands).values())
 
 
 def _task(made: Study) -> _Task:
@@ -228,11 +251,41 @@ def _task(made: Study) -> _Task:
         raise InputError("vary", "starts that are drawn, where gains are tuned", "a grid, or gains")
     if made.sampling == "latin":
         raise InputError("sampling", "'uniform' or 'sobol', where gains are tuned", "'latin'")
-    bounds = table.get("gains")
+    limits = _limits(made)
+    weights = table.get("objective", {})
+    if not isinstance(weights, Mapping):
+        raise InputError("tune.objective", "a table of weights", repr(weights))
+    errors.only_known("tune.objective", weights, [entry.name for entry in fields(Objective)])
+    population = table.get("population")
+    bands = errors.integer("tune.bands", table.get("bands", 0), 0, MOST_DRAWN)
+    if bands and not isinstance(made.flight.plant, Sampled):
+        raise InputError("tune.bands", "a sampled plant, such as rotors", "the ideal plant")
+    if bands:
+        check_bands(made.flight.vehicle)
+    return _Task(
+        study=made,
+        names=tuple(limits),
+        low=np.array([low for low, _ in limits.values()]),
+        high=np.array([high for _, high in limits.values()]),
+        objective=Objective(**weights),
+        bands=bands,
+        runs=errors.integer("tune.runs", table.get("runs", 200), 1),
+        generations=errors.integer("tune.generations", table.get("generations", 30), 1),
+        population=None if population is None else errors.integer("tune.population", population, 2),
+        step=errors.number("tune.step", table.get("step", 0.2), above=0),
+        seed=errors.integer("tune.seed", table.get("seed", 1), 1),
+    )
+
+
+def _limits(made: Study) -> dict[str, tuple[float, float]]:
+    """Return the range of each gain to be tuned. Raises InputError."""
+    bounds = made.tune.get("gains")
+    if bounds is None and set(STANDARD) <= made.law.numbers.keys():
+        bounds = {name: [made.law.numbers[name] / SPAN, made.law.numbers[name] * SPAN] for name in STANDARD}
     if not isinstance(bounds, Mapping) or not bounds:
         raise InputError("tune.gains", "a table of gains, each [least, largest]", repr(bounds))
     errors.only_known("tune.gains", bounds, made.law.numbers)
-    limits = []
+    limits = {}
     for name, value in bounds.items():
         low, high = errors.array(f"tune.gains.{name}", value, (2,)).tolist()
         made.law.check_gain(name, (low, high), "tune.gains")
@@ -240,24 +293,8 @@ def _task(made: Study) -> _Task:
             raise InputError(f"tune.gains.{name}", "0 < least < largest", [low, high])
         if not low <= made.law.numbers[name] <= high:
             raise InputError(f"tune.gains.{name}", f"a range around {made.law.numbers[name]:g}", [low, high])
-        limits.append((low, high))
-    weights = table.get("objective", {})
-    if not isinstance(weights, Mapping):
-        raise InputError("tune.objective", "a table of weights", repr(weights))
-    errors.only_known("tune.objective", weights, [entry.name for entry in fields(Objective)])
-    population = table.get("population")
-    return _Task(
-        study=made,
-        names=tuple(bounds),
-        low=np.array([low for low, _ in limits]),
-        high=np.array([high for _, high in limits]),
-        objective=Objective(**weights),
-        runs=errors.integer("tune.runs", table.get("runs", 200), 1),
-        generations=errors.integer("tune.generations", table.get("generations", 30), 1),
-        population=None if population is None else errors.integer("tune.population", population, 2),
-        step=errors.number("tune.step", table.get("step", 0.2), above=0),
-        seed=errors.integer("tune.seed", table.get("seed", 1), 1),
-    )
+        limits[name] = (low, high)
+    return limits
 
 
 def _search(task: _Task) -> Any:

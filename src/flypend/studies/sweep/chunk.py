@@ -12,7 +12,7 @@ import numpy as np
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS
 from flypend.flight.ensemble import fly_many
-from flypend.flight.kernels import kernel_of, plant_numbers
+from flypend.flight.kernels import building, kernel_of, plant_numbers
 from flypend.flight.request import Flight
 from flypend.laws import Controller
 from flypend.laws.own import fingerprint
@@ -46,15 +46,18 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 
     Raises InputError if the study compiles to a program other than the caller's (`program`, a digest).
     """
-    made = _study_of(text, program)
+    with building:
+        made = _study_of(text, program)
     first = number * made.chunk
     return fly_range(made, first, min(first + made.chunk, made.runs))
 
 
 def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
     """Return the columns of runs `first` to `last` (exclusive) of `study`, from sample `stream`, flown on one core."""
-    drawn = design(study, first, last, stream)
-    parts = [fly_many(flight, workers=1) for flight in flights(study, drawn, first)]
+    with building:
+        drawn = design(study, first, last, stream)
+        requests = flights(study, drawn, first)
+    parts = [fly_many(flight, workers=1) for flight in requests]
     judged = [flown.columns for flown in parts]
     columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
     cause = np.zeros(last - first, dtype=np.uint8)

@@ -1,6 +1,6 @@
 // Bundle the pages of flypend: node build.mjs [folder], by default into the package.
 
-import { copyFile, mkdir } from "node:fs/promises";
+import { copyFile, mkdir, readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { join, resolve } from "node:path";
 import { build } from "esbuild";
@@ -23,9 +23,23 @@ const worker = {
   },
 };
 
+const LETTER = 14; // px, of the page's letters on a usual screen
+const KEPT = /@media[^{]*|:root \{[^}]*/.source; // the size of the screen, and that of the letters by it
+
+/** Style sheets as text, with lengths that grow as letters do on a large screen: in rem where they say px. */
+const style = {
+  name: "style",
+  setup({ onLoad }) {
+    onLoad({ filter: /\.css$/ }, async ({ path }) => {
+      const lengths = new RegExp(`${KEPT}|(-?[\\d.]+)px`, "g");
+      const contents = (await readFile(path, "utf8")).replace(lengths, (all, px) => (px ? `${+(px / LETTER).toFixed(5)}rem` : all));
+      return { contents, loader: "text" };
+    });
+  },
+};
+
 await mkdir(out, { recursive: true });
 await build({
-  ...common, entryPoints: ["src/replay.js", "src/lab.js"], legalComments: "inline", loader: { ".css": "text" }, outdir: out,
-  plugins: [worker],
+  ...common, entryPoints: ["src/replay.js", "src/lab.js"], legalComments: "inline", outdir: out, plugins: [style, worker],
 });
 await copyFile(join(here, "node_modules/three/LICENSE"), join(out, "THREE-LICENSE.txt"));

@@ -21,6 +21,7 @@ from flypend.lab.setting import Poke
 from flypend.model.state import seen_packed
 from flypend.plants import MOTION_CAPTURE, plant
 from flypend.plants.sensors import SUITES
+from tests.flight.test_metrics import flight as constructed
 
 SMALL = {"width": 900, "height": 520}
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
@@ -260,6 +261,27 @@ def test_pokes_gains_limits_and_delay_are_flown_as_by_the_package(visit, run):
     assert page.evaluate("flypend.duration()") == pytest.approx(3.25 + 6)
     assert_flies(page, run)
     assert np.abs(poses(page, [3.0])["x"] - before).max() > 0.01
+
+
+def test_recoveries_after_pokes_are_counted_as_by_the_package(visit, run):
+    page = visit(run)
+    blows = [(4.0, [0.9, 0.3, 0]), (8.0, [0, -1.2, 0])]
+    pokes = [{"time": time, "on": "bob", "velocity": velocity} for time, velocity in blows]
+    go_to(page, page.evaluate("flypend.setting()") | {"pokes": pokes})
+    rows, rate = flown(run, page.evaluate("flypend.setting()")), run.flight.plant.rate
+    R = rows[:, 6:15].reshape(-1, 3, 3)
+    same = constructed(np.arange(len(rows)) / rate, x=rows[:, :3], R=R, y=rows[:, 18:21])
+    page.evaluate("flypend.seek(flypend.duration())")
+    found, wanted = page.evaluate("flypend.recoveries()"), fp.recoveries(same)
+    assert len(found) == len(wanted) == 3
+    for ours, its in zip(wanted, found, strict=True):
+        for name, tolerance in {"begin": 0.011, "time": 0.022, "distance": 1e-3, "height_lost": 1e-3}.items():
+            assert its[name] == pytest.approx(getattr(ours, name), abs=tolerance), name
+    said = page.locator(".recovered").first
+    until(page, "() => document.querySelector('.recovered').textContent.startsWith('recovery 3: ')")
+    assert f"{found[2]['time']:.1f} s" in said.inner_text()
+    page.evaluate("flypend.seek(8.3)")
+    until(page, "() => document.querySelector('.recovered').textContent.includes('so far')")
 
 
 def random_settings(first, run, count, seed=4):

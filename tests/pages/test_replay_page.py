@@ -310,12 +310,13 @@ def test_roundoff_does_not_fill_an_axis(visit, still):
 
 
 def test_a_spike_flattens_no_plot_and_is_told(visit, singular, down):
-    assert np.abs(singular.rotor_forces).max() > 5e4
+    peak = np.abs(singular.rotor_forces).max()
+    assert peak > 5e4
     for run, others in ((singular, []), (down, [singular])):
         (label,) = (text for text in told(visit(run, ghost=others)) if text.startswith("Rotor forces"))
         low, high = re.search(r"time, (\S+) to (\S+) N", label.replace("−", "-")).groups()
         assert float(high) - float(low) < 40
-        assert "cut off, peak 63 kN" in label
+        assert f"cut off, peak {peak / 1e3:.0f} kN" in label
 
 
 def test_symbols_are_written_as_symbols(visit, down):
@@ -458,7 +459,7 @@ def test_a_movie_plays_at_its_speed_however_slowly_it_is_drawn(visit, up, tmp_pa
     assert page.evaluate("flypend.time()") == 2
     button = page.get_by_role("button", name="Movie")
     assert (button.get_attribute("aria-pressed"), button.inner_text()) == ("false", "Movie")
-    middle = np.s_[150:350, 330:570]  # the machine, without words over the picture
+    middle = np.s_[150:350, 320:560]  # the machine, without words over the picture
     for i in (3, 8, 14):
         page.evaluate("t => flypend.seek(t)", i * 2 / 30)
         shown = picture(page)[middle]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.flight.live import live_loop
 from flypend.pages.sliders import plant_sliders
 from flypend.plants import Plant, Wind
 
@@ -27,3 +28,5 @@ def test_a_callable_law_has_no_live_page(tmp_path):
     run = fp.simulate(VEHICLE, hold, fp.State(y=(0, 0, 1)), 0.1, plant="rotors")
     with pytest.raises(fp.InputError, match=r"^live: expected a law in symbols, .* the callable hold$"):
         run.to_html(tmp_path / "flight.html", live=True)
+    with pytest.raises(fp.InputError, match=r"^live: expected a law in symbols"):
+        live_loop(run.flight)

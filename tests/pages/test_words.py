@@ -84,6 +84,24 @@ def test_captions_colours_and_verdicts_agree(count, tmp_path):
     assert {status for *_, status in seen} >= {"completed", "singular", "collided"}
 
 
+def test_recoveries_are_those_of_the_package(tmp_path):
+    runs = [run for run in flown(24) if run.e3 == "up"]
+    several = 0
+    for run, page in zip(runs, told(runs, tmp_path), strict=True):
+        wanted, found = fp.recoveries(run), page["recoveries"]
+        several += len(wanted) > 0
+        assert len(found) == len(wanted)
+        for ours, its in zip(wanted, found, strict=True):
+            assert its["begin"] == pytest.approx(ours.begin, abs=0.011)  # a sample of the page
+            if its["end"] is None:
+                assert np.isnan(ours.time)
+            else:
+                assert its["end"] - its["begin"] == pytest.approx(ours.time, abs=0.022)
+            assert its["distance"] == pytest.approx(ours.distance, rel=1e-2, abs=1e-3)
+            assert its["lost"] == pytest.approx(ours.height_lost, rel=1e-2, abs=1e-3)
+    assert several >= 12
+
+
 def test_every_state_has_a_colour_in_both_themes():
     assert set(STATES) <= set(PAGE["light"]) & set(PAGE["dark"])
     assert len({PAGE["light"][state] for state in STATES}) == len({PAGE["dark"][state] for state in STATES}) == 3

@@ -2,10 +2,11 @@
 
 import { move, write } from "./drawing.js";
 import { norm } from "./numbers.js";
+import { recovered } from "./recoveries.js";
 import { Compass } from "./scene/compass.js";
 
 const KEY = [
-  ["rod", "rod and bob"], ["front", "front rotor"], ["thrust", "thrust of each rotor, total in outline"], ["trail", "path of the bob"], ["ink", "path of the vehicle"],
+  ["failed", "no start: the rod would touch"], ["rod", "rod and bob"], ["front", "front rotor"], ["thrust", "thrust of each rotor, total in outline"], ["trail", "path of the bob"], ["ink", "path of the vehicle"],
   ["reference", "reference"],
 ];
 const FALL = 1; // m below the start, from which on a descent is called a fall
@@ -13,13 +14,15 @@ const FALL = 1; // m below the start, from which on a descent is called a fall
 export class Captions {
   /** Over the element `parent`, the key in `low` at its foot. */
   constructor(parent, low) {
-    Object.assign(this, { parent, views: [], marks: [] });
+    Object.assign(this, { parent, views: [], marks: [], heights: document.createElement("div") });
+    parent.querySelector(".picture").after(this.heights); // below all other words
     const key = document.createElement("p");
     key.className = "key";
     key.innerHTML = KEY.map(([role, words]) => `<span><i style="background:var(--${role})"></i>${words}</span>`).join("")
       + `<span class="grid"></span>`;
     low.append(key);
     this.grid = key.querySelector(".grid");
+    this.barred = key.firstChild;
     this.near = Object.assign(document.createElement("p"), { className: "near", hidden: true });
     parent.append(this.near);
   }
@@ -31,9 +34,9 @@ export class Captions {
     this.views = flights.map((flight) => {
       const root = document.createElement("div");
       root.className = "view";
-      root.innerHTML = `<p class="motion"><span class="name"></span><b></b> <span class="moving"></span></p><p class="ended"></p>`;
+      root.innerHTML = `<div class="said"><p class="motion"><span class="name"></span><b></b> <span class="moving"></span></p><p class="recovered"></p><p class="ended"></p></div>`;
       this.parent.append(root);
-      return { flight, root, phase: root.querySelector(".motion b"), motion: root.querySelector(".moving"), name: root.querySelector(".name"), ended: root.querySelector(".ended"), compass: new Compass(root) };
+      return { flight, root, phase: root.querySelector(".motion b"), motion: root.querySelector(".moving"), name: root.querySelector(".name"), recovered: root.querySelector(".recovered"), ended: root.querySelector(".ended"), compass: new Compass(root) };
     });
   }
 
@@ -52,8 +55,10 @@ export class Captions {
       write(view.phase, broken ? flight.verdict.words.split(" ")[0] : flight.phase(t));
       if (view.phase.className !== state) view.phase.className = state;
       if (words) write(view.motion, `${rise < -FALL ? `fell ${(-rise).toFixed(1)} m` : `height ${height} m`}, speed ${norm(x_dot).toFixed(1)} m/s`);
+      if (words) write(view.recovered, flight.e3 === "up" ? recovered(flight.recoveries(t), Math.min(t, flight.end)) : "");
       write(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
+    if (this.barred.hidden === stage.barred.visible) this.barred.hidden = !stage.barred.visible;
     this.#heights(stage.marks());
     this.#near(stage.near);
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
@@ -75,7 +80,7 @@ export class Captions {
     while (this.marks.length < marks.length) {
       const mark = document.createElement("span");
       mark.className = "height";
-      this.parent.append(mark);
+      this.heights.append(mark);
       this.marks.push(mark);
     }
     this.marks.forEach((mark, i) => {

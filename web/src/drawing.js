@@ -1,16 +1,19 @@
 // What all that draws beside the scene does: a canvas as sharp as the screen, elements that follow the time.
 
-/** Clear the canvas of `context` for `width` by `height` CSS pixels, in which one then draws, from its upper left. */
+/** How much larger letters, and all that is drawn, are than on a usual screen: see the first lines of replay.css. */
+export const lettering = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 14;
+
+/** Clear the canvas of `context` for `width` by `height` pixels of a usual screen, in which one then draws, from its upper left. */
 export function clear(context, width, height) {
-  const { canvas } = context, ratio = window.devicePixelRatio || 1, across = Math.round(width * ratio), along = Math.round(height * ratio);
+  const { canvas } = context, ratio = lettering() * (window.devicePixelRatio || 1), across = Math.round(width * ratio), along = Math.round(height * ratio);
   if (canvas.width !== across || canvas.height !== along) Object.assign(canvas, { width: across, height: along });
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.clearRect(0, 0, across, along);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
 }
 
-/** A font of `pixels` on a canvas, larger where the page's letters are. */
-export const font = (pixels) => `${(pixels * parseFloat(getComputedStyle(document.documentElement).fontSize)) / 14}px system-ui, sans-serif`;
+/** A font of `pixels` on such a canvas. */
+export const font = (pixels) => `${pixels}px system-ui, sans-serif`;
 
 /** Put `element` to `transform`, unless it is there: to write a style has styles computed anew. */
 export function move(element, transform) {

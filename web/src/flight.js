@@ -5,6 +5,7 @@
 
 import { clamp, dot, hermite, indexBefore, matrix, mix, slerp, unit } from "./numbers.js";
 import { phases, STANDS } from "./phases.js";
+import { Recoveries } from "./recoveries.js";
 
 const TURNS_IN_HOVER = 2.5; // drawn turns of a rotor per second of flight that carries its share of the weight
 const ABOUT = 0.15, LEVEL = Math.SQRT1_2; // s and sine: of a pass between the arms
@@ -86,6 +87,12 @@ export class Flight {
   /** What the rod does at the time `t`, in one word. */
   phase(t) {
     return (this.phases.find(({ to }) => t < to) ?? this.phases[this.phases.length - 1]).name;
+  }
+
+  /** Its recoveries as they are known at the time `t`, see recoveries.js. */
+  recoveries(t) {
+    if (!(this.counted?.until <= t)) this.counted = new Recoveries(this.hold);
+    return this.counted.read(this, t);
   }
 
   /** Whether the rod passes between the arms about the time `t`: within 45° of their plane, on a mount where they are in its way. */

@@ -46,6 +46,6 @@ export function legend(parent, flights) {
 /** Write a verdict, with a sign of its state: done, recovering or failed. */
 export function judge(element, { words, state, reason }) {
   element.textContent = words;
-  element.title = reason ?? "";
+  if (reason && !words.includes(reason)) element.textContent += `: ${reason}`;
   element.className = `verdict ${state}`;
 }

@@ -1,11 +1,11 @@
 // Quantities over time on a canvas, with a cursor that follows the clock and that one can drag.
 
-import { clear, font, move, write } from "./drawing.js";
+import { clear, font, lettering, move, write } from "./drawing.js";
 import { drawMark, markIcon } from "./marks.js";
 import { clamp, indexBefore, mix, roundUp } from "./numbers.js";
 import { large, power, reading, scientific, tick } from "./words.js";
 
-const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins, CSS pixels
+const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins; all sizes are pixels of a usual screen, see drawing.js
 const APART = 92; // pixels between two marks of a curve
 const FAINT = 1e-8; // of the largest value: a logarithmic axis goes no further down
 const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut off at four times that
@@ -15,7 +15,7 @@ const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut of
  * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]
  * at the right edge), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
  * `scale` (the usual size of a value), `least` (the shortest axis), `touches` (times of collisions), `phases` ([{ from, to, name }]:
- * words along the time), `end` (time that all share), `log` (a logarithmic axis). `seek` is called with a time when the plot is touched.
+ * words along the time), `end` (time that all share), `log` (a logarithmic axis), `wide` (many curves: it gets more room). `seek` is called with a time when the plot is touched.
  */
 export class Plot {
   constructor(parent, options, seek) {
@@ -35,9 +35,10 @@ export class Plot {
 
   /** Show something else, with options as for a new plot; `draw` puts it on the canvas. */
   load(options) {
-    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, scale: 0, least: 0, touches: [], phases: [], log: false, ...options });
+    Object.assign(this, { names: [], levels: [], limits: [null, null], range: null, wide: false, scale: 0, least: 0, touches: [], phases: [], log: false, ...options });
     if (this.log) Object.assign(this, decades(this));
     this.#head();
+    this.root.classList.toggle("wide", this.wide);
     [this.span, this.peak] = this.range ? [this.range, null] : range(this);
     this.canvas.setAttribute("aria-label", this.#told());
   }
@@ -76,7 +77,7 @@ export class Plot {
   #listen(seek) {
     const at = (event) => {
       const { left } = this.canvas.getBoundingClientRect();
-      seek(mix(this.start, this.end, clamp((event.clientX - left - LEFT) / (this.width - LEFT - RIGHT), 0, 1)));
+      seek(mix(this.start, this.end, clamp(((event.clientX - left) / this.larger - LEFT) / (this.width - LEFT - RIGHT), 0, 1)));
     };
     this.area.addEventListener("pointerdown", (event) => {
       this.area.setPointerCapture(event.pointerId);
@@ -84,7 +85,8 @@ export class Plot {
     });
     this.area.addEventListener("pointermove", (event) => event.buttons && at(event));
     new ResizeObserver(([{ contentRect: { width, height } }]) => {
-      Object.assign(this, { width, height });
+      const larger = lettering();
+      Object.assign(this, { larger, width: width / larger, height: height / larger });
       if (this.colours) this.draw(this.colours);
       this.show(this.now ?? this.start, false);
     }).observe(this.area);
@@ -211,7 +213,7 @@ export class Plot {
   show(t, words = true) {
     this.now = t;
     const share = (clamp(t, this.start, this.end) - this.start) / (this.end - this.start || 1);
-    move(this.cursor, `translateX(${LEFT + share * ((this.width ?? 0) - LEFT - RIGHT)}px)`);
+    move(this.cursor, `translateX(${(this.larger ?? 1) * (LEFT + share * ((this.width ?? 0) - LEFT - RIGHT))}px)`);
     if (!words) return;
     for (const { line, output } of this.readings) {
       write(output, (this.log ? scientific : reading)(valueAt(line, t)));

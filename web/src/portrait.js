@@ -1,15 +1,15 @@
 // The phase portrait of the rod: the path of each flight over the sphere of directions, where the rods are, and where the
 // rate of the first takes it.
 
-import { clear, move, write } from "./drawing.js";
+import { clear, lettering, move, write } from "./drawing.js";
 import { rise } from "./flight.js";
 import { indexBefore } from "./numbers.js";
 import { DASHES } from "./series.js";
 import { axes, place, rings, way } from "./sphere.js";
 
 const AHEAD = 0.2; // s, the time that the hand of the rod shows
-const MARGIN = 24; // CSS pixels, for the words at the rim
-const NEAR = 20; // CSS pixels between a touch and the path that is meant
+const MARGIN = 24; // pixels of a usual screen, as all sizes here (drawing.js), for the words at the rim
+const NEAR = 20; // pixels between a touch and the path that is meant
 const CLEAR = 0.85; // opacity of the disc, behind which the picture goes on
 const HTML = `<div class="globe"><canvas role="img"></canvas><i class="hand"></i></div>
   <figcaption><button type="button" class="fold" title="The direction of the rod on its sphere (s)">Rod direction</button>
@@ -29,7 +29,8 @@ export class Portrait {
     this.outputs = [...this.root.querySelectorAll("output")];
     this.context = this.canvas.getContext("2d");
     new ResizeObserver(([{ contentRect: { width } }]) => {
-      Object.assign(this, { size: width, radius: width / 2 - MARGIN });
+      const larger = lettering(), size = width / larger;
+      Object.assign(this, { larger, size, radius: size / 2 - MARGIN });
       if (this.colours && this.seen) this.draw(this.colours);
       if (this.poses) this.show(this.poses, false);
     }).observe(this.globe);
@@ -169,19 +170,20 @@ export class Portrait {
   #reach(y, rate) {
     const next = y.map((value, k) => value + AHEAD * rate[k]), size = Math.hypot(...next);
     const from = place(y, this.pole), to = place(next.map((value) => value / size), this.pole);
-    const [x, z] = this.#pixels(y), across = this.radius * (to[0] - from[0]), down = this.radius * (to[1] - from[1]);
-    const far = Math.hypot(across, down), long = far > this.radius ? 0 : far; // that far only through the rim
+    const [x, z] = this.#pixels(y), radius = this.larger * this.radius, across = radius * (to[0] - from[0]), down = radius * (to[1] - from[1]);
+    const far = Math.hypot(across, down), long = far > radius ? 0 : far; // that far only through the rim
     move(this.hand, `translate(${x.toFixed(1)}px, ${z.toFixed(1)}px) rotate(${Math.atan2(down, across).toFixed(3)}rad) scaleX(${long.toFixed(1)})`);
   }
 
+  /** Where a direction is on the page, in CSS pixels. */
   #pixels(y) {
-    return place(y, this.pole).map((share) => this.size / 2 + this.radius * share);
+    return place(y, this.pole).map((share) => this.larger * (this.size / 2 + this.radius * share));
   }
 
   /** Go to the time at which the first rod was nearest to a touch. */
   #touch(event, seek) {
     const { left, top } = this.globe.getBoundingClientRect(), [spots] = this.paths;
-    const [x, y] = [event.clientX - left, event.clientY - top].map((pixels) => (pixels - this.size / 2) / this.radius);
+    const [x, y] = [event.clientX - left, event.clientY - top].map((pixels) => (pixels / this.larger - this.size / 2) / this.radius);
     let best = 0, least = Infinity;
     for (let i = 0; i < spots.length; i += 2) {
       const away = Math.hypot(spots[i] - x, spots[i + 1] - y);

@@ -4,6 +4,7 @@ import { MARKS } from "./marks.js";
 import { indexBefore } from "./numbers.js";
 
 export const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]];
+const NESTED = [3.4, 2.5, 1.6, 0.8]; // pixels, of the curves of rotors: one that lies on another leaves its rim to be seen
 export const ROTORS = ["rotor1", "rotor2", "rotor3", "rotor4"];
 const LEAST_DISTANCE = 0.05; // m: an axis of the position error shows at least this, not the noise of the integration
 const LEAST_V = 1e-3; // and one of V reaches at least this high
@@ -41,11 +42,11 @@ export function plots(flights, since = -Infinity) {
       lines: line("thrust", "<i>f</i>", "thrust", "disc"),
     },
     {
-      ...axis, title: "Rotor forces", plain: "Rotor forces", unit: "N", levels: [[share, "hover"]], scale: share,
+      ...axis, wide: true, title: "Rotor forces", plain: "Rotor forces", unit: "N", levels: [[share, "hover"]], scale: share,
       limits: first.vehicle.rotor_limits,
       lines: kinds.flatMap((k) => line(`rotor ${k + 1}`, String(k + 1), ROTORS[k % ROTORS.length], MARKS[k % MARKS.length])
         .filter((_, i) => i === 0 || flights[i].rotors > k)
-        .map((curve, i) => (i ? { ...curve, opacity: 0.35 } : curve))),
+        .map((curve, i) => (i ? { ...curve, opacity: 0.35 } : { ...curve, width: NESTED[k % NESTED.length] }))),
     },
     {
       ...axis, title: "Distance from the reference", plain: "Distance from the reference", unit: "m", least: LEAST_DISTANCE,

@@ -8,7 +8,8 @@ import css from "./replay.css";
 import { Captions } from "./captions.js";
 import { Clock } from "./clock.js";
 import { Choice, Player, keys } from "./controls.js";
-import { Flight } from "./flight.js";
+import { Flight, rise } from "./flight.js";
+import { help } from "./help.js";
 import { frame, legend } from "./layout.js";
 import { matrix } from "./numbers.js";
 import { calm } from "./motion.js";
@@ -78,6 +79,8 @@ export class Viewer {
     }
     const { invite } = this.parts;
     Object.assign(invite, { hidden: false, textContent: "Press play, or the space bar" });
+    const [flight] = this.flights, { y } = flight.at(flight.start);
+    invite.classList.toggle("under", rise(y, flight.e3)[2] > 0); // not where the bob is
     for (const name of ["pointerdown", "keydown"]) document.addEventListener(name, () => (invite.hidden = true), { capture: true, once: true });
   }
 
@@ -147,6 +150,7 @@ export class Viewer {
     this.movies.show("");
     const themes = [["toggle", "◐", "Light or dark (t)"]];
     this.themes = new Choice(this.parts.choices, "Theme", themes, () => this.theme.toggle());
+    this.helps = new Choice(this.parts.choices, "Help", [["help", "?", "What everything does (?)"]], () => help(document.querySelector("main")));
   }
 
   #keys() {
@@ -163,6 +167,7 @@ export class Viewer {
       t: () => this.theme.toggle(),
       m: () => this.film(),
       s: () => this.portrait.fold(),
+      "?": () => help(document.querySelector("main")),
       ...Object.fromEntries(PRESETS.map((name, i) => [String(i + 1), () => this.camera(name)])),
     });
   }
@@ -325,6 +330,7 @@ export class Viewer {
       },
       floor: () => this.stage?.world.ground ?? null,
       phases: (i = 0) => structuredClone(this.flights[i].phases),
+      recoveries: (i = 0) => this.flights[i].recoveries(clock.time).all.map(({ begin, end, distance, lost }) => ({ begin, time: end === null ? null : end - begin, distance, height_lost: lost })),
       screen: (i = 0) => {
         if (!this.stage) return null;
         this.#frame(0);

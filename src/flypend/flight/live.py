@@ -15,7 +15,7 @@ from flypend.laws import BoundLaw
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.pages.replay import in_base64
-from flypend.pages.sliders import gain_sliders, plant_sliders, slider, sliders_of
+from flypend.pages.sliders import Reach, gain_sliders, plant_sliders, slider, sliders_of
 from flypend.pages.starts import directions, plain, starts
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.loop import Loop
@@ -68,8 +68,7 @@ def offered(flight: Flight) -> dict[str, Any]:
         "law": {"name": law.name, "gains": {}}, "plant": {}, "vehicle": {}, "start": plain(flight.starts.seen(law.e3)),
         "duration": flight.duration, "pokes": [],
     }  # fmt: skip
-    low, high = min(DURATIONS[0], flight.duration), max(DURATIONS[1], flight.duration)
-    lasting = slider("duration", "flight", "duration", "s", flight.duration, low, high)
+    lasting = slider("duration", "flight", "duration", "s", flight.duration, Reach(*DURATIONS))
     return {
         "first": first, "sliders": [*gains, *turned, *_places(law, plant), lasting],
         "starts": {"as flown": first["start"], **starts()},
@@ -89,4 +88,5 @@ def _places(law: BoundLaw, plant: AnyPlant) -> list[dict[str, Any]]:
     if law.reference is None or (isinstance(plant, Sampled) and plant.sensors is not None):
         return []
     words = {"x": "along e₁", "y": "along e₂", "z": "up"}
-    return [slider(f"origin.{k}", "place", said, "m", 0.0, -FURTHEST, FURTHEST) for k, said in words.items()]
+    reach = Reach(-FURTHEST, FURTHEST)
+    return [slider(f"origin.{k}", "place", said, "m", 0.0, reach) for k, said in words.items()]

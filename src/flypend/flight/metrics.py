@@ -22,7 +22,7 @@ SAME = 1e-9
 @errors.named_arguments
 @dataclass(frozen=True)
 class Metrics:
-    """Metrics of one flight against its criterion, by default standing inverted at the reference.
+    """Metrics of one flight against its criterion, by default inverted hover at the reference.
 
     A trajectory is judged at its samples, and so are flights of an ensemble in a sampled plant; means over time follow
     the trapezoidal rule. In the ideal plant an ensemble takes forces from the steps of the integration: the largest is
@@ -45,7 +45,7 @@ class Metrics:
     end : float
         End time, s.
     clearance : float
-        Least distance of the rod to what its mount lets it touch, m; infinite on a gimbal.
+        Smallest distance of the rod to what its mount lets it touch, m; infinite on a gimbal.
     cause : str
         Cause of failure: "diverged", "singular" or "collided", else the first of "rod", "axis", "position" out of
         tolerance during the last `Criterion.hold` seconds. Empty for a success.

@@ -33,7 +33,8 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
         `words`, one line; `good`, whether it succeeded; `state`, one of `STATES`: "done" where the rod stands at the
         reference, "recovering" where the goal was reached but the vehicle falls, as under laws that let the rod hang;
         `settling` (s) and `excursion` (m), or None; `reason` why a run ended early, or ""; `part`, what the rod of a
-        collided run touched, or None; `excess` (n,), by how much the samples exceed the tolerances, at most 0 within.
+        collided run touched, or None; `excess` (n,), by how much the samples exceed the tolerances, at most 0 within;
+        `hold` (s), for how long the tolerances have to hold.
     """
     criterion = criterion or goal(run.e3)
     judged = metrics(run, criterion)
@@ -58,6 +59,7 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
         "reason": run.outcome.reason,
         "part": part,
         "excess": worst_excess(run, criterion),
+        "hold": criterion.hold,
     }
 
 

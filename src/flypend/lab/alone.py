@@ -11,6 +11,7 @@ from typing import Any
 from flypend import errors, palette
 from flypend.flight.live import drawn_starts, live_loop
 from flypend.flight.live_engine import engine_facts
+from flypend.flight.verdict import goal
 from flypend.lab.controls import offer, sliders
 from flypend.lab.setting import Setting, setting_of
 from flypend.laws import law_names
@@ -86,7 +87,7 @@ def _engine(setting: Setting) -> dict[str, Any]:
     told = SimpleNamespace(law=law.name, gains=setting.gains, vehicle=flight.vehicle)
     record = {
         **replay.names([told])[0], "law": law.name, "e3": law.e3, "direction": [1.0, 0.0, 0.0],
-        "vehicle": replay.drawn(flight.vehicle),
+        "vehicle": replay.drawn(flight.vehicle), "hold": goal(law.e3).hold,
     }  # fmt: skip
     loop = live_loop(flight)
     fixed = {f"law.gains.{name}" for name in setting.gains if name not in loop.parameters} | {"vehicle.rotor_limits"}

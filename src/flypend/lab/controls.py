@@ -13,7 +13,7 @@ from flypend.laws import law_names
 from flypend.model import State
 from flypend.model.table import vehicle_names
 from flypend.pages import replay
-from flypend.pages.sliders import gain_sliders, plant_sliders, slider
+from flypend.pages.sliders import Reach, gain_sliders, plant_sliders, slider
 from flypend.pages.starts import plain, starts
 from flypend.paper import experiment, experiment_names
 from flypend.plants import Sampled
@@ -28,40 +28,41 @@ SENSORS = {
 }
 
 
+def _setting(
+    start: dict[str, Any],
+    law: str = "inverted",
+    plant: str = "rotors",
+    duration: float = 6.0,
+    gains: dict[str, float] | None = None,
+    vehicle: dict[str, str] | None = None,
+) -> dict[str, Any]:
+    """A flight without pokes, as `flypend.lab.setting` reads it."""
+    return {
+        "vehicle": vehicle or {"base": "hehn2011", "mount": "gimbal"}, "law": {"name": law, "gains": gains or {}},
+        "plant": {"base": plant}, "start": start, "duration": duration, "pokes": [],
+    }  # fmt: skip
+
+
+def _experiment(name: str, law: str, duration: float | None = None) -> dict[str, Any]:
+    """An experiment of the paper under `law`, for a `duration` (s) if not its own; its start is flipped to e₃ up."""
+    row = experiment(name)
+    machine = {"base": row.vehicle.name, "mount": row.vehicle.mount}
+    return _setting(plain(row.start.flipped()), law, row.plant, duration or row.duration, dict(row.gains), machine)
+
+
 def offer(own: OwnLaws | None = None) -> dict[str, Any]:
     """Return the choices (including the custom laws `own`), the presets, and the initial setting."""
     mine = list(own or ())
-    first = {
-        "vehicle": {"base": "hehn2011", "mount": "gimbal"},
-        "law": {"name": mine[0] if mine else "inverted", "gains": {}},
-        "plant": {"base": "rotors"},
-        "start": plain(State(y=(0.0, 0.0, -1.0))),
-        "duration": 6.0,
-        "pokes": [],
-    }
     return {
         "vehicles": vehicle_names(),
         "mounts": MOUNTS,
         "laws": [*law_names(), *mine],
         "plants": PLANTS,
         "sensors": SENSORS,
-        "first": first,
+        "first": _setting(starts()["hanging"], mine[0] if mine else "inverted"),
         "starts": starts(),
         "story": story(),
-        "experiments": {name: _preset(name) for name in experiment_names() if "-" not in name},
-    }
-
-
-def _preset(name: str) -> dict[str, Any]:
-    """An experiment of the paper as a setting, its start flipped into the e₃-up frame."""
-    row = experiment(name)
-    return {
-        "vehicle": {"base": row.vehicle.name, "mount": row.vehicle.mount},
-        "law": {"name": "corrected", "gains": dict(row.gains)},
-        "plant": {"base": row.plant},
-        "start": plain(row.start.flipped()),
-        "duration": row.duration,
-        "pokes": [],
+        "experiments": {name: _experiment(name, "corrected") for name in experiment_names() if "-" not in name},
     }
 
 
@@ -71,7 +72,7 @@ def sliders(setting: Setting) -> list[dict[str, Any]]:
     out = gain_sliders(law, flight.vehicle, setting.gains)
     if isinstance(flight.plant, Sampled):
         out += plant_sliders(flight.plant, flight.vehicle)
-    return [*out, slider("duration", "flight", "duration", "s", flight.duration, 2.0, LONGEST)]
+    return [*out, slider("duration", "flight", "duration", "s", flight.duration, Reach(2.0, LONGEST))]
 
 
 SHOWN = "3"  # the experiment of the paper whose printed law flies longest
@@ -91,51 +92,49 @@ def story() -> list[dict[str, Any]]:
             "A rod on a ball joint",
             "No motor turns the rod. The thrust moves the joint: its part across the rod turns the rod, its part along "
             "the rod carries the bob. Let the rod lean further, and the vehicle has to travel further to get below it.",
-            TILT, start=_tilted(LEAN),
+            TILT, _setting(_tilted(LEAN)),
         ),
-        _paper(
-            "printed",
+        _step(
             "Why the printed law fails",
             "Experiment 3 of the paper under its law, letter by letter. The damping has the wrong sign: it drives the "
             "rod. With any gain of this slider the flight ends at a singular term, or the rod never comes to rest.",
-            "law.gains.k_d",
+            "law.gains.k_d", _experiment(SHOWN, "printed", LASTING),
         ),
-        _paper(
-            "corrected",
+        _step(
             "Carry the bob",
             "With the sign corrected the rod comes to rest, but along gravity: it hangs, and the vehicle falls. This "
             "law shapes the thrust across the rod and leaves the bob to gravity. It falls wherever the rod starts.",
-            TILT,
+            TILT, _experiment(SHOWN, "corrected", LASTING),
         ),
         _step(
             "Throw",
             "The inverted law uses both parts of the thrust. To flip a hanging rod it must push down for a moment, and "
             "nothing is held up. So it throws the bob first. Throw faster, and the bob rises higher.",
-            "law.gains.throw_speed", start=_tilted(180.0), phase="climbs",
+            "law.gains.throw_speed", _setting(_tilted(180.0)), phase="climbs",
         ),
         _step(
             "Flip",
             "The vehicle turns over, dives past the bob, and the rod swings up. Turning takes time, so the thrust axis "
             "aims at the force that will be needed when it arrives. Look ahead too little or too far, and it fails.",
-            "law.gains.coast_time", start=_tilted(180.0), phase="flips",
+            "law.gains.coast_time", _setting(_tilted(180.0)), phase="flips",
         ),
         _step(
             "Catch",
             "Below the bob the vehicle pushes up again, and damping stops the swing. With little damping the rod takes "
             "longer to come to rest; with too much of it the catch is missed.",
-            "law.gains.rod_damping", start=_tilted(180.0), phase="catches",
+            "law.gains.rod_damping", _setting(_tilted(180.0)), phase="catches",
         ),
         _step(
             "V falls",
             "Another law for the same machine comes with a proof: a Lyapunov function V falls along every solution. "
             "Start the rod elsewhere, and V still falls (second plot). The proof is for ideal rotors.",
-            TILT, law="almost_global", plant="ideal", start=_tilted(150.0), duration=LASTING,
+            TILT, _setting(_tilted(150.0), "almost_global", plant="ideal", duration=LASTING),
         ),
         _step(
             "What the rotors forbid",
             "Rotors push one way, up to a limit, and answer late. Drag the lag to its end, and the machine turns too "
             "slowly to catch the rod.",
-            "plant.lag", start=_tilted(180.0),
+            "plant.lag", _setting(_tilted(180.0)),
         ),
     ]  # fmt: skip
 
@@ -146,33 +145,7 @@ def _tilted(degrees: float) -> dict[str, Any]:
     return plain(State(y=(np.sin(lean), 0.0, np.cos(lean))))
 
 
-def _paper(law: str, title: str, words: str, drag: str) -> dict[str, Any]:
-    """A chapter with the paper's vehicle, start, gains and plant, flown for longer."""
-    row = experiment(SHOWN)
-    machine, start = {"base": row.vehicle.name, "mount": row.vehicle.mount}, plain(row.start.flipped())
-    gains = dict(row.gains)
-    return _step(
-        title, words, drag, law=law, plant=row.plant, start=start, duration=LASTING, vehicle=machine, gains=gains
-    )
-
-
-def _step(
-    title: str,
-    words: str,
-    drag: str,
-    *,
-    start: dict[str, Any],
-    law: str = "inverted",
-    plant: str = "rotors",
-    duration: float = 6.0,
-    vehicle: dict[str, str] | None = None,
-    gains: dict[str, float] | None = None,
-    phase: str | None = None,
-) -> dict[str, Any]:
-    setting = {
-        "vehicle": vehicle or {"base": "hehn2011", "mount": "gimbal"}, "law": {"name": law, "gains": gains or {}},
-        "plant": {"base": plant}, "start": start, "duration": duration, "pokes": [],
-    }  # fmt: skip
+def _step(title: str, words: str, drag: str, setting: dict[str, Any], phase: str | None = None) -> dict[str, Any]:
     return {"title": title, "words": words, "drag": drag, "setting": setting, "phase": phase}
 
 

@@ -23,7 +23,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tuned, values
 from flypend.laws.references import sampled
-from flypend.model import State, Vehicle, Wrench, disturbed_motion
+from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import SIZE, E3Direction, seen_packed, split
 from flypend.plants import Sampled
 
@@ -119,8 +119,8 @@ def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
     without it, times one second.
     """
     mass = vehicle.bob_mass if poke.on == "bob" else vehicle.mass
-    blow = {f"force_on_{poke.on}": mass * in_frame(poke.velocity, e3)}
-    hit, free = disturbed_motion(state, STILL, vehicle, e3, **blow), disturbed_motion(state, STILL, vehicle, e3)
+    blow = Disturbance(**{f"force_on_{poke.on}": mass * in_frame(poke.velocity, e3)})
+    hit, free = disturbed_motion(state, STILL, vehicle, e3, blow), disturbed_motion(state, STILL, vehicle, e3)
     return State(
         x=state.x, x_dot=state.x_dot + hit.x_ddot - free.x_ddot, R=state.R, omega=state.omega, y=state.y,
         y_dot=state.y_dot + hit.y_ddot - free.y_ddot,

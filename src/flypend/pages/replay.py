@@ -130,7 +130,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
     """Pack `run` for the page: metadata with its `verdict`, and base64 columns of at most `most` samples."""
     t, states = _sampled(run, most)
     told = dict(verdict)
-    excess = told.pop("excess")
+    excess, hold = told.pop("excess"), told.pop("hold")
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
     columns = {
         "t": t,
@@ -155,6 +155,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "e3": run.e3,
         "completed": run.outcome.status == "completed",
         "verdict": told,
+        "hold": hold,
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
         "vehicle": drawn(vehicle),
         "columns": {name: in_base64(values) for name, values in columns.items()},

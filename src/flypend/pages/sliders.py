@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
-from typing import Any
+from typing import Any, NamedTuple
 
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller, Law
@@ -14,6 +14,14 @@ from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 BISECTIONS = 12  # to a fifth of a per cent of a slider with a range of a factor of four either way
 FACTOR = 4.0  # a gain's slider spans its default divided and multiplied by this
+
+
+class Reach(NamedTuple):
+    """Range of a slider, in its unit, and whether it is logarithmic."""
+
+    low: float
+    high: float
+    log: bool = False
 
 
 def sliders_of(law: Law | BoundLaw | Controller) -> tuple[str, ...]:
@@ -27,8 +35,8 @@ def gain_sliders(law: Law | BoundLaw | Controller, vehicle: Vehicle, given: Mapp
     for name in sliders_of(law):
         gain = law.table[name]
         low, high, log = _reach(gain.value(vehicle))
-        reach = (max(low, gain.bounds.low), min(high, gain.bounds.high))
-        found = slider(f"law.gains.{name}", "gains", gain.label, gain.unit, given[name], *reach, log=log)
+        reach = Reach(max(low, gain.bounds.low), min(high, gain.bounds.high), log)
+        found = slider(f"law.gains.{name}", "gains", gain.label, gain.unit, given[name], reach)
         out.append(found | {"allowed": _allowed(law, given, name, found["low"], found["high"])})
     return out
 
@@ -62,11 +70,11 @@ def _last_good(refused: Callable[[float], bool], good: float, end: float) -> flo
     return good
 
 
-def _reach(usual: float) -> tuple[float, float, bool]:
-    """Range of the slider of a gain whose default is `usual`, and whether it is logarithmic."""
+def _reach(usual: float) -> Reach:
+    """Range of the slider of a gain whose default is `usual`."""
     if usual > 0:
-        return usual / FACTOR, usual * FACTOR, True
-    return (usual * FACTOR, -usual * FACTOR, False) if usual < 0 else (-1.0, 1.0, False)
+        return Reach(usual / FACTOR, usual * FACTOR, log=True)
+    return Reach(usual * FACTOR, -usual * FACTOR) if usual < 0 else Reach(-1.0, 1.0)
 
 
 def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
@@ -77,38 +85,28 @@ def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
     noise, wind = plant.noise or Noise(), plant.wind or Wind()
     level = noise.x / MOTION_CAPTURE.x
     high = 0.5 * vehicle.weight
-    seen = slider("plant.noise", "plant", "noise", "× motion capture", level, 0.0, 10.0, put=_NOISE)
+    strongest = Reach(1.1 * share, 5 * share)
+    seen = slider("plant.noise", "plant", "noise", "× motion capture", level, Reach(0.0, 10.0), put=_NOISE)
     return [
-        slider(
-            "vehicle.rotor_limits", "plant", "rotor limit", "N", largest, 1.1 * share, 5 * share, put=[least, {"#": 1}]
-        ),
-        slider("plant.lag", "plant", "rotor lag", "s", lag, 0.0, 0.1),
-        slider("plant.delay", "plant", "delay", "s", plant.delay, 0.0, 0.1),
+        slider("vehicle.rotor_limits", "plant", "rotor limit", "N", largest, strongest, put=[least, {"#": 1}]),
+        slider("plant.lag", "plant", "rotor lag", "s", lag, Reach(0.0, 0.1)),
+        slider("plant.delay", "plant", "delay", "s", plant.delay, Reach(0.0, 0.1)),
         *([seen] if plant.sensors is None else []),  # sensors have noise of their own
         slider(
-            "plant.wind.on_vehicle", "plant", "wind along e₁", "N", wind.on_vehicle[0], -high, high,
+            "plant.wind.on_vehicle", "plant", "wind along e₁", "N", wind.on_vehicle[0], Reach(-high, high),
             put=[{"#": 1}, 0.0, 0.0],
         ),
-        slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, 0.0, high),
+        slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, Reach(0.0, high)),
     ]  # fmt: skip
 
 
-def slider(
-    path: str,
-    group: str,
-    words: str,
-    unit: str,
-    value: float,
-    low: float,
-    high: float,
-    log: bool = False,
-    put: Any = None,
-) -> dict[str, Any]:
+def slider(path: str, group: str, words: str, unit: str, value: float, reach: Reach, put: Any = None) -> dict[str, Any]:
     """One slider; its range is widened to include `value`.
 
     `put` is what the page writes at `path`, where {"#": factor} stands for factor times the value; None for the value.
     """
     return {
         "path": path, "group": group, "words": words, "unit": unit, "value": float(value),
-        "low": float(min(low, value)), "high": float(max(high, value)), "log": log, "put": put, "allowed": None,
+        "low": float(min(reach.low, value)), "high": float(max(reach.high, value)), "log": reach.log, "put": put,
+        "allowed": None,
     }  # fmt: skip

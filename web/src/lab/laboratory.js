@@ -9,6 +9,7 @@ import own from "../lab.css";
 import { Choice, keys } from "../controls.js";
 import { judge } from "../layout.js";
 import { isWhole } from "../live/request.js";
+import { asked, Kiosk } from "../live/kiosk.js";
 import { Running } from "../live/running.js";
 import { Saving } from "../live/saving.js";
 import { calm } from "../motion.js";
@@ -41,15 +42,19 @@ export class Laboratory {
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
     if (this.offer.story?.length) this.story = new Story(this.panel.bar, this.offer.story, this);
-    this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => this.running.pull(place));
+    this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => (this.kiosk ?? this.running).pull(place));
     this.disc = new Disc(this.main, (y) => {
       this.rod(y);
       this.show("flight");
     });
-    this.viewer.drew = () => this.handle.show(this.running.on, this.running.pulling);
+    this.viewer.drew = () => {
+      this.handle.show(this.running.on, this.running.pulling);
+      this.kiosk?.frame();
+    };
     this.saving = new Saving(this);
-    keys({ p: () => this.panel.poke("bob"), l: () => this.running.toggle(), r: () => this.restart() });
+    keys({ p: () => this.panel.poke("bob"), l: () => this.running.toggle(), r: () => this.restart(), k: () => this.exhibit(), Escape: () => this.kiosk && this.exhibit() });
     this.#undoKeys();
+    if (asked() !== null) this.kiosk = new Kiosk(this, { quiet: asked() });
     if (this.setting.unreadable) this.#notice("The address holds no setting that can be read. This is the usual start.");
     if (this.offer.told && !location.hash) this.story.go(0);
     else this.changed();
@@ -171,6 +176,27 @@ export class Laboratory {
     this.setting.replace(setting);
   }
 
+  /** Show the flight of the setting as on opening: it plays by itself, and hands over once the rod stands. */
+  repeat() {
+    this.again = true;
+    this.preset(this.setting.value);
+  }
+
+  /** Become a kiosk, over the whole screen where that is possible, or a laboratory again. */
+  exhibit() {
+    if (this.kiosk) {
+      this.kiosk.end();
+      this.kiosk = null;
+      if (document.fullscreenElement) document.exitFullscreen();
+      return;
+    }
+    if (!this.running.able) return;
+    this.show("flight");
+    this.panel.tune(false);
+    this.main.requestFullscreen?.().catch(() => {}); // a frame may not
+    this.kiosk = new Kiosk(this, { leave: () => this.exhibit() });
+  }
+
   /** Show the flight of a chapter and play it, from its beginning or slowly from its phase. */
   tell({ setting, phase }) {
     this.show("flight");
@@ -272,7 +298,15 @@ export class Laboratory {
       if (this.phase) this.#seek();
       if (this.follow && !calm()) this.viewer.clock.play();
       this.follow = false;
+      if (this.again) this.#open();
     }
+  }
+
+  /** Play by itself from the start. */
+  #open() {
+    this.again = false;
+    this.viewer.clock.seek(this.viewer.clock.start);
+    this.viewer.open(() => this.#handOver());
   }
 
   /** Show a flight that the page has flown by itself, before the server confirms it. */
@@ -293,7 +327,7 @@ export class Laboratory {
     this.steady ??= reply.run.direction;
     this.record = { ...reply.run, direction: this.steady };
     if (!this.running.on) this.#load();
-    if (first) this.viewer.open(() => this.#handOver());
+    if (first) this.#open();
     this.disc.follow(this.viewer.flights[0]);
     const begun = this.clock.get(reply.number);
     for (const number of this.clock.keys()) if (number <= reply.number) this.clock.delete(number);
@@ -360,7 +394,7 @@ export class Laboratory {
     this.#say("");
     this.panel.complain(message, field, this.touched);
     this.verdict = { words: message, good: false, state: "failed" };
-    judge(this.words, { words: "not flown", state: "failed", reason: message });
+    judge(this.words, { words: "not flown", state: "failed" });
     this.viewer.clock.pause();
     if (!this.flew) this.#begin(message);
     else {

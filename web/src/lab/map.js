@@ -1,5 +1,6 @@
 // The region of attraction: every direction of the rod on a disc of equal areas, upright in the middle, hanging at the rim.
 
+import { clear, lettering } from "../drawing.js";
 import { rise } from "../flight.js";
 import { axes, direction, place, rings, way } from "../sphere.js";
 
@@ -60,15 +61,14 @@ export class Map {
   draw() {
     clearTimeout(this.due);
     this.due = null;
-    const { width, height } = this.disc.getBoundingClientRect(), ratio = devicePixelRatio || 1;
-    const size = Math.floor(Math.min(width, height));
-    if (size < 20) return;
-    this.size = size;
-    Object.assign(this.canvas, { width: size * ratio, height: size * ratio });
-    this.canvas.style.width = this.canvas.style.height = `${size}px`;
+    const { width, height } = this.disc.getBoundingClientRect(), side = Math.floor(Math.min(width, height));
+    if (side < 20) return;
+    this.larger = lettering();
+    const size = (this.size = side / this.larger);
+    this.canvas.style.width = this.canvas.style.height = `${side}px`;
     const context = this.canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
     const role = (name) => style.getPropertyValue(`--${name}`).trim();
-    context.scale(ratio, ratio);
+    clear(context, size, size);
     context.translate(size / 2, size / 2);
     this.radius = size / 2 - 26;
     const count = this.points.length, dot = Math.min(this.radius / Math.sqrt(count || 1), this.radius / 8);
@@ -132,7 +132,7 @@ export class Map {
 
   #direction(event) {
     const area = this.canvas.getBoundingClientRect();
-    const share = (pixels) => (pixels - this.size / 2) / this.radius;
+    const share = (pixels) => (pixels / this.larger - this.size / 2) / this.radius;
     return direction([share(event.clientX - area.left), share(event.clientY - area.top)]);
   }
 

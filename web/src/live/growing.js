@@ -2,6 +2,7 @@
 
 import { angles, Flight } from "../flight.js";
 import { phase } from "../phases.js";
+import { Recoveries } from "../recoveries.js";
 
 const KEPT = 20; // s that stay
 
@@ -11,6 +12,7 @@ export class Growing extends Flight {
     super(record);
     this.room = {};
     this.count = 0;
+    this.counted = new Recoveries(this.hold);
     this.take(record.columns, record);
   }
 
@@ -27,8 +29,10 @@ export class Growing extends Flight {
       this.room[name] = room;
       this.columns[name] = room.subarray(0, wanted);
     }
+    this.counted.next = this.count - drop;
     this.count += added - drop;
     this.t = this.columns.t;
+    this.counted.read(this, Infinity);
     this.turned = angles(this, this.turned.slice(drop, drop + this.count - added));
     Object.assign(this, { verdict, completed, found: null });
   }
@@ -36,6 +40,11 @@ export class Growing extends Flight {
   /** As it looks at that moment: what comes next is not known yet. */
   phase(t) {
     return phase(this, this.at(t));
+  }
+
+  /** Its recoveries until now, whatever time is shown: of what has left nothing can be counted again. */
+  recoveries() {
+    return this.counted;
   }
 
   /** How many samples are to go: half of all that may stay, whenever there are too many. */

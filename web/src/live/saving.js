@@ -1,6 +1,7 @@
 // What a page lets one take away: numbers, a picture, an address.
 
 import { picture, save } from "../record.js";
+import { show } from "./code.js";
 import { download } from "./table.js";
 
 const HTML = `<h2>Keep</h2>
@@ -8,6 +9,8 @@ const HTML = `<h2>Keep</h2>
   <button type="button" data-keep="png" title="The picture as it is, in the size of movies">PNG</button></div>
   <div class="row two"><button type="button" data-keep="link" title="An address that leads to this setting">Copy link</button>
   <button type="button" data-keep="embed" title="The line of HTML that shows this setting in another page">Copy embed code</button></div>
+  <div class="row two"><button type="button" data-keep="code" title="The address of this setting as a QR code">QR code</button>
+  <button type="button" data-keep="kiosk" title="For an exhibition: the swing-up again and again, and a game against the controller (k)">Kiosk</button></div>
   <div class="row two"><button type="button" data-keep="pin" aria-pressed="false" title="Leave the flight as a ghost while the setting changes">Pin</button></div>`;
 
 /** The HTML of a frame with the page at `address`. */
@@ -45,6 +48,15 @@ export class Saving {
 
   embed(button) {
     this.#copy(button, (address) => framed(address, this.lab.viewer.title), "No clipboard here");
+  }
+
+  code() {
+    this.lab.setting.keep();
+    show(location.href);
+  }
+
+  kiosk() {
+    this.lab.exhibit();
   }
 
   /** Copy what `made` makes of the address of the setting, and say so on `button` for a while, or what to do `otherwise`. */

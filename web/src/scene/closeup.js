@@ -2,6 +2,8 @@
 
 import { PerspectiveCamera, Vector3 } from "three";
 
+import { lettering } from "../drawing.js";
+
 const FIELD = 32; // of view, degrees
 const HALF = 2.7; // radii of the hub from the middle of the picture to its edge
 const TILT = 0.35; // rad, off the thrust axis
@@ -11,6 +13,7 @@ export const NEAR = 1; // the layer of three.js with what is seen: machine and l
 
 export class CloseUp {
   constructor() {
+    this.top = MARGIN.top * lettering();
     this.camera = new PerspectiveCamera(FIELD, 1);
     this.camera.matrixAutoUpdate = false;
     this.camera.layers.set(NEAR);
@@ -19,7 +22,7 @@ export class CloseUp {
   /** Where it is in a picture of `width` by `height`: CSS pixels from the upper left. */
   place(width, height) {
     const side = Math.round(Math.min(Math.max(SIDE.share * Math.min(width, height), SIDE.least), SIDE.most));
-    return { left: width - MARGIN.right - side, top: MARGIN.top, side };
+    return { left: width - MARGIN.right - side, top: this.top, side };
   }
 
   /** Look at the hub of `model`, which is drawn larger by `factor` than it is; returns the way back to the camera. */

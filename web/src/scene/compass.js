@@ -1,5 +1,7 @@
 // A small drawing of the directions: gravity, and the axes of the frame of the run, as the camera sees them.
 
+import { lettering } from "../drawing.js";
+
 const SIZE = 104, LENGTH = 30; // CSS pixels
 
 export class Compass {
@@ -10,9 +12,9 @@ export class Compass {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "Direction of gravity and axes of the frame");
     parent.append(this.canvas);
-    const scale = window.devicePixelRatio || 1;
+    const larger = lettering(), scale = larger * (window.devicePixelRatio || 1);
     this.canvas.width = this.canvas.height = SIZE * scale;
-    this.canvas.style.width = this.canvas.style.height = `${SIZE}px`;
+    this.canvas.style.width = this.canvas.style.height = `${SIZE * larger}px`;
     this.context = this.canvas.getContext("2d");
     this.context.scale(scale, scale);
   }

@@ -62,17 +62,23 @@ def offline(chromium):
 
 
 @pytest.fixture(scope="session")
-def axe(tmp_path_factory):
-    """Return a function from an open page to what axe-core finds wrong with it: (rule, elements)."""
+def node_modules(tmp_path_factory):
+    """Return the folder of the packages that pages and their tests use, installed if need be."""
     web = Path(__file__).parents[1] / "web"
     modules = web / "node_modules"
-    if not (modules / "axe-core").is_dir():
+    if not all((modules / name).is_dir() for name in ("axe-core", "jsqr")):
         copy = tmp_path_factory.mktemp("web")
         for name in ("package.json", "package-lock.json", ".npmrc"):
             shutil.copy(web / name, copy)
         subprocess.run(["npm", "ci", "--silent"], cwd=copy, check=True, timeout=300)
         modules = copy / "node_modules"
-    program = (modules / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
+    return modules
+
+
+@pytest.fixture(scope="session")
+def axe(node_modules):
+    """Return a function from an open page to what axe-core finds wrong with it: (rule, elements)."""
+    program = (node_modules / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
 
     def find(page):
         page.evaluate(program)

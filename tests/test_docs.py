@@ -5,16 +5,23 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.parse import quote
 
+import casadi as ca
 import gymnasium
+import numpy as np
 import pytest
+from PIL import Image, ImageColor
 
 import flypend as fp
 import flypend.envs
 from benchmarks.commands import LINES
 from benchmarks.diagrams import DIAGRAMS
+from flypend import palette
 from flypend.cli.app import app
+from flypend.envs.task import upright
+from flypend.model.table import vehicle_names
 from flypend.studies.sweep.chunk import CAUSES
 
 ROOT = Path(__file__).parents[1]
@@ -50,6 +57,15 @@ def test_links_between_pages_hold_on_the_site(site):
             if not target.exists() or (place and target in ends and place not in ends[target]):
                 dead.append((page.name, link))
     assert not dead
+
+
+def test_a_step_of_a_derivation_leads_to_its_line(site):
+    page = (site / "laws" / "theorem-proof.html").read_text(encoding="utf-8")
+    found = re.search(r'href="\.\./(src/flypend/laws/repaired\.html)#line-(\d+)">\(A3\)</a>', page)
+    code = (site / found[1]).read_text(encoding="utf-8")
+    line = code.partition(f'id="line-{found[2]}"')[2].partition('id="line-')[0]
+    assert "f_p" in line
+    assert "(A3)" in line
 
 
 def test_formulas_are_elements_that_browsers_draw(site):
@@ -229,6 +245,7 @@ def test_every_public_name_has_a_page_with_an_example(site):
 CELLS = re.split(
     r"^# %% (.+)\n", (ROOT / "docs" / "reference" / "examples.py").read_text(encoding="utf-8"), flags=re.MULTILINE
 )
+DRAWN = re.compile(r" \| api/(\S+): ")  # the picture that a cell draws
 LEARNERS = ("sb3.make_vec_env", "sb3.VecWorlds")  # where Stable-Baselines3 is: tests/envs/learners.py
 SLOW = ("trial, Trial",)  # it flies for minutes of flight
 
@@ -247,12 +264,26 @@ def test_the_example_of_an_object_runs(name, code, tmp_path, monkeypatch, capsys
             exec(compile(code, name, "exec"), {"__name__": "__main__"})
         return
     exec(compile(code, name, "exec"), {"__name__": "__main__"})
+    assert all(Path(picture).exists() for picture in DRAWN.findall(name))
+
+
+def test_pictures_of_objects_and_vehicles_are_there():
+    pictures = {picture for name in CELLS[1::2] for picture in DRAWN.findall(name)}
+    assert {path.name for path in (ROOT / "docs" / "img" / "api").iterdir()} == pictures
+    machine = (ROOT / "docs" / "model" / "machine.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"\(\.\./img/vehicle-(\S+)\.png\)", machine)) == set(vehicle_names())
 
 
 def test_diagrams_are_those_that_the_command_draws():
     drawn = set(DIAGRAMS) - {"lyapunov", "throw-phases"}  # those two are drawn from flights
     found = {name: (ROOT / "docs" / "img" / f"{name}.svg").read_text(encoding="utf-8") for name in drawn}
     assert found == {name: DIAGRAMS[name]().svg() for name in drawn}
+
+
+def test_the_map_has_the_colour_of_every_cause():
+    picture = Image.open(ROOT / "docs" / "img" / "map.png").convert("RGB")
+    found = {colour for _, colour in picture.getcolors(picture.width * picture.height)}
+    assert {ImageColor.getrgb(colour) for colour in palette.CAUSES.values()} <= found
 
 
 def test_clips_are_small():
@@ -263,14 +294,52 @@ def test_clips_are_small():
     assert sum(size for name, size in clips.items() if name.startswith("cause-")) < 900e3
 
 
+TASKS = (ROOT / "docs" / "envs" / "tasks.md").read_text(encoding="utf-8")
+CARDS = {f"flypend/{card.partition(chr(10))[0]}": card for card in TASKS.split("\n## ")[1:-1]}
+
+
 def test_the_card_of_an_environment_counts_its_observations():
-    cards = (ROOT / "docs" / "envs" / "tasks.md").read_text(encoding="utf-8").split("\n## ")[1:-1]
-    for card in cards:
-        world = gymnasium.make(f"flypend/{card.partition(chr(10))[0]}")
+    for name, card in CARDS.items():
+        world = gymnasium.make(name)
         ranges = [(int(a), int(b)) for a, b in re.findall(r"^\| (\d+)–(\d+) \|", card, flags=re.MULTILINE)]
         assert [a for a, _ in ranges] == [0, *(b + 1 for _, b in ranges[:-1])]
         assert ranges[-1][1] + 1 == world.observation_space.shape[0]
-    assert len(cards) == 4
+    # In a process of its own: other tests register environments, too.
+    listed = "import flypend.envs, gymnasium; print(*(one for one in gymnasium.registry if one.startswith('flypend/')))"
+    done = subprocess.run([sys.executable, "-c", listed], capture_output=True, text=True, check=True)
+    assert set(CARDS) == set(done.stdout.split())
+
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def moment(change=0.0, **sizes):
+    """A moment with the rod up and everything else far off or, if `sizes` say so, of that size, along e₁."""
+    parts = {name: ca.DM([sizes.get(name, 1e9), 0, 0]) for name in ("x", "x_dot", "y_dot", "omega")}
+    state = SimpleNamespace(y=ca.DM(UP), **parts)
+    return SimpleNamespace(state=state, error=state, change=ca.DM([change] * 4))
+
+
+def test_the_card_of_an_environment_says_when_it_ends():
+    for name, card in CARDS.items():
+        task = gymnasium.make(name).unwrapped.worlds.env.task
+        assert float(re.search(r"cut off after \| ([\d.]+) s", card)[1]) == task.duration
+        radius = float(re.search(r"the pivot is (\d+) m (?:off|from the goal)", card)[1])
+        assert [float(task.ended(moment(x=radius + off))) for off in (-1e-6, 1e-6)] == [0, 1]
+
+
+def test_the_table_of_rewards_has_the_weights_and_scales_of_the_code():
+    parts = {"pivot near": "x", "pivot as fast": "x_dot", "rod at rest": "y_dot", "vehicle does not turn": "omega"}
+    rows = [line.strip("| ").split(" | ") for line in TASKS.rpartition("½ at |")[2].splitlines() if "| 0." in line]
+    base = float(upright(moment()))
+    assert base == pytest.approx(float(rows[0][0]))
+    for weight, term, _, half in rows[1:]:
+        (part,) = (part for begin, part in parts.items() if term.startswith(begin))
+        assert float(upright(moment(**{part: 0}))) - base == pytest.approx(float(weight))
+        assert float(upright(moment(**{part: float(half.split()[0])}))) - base == pytest.approx(float(weight) / 2)
+    assert len(rows) == 1 + len(parts)
+    assert "| −0.02 | squared change of the action, summed over the rotors |" in TASKS
+    assert float(upright(moment(change=1.0))) - base == pytest.approx(-0.02 * 4)
 
 
 def test_every_cause_of_failure_is_explained():

@@ -1,7 +1,6 @@
 """The ledger and the pages: a measured number on a page is one that a command of that page has printed."""
 
 import json
-import subprocess
 import sys
 from datetime import date
 
@@ -38,18 +37,35 @@ def test_another_number_on_a_page_is_noticed():
     assert unknown(page.replace("--runs 2000 --seed 2024\n", "--runs 2001 --seed 2024\n"), path, LEDGER)
 
 
+WRONG = (
+    "It fails in 83.17 % of flights.", "It fails in 8317 flights.", "1,871 of 1,994 succeed.", "A step takes 83.17 ms.",
+    "A 8317-m excursion.", "It is 8317 times faster, or 8317x.", "Within $8317$ m.", "Settles in 8317 seconds.",
+    "From 83.17 to 91.71 m.", "The error is 8.317e-7.", "## It takes 83.17 s", "- **83.17 m/s**", "> lost 83171 bytes",
+    "| a | b |\n|---|---|\n| c | 8317 |", "Costs 8317 ns, 8317 μs.", "Within 8317 degrees.", "![8317 m](a.png)",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("wrong", WRONG)
+def test_a_wrong_number_is_noticed_however_it_is_written(wrong):
+    """At the end of every page, also below a link to other pages, whose results count, too."""
+    for name in NAMES:
+        page = (ROOT / name).read_text(encoding="utf-8").partition("\n## What was tried")[0]
+        found = len(unknown(page, ROOT / name, LEDGER))
+        assert len(unknown(f"{page}\n\n{wrong}\n", ROOT / name, LEDGER)) > found
+
+
 @pytest.mark.parametrize("result", LEDGER, ids=lambda result: result.name)
 def test_a_result_is_named_by_a_page_and_by_code(result):
     assert any(typed(result.command) in results.commands(path.read_text(encoding="utf-8")) for path in pages())
-    assert result.sources
-    assert all((ROOT / path).exists() for path in result.paths())
+    assert result.code
+    assert all(results.place_of(source).exists() for source in result.code)
     assert result.values
-    assert result.commit
     assert result.date > date(2026, 11, 1)
 
 
 def test_the_file_of_a_result_has_all_of_it():
-    result = Result("x", 'flypend "a b"', ["laws"], "abc1234", date(2026, 11, 22), "a", {"5 cm": {"c d": [1, 2.5]}})
+    code = {"laws": {"lqr.py": "0123abcd"}}
+    result = Result("x", 'flypend "a b"', code, date(2026, 11, 22), "a", {"5 cm": {"c d": [1, 2.5]}})
     assert Result("x", **results.tomllib.loads(result.text())) == result
 
 
@@ -87,7 +103,7 @@ def test_numbers_agree_to_the_digits_of_the_page(text, value, scale, same):
 def test_what_is_a_quantity():
     prose = "3 laws, 20 ms, $1.5$, `2.5`, 2026-11-22, 1.1 to 1.2 m, 3 of 4; hehn2011 p95"
     page = f"# 7.5\n\n{prose}\n\n    x 4.5\n\n| a | 6 |\n"
-    assert [number.text for number in said(page)] == ["20", "1.1", "1.2", "3", "4", "6"]
+    assert [number.text for number in said(page)] == ["7.5", "20", "1.5", "1.1", "1.2", "3", "4", "6"]
     assert [number.scale for number in said("1 to 2 cm\n")] == [100, 100]
 
 
@@ -101,7 +117,7 @@ def test_new_values_are_put_where_a_page_says_the_old_ones():
 
 @pytest.fixture
 def clone(tmp_path, monkeypatch):
-    """A repository with a room, a page and a result whose command prints a number of that room."""
+    """A clone with a room, a page and a result whose command prints a number of that room."""
     monkeypatch.setattr(results, "ROOT", tmp_path)
     monkeypatch.setattr(results, "FOLDER", tmp_path / "results")
     monkeypatch.setattr(results, "SOURCES", tmp_path / "src" / "flypend")
@@ -110,35 +126,50 @@ def clone(tmp_path, monkeypatch):
     source = tmp_path / "src" / "flypend" / "room" / "law.py"
     source.write_text("print('a: 1.25 m')\n", encoding="utf-8")
     command = f"{sys.executable} {source}"
-    result = Result("one", command, ["room"], "", date(2026, 1, 1), "", {"a": [1.25]})
+    result = Result("one", command, {"room": {}}, date(2026, 1, 1), "", {"a": [1.25]})
     (tmp_path / "results" / "one.toml").write_text(result.text(), encoding="utf-8")
     (tmp_path / "README.md").write_text(f"    {command}\n\nIt goes 1.25 m.\n", encoding="utf-8")
-    names = ["-c", "user.name=a", "-c", "user.email=a@b"]
-    for line in (["init", "-q"], ["add", "."], [*names, "commit", "-qm", "first"]):
-        subprocess.run(["git", *line], cwd=tmp_path, check=True)
-    return tmp_path, source, names
+    return tmp_path, source
+
+
+def told(capsys):
+    """What a list of the results says of the only one."""
+    capsys.readouterr()
+    results.main([])
+    return capsys.readouterr().out.split(maxsplit=2)[2].strip()
 
 
 def test_results_say_what_has_changed_since_and_are_measured_again(clone, capsys):
-    folder, source, names = clone
+    folder, source = clone
+    assert told(capsys) == "of code that was not recorded"
     results.main(["one"])
-    results.main([])
-    assert "of today's code" in capsys.readouterr().out
+    assert told(capsys) == "fresh"
     source.write_text("print('a: 1.34 m')\n", encoding="utf-8")
-    subprocess.run(["git", *names, "commit", "-qam", "farther"], cwd=folder, check=True)
-    results.main([])
-    assert "1 × changed since, last by" in capsys.readouterr().out
+    assert told(capsys) == "older than room/law.py"
     results.main(["one"])
     (fresh,) = results.results()
     assert fresh.values == {"a": [1.34]}
-    assert not fresh.since()
+    assert fresh.age() == "fresh"
     assert "It goes 1.34 m." in (folder / "README.md").read_text(encoding="utf-8")
     with pytest.raises(SystemExit, match="no result two"):
         results.main(["two"])
 
 
+def test_a_result_is_older_than_code_that_came_went_or_changed_and_not_than_words(clone):
+    _, source = clone
+    results.main(["one"])
+    (result,) = results.results()
+    source.write_text('"""A law."""\n\nprint(\'a: 1.25 m\')  # as measured\n', encoding="utf-8")
+    assert result.age() == "fresh"
+    for name in "abcd":
+        source.with_name(f"{name}.toml").write_text("", encoding="utf-8")
+    assert result.changed() == {"room": ["a.toml", "b.toml", "c.toml", "d.toml"]}
+    source.unlink()
+    assert result.age() == "older than 5 files of room"
+
+
 def test_a_command_that_fails_measures_nothing(clone):
-    _, source, _ = clone
+    _, source = clone
     source.write_text("raise SystemExit('no')\n", encoding="utf-8")
     with pytest.raises(RuntimeError, match="ends with 1"):
         results.main(["one"])

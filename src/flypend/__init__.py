@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from flypend.flight.metrics import Metrics as Metrics
     from flypend.flight.metrics import metrics as metrics
     from flypend.flight.outcome import Outcome as Outcome
+    from flypend.flight.recoveries import Recovery as Recovery
+    from flypend.flight.recoveries import recoveries as recoveries
     from flypend.flight.request import Flight as Flight
     from flypend.flight.request import Tolerances as Tolerances
     from flypend.flight.sensitivity import Sensitivity as Sensitivity
@@ -86,6 +88,7 @@ _WHERE = {
     "flight.ensemble": ("Ensemble", "simulate_ensemble"),
     "flight.metrics": ("Metrics", "metrics"),
     "flight.outcome": ("Outcome",),
+    "flight.recoveries": ("Recovery", "recoveries"),
     "flight.request": ("Flight", "Tolerances"),
     "flight.sensitivity": ("Sensitivity", "sensitivity"),
     "flight.simulate": ("simulate",),

@@ -136,14 +136,15 @@ def test_a_minute_of_fuzzing_and_cppcheck_for_every_law(exports, name, precision
 
 
 def test_the_goals_of_cost_are_met():
-    # The board: 25 microseconds on a desktop core; a third of an STM32F405 at 500 Hz, 1,000 bytes of stack, 56 KB.
+    # The board: 25 microseconds on a desktop core; a third of an STM32F405 at 500 Hz, 1,000 bytes of stack, 64 KB,
+    # of which a tenth follows a path that moves.
     # The bare law: a fifth, 1,000 bytes and 32 KB.
     text = run([sys.executable, "-m", "benchmarks.export_cost", "--law", "inverted"], ROOT)
     head, *rows = (line.split() for line in text.splitlines())
     cost = {(row[1], row[2]): dict(zip(head, row, strict=True)) for row in rows}
     assert 0.5 < float(cost["board", "double"]["us"]) < 25
     assert 0.05 < float(cost["law", "double"]["us"]) < 25
-    limits = {"board": (33, 56_000, 1_000, 66_000), "law": (20, 32_000, 1_000, 10_000)}
+    limits = {"board": (33, 64_000, 1_000, 66_000), "law": (20, 32_000, 1_000, 10_000)}
     for part, (share, code, stack, instructions) in limits.items():
         single = cost[part, "float"]
         assert 2 < float(single["M4%"]) < share

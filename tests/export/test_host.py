@@ -122,14 +122,14 @@ class Room:
         )
 
 
-def _flown(host, keys, hover=True, vehicle=None, parameters=(), **room):
+def _flown(host, keys, height=1.5, vehicle=None, parameters=(), **room):
     vehicle, place = vehicle or Vehicle(), Room(host, keys, **room)
-    place.session(vehicle).fly(hover, parameters)
+    place.session(vehicle).fly(height, parameters)
     return vehicle, place
 
 
 def test_it_sends_each_frame_once_with_the_bob_from_the_vehicle(host):
-    vehicle, _ = _flown(host, {1.0: " "}, hover=False)
+    vehicle, _ = _flown(host, {1.0: " "}, height=None)
     assert len(vehicle.told("pose")) == pytest.approx(100, abs=2)  # looked at a thousand times
     assert vehicle.told("pose")[5] == (0.1, 0.2, 0.3, 0, 0, 0, 1)
     bobs = vehicle.told("bob")
@@ -142,7 +142,7 @@ def test_it_sends_each_frame_once_with_the_bob_from_the_vehicle(host):
 
 
 def test_it_says_when_the_bob_is_unseen_and_sends_none_then(host):
-    vehicle, room = _flown(host, {3.0: " "}, hover=False, lost=(1.0, 2.0))
+    vehicle, room = _flown(host, {3.0: " "}, height=None, lost=(1.0, 2.0))
     assert len(vehicle.told("pose")) == pytest.approx(300, abs=3)
     assert [line for line in room.said if "bob" in line] == ["the bob is NOT SEEN", "the bob is seen again"]
     assert len(vehicle.told("bob")) == pytest.approx(200, abs=3)
@@ -158,7 +158,7 @@ def test_without_motion_capture_it_says_so_and_does_not_arm(host):
 
 
 def test_the_controller_comes_first_and_the_law_is_off(host):
-    vehicle, _ = _flown(host, {0.5: " "}, hover=False, parameters={"flypend.mass": 0.031})
+    vehicle, _ = _flown(host, {0.5: " "}, height=None, parameters={"flypend.mass": 0.031})
     assert vehicle.told("set")[0] == ("stabilizer.controller", 6)
     assert vehicle.values["flypend.mass"] == 0.031
     assert vehicle.told("set")[-1][0] == "flypend.mass"
@@ -244,7 +244,7 @@ def test_a_motion_capture_that_fails_in_flight_stops_the_motors(host):
     seen = room.read
     room.read = lambda: seen() if room.time < 4 else 1 / 0
     with pytest.raises(ZeroDivisionError):
-        room.session(vehicle).fly(True)
+        room.session(vehicle).fly(1.5)
     assert vehicle.locked
 
 

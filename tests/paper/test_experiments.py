@@ -588,9 +588,13 @@ def test_flying_tells_each_run_before_it(monkeypatch):
 
 @pytest.fixture(scope="module")
 def sections():
-    """The numbered sections of the page, by number, each on one line."""
-    parts = [" ".join(part.split()) for part in ERRATA.read_text(encoding="utf-8").split("\n## ")]
-    return {int(part.split(".")[0]): part for part in parts if re.match(r"\d+\. ", part)}
+    """The numbered sections of the page and of its appendix, by number, each on one line."""
+    told = {}
+    for path in (ERRATA, ERRATA.with_name("errata-appendix.md")):
+        for part in re.split(r"\n## (?=\d+\. )", path.read_text(encoding="utf-8"))[1:]:
+            number = int(part.split(".")[0])
+            told[number] = f"{told.get(number, '')} {' '.join(part.split())}"
+    return told
 
 
 def quoted(section, pattern):

@@ -10,7 +10,7 @@ from flypend import geometry as geo
 from flypend.compile.numeric import as_numpy
 from flypend.compile.program import lower
 from flypend.model.air import AIR, Air, air_wrench, ground_gain
-from flypend.model.motion import disturbed_motion
+from flypend.model.motion import Disturbance, disturbed_motion
 from flypend.plants import Plant
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rotor_step
@@ -147,7 +147,7 @@ def test_the_flight_is_that_of_an_independent_integrator(engine, offset):
     s, F, m = ca.SX.sym("s", 24), ca.SX.sym("F", 3), ca.SX.sym("m", 3)
     wrench = fp.Wrench(ca.DM(mixing[0] @ forces), ca.DM(mixing[1:] @ forces) + m)
     motion = disturbed_motion(
-        fp.State.symbolic(s), wrench, vehicle, "up", force_on_vehicle=F, pivot_offset=np.array(offset)
+        fp.State.symbolic(s), wrench, vehicle, "up", Disturbance(force_on_vehicle=F, pivot_offset=np.array(offset))
     )
     rates = as_numpy(ca.Function("rates", [s, F, m], [ca.densify(motion.packed())]))
 

@@ -12,7 +12,7 @@ from flypend import geometry as geo
 from flypend.compile.numeric import as_numpy
 from flypend.flight.integrate import integrate
 from flypend.laws.closed_loop import close_loop
-from flypend.model import disturbed_motion, equations_of_motion, mjcf, total_energy
+from flypend.model import Disturbance, disturbed_motion, equations_of_motion, mjcf, total_energy
 from flypend.model.mjcf import model_xml
 from flypend.model.state import FLIP, SIZE
 from flypend.plants.actuation import Actuation, make_engine
@@ -119,7 +119,7 @@ def test_disturbed_motion_solves_the_equations_of_newton_and_euler(name):
     rng, vehicle = np.random.default_rng(1), _tilted(name)
     for state in fp.State.random(rng, 100):
         wrench, disturbances = _wrench(rng, vehicle), _disturbances(rng)
-        rates = disturbed_motion(state, wrench, vehicle, "up", **disturbances)
+        rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(**disturbances))
         wanted = _solved(state, wrench, vehicle, disturbances)
         for field in ("x_ddot", "omega_dot", "y_ddot"):
             assert _error(getattr(rates, field), wanted[field]) < ROUNDOFF, field
@@ -159,11 +159,11 @@ def test_an_extended_rod_moves_as_a_point_bob_and_a_mass_at_the_pivot(name):
         rod = vehicle.replace(rod_inertia=inertia)
         for state in fp.State.random(rng, 50):
             wrench, disturbances = _wrench(rng, rod), _disturbances(rng)
-            rates = disturbed_motion(state, wrench, rod, "up", **disturbances)
+            rates = disturbed_motion(state, wrench, rod, "up", Disturbance(**disturbances))
             wanted = _solved_with_rod(state, wrench, rod, disturbances)
             for field in ("x_ddot", "omega_dot", "y_ddot"):
                 assert _error(getattr(rates, field), wanted[field]) < ROUNDOFF, field
-            free = disturbed_motion(state, wrench, vehicle, "up", **disturbances)
+            free = disturbed_motion(state, wrench, vehicle, "up", Disturbance(**disturbances))
             assert _error(free.y_ddot, rates.y_ddot) > 1e-3
 
 
@@ -173,16 +173,17 @@ def test_without_disturbances_it_is_the_equations_of_motion(name, e3):
     rng, vehicle = np.random.default_rng(2), _tilted(name)
     states, wrench = fp.State.random(rng, 1000), _wrench(rng, vehicle, (1000,))
     ideal = equations_of_motion(states, wrench, vehicle, e3).packed()
-    assert _error(disturbed_motion(states, wrench, vehicle, e3, **NOTHING).packed(), ideal) < ROUNDOFF
+    assert _error(disturbed_motion(states, wrench, vehicle, e3, Disturbance(**NOTHING)).packed(), ideal) < ROUNDOFF
     assert _error(disturbed_motion(states, wrench, vehicle, e3).packed(), ideal) < ROUNDOFF
 
 
 def test_each_disturbance_counts():
     rng, vehicle = np.random.default_rng(3), fp.vehicle("hehn2011")
     state, wrench, disturbances = fp.State.random(rng), _wrench(rng, vehicle), _disturbances(rng)
-    full = disturbed_motion(state, wrench, vehicle, "up", **disturbances).packed()
+    full = disturbed_motion(state, wrench, vehicle, "up", Disturbance(**disturbances)).packed()
     for name in disturbances:
-        without = disturbed_motion(state, wrench, vehicle, "up", **{**disturbances, name: np.zeros(3)}).packed()
+        some = Disturbance(**{**disturbances, name: np.zeros(3)})
+        without = disturbed_motion(state, wrench, vehicle, "up", some).packed()
         assert _error(without, full) > 0.1, name
 
 
@@ -190,7 +191,7 @@ def test_each_disturbance_counts():
 def test_power_is_what_thrust_moment_and_wind_supply(name):
     rng, vehicle = np.random.default_rng(4), _tilted(name)
     states, wrench, disturbances = fp.State.random(rng, 500), _wrench(rng, vehicle, (500,)), _disturbances(rng, (500,))
-    rates = disturbed_motion(states, wrench, vehicle, "up", **disturbances)
+    rates = disturbed_motion(states, wrench, vehicle, "up", Disturbance(**disturbances))
     M, m, l, w = vehicle.mass, vehicle.bob_mass, vehicle.rod_length, states.omega
     g, o = np.array([0, 0, -vehicle.gravity]), np.broadcast_to(OFFSET, w.shape)
     c_dot = states.x_dot - geo.apply(states.R, np.cross(w, o))
@@ -206,18 +207,16 @@ def test_power_is_what_thrust_moment_and_wind_supply(name):
 def test_a_batch_is_its_members_and_numpy_is_casadi():
     rng, vehicle = np.random.default_rng(5), _tilted("hehn2011")
     states, wrench, disturbances = fp.State.random(rng, 20), _wrench(rng, vehicle, (20,)), _disturbances(rng, (20,))
-    batch = disturbed_motion(states, wrench, vehicle, "up", **disturbances).packed()
+    batch = disturbed_motion(states, wrench, vehicle, "up", Disturbance(**disturbances)).packed()
     symbols = [ca.SX.sym(name, size) for name, size in (("s", SIZE), ("w", 4), ("F_v", 3), ("F_b", 3), ("o", 3))]
     s, w, F_v, F_b, o = symbols
-    symbolic = disturbed_motion(
-        fp.State.symbolic(s), fp.Wrench(w[0], w[1:]), vehicle, "up",
-        force_on_vehicle=F_v, force_on_bob=F_b, pivot_offset=o,
-    )  # fmt: skip
+    wind = Disturbance(force_on_vehicle=F_v, force_on_bob=F_b, pivot_offset=o)
+    symbolic = disturbed_motion(fp.State.symbolic(s), fp.Wrench(w[0], w[1:]), vehicle, "up", wind)
     function = ca.Function("rates", symbols, [symbolic.packed()])
     for k, state in enumerate(states):
         mine = {name: value if value.ndim == 1 else value[k] for name, value in disturbances.items()}
         one = fp.Wrench(wrench.thrust[k], wrench.moment[k])
-        assert _error(disturbed_motion(state, one, vehicle, "up", **mine).packed(), batch[k]) < ROUNDOFF
+        assert _error(disturbed_motion(state, one, vehicle, "up", Disturbance(**mine)).packed(), batch[k]) < ROUNDOFF
         values = function(state.packed(), np.append(one.thrust, one.moment), *mine.values())
         assert _error(np.asarray(values).ravel(), batch[k]) < ROUNDOFF
 
@@ -225,9 +224,9 @@ def test_a_batch_is_its_members_and_numpy_is_casadi():
 def test_the_frame_turned_by_pi_sees_the_same_motion():
     rng, vehicle = np.random.default_rng(6), fp.vehicle("nayak2018")
     states, wrench, disturbances = fp.State.random(rng, 50), _wrench(rng, vehicle, (50,)), _disturbances(rng, (50,))
-    up = disturbed_motion(states, wrench, vehicle, "up", **disturbances)
+    up = disturbed_motion(states, wrench, vehicle, "up", Disturbance(**disturbances))
     turned = {name: geo.apply(FLIP, value) for name, value in disturbances.items()}
-    down = disturbed_motion(states.flipped(), wrench.flipped(), vehicle, "down", **turned)
+    down = disturbed_motion(states.flipped(), wrench.flipped(), vehicle, "down", Disturbance(**turned))
     for field in ("x_ddot", "omega_dot", "y_ddot"):
         assert _error(geo.apply(FLIP, getattr(down, field)), getattr(up, field)) < ROUNDOFF, field
 
@@ -298,14 +297,14 @@ def test_accelerations_agree_for_any_rotor_forces(name):
         engine = MujocoEngine(vehicle.replace(pivot_offset=OFFSET))
         engine.step(forces, **_external(disturbances))  # leaves forces behind, which reset has to take away
         engine.reset(state.packed())
-        free = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), vehicle, "up", pivot_offset=OFFSET)
+        free = disturbed_motion(state, fp.Wrench(0.0, np.zeros(3)), vehicle, "up", Disturbance(pivot_offset=OFFSET))
         for field, value in _accelerations(engine).items():
             assert _error(value, getattr(free, field)) < 1e-9, field
         engine.data.ctrl[:] = forces
         engine.data.xfrc_applied[engine.model.body("vehicle").id, :3] = disturbances["force_on_vehicle"]
         engine.data.xfrc_applied[engine.model.body("bob").id, :3] = disturbances["force_on_bob"]
         wrench = vehicle.mixing() @ forces
-        rates = disturbed_motion(state, fp.Wrench(wrench[0], wrench[1:]), vehicle, "up", **disturbances)
+        rates = disturbed_motion(state, fp.Wrench(wrench[0], wrench[1:]), vehicle, "up", Disturbance(**disturbances))
         for field, value in _accelerations(engine).items():
             # the bob's own inertia is 4e-12 of that of the rod, of accelerations up to a hundred
             assert _error(value, getattr(rates, field)) < 1e-9, field
@@ -339,7 +338,7 @@ def test_under_a_constant_wrench_mujoco_moves_as_the_equations_of_motion(name):
 @pytest.mark.parametrize("name", WITH_ROD)
 def test_under_disturbances_mujoco_moves_as_disturbed_motion(name):
     def disturbed(state, wrench, vehicle, disturbances):
-        return disturbed_motion(state, wrench, vehicle, "up", **disturbances)
+        return disturbed_motion(state, wrench, vehicle, "up", Disturbance(**disturbances))
 
     coarse, half, fine = _errors(name, np.random.default_rng(9), (8e-3, 4e-3, 0.5e-3), disturbed, True).T
     assert np.max(coarse) < 2e-4  # moments of wind and rod turn hehn2011 by tens of rad/s

@@ -12,7 +12,7 @@ from flypend import geometry as geo
 from flypend.flight import sampled
 from flypend.flight.integrate import integrate
 from flypend.laws import Computer
-from flypend.model import disturbed_motion, linear_momentum, total_energy
+from flypend.model import Disturbance, disturbed_motion, linear_momentum, total_energy
 from flypend.model.state import FLIP_PACKED, MAX_STATE
 from flypend.plants import MOTION_CAPTURE, PRESETS, Noise, Plant, Wind, plant
 from flypend.plants.equations import EquationsEngine
@@ -284,9 +284,8 @@ def _integrated(vehicle, forces_of, start, duration, **disturbances):
         wrench = mixing @ forces_of(t)
         # Intermediate stages of the integrator lie off the manifold, where State would refuse them.
         packed = ca.DM(s)
-        motion = disturbed_motion(
-            fp.State.symbolic(packed), fp.Wrench(ca.DM(wrench[0]), ca.DM(wrench[1:])), vehicle, "up", **disturbances
-        )
+        state, wrench = fp.State.symbolic(packed), fp.Wrench(ca.DM(wrench[0]), ca.DM(wrench[1:]))
+        motion = disturbed_motion(state, wrench, vehicle, "up", Disturbance(**disturbances))
         return np.array(motion.packed())[:, 0]
 
     return integrate(rates, start.packed(), duration, rtol=1e-12, atol=1e-12)([duration])[0]
@@ -660,3 +659,8 @@ def test_a_lag_too_short_for_mujoco_is_none():
 def test_what_would_take_for_ever_is_refused(fields, name):
     with pytest.raises(fp.InputError, match=rf"^plant\.{name}: "):
         Plant(**fields)
+
+
+def test_an_ideal_plant_with_forces_of_each_run_is_hashable_too():
+    forces = [[1.0, 2.0, 3.0, 4.0], [4.0, 3.0, 2.0, 1.0]]
+    assert fp.Ideal(lag=True, rotors=np.array(forces)) in {fp.Ideal(lag=True, rotors=forces)}

@@ -64,7 +64,7 @@ FIELDS = tuple(Keywords.__annotations__)
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Constraints:
-    """What a flight keeps, beside the limits of its rotors; SI units, world frame with e₃ up.
+    """Constraints on a flight, beside the limits of its rotors; SI units, world frame with e₃ up.
 
     Parameters
     ----------
@@ -90,8 +90,8 @@ class Constraints:
     keep : callable, optional
         A constraint of one's own: a function of `m`, with m.x, m.x_dot, m.R, m.omega, m.y, m.y_dot as in `State` and
         m.rotor_forces (N), that gives a CasADi expression, or several, each to stay ≥ 0. It is kept to a thousandth of
-        its unit, so best of the order of one; smooth where the flight may go, and positive at the start and in hover at
-        the target.
+        its unit, so scale it to the order of one. It must be smooth where the flight may go, and positive at the start
+        and in hover at the target.
 
     Attributes
     ----------

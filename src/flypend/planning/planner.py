@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from flypend import errors, signals
-from flypend.compile.llvm.abreast import abreast
-from flypend.compile.llvm.stagewise import WIDTH, Stagewise
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.errors import InputError
 from flypend.flight.request import check_batch
 from flypend.model import State, Vehicle
@@ -75,7 +74,7 @@ def plan(
     constraints : Constraints, optional
         What the flight keeps, beside the limits of the rotors.
     time_limit : float
-        Processor time after which the best so far is returned, s: a busy machine takes longer to the same plan.
+        Processor time after which the best so far is returned, s: a busy machine takes longer to reach the same plan.
         Compiling, once per kind of constraints, does not count.
     **keywords
         Fields of `Constraints` one by one: box, floor, ceiling, speed, lean, window, waypoints, path, clearance.
@@ -174,7 +173,7 @@ def _dense(asked: Request, found: Found, h: float) -> Any:
 
 @lru_cache(maxsize=4)
 def _step(rotors: int) -> Stagewise:
-    return abreast(Stage(rotors).step(), shared=(2, 3))
+    return stagewise(Stage(rotors).step(), shared=(2, 3), abreast=True)
 
 
 def _plan(asked: Request, found: Found, own: Any, horizon: float) -> Plan:

@@ -14,7 +14,7 @@ from flypend.geometry import Numbers, Scalar
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench
 from flypend.model.joint import friction
-from flypend.model.motion import disturbed_motion
+from flypend.model.motion import Disturbance, disturbed_motion
 from flypend.model.rod import shared_out
 from flypend.model.state import SIZE, project_symbolic
 from flypend.plants.cascade import cascade_step
@@ -103,10 +103,8 @@ def struck(vehicle: Vehicle) -> ca.Function:
     Accelerations are affine in external forces, so an impulse makes velocities jump by their derivative times it.
     """
     packed, forces, impulses = ca.SX.sym("s", SIZE), ca.SX.sym("F", 6), ca.SX.sym("J", 6)
-    motion = disturbed_motion(
-        State.symbolic(packed), Wrench(ca.SX(0), ca.SX.zeros(3)), vehicle, "up", force_on_vehicle=forces[:3],
-        force_on_bob=forces[3:], pivot_offset=vehicle.pivot_offset,
-    )  # fmt: skip
+    state, still = State.symbolic(packed), Wrench(ca.SX(0), ca.SX.zeros(3))
+    motion = disturbed_motion(state, still, vehicle, "up", Disturbance(forces[:3], forces[3:], vehicle.pivot_offset))
     jump = ca.mtimes(ca.jacobian(motion.packed(), forces), impulses)
     return ca.Function("strike", [packed, impulses], [ca.cse(ca.densify(packed + jump))])
 
@@ -152,15 +150,7 @@ def rates_under(
     if plant.in_air(vehicle):
         force, turning = air_wrench(state, rotors, vehicle, plant.effects(vehicle), plant.ground)
         on_vehicle, moment = on_vehicle + ca.mtimes(state.R, force), moment + turning
-    motion = disturbed_motion(
-        state,
-        Wrench(wrench[0], moment),
-        vehicle,
-        "up",
-        force_on_vehicle=on_vehicle,
-        force_on_bob=wind[3:],
-        pivot_offset=vehicle.pivot_offset,
-        joint_torque=friction(state, vehicle) if vehicle.rubs else None,
-        spin=vehicle.rod_spin * vehicle.rod_spin_inertia,
-    )
-    return motion.packed()
+    torque = friction(state, vehicle) if vehicle.rubs else None
+    spin = vehicle.rod_spin * vehicle.rod_spin_inertia
+    disturbance = Disturbance(on_vehicle, wind[3:], vehicle.pivot_offset, joint_torque=torque, spin=spin)
+    return disturbed_motion(state, Wrench(wrench[0], moment), vehicle, "up", disturbance).packed()

@@ -17,7 +17,7 @@ import tty
 from collections import namedtuple
 
 LATE = 10.0  # ms from the picture to the packet: measure yours
-HEIGHT = 1.5  # m
+HEIGHT = 1.5  # m, of a hover with the rod hanging
 SETTLE = 2.0  # s of poses before it arms: the estimator needs them
 CLIMB = 0.5  # m/s
 LANDING = 4.0  # s
@@ -108,15 +108,15 @@ class Session:
         self.frame_at = self.bob_at = self.now()
         self.shown_at = self.asked_at = -1e9
 
-    def fly(self, hover, parameters=()):
-        """Send poses until space or Ctrl-C; with `hover`, arm, take off, obey the keys and end with a landing."""
+    def fly(self, height=None, parameters=()):
+        """Send poses until space or Ctrl-C; with a `height`, m, arm, climb to it, obey the keys and end by landing."""
         try:
             # Changing the controller begins the app anew, so it comes first.
             first = {"stabilizer.controller": 6, "stabilizer.estimator": 2, "flypend.on": 0, "flypend.late": LATE}
             for name, value in {**first, **FILTER, **dict(parameters)}.items():
                 tell(self.cf, name, value)
-            if hover:
-                self.climb_and_obey()
+            if height is not None:
+                self.climb_and_obey(height)
             else:
                 while " " not in self.turn():
                     pass
@@ -124,7 +124,7 @@ class Session:
             if self.armed:
                 stop(self.cf, self.pause)
 
-    def climb_and_obey(self):
+    def climb_and_obey(self, height):
         """From the ground to the ground; armed at the end if the motors are to be stopped."""
         begun, pressed = self.now(), ""
         while self.frame is None or self.now() - begun < SETTLE:
@@ -135,8 +135,8 @@ class Session:
         self.armed = True  # from now on whatever happens stops the motors
         self.cf.supervisor.send_arming_request(True)
         while True:
-            height = min(HEIGHT, CLIMB * (self.now() - begun))
-            for key in self.turn((home[0], home[1], home[2] + height)):
+            climbed = min(height, CLIMB * (self.now() - begun))
+            for key in self.turn((home[0], home[1], home[2] + climbed)):
                 if key == " ":
                     return
                 if key == "d":
@@ -197,7 +197,8 @@ def main():
         parser.add_argument(f"--{name}", type=float, help=f"{unit}; default: as exported")
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--watch", action="store_true", help="send poses and print; never arm")
-    kind.add_argument("--hover", action="store_true", help="arm, take off, hover")
+    what = f"arm, take off and hover at this height, default {HEIGHT:g} m; a swing-up needs 4"
+    kind.add_argument("--hover", nargs="?", type=float, const=HEIGHT, metavar="HEIGHT", help=what)
     given = parser.parse_args()
 
     import cflib.crtp

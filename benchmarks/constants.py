@@ -9,6 +9,7 @@ The random vehicles are of `benchmarks.vehicles`, with a lag of at most half of 
 import sys
 from contextlib import ExitStack, contextmanager
 from importlib import import_module
+from types import SimpleNamespace
 from unittest.mock import patch
 
 import numpy as np
@@ -89,11 +90,14 @@ def changed(changes):
 
 
 def control(t, state, vehicle, k, forces, *, path):
-    """The law with the constants of `OPEN` taken from its gains `k`."""
+    """The law with the constants of `OPEN`, and its `OWN` numbers, taken from its gains `k`."""
     with ExitStack() as stack:
         for name, module in OPEN.items():
             stack.enter_context(patch.object(module, name, getattr(k, name)))
-        return inverted.inverted_control(t, state, vehicle, k, forces, path=path)
+        own = k.mounting._replace(**{name: getattr(k, name) for name in OWN})
+        return inverted.inverted_control(
+            t, state, vehicle, SimpleNamespace(**vars(k) | {"mounting": own}), forces, path=path
+        )
 
 
 def open_law():

@@ -117,6 +117,39 @@ def stack(draw: Drawing, rows: Sequence[Sequence[str]], x: float, y: float, widt
     return middles
 
 
+def free_body() -> Drawing:
+    """Return the forces on vehicle and bob, and the order in which they move the machine."""
+    draw = Drawing(300)
+    pivot, y, z = np.array([105.0, 195.0]), np.array([0.42, -0.91]), np.array([-0.26, -0.97])
+    bob, side = pivot + 120 * y, np.array([-z[1], z[0]])
+    draw.path((pivot, bob))
+    draw.path((pivot - 52 * side, pivot + 52 * side), "curve blue")
+    for end in (-52, 52):
+        rotor = pivot + end * side + 7 * z
+        draw.path((rotor - 16 * side, rotor + 16 * side), "curve blue")
+    draw.dot(*pivot, radius=5)
+    draw.dot(*bob, "in-red", 8)
+    for start, step, said, place in (
+        (pivot, 95 * z, "f z", (-12, 4)),
+        (pivot, np.array([0.0, 72.0]), "M g", (10, 4)),
+        (bob, np.array([0.0, 58.0]), "m g", (8, 4)),
+        (pivot + 8 * side, 46 * y, "T y", (12, 14)),
+        (bob - 9 * side, -46 * y, "−T y", (-8, 4)),
+    ):
+        end = start + step
+        draw.arrow(start, end)
+        draw.text(end[0] + place[0], end[1] + place[1], said, "it", "end" if place[0] < 0 else "start")
+    draw.text(bob[0], bob[1] - 16, "bob p = x + l y", "small")
+    draw.text(pivot[0] - 14, pivot[1] + 24, "pivot x", "small", "end")
+    rows = (
+        ("Moment τ turns the vehicle", "R, ω; thrust axis z = R e₃"),
+        ("Thrust across the rod turns it", "y, H"),
+        ("All forces move the whole", "centre of mass c"),
+    )
+    stack(draw, rows, 226, 46, 250)
+    return draw
+
+
 def law_cascade() -> Drawing:
     """Return the steps of the inverted law, from the position of the bob to the rotors."""
     rows = (
@@ -374,6 +407,7 @@ def throw_phases() -> Drawing:
 
 
 DIAGRAMS = {
+    "free-body": free_body,
     "law-cascade": law_cascade,
     "theorem-cascade": theorem_cascade,
     "sensor-timing": sensor_timing,

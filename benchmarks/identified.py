@@ -55,10 +55,8 @@ def identified(k, seed, seconds, engine):
     """Fly and identify log `k`; return what held its truth, by name, errors by goal, and processor time, s."""
     rng = np.random.default_rng([seed, k])
     true, plant, scale, guess = machine(rng)
-    flown = rehearse(
-        guess, true, plant.replace(engine=engine), duration=seconds, latency=LATENCY, bias=0.01, scale=scale,
-        seed=seed + k,
-    )  # fmt: skip
+    flying = plant.replace(engine=engine, strength=tuple(scale * np.array(plant.strength)))
+    flown = rehearse(guess, true, flying, duration=seconds, latency=LATENCY, bias=0.01, seed=seed + k)
     with TemporaryDirectory() as folder:
         write_log(f"{folder}/flight.csv", flown.columns)
         begun = process_time()

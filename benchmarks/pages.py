@@ -1,24 +1,46 @@
-"""Draw pictures in docs/img: `python -m benchmarks.pages` writes swing-up.png, replay.png and lab.png.
+"""Draw pictures in docs/img: `python -m benchmarks.pages` draws all, or those that it is given the names of.
 
-The browser is the chromium of the tests, without a screen. The lab's flight is poked while it balances.
+swing-up, replay and lab write swing-up.png, replay.png and lab.png. The browser is the chromium of the tests, without a
+screen; the lab's flight is poked while it balances. api writes what examples of docs/reference/examples.py draw, and
+vehicles a portrait of each vehicle of the package. map and machine are what commands write.
 """
 
+import os
+import re
 import shutil
 import subprocess
 import sys
+from functools import partial
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from PIL import Image
+import matplotlib
+from PIL import Image, ImageColor
 from playwright.sync_api import sync_playwright
 
 import flypend as fp
 from benchmarks.lab import OPTIONS, SHOWN
+from flypend.model.table import vehicle_names
+from flypend.palette import CAUSES
+from flypend.pictures.machine import machine_figure
 from flypend.pictures.stop_motion import stop_motion
 
-PICTURES = Path(__file__).parents[1] / "docs" / "img"
+DOCS = Path(__file__).parents[1] / "docs"
+PICTURES = DOCS / "img"
+CELL = re.compile(r"^# %% [^\n]+ \| api/(\S+): [^\n]+\n(.*?)(?=^# %%|\Z)", re.MULTILINE | re.DOTALL)
 SIZE = {"width": 1280, "height": 800}
 SETTLE = 1500  # ms until the camera has arrived
+COMMANDS = {"map": "map --law lqr --runs 200000", "machine": "vehicles hehn2011"}  # as the pages tell them, but for -o
+
+
+def command(name):
+    """What `flypend` draws as docs/img/`name`.png."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / f"{name}.png"
+        subprocess.run([sys.executable, "-m", "flypend", *COMMANDS[name].split(), "-o", path], check=True)
+        shutil.copy(path, PICTURES)
+    compress(PICTURES / f"{name}.png", 256)
 
 
 def shoot(page, name):
@@ -26,9 +48,44 @@ def shoot(page, name):
     page.wait_for_timeout(SETTLE)
     path = PICTURES / name
     page.screenshot(path=path)
-    picture = Image.open(path).convert("RGB")  # browsers compress in haste, and 256 colours are enough
-    few = picture.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+    compress(path, 256)
+
+
+def compress(path, colours):
+    """Write the picture `path` again, with as many colours, causes of failure in theirs: others compress in haste."""
+    picture, causes = Image.open(path).convert("RGB"), [ImageColor.getrgb(colour) for colour in CAUSES.values()]
+    found = picture.quantize(colours - len(causes), Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
+    few = Image.new("P", (1, 1))
+    few.putpalette([*found.getpalette()[: 3 * (colours - len(causes))], *chain.from_iterable(causes)])
+    picture.quantize(palette=few, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def api():
+    """What examples draw."""
+    matplotlib.use("Agg")
+    (PICTURES / "api").mkdir(exist_ok=True)
+    here = Path.cwd()
+    for name, code in CELL.findall((DOCS / "reference" / "examples.py").read_text(encoding="utf-8")):
+        with TemporaryDirectory() as folder:
+            os.chdir(folder)
+            exec(compile(code, name, "exec"), {"__name__": "__main__"})
+            os.chdir(here)
+            shutil.copy(Path(folder, name), PICTURES / "api" / name)
+        compress(PICTURES / "api" / name, 64)
+
+
+def vehicles():
+    """The vehicles of the package, to scale, each on its own scale."""
+    for name in vehicle_names():
+        path = PICTURES / f"vehicle-{name}.png"
+        machine_figure(fp.vehicle(name)).savefig(path, dpi=100)
+        compress(path, 64)
+
+
+def browsed(draw):
+    """Draw with a browser."""
+    with sync_playwright() as playwright:
+        draw(playwright.chromium.launch(executable_path=shutil.which("chromium"), args=OPTIONS))
 
 
 def replay(browser):
@@ -70,14 +127,17 @@ def lab(browser):
         server.wait()
 
 
-def main():
-    """Draw all."""
-    stills()
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=OPTIONS)
-        replay(browser)
-        lab(browser)
+DRAWINGS = {
+    "swing-up": stills, "replay": partial(browsed, replay), "lab": partial(browsed, lab), "api": api,
+    "vehicles": vehicles, **{name: partial(command, name) for name in COMMANDS},
+}  # fmt: skip
+
+
+def main(names):
+    """Draw those of `names`, or all."""
+    for name in names or DRAWINGS:
+        DRAWINGS[name]()
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

@@ -10,15 +10,20 @@ from dataclasses import dataclass
 NUMBER = re.compile(r"(?<![\w.,/^·])\d+(?:,\d{3})*(?:\.\d+)?(?:e[+-]?\d+)?(?![\d.,]*\d|[⁰¹²³⁴-⁹])")
 # What follows a number that is a quantity, and what the SI value is multiplied with for it.
 UNITS = {
-    "%": 100, "cm": 100, "mm": 1e3, "ms": 1e3, "µs": 1e6, "mrad": 1e3, "°": 57.29577951308232, "kHz": 1e-3, "mN": 1e3,
-    "m": 1, "s": 1, "N": 1, "rad": 1, "Hz": 1, "MB": 1, "kB": 1, "GB": 1, "×": 1, "/s": 1, "times": 1, "of": 1,
+    "%": 100, "percent": 100, "cm": 100, "mm": 1e3, "ms": 1e3, "µs": 1e6, "μs": 1e6, "ns": 1e9, "min": 1 / 60,
+    "°": 57.29577951308232, "degrees": 57.29577951308232, "mrad": 1e3, "mN": 1e3, "kHz": 1e-3, "m": 1, "metres": 1,
+    "s": 1, "seconds": 1, "minutes": 1, "hours": 1, "N": 1, "rad": 1, "Hz": 1, "g": 1, "kg": 1, "bytes": 1, "kB": 1,
+    "MB": 1, "GB": 1, "KiB": 1, "MiB": 1, "×": 1, "x": 1, "times": 1, "/s": 1, "of": 1, "out": 1, "flights": 1,
+    "runs": 1, "starts": 1, "vehicles": 1, "seeds": 1, "plans": 1, "steps": 1, "tasks": 1, "million": 1,
 }  # fmt: skip
 _ANY = "|".join(sorted(UNITS, key=len, reverse=True))
-UNIT = re.compile(rf"(?:(?: to | and |, | / |–)[\d.,]+){{0,2}}\s?({_ANY})(?![a-z])")  # also behind the end of a range
-# No measurement: code, formulas, where links lead, headings, dates, numbers of papers; what precedes the page.
+UNIT = re.compile(
+    rf"(?:(?: to | and |, | / |–)[\d.,]+){{0,2}}\$?[\s-]?({_ANY})(?![a-z])"
+)  # also behind the end of a range
+# No measurement: code, formulas of more than a number, links, dates, numbers of papers; what precedes a page.
 CODE = re.compile(r"^```.*?^```|^ {4,}\S[^\n]*|`[^`]*`", re.MULTILINE | re.DOTALL)
 OTHER = re.compile(
-    r"\A---\n.*?^---|\$\$.*?\$\$|\$[^$]+\$|\]\([^)]*\)|<[^>]*>|^#[^\n]*|\d{4}-\d\d-\d\d|\d{4}\.\d{5}",
+    r"\A---\n.*?^---|\$\$.*?\$\$|\$(?![\d.,]+\$)[^$]+\$|\]\([^)]*\)|<[^>]*>|\d{4}-\d\d-\d\d|\d{4}\.\d{5}",
     re.MULTILINE | re.DOTALL,
 )
 NOTEBOOK = "## What was tried"  # what nobody can print any more
@@ -80,6 +85,6 @@ def said(page: str) -> Iterator[Said]:
         line, before, unit = text[begin:end], text[begin : number.start()], UNIT.match(text, number.end())
         place = bisect(heads, number.start(), hi=len(heads) - 1)
         section = page[heads[place - 1] : heads[place]]
-        quantity = unit or line.startswith("|") or re.search(r"[.,]", number[0]) or before.endswith(" of ")
+        quantity = unit or line.startswith("|") or re.search(r"[.,e]|\d{5}", number[0]) or before.endswith(" of ")
         if quantity and not section.startswith(NOTEBOOK):
             yield Said(number[0], number.start(), line, UNITS[unit[1]] if unit else 1, section)

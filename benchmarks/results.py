@@ -1,6 +1,6 @@
 """The ledger: what commands measured, one file of benchmarks/results each, and the pages that say so.
 
-`python -m benchmarks.results` lists each result with its age: how many commits changed the code that it measures since.
+`python -m benchmarks.results` says which results are older than the code that they measure, and which files changed.
 `python -m benchmarks.results NAME …` runs the commands of those results again, writes their files, and puts the new
 numbers where pages say the old ones.
 """
@@ -16,11 +16,14 @@ import re
 import shlex
 import subprocess
 import sys
+import tokenize
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import UTC, date, datetime
 from functools import cache, partial
+from hashlib import sha256
+from io import StringIO
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -36,41 +39,51 @@ LINK = re.compile(r"\]\(([^)#:]+\.md)[^)]*\)")
 CONSTANTS = tomllib.loads((FOLDER.parent / "constants.toml").read_text(encoding="utf-8"))
 
 Values = dict[str, Any]  # row → numbers, or column → numbers
+Code = dict[str, dict[str, str]]  # room or file → digest of each of its files; {} where none was recorded
 
 
 @dataclass(frozen=True)
 class Result:
-    """What a `command` measured: `values` by row, at a `commit`, on a `date` and `machine`.
+    """What a `command` measured: `values` by row, of some `code`, on a `date` and `machine`.
 
-    `sources` are rooms or files of src/flypend: the code that it measures. Values are in SI units, or as printed.
+    `code` has the rooms or files of src/flypend that it measures, and its own file of benchmarks or tests, each with
+    the digests of its files.
+    Values are in SI units, or as printed.
     """
 
     name: str
     command: str
-    sources: list[str]
-    commit: str = ""
+    code: Code
     date: date = date.min
     machine: str = ""
     values: Values = field(default_factory=dict)
 
     def text(self) -> str:
         """Return the file of this result."""
-        head = {"command": self.command, "sources": self.sources, "commit": self.commit}
-        lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in head.items()]
-        lines += [f"date = {self.date}", f"machine = {json.dumps(self.machine)}", "", "[values]"]
-        return "\n".join([*lines, *(f"{_key(row)} = {_inline(found)}" for row, found in self.values.items())]) + "\n"
+        head = f"command = {json.dumps(self.command, ensure_ascii=False)}\ndate = {self.date}\n"
+        tables = (f"\n[{name}]\n{_lines(table)}" for name, table in (("values", self.values), ("code", self.code)))
+        return f"{head}machine = {json.dumps(self.machine)}\n{''.join(tables)}"
 
     def numbers(self) -> list[float]:
         """Return all values."""
         return [value for _, value in leaves(self.values)]
 
-    def paths(self) -> list[str]:
-        """Return the paths of its sources, from the root."""
-        return [str((SOURCES / name).relative_to(ROOT)) for name in self.sources]
+    def changed(self) -> dict[str, list[str]]:
+        """Return by room which of its files are no longer as they were measured; not where nothing was recorded."""
+        found = {}
+        for source, old in self.code.items():
+            new = digests(source)
+            files = sorted(name for name in old.keys() | new.keys() if old.get(name) != new.get(name))
+            if old and files:
+                found[source] = files
+        return found
 
-    def since(self) -> list[str]:
-        """Return the commits that changed its sources since it was measured."""
-        return git("log", "--format=%h %s", f"{self.commit.rstrip('+')}..HEAD", "--", *self.paths()).splitlines()
+    def age(self) -> str:
+        """Return in words whether it is older than its code."""
+        changed = self.changed()
+        if not changed:
+            return "fresh" if all(self.code.values()) else "of code that was not recorded"
+        return f"older than {', '.join(_told(source, files) for source, files in changed.items())}"
 
     def again(self) -> Result:
         """Run the command; return what it measures now. Raises RuntimeError if it fails."""
@@ -85,10 +98,53 @@ class Result:
             if done.returncode:
                 raise RuntimeError(f"{self.command} ends with {done.returncode}:\n{done.stderr[-2000:]}")
             values = measured(done.stdout, Path(folder))
-        commit = git("log", "-1", "--format=%h", "--", *self.paths())
-        changed = "+" if git("status", "--porcelain", "--", *self.paths()) else ""
-        today = datetime.now(UTC).date()
-        return replace(self, commit=commit + changed, date=today, machine=machine_told(), values=values)
+        code = {source: digests(source) for source in self.code}
+        return replace(self, code=code, date=datetime.now(UTC).date(), machine=machine_told(), values=values)
+
+
+def _told(source: str, files: list[str]) -> str:
+    if len(files) > 2:
+        return f"{len(files)} files of {source}"
+    return ", ".join(source if place_of(source).suffix else f"{source}/{name}" for name in files)
+
+
+def place_of(source: str) -> Path:
+    """Return where a room or file of `Result.code` is."""
+    return (ROOT if source.startswith(("benchmarks/", "tests/")) else SOURCES) / source
+
+
+def digests(source: str) -> dict[str, str]:
+    """Return the digest of each file of a room, or of a file; none where there is no such place."""
+    place = place_of(source)
+    if place.is_file():
+        return {place.name: digest(place.read_bytes(), place.suffix)}
+    files = (path for path in sorted(place.rglob("*")) if path.is_file() and "__pycache__" not in path.parts)
+    return {path.relative_to(place).as_posix(): digest(path.read_bytes(), path.suffix) for path in files}
+
+
+@cache
+def digest(content: bytes, suffix: str) -> str:
+    """Return eight digits of a file's SHA-256; of Python without comments, docstrings and empty lines."""
+    return sha256(_bare(content.decode()).encode() if suffix == ".py" else content).hexdigest()[:8]
+
+
+def _bare(python: str) -> str:
+    lines = python.splitlines()
+    for token in tokenize.generate_tokens(StringIO(python).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column]
+    for node in ast.walk(ast.parse(python)):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef) and ast.get_docstring(
+            node
+        ):
+            first = node.body[0]
+            lines[first.lineno - 1 : first.end_lineno] = [""] * ((first.end_lineno or 0) - first.lineno + 1)
+    return "\n".join(line.rstrip() for line in lines if line.strip())
+
+
+def _lines(table: Mapping[str, Any]) -> str:
+    return "".join(f"{_key(name)} = {_inline(found)}\n" for name, found in table.items())
 
 
 def _key(name: str) -> str:
@@ -99,11 +155,6 @@ def _inline(found: Any) -> str:
     if isinstance(found, Mapping):
         return "{ " + ", ".join(f"{_key(name)} = {_inline(value)}" for name, value in found.items()) + " }"
     return json.dumps(found)
-
-
-def git(*arguments: str) -> str:
-    """Run git here and return what it prints."""
-    return subprocess.run(["git", *arguments], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
 
 
 def machine() -> dict[str, Any]:
@@ -255,12 +306,14 @@ def unknown(page: str, path: Path, ledger: list[Result]) -> list[Said]:
     places = [SOURCES / room for room in (*path.parent.relative_to(ROOT).parts[1:2], "vehicles", "plants")]
     places += [ROOT / "benchmarks" / f"{name}.py" for name in re.findall(r"\bbenchmarks[./](\w+)", page)]
     here = {value for block in CODE.findall(page) for value in numbers_in(re.sub(r"[=(\[]", " ", block))}
-    settings = {f"{value:.9g}" for value in here.union(*(literals(place) for place in places if place.exists()))}
+    typed_here = {f"{value:.9g}" for value in here}
+    settings = typed_here | {f"{value:.9g}" for place in places if place.exists() for value in literals(place)}
     constants = {*CONSTANTS["everywhere"], *CONSTANTS.get(path.relative_to(ROOT).as_posix(), [])}
     own: list[Result] = named(page, ledger)
     found = []
     for number in said(page):
-        if number.text in constants or {f"{value_of(number.text) / k:.9g}" for k in (1, number.scale)} & settings:
+        value = value_of(number.text)
+        if number.text in constants or f"{value / number.scale:.9g}" in settings or f"{value:.9g}" in typed_here:
             continue
         linked = (path.parent / place for place in LINK.findall(number.section))
         others = (named(_text(other), ledger) for other in linked if other.exists())
@@ -308,12 +361,7 @@ def main(names: list[str]) -> None:
         if result.name in names:
             measure(result, results())
         elif not names:
-            try:
-                since = result.since()
-                told = f"{len(since)} × changed since, last by {since[0]}" if since else "of today's code"
-            except subprocess.CalledProcessError:
-                told = f"commit {result.commit} is not in this clone"
-            print(f"{result.name:24} {result.date} {result.commit:9} {told}")
+            print(f"{result.name:26} {result.date}  {result.age()}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-"""An example of every public object: the page of an object shows its cell. `tests/test_docs.py` runs them one by one."""
+"""An example of every public object: the page of an object shows its cell. `tests/test_docs.py` runs them one by one.
+
+A picture in img/api is the one that its cell saves; `python -m benchmarks.pages api` draws them all.
+"""
 
 # %% simulate | swing-up.png: A swing-up in twelve pictures, and the path of pivot and rod
 import flypend as fp
@@ -7,18 +10,32 @@ vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
 run = fp.simulate(vehicle, fp.laws.inverted(), hanging, duration=6)
 print(run.outcome, run.y[-1].round(3))
 
-# %% simulate_ensemble
+# %% simulate_ensemble | api/ensemble.png: Settling time of a hundred flights against the height of the rod at the start
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(100, seed=1)
 runs = fp.simulate_ensemble(vehicle, fp.laws.inverted(), starts, duration=10)
 print(runs.success.sum(), "of 100")
 
-# %% random_starts
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.scatter(starts.y[:, 2], runs.settling)
+axes.set(xlabel="height of the rod at the start, y₃", ylabel="settling time (s)")
+figure.savefig("ensemble.png")
+
+# %% random_starts | api/starts.png: A thousand random rods seen from the side: points that fill a disc
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 starts = fp.random_starts(1000, seed=7)
 print(starts.y.shape, starts[0].y)
+
+figure, axes = plt.subplots(figsize=(3, 3), layout="constrained")
+axes.scatter(starts.y[:, 0], starts.y[:, 2], s=4)
+axes.set(xlabel="y₁", ylabel="y₃", aspect="equal")
+figure.savefig("starts.png")
 
 # %% Flight
 import flypend as fp
@@ -48,13 +65,22 @@ vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
 fp.simulate(vehicle, fp.laws.inverted(), start, duration=1).save("run.nc")
 print(fp.load("run.nc").outcome)
 
-# %% Ensemble
+# %% Ensemble | api/lean.png: Under an LQR most rods that lean little are caught, and few of the others
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
-vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(50, seed=1)
+vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(400, seed=1)
 runs = fp.simulate_ensemble(vehicle, fp.laws.lqr(), starts, duration=8)
 print(runs.rate, runs.interval)  # success, and its 95 % interval
 print(runs.cause[~runs.success][:3], runs.settling[runs.success][:3])
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+heights = [starts.y[runs.success, 2], starts.y[~runs.success, 2]]
+axes.hist(heights, bins=20, stacked=True, label=["succeeds", "fails"])
+axes.set(xlabel="height of the rod at the start, y₃", ylabel="runs")
+axes.legend()
+figure.savefig("lean.png")
 
 # %% Outcome | cause-collided.svg: The rod swings into an arm, where the flight ends
 import flypend as fp
@@ -78,6 +104,14 @@ vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
 run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=6)
 print(fp.metrics(run).settling, fp.metrics(run).excursion)  # s, m
 
+# %% recoveries, Recovery
+import flypend as fp
+
+vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=6)
+for recovery in fp.recoveries(run):
+    print(recovery.time, recovery.distance, recovery.height_lost)  # s, m, m
+
 # %% State
 import flypend as fp
 
@@ -90,11 +124,13 @@ import flypend as fp
 
 print(fp.Wrench(thrust=5.4, moment=(0, 0.01, 0)))  # N; N m in the body frame
 
-# %% vehicle
+# %% vehicle | api/crazyflie.png: crazyflie to scale, from above and from the side, with its three mounts
 import flypend as fp
+from flypend.pictures.machine import machine_figure
 
 vehicle = fp.vehicle("crazyflie")  # or the path of a TOML file
 print(vehicle.mass, vehicle.rod_length, vehicle.rotor_limits)  # kg, m, N
+machine_figure(vehicle).savefig("crazyflie.png", dpi=100)
 
 # %% Vehicle | machine.png: hehn2011 to scale, from above and from the side, with its three mounts
 import flypend as fp
@@ -314,7 +350,9 @@ law = fp.laws.inverted(line(velocity=(0.5, 0, 0)))  # m/s
 run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=6)
 print(run.x[-1].round(2))
 
-# %% references.circle
+# %% references.circle | api/circle.png: The vehicle's path from above: from the centre onto the circle; the bob leans inwards
+import matplotlib.pyplot as plt
+
 import flypend as fp
 from flypend.laws.references import circle
 
@@ -322,7 +360,17 @@ law = fp.laws.inverted(circle(radius=0.5, rate=1.5))  # m, rad/s
 run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
 print(run.x[-1].round(2))
 
-# %% references.lemniscate
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+bob = run.x + run.vehicle.l * run.y
+axes.plot(run.x[:, 0], run.x[:, 1], label="pivot")
+axes.plot(bob[:, 0], bob[:, 1], label="bob")
+axes.set(xlabel="x₁ (m)", ylabel="x₂ (m)", aspect="equal")
+axes.legend()
+figure.savefig("circle.png")
+
+# %% references.lemniscate | api/lemniscate.png: The vehicle's path from above: a figure of eight, and the path of the bob inside it
+import matplotlib.pyplot as plt
+
 import flypend as fp
 from flypend.laws.references import lemniscate
 
@@ -330,18 +378,35 @@ law = fp.laws.inverted(lemniscate(size=1.0, rate=1.2))  # m, rad/s
 run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
 print(abs(run.x).max())
 
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+bob = run.x + run.vehicle.l * run.y
+axes.plot(run.x[:, 0], run.x[:, 1], label="pivot")
+axes.plot(bob[:, 0], bob[:, 1], label="bob")
+axes.set(xlabel="x₁ (m)", ylabel="x₂ (m)", aspect="equal")
+axes.legend()
+figure.savefig("lemniscate.png")
+
 # %% plan | plan-front.png: Excursion of plans against the time until hover
 import flypend as fp
 
 plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1)), objective="excursion")
 print(plan.status, plan.excursion, plan.duration)  # m, s
 
-# %% Plan
+# %% Plan | api/plan.png: A plan from a leaning rod: it swings through below the vehicle and comes to rest upright
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8)))
 print(plan.t.shape, plan.x.shape, plan.rotor_forces.shape)
 plan.save("plan.nc")
+
+figure, (rod, force) = plt.subplots(1, 2, figsize=(7, 2.8), layout="constrained")
+rod.plot(plan.t, plan.y[:, 2])
+rod.set(xlabel="t (s)", ylabel="height of the rod, y₃")
+force.plot(plan.t, plan.rotor_forces)
+force.set(xlabel="t (s)", ylabel="rotor forces (N)")
+figure.savefig("plan.png")
 
 # %% load_plan
 import flypend as fp
@@ -395,14 +460,24 @@ import flypend as fp
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
 print(fp.metrics(fp.simulate(vehicle, fp.nmpc(vehicle), start, duration=4)).success)
 
-# %% Plant
+# %% Plant | api/plant.png: The rod comes up with delay and a heavier bob almost as on the ideal plant
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 real = fp.Plant(
     rate=200.0, delay=0.01, mismatch={"bob_mass": 1.1}
 )  # Hz, s, true over believed
-vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
-print(fp.metrics(fp.simulate(vehicle, fp.laws.inverted(), hanging, 8, plant=real)).success)
+vehicle, law, hanging = fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, -1))
+print(fp.metrics(fp.simulate(vehicle, law, hanging, 8, plant=real)).success)
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+for name, plant in {"real": real, "ideal": "ideal"}.items():
+    run = fp.simulate(vehicle, law, hanging, 5, plant=plant)
+    axes.plot(run.t, run.y[:, 2], label=name)
+axes.set(xlabel="t (s)", ylabel="height of the rod, y₃")
+axes.legend()
+figure.savefig("plant.png")
 
 # %% Ideal
 import flypend as fp
@@ -437,21 +512,31 @@ import flypend as fp
 
 print(fp.Sensor(rate=120.0, noise=2e-3, latency=0.015, dropouts=0.05))  # Hz, m, s, share
 
-# %% Wind
+# %% Wind | api/wind.png: Gusts move the vehicle to and fro by a few centimetres
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 windy = fp.Plant(wind=fp.Wind(on_vehicle=(0.3, 0, 0), gust_on_vehicle=0.1))  # N
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
-print(fp.simulate(vehicle, fp.laws.inverted(), start, 6, plant=windy).x[-1].round(2))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, 10, plant=windy)
+print(run.x[-1].round(2))
 
-# %% compare, Comparison
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, run.x, label=["x₁", "x₂", "x₃"])
+axes.set(xlabel="t (s)", ylabel="position of the pivot (m)")
+axes.legend()
+figure.savefig("wind.png")
 
+# %% compare, Comparison | api/compare.png: How many runs of each law have settled by a time, and within a distance
 import flypend as fp
+from flypend.pictures.studies import comparison_figure
 
 laws, starts = [fp.laws.inverted(), fp.laws.lqr()], fp.random_starts(50, seed=7)
 found = fp.compare(fp.vehicle("hehn2011"), laws, starts, duration=8)
 for row in found.rows():
     print(row["law"], row["success"])
+comparison_figure(found).savefig("compare.png", dpi=100)
 
 # %% sweep | map.png: Success, settling time, excursion and cause of failure over the sphere of the rod
 import flypend as fp
@@ -474,14 +559,14 @@ found = fp.trial(fp.vehicle("hehn2011"), runs=4, seed=1)
 print(found.uptime)
 
 # %% study, Study
-
 import flypend as fp
 
 settings = {"vehicle": "hehn2011", "law": {"name": "lqr"}, "runs": 100, "duration": 6.0}
 found = fp.study(settings | {"vary": {"start": {"y": "uniform"}}})
 print(found.samples, found.seed, found.axes)
 
-# %% tune, Tuned
+# %% tune, Tuned | api/tuned.png: The cost of the best gains found falls from generation to generation
+import matplotlib.pyplot as plt
 
 import flypend as fp
 
@@ -495,12 +580,18 @@ study = {
     "vary": {"start": {"y": "uniform"}},
     "tune": {
         "runs": 20,
-        "generations": 2,
+        "generations": 4,
         "gains": {"k_d": [0.3, 5.0], "k_1": [3.0, 100.0]},
     },
 }
 found = fp.tune(study)
 print(found.gains, found.before, found.after)
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+runs = [entry["runs"] for entry in found.history]
+axes.plot(runs, [entry["best"] for entry in found.history], marker="o")
+axes.set(xlabel="runs flown", ylabel="cost of the best gains so far")
+figure.savefig("tuned.png")
 
 # %% Objective
 import flypend as fp
@@ -519,7 +610,6 @@ found = fp.identify("flight.csv", guess)
 print(found.vehicle, found.bands["rod_length"])  # m
 
 # %% sensitivity, Sensitivity
-
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0.6, 0.8))
@@ -551,6 +641,16 @@ from flypend.export import compiled
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.28, 0, 0.96))
 controller = compiled(fp.laws.inverted(), vehicle)  # needs a C compiler
 print(fp.simulate(vehicle, controller, start, duration=2).outcome)
+
+# %% laws.trained
+import numpy as np
+
+import flypend as fp
+
+rng = np.random.default_rng(0)
+hidden = rng.normal(size=(32, 24)), np.zeros(32), "tanh"  # weights, biases, activation
+law = fp.laws.trained([hidden, (0.01 * rng.normal(size=(4, 32)), np.zeros(4))])
+print(law, fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), 0.1).outcome)
 
 # %% envs.environment
 import flypend.envs
@@ -602,6 +702,20 @@ worlds = gymnasium.make_vec(
 seen, _ = worlds.reset(seed=1)
 seen, rewards, _, _, _ = worlds.step(worlds.action_space.sample())
 print(seen.shape, rewards.mean())
+
+# %% envs.DifferentiableWorlds
+import numpy as np
+
+import flypend.envs
+
+worlds = flypend.envs.DifferentiableWorlds("balance")
+memory, seen = worlds.begin(range(64))  # seeds
+actions = np.zeros((64, 4))
+after = worlds.step(memory, actions)
+to_memory, to_actions = worlds.pullback(
+    memory, actions, np.zeros_like(memory), np.zeros_like(seen), np.ones(64)
+)
+print(after.rewards.mean(), to_actions.shape)  # of the sum of the rewards
 
 # %% envs.SavedState
 import pickle

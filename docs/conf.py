@@ -20,6 +20,7 @@ release = version = __version__
 extensions = [
     "accessible",
     "mathml",
+    "sources",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",

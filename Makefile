@@ -9,7 +9,7 @@ BASE := .venv-base
 LEARNERS := .venv-learners
 OUT ?= paper-out
 
-.PHONY: setup paper lab docs test mutants lowest learners first-contact size bench results test-tools fuzz loops web lint lock release clean
+.PHONY: setup paper lab docs pictures test mutants lowest learners first-contact size bench results test-tools fuzz loops web lint lock release clean
 
 setup: $(VENV)/.ready
 
@@ -33,7 +33,7 @@ lint: setup
 	$(BIN)/mypy
 
 test: lint test-tools
-	$(BIN)/pytest -n 2 --durations=20
+	$(BIN)/pytest -n 2 --dist worksteal --durations=20
 
 # Plants 200 mutations in the source, and reports those that no test catches; parts of it: make mutants WHERE=board
 mutants: setup test-tools
@@ -53,6 +53,14 @@ results: setup
 docs: setup
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build
 	@echo open docs/_build/index.html
+
+# The pictures of README and docs, but for those of `flypend check` and `flypend plan`, whose pages have their commands:
+# these take minutes to an hour.
+pictures: setup
+	$(BIN)/python -m benchmarks.diagrams
+	$(BIN)/python -m benchmarks.clips
+	$(BIN)/python -m benchmarks.pages
+	$(BIN)/python -m benchmarks.hero
 
 # What the tests need beyond Python: compilers and checkers of the exported C; a browser without a screen, and npm, which
 # rebuilds the bundle of the pages.
@@ -82,7 +90,7 @@ fuzz: test-tools setup
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
     --custom-compile-command "make lock" --upgrade pyproject.toml
-OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl --extra proof
+OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl --extra proof --extra logs --extra onnx
 
 lock:
 	$(COMPILE) --all-extras --group dev --output-file requirements.lock

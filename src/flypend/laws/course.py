@@ -8,11 +8,11 @@ its rate follow from derivatives of p, here up to its snap. Forces of the wind a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E3, dot, norm, scale, unit
+from flypend.geometry import E3, Numbers, Scalar, Vector, dot, norm, scale, unit
 from flypend.laws.throw import Bob, Rod, coasted
 from flypend.model import Vehicle
 
@@ -27,14 +27,14 @@ class Course(NamedTuple):
     and the `force`, N, that the motion takes beyond what the loops ask for while they see no error.
     """
 
-    p: Any
-    v: Any
-    a: Any
-    jerk: Any
-    up: Any
-    force: Any
+    p: Vector
+    v: Vector
+    a: Vector
+    jerk: Vector
+    up: Vector
+    force: Vector
 
-    def bob(self, x: Any, x_dot: Any, rod: Rod, l: Any) -> Bob:
+    def bob(self, x: Vector, x_dot: Vector, rod: Rod, l: Scalar) -> Bob:
         """Return the bob of the `rod` of length `l` (m) on the pivot at `x` (m) with velocity `x_dot`, each (3, 1)."""
         return Bob(x + l * rod.y - self.p, x_dot + l * rod.y_dot - self.v, self.a, self.jerk)
 
@@ -46,16 +46,16 @@ class Motion(NamedTuple):
     |A| as `size`, m/s²; `force` F, N, and its direction, the thrust axis `z`.
     """
 
-    p: Any
-    v: Any
-    jerk: Any
-    y: Any
-    y_dot: Any
-    size: Any
-    force: Any
-    z: Any
+    p: Vector
+    v: Vector
+    jerk: Vector
+    y: Vector
+    y_dot: Vector
+    size: Scalar
+    force: Vector
+    z: Vector
 
-    def compared(self, time: Any, vehicle: Vehicle) -> Course:
+    def compared(self, time: Scalar, vehicle: Vehicle) -> Course:
         """Return what a rod is compared with that has coasted for `time`, s: this one after coasting as long.
 
         Pivot and force are those of now. So the loops see no error along this motion, although its rod does not coast.
@@ -73,7 +73,7 @@ class Motion(NamedTuple):
 HELD = Motion(*(ca.SX.sym(name, 1 if name == "size" else 3) for name in Motion._fields))
 
 
-def motion(p: Sequence[Any], vehicle: Vehicle) -> tuple[Motion, Motion]:
+def motion(p: Sequence[Vector], vehicle: Vehicle) -> tuple[Motion, Motion]:
     """Return the motion along the bob's path `p`, its position and four derivatives, each (3, 1), and its rates."""
     whole, swung = vehicle.M + vehicle.m, vehicle.M * vehicle.l
     A, A_1, A_2 = vehicle.g * E3 + p[2], p[3], p[4]
@@ -91,12 +91,12 @@ def motion(p: Sequence[Any], vehicle: Vehicle) -> tuple[Motion, Motion]:
     return Motion(p[0], p[1], p[3], y, y_1, size, force, z), Motion(p[1], p[2], p[4], y_1, y_2, size_1, force_1, z_1)
 
 
-def along(value: Any, rates: Motion) -> Any:
+def along(value: Numbers, rates: Motion) -> Numbers:
     """Return the rate of the expression `value` of `HELD`, whose rates are given."""
     return ca.jtimes(value, ca.vertcat(*HELD), ca.vertcat(*rates))
 
 
-def resting(p: Sequence[Any]) -> Course:
+def resting(p: Sequence[Vector]) -> Course:
     """Return what a rod is compared with, however long it has coasted, if the bob's acceleration is constant."""
     place, velocity, acceleration, jerk = p[:4]
     return Course(place, velocity, acceleration, jerk, E3, 0.0)

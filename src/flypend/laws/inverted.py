@@ -15,12 +15,13 @@ docs/laws/inverted.md derives it line by line.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import casadi as ca
 
 from flypend import errors
-from flypend.geometry import E1, E3, apply, cross, dot, norm, scale, smooth_norm, tangent_part
+from flypend.geometry import E1, E3, Scalar, Vector, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
 from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
@@ -147,11 +148,11 @@ def _prepared(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]
 
 
 def inverted_control(
-    t: Any,
+    t: Scalar,
     state: State,
     vehicle: Vehicle,
-    k: Any,
-    forces: tuple[Any, Any],
+    k: SimpleNamespace,
+    forces: tuple[Vector, Vector],
     *,
     path: Path,
 ) -> Control:
@@ -166,7 +167,7 @@ def inverted_control(
     def bob_at(rod: Rod, course: Course) -> Bob:
         return course.bob(state.x, state.x_dot, rod, vehicle.l)
 
-    def force(rod: Rod, course: Course, pose: Pose) -> Any:
+    def force(rod: Rod, course: Course, pose: Pose) -> Vector:
         return course.force + rod_force(bob_at(rod, course), rod, pose, forces, vehicle, k)
 
     # The thrust axis serves the rod after it has coasted for the time that the axis takes to turn. So does the thrust
@@ -192,7 +193,7 @@ def inverted_control(
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(*forces))
 
-    def axis(turned: Any) -> Any:
+    def axis(turned: Vector) -> Vector:
         return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)
 
     if k.form == "light":

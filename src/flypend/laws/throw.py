@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from types import SimpleNamespace
+from typing import NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E3, cross, dot, norm, scale, tangent_part, unit
+from flypend.geometry import E3, Numbers, Scalar, Vector, cross, dot, norm, scale, tangent_part, unit
 from flypend.laws.references import Path, Reference
 from flypend.laws.smooth import positive, smooth_step, soft
 from flypend.model import Vehicle
@@ -28,8 +29,8 @@ THRUST_SHARE = 0.993
 class Rod(NamedTuple):
     """The rod: direction `y` (3, 1) and its rate `y_dot` (3, 1), 1/s."""
 
-    y: Any
-    y_dot: Any
+    y: Vector
+    y_dot: Vector
 
 
 class Bob(NamedTuple):
@@ -38,10 +39,10 @@ class Bob(NamedTuple):
     Errors `e`, m, and `v`, m/s; the reference's acceleration `a_ref`, m/s², and its rate `jerk_ref`, m/s³.
     """
 
-    e: Any
-    v: Any
-    a_ref: Any
-    jerk_ref: Any
+    e: Vector
+    v: Vector
+    a_ref: Vector
+    jerk_ref: Vector
 
 
 class Pose(NamedTuple):
@@ -51,19 +52,19 @@ class Pose(NamedTuple):
     `aside` (3, 1) and `clear` are as in `passage.Steering`.
     """
 
-    low: Any
-    height: Any
-    aside: Any
-    clear: Any
+    low: Scalar
+    height: Scalar
+    aside: Vector
+    clear: Scalar
 
 
 class Demand(NamedTuple):
     """The bob's demand on the rod, each (3, 1): A, its direction d = A/|A|, Ȧ, and ω_d = d × ḋ."""
 
-    A: Any
-    d: Any
-    A_dot: Any
-    omega_d: Any
+    A: Vector
+    d: Vector
+    A_dot: Vector
+    omega_d: Vector
 
 
 def carrying(reference: Reference) -> Path:
@@ -73,7 +74,7 @@ def carrying(reference: Reference) -> Path:
     the error by a factor (rate of the reference)² l/g.
     """
 
-    def path(t: Any, vehicle: Vehicle, on_bob: Any) -> tuple[Any, Any, Any]:
+    def path(t: Scalar, vehicle: Vehicle, on_bob: Vector) -> tuple[Vector, Vector, Vector]:
         x_ref = reference(t)
         support = vehicle.g * E3 - on_bob / vehicle.m
         y = unit(support)
@@ -85,7 +86,7 @@ def carrying(reference: Reference) -> Path:
     return path
 
 
-def derivatives(value: Any, t: Any, count: int) -> list[Any]:
+def derivatives(value: Numbers, t: Scalar, count: int) -> list[Numbers]:
     """Return the first `count` derivatives of the expression `value` with respect to the symbol `t`."""
     out = []
     for _ in range(count):
@@ -94,7 +95,7 @@ def derivatives(value: Any, t: Any, count: int) -> list[Any]:
     return out
 
 
-def bob_acceleration(e: Any, v: Any, low: Any, g: Any, k: Any) -> Any:
+def bob_acceleration(e: Vector, v: Vector, low: Scalar, g: Scalar, k: SimpleNamespace) -> Vector:
     """Return the bob's desired acceleration at position error `e` (m) and velocity error `v` (m/s), `low` as below.
 
     A position loop with a soft limit on the error, plus a throw: an upward speed demand while the rod is low. Gravity
@@ -112,7 +113,7 @@ def bob_acceleration(e: Any, v: Any, low: Any, g: Any, k: Any) -> Any:
     return ca.vertcat(level, vertical)
 
 
-def flip_permission(y: Any, height: Any, climb: Any, vehicle: Vehicle, k: Any) -> Any:
+def flip_permission(y: Vector, height: Scalar, climb: Scalar, vehicle: Vehicle, k: SimpleNamespace) -> Scalar:
     """Return 1 where the bob's `climb` (m/s) and the pivot's `height` (m) suffice for a flip, else 0.
 
     A flip takes thrust away from the bob for a while; permission is granted once that is affordable.
@@ -121,7 +122,7 @@ def flip_permission(y: Any, height: Any, climb: Any, vehicle: Vehicle, k: Any) -
     return smooth_step((climb + k.flip_by_height * height + k.flip_by_rod * y[2] - k.flip_speed) / width)
 
 
-def low_rod(rod: Rod, z: Any, up: Any, k: Any) -> Any:
+def low_rod(rod: Rod, z: Vector, up: Vector, k: SimpleNamespace) -> Scalar:
     """Return 1 where the `rod` is too low to be caught, and exactly 0 near `up`, to leave the equilibrium alone.
 
     `up` is the direction of a rod that is balanced along the reference, e₃ if that does not accelerate. What counts is
@@ -135,7 +136,9 @@ def low_rod(rod: Rod, z: Any, up: Any, k: Any) -> Any:
     return smooth_step((lean - k.catch_within) / k.catch_width)
 
 
-def rod_force(bob: Bob, rod: Rod, pose: Pose, forces: tuple[Any, Any], vehicle: Vehicle, k: Any) -> Any:
+def rod_force(
+    bob: Bob, rod: Rod, pose: Pose, forces: tuple[Vector, Vector], vehicle: Vehicle, k: SimpleNamespace
+) -> Vector:
     """Return the force on the quadrotor (3, 1), N, that controls `rod` and `bob`.
 
     `forces` are the external ones on vehicle and bob, each (3, 1), N; `k` has the gains.
@@ -144,7 +147,7 @@ def rod_force(bob: Bob, rod: Rod, pose: Pose, forces: tuple[Any, Any], vehicle: 
     return steering_force(wish, bob.v[2], rod, pose, forces, vehicle, k)
 
 
-def demand(bob: Bob, rod: Rod, low: Any, on_bob: Any, vehicle: Vehicle, k: Any) -> Demand:
+def demand(bob: Bob, rod: Rod, low: Scalar, on_bob: Vector, vehicle: Vehicle, k: SimpleNamespace) -> Demand:
     """Return A, d = A/|A|, Ȧ, the Lie derivative along the ideal bob, p̈ = (A·y) y − g e₃ + F_b/m, and ω_d = d × Ȧ/|A|.
 
     The errors are expressions themselves, so the derivative is taken with respect to fresh symbols. `low` as in `Pose`;
@@ -162,8 +165,14 @@ def demand(bob: Bob, rod: Rod, low: Any, on_bob: Any, vehicle: Vehicle, k: Any) 
 
 
 def steering_force(
-    wish: Demand, climb: Any, rod: Rod, pose: Pose, forces: tuple[Any, Any], vehicle: Vehicle, k: Any
-) -> Any:
+    wish: Demand,
+    climb: Scalar,
+    rod: Rod,
+    pose: Pose,
+    forces: tuple[Vector, Vector],
+    vehicle: Vehicle,
+    k: SimpleNamespace,
+) -> Vector:
     """Return the force on the quadrotor (3, 1), N, that turns the `rod` to `wish`, with the bob rising at `climb` m/s.
 
     Other arguments as in `rod_force`.
@@ -190,14 +199,14 @@ def steering_force(
     return limited_force(F, THRUST_SHARE * largest_thrust(vehicle))
 
 
-def missing_along(F: Any, y: Any, cone: Any) -> Any:
+def missing_along(F: Vector, y: Vector, cone: Scalar) -> Scalar:
     """Return what F lacks along y, N, to be at most `cone` (rad, below π/2) from it; 0 if it is nearer."""
     along = dot(F, y)
     across = ca.sqrt(dot(F, F) - along**2 + 1e-12)
     return ca.fmax(across / ca.tan(cone) - along, 0)
 
 
-def pumping_force(A: Any, rod: Rod, aside: Any, vehicle: Vehicle, k: Any) -> Any:
+def pumping_force(A: Vector, rod: Rod, aside: Vector, vehicle: Vehicle, k: SimpleNamespace) -> Vector:
     """Return the force on the quadrotor (3, 1), N, that meets the demand `A` and pumps the rod's energy.
 
     Under the force (M+m) g e₃ the rod is a pendulum, ÿ + |ẏ|² y = −w² P_y e₃ with w² = (M+m) g/(M l), of energy
@@ -215,30 +224,30 @@ def pumping_force(A: Any, rod: Rod, aside: Any, vehicle: Vehicle, k: Any) -> Any
     return (M + m) * A - M * l * rate * (scale(missing, push) - CIRCLING * circling)
 
 
-def largest_thrust(vehicle: Vehicle) -> Any:
+def largest_thrust(vehicle: Vehicle) -> Scalar:
     """Return the sum of the largest rotor forces, N."""
     return vehicle.rotor_limits[1] * len(vehicle.rotor_spins)
 
 
-def limited_force(F: Any, limit: Any) -> Any:
+def limited_force(F: Vector, limit: Scalar) -> Vector:
     """Return F/(1 + (|F|/limit)⁸)^(1/8): a high-order saturation, since a softer one would shift hover."""
     ratio = dot(F, F) / limit**2
     return F / ca.sqrt(ca.sqrt(ca.sqrt(1 + ratio**4)))
 
 
-def lifted(F: Any, tilt: Any) -> Any:
+def lifted(F: Vector, tilt: Scalar) -> Vector:
     """Return F with its vertical part raised until F is at most `tilt` (rad, below π) from e₃; 0 stays 0."""
     level = ca.sqrt(F[0] ** 2 + F[1] ** 2 + 1e-12)
     return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
 
 
-def coasted(rod: Rod, time: Any) -> Rod:
+def coasted(rod: Rod, time: Scalar) -> Rod:
     """Return the `rod` after coasting for `time` s: y + time ẏ projected onto S², and its velocity."""
     y, y_dot = rod
     factor = 1 / norm_of_sum(y_dot, time)
     return Rod(scale(factor, y + time * y_dot), scale(factor, y_dot - scale(time * dot(y_dot, y_dot), y)))
 
 
-def norm_of_sum(y_dot: Any, time: Any) -> Any:
+def norm_of_sum(y_dot: Vector, time: Scalar) -> Scalar:
     """Return |y + time ẏ| for tangent ẏ."""
     return ca.sqrt(1 + time**2 * dot(y_dot, y_dot))

@@ -367,10 +367,16 @@ def lyapunov() -> Drawing:
     return draw
 
 
+def _swing_up(duration: float) -> tuple[fp.Vehicle, fp.Trajectory]:
+    """Return the vehicle and its flight, which `python -m benchmarks.pages swing-up` draws as stop-motion."""
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    return vehicle, fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), duration)
+
+
 def throw_phases() -> Drawing:
     """Return the phases of a swing-up over time: height of the bob, of the rod, of the thrust axis."""
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.2)
-    end, vehicle = 3.2, fp.vehicle("hehn2011")
+    end = 2.6
+    vehicle, run = _swing_up(end)
     y, z, bob = (
         run.y[:, 2],
         run.states.z[:, 2],
@@ -406,27 +412,27 @@ def throw_phases() -> Drawing:
         else:
             draw.text(86, at((0,), (1,))[0][1] + 4, "1", "small muted", "end")
             draw.text(86, at((0,), (0,))[0][1] + 4, "0", "small muted", "end")
-    for t in range(4):
-        draw.text(at((t,), (0,))[0][0], 378, f"{t} s" if t == 3 else str(t), "small muted")
+    for t in range(3):
+        draw.text(at((t,), (0,))[0][0], 378, f"{t} s" if t == 2 else str(t), "small muted")
     return draw
 
 
 # Of each phase: when, s; its name; what the two parts of the thrust do then.
 THROW_FORCES = (
     (0.1, "1 Climb", "along: the bob", "is thrown up"),
-    (0.92, "2 Let go", "across: pivot right,", "bob left"),
-    (1.06, "3 Dive", "across: the rod", "swings up"),
-    (1.3, "4 Catch", "along: stops the fall", "across: stops the swing"),
+    (0.74, "2 Let go", "across: pivot right,", "bob left"),
+    (0.9, "3 Dive", "across: the rod", "swings up"),
+    (1.18, "4 Catch", "along: stops the fall", "across: stops the swing"),
     (1.9, "5 Fly home", "along: the rod leans,", "the bob flies home"),
 )
 
 
 def throw_forces() -> Drawing:
     """Return the thrust in each phase of a swing-up, split into its parts along and across the rod."""
-    vehicle = fp.vehicle("hehn2011")
-    run = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 2.0)
+    vehicle, run = _swing_up(2.0)
     draw, cell, length, weight = Drawing(436), np.array([160, 218]), 74, 36  # pixels
-    seen = np.array([[-1, 0, 0], [0, 0, -1]])  # the flight is in the plane of e₁ and e₃; to the right is −e₁
+    aside = run.x[np.argmax(np.linalg.norm(run.x[:, :2], axis=1))] * (1, 1, 0)  # the flight is in one vertical plane
+    seen = np.array([aside / np.linalg.norm(aside), [0, 0, -1]])
     for place, (t, name, *said) in enumerate(THROW_FORCES):
         corner = cell * np.array([place % 3, place // 3])
         i = int(np.argmin(np.abs(run.t - t)))
@@ -435,7 +441,7 @@ def throw_forces() -> Drawing:
         along, side = (F @ y) * y, np.array([-z[1], z[0]])
         # Rod and thrust together are centred in the cell.
         shape = np.array([0 * y, length * y, F])
-        pivot = corner + (80, 101) - (shape.min(axis=0) + shape.max(axis=0)) / 2
+        pivot = corner + np.array([80, 101]) - (shape.min(axis=0) + shape.max(axis=0)) / 2
         bob = pivot + length * y
         draw.path((pivot, bob))
         draw.path((pivot - 24 * side, pivot + 24 * side), "edge")

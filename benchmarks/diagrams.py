@@ -52,6 +52,7 @@ class Drawing:
     def __init__(self, height: float) -> None:
         self.height = height
         self.parts: list[str] = []
+        self.heads = ["ink"]  # colours of arrows
 
     def text(self, x: float, y: float, said: str, look: str = "", anchor: str = "middle") -> None:
         """Write `said` with its base line at (x, y)."""
@@ -76,7 +77,10 @@ class Drawing:
     def path(self, points: Iterable[Sequence[float]], look: str = "edge", *, arrow: bool = False) -> None:
         """Draw a line through `points`."""
         d = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
-        head = ' marker-end="url(#head)"' if arrow else ""
+        colour = next((role for role in ROLES if role in look.split()), "ink")
+        if arrow and colour not in self.heads:
+            self.heads.append(colour)
+        head = f' marker-end="url(#{"head" if colour == "ink" else colour})"' if arrow else ""
         self.parts.append(f'<path d="{d}" class="{look}"{head}/>')
 
     def arrow(self, *points: Sequence[float], look: str = "edge") -> None:
@@ -93,9 +97,10 @@ class Drawing:
 
     def svg(self) -> str:
         """Return the file."""
-        head = (
-            '<marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
-            '<path d="M0 0L8 4L0 8z" fill="var(--ink)"/></marker>'
+        head = "".join(
+            f'<marker id="{"head" if colour == "ink" else colour}" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" '
+            f'markerHeight="8" orient="auto"><path d="M0 0L8 4L0 8z" fill="var(--{colour})"/></marker>'
+            for colour in self.heads
         )
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {self.height:g}" width="{WIDTH}">'
@@ -362,10 +367,16 @@ def lyapunov() -> Drawing:
     return draw
 
 
+def _swing_up(duration: float) -> tuple[fp.Vehicle, fp.Trajectory]:
+    """Return the vehicle and its flight, which `python -m benchmarks.pages swing-up` draws as stop-motion."""
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    return vehicle, fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), duration)
+
+
 def throw_phases() -> Drawing:
     """Return the phases of a swing-up over time: height of the bob, of the rod, of the thrust axis."""
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.2)
-    end, vehicle = 3.2, fp.vehicle("hehn2011")
+    end = 2.6
+    vehicle, run = _swing_up(end)
     y, z, bob = (
         run.y[:, 2],
         run.states.z[:, 2],
@@ -375,11 +386,11 @@ def throw_phases() -> Drawing:
     caught = run.t[len(y) - 1 - np.argmax(y[::-1] < np.cos(np.radians(15)))]
     # The dive is while the thrust points downwards; the catch ends when the rod stays within 15°.
     edges = (0.0, turned[0], turned[1], caught, end)
-    names = ("throw", "dive", "catch", "fly home")
+    names = ("climb, let go", "dive", "catch", "fly home")
     draw = Drawing(400)
     draw.text(8, 18, "A swing-up from hanging", "strong", "start")
     panels = (
-        ("rod: y₃", y, (-1, 1), "red", ("hangs", "", "stands")),
+        ("rod: y₃", y, (-1, 1), "red", ("hanging", "", "upright")),
         ("thrust axis: z₃", z, (-1, 1), "green", ("pushes down", "", "pushes up")),
         ("bob: height, m", bob, (-0.8, 1.4), "blue", None),
     )
@@ -401,8 +412,68 @@ def throw_phases() -> Drawing:
         else:
             draw.text(86, at((0,), (1,))[0][1] + 4, "1", "small muted", "end")
             draw.text(86, at((0,), (0,))[0][1] + 4, "0", "small muted", "end")
-    for t in range(4):
-        draw.text(at((t,), (0,))[0][0], 378, f"{t} s" if t == 3 else str(t), "small muted")
+    for t in range(3):
+        draw.text(at((t,), (0,))[0][0], 378, f"{t} s" if t == 2 else str(t), "small muted")
+    return draw
+
+
+# Of each phase: when, s; its name; what the two parts of the thrust do then.
+THROW_FORCES = (
+    (0.1, "1 Climb", "along: the bob", "is thrown up"),
+    (0.74, "2 Let go", "across: pivot right,", "bob left"),
+    (0.9, "3 Dive", "across: the rod", "swings up"),
+    (1.18, "4 Catch", "along: stops the fall", "across: stops the swing"),
+    (1.9, "5 Fly home", "along: the rod leans,", "the bob flies home"),
+)
+
+
+def throw_forces() -> Drawing:
+    """Return the thrust in each phase of a swing-up, split into its parts along and across the rod."""
+    vehicle, run = _swing_up(2.0)
+    draw, cell, length, weight = Drawing(436), np.array([160, 218]), 74, 36  # pixels
+    aside = run.x[np.argmax(np.linalg.norm(run.x[:, :2], axis=1))] * (1, 1, 0)  # the flight is in one vertical plane
+    seen = np.array([aside / np.linalg.norm(aside), [0, 0, -1]])
+    for place, (t, name, *said) in enumerate(THROW_FORCES):
+        corner = cell * np.array([place % 3, place // 3])
+        i = int(np.argmin(np.abs(run.t - t)))
+        y, z = seen @ run.y[i], seen @ run.states.z[i]
+        F = weight * run.thrust[i] / vehicle.weight * z
+        along, side = (F @ y) * y, np.array([-z[1], z[0]])
+        # Rod and thrust together are centred in the cell.
+        shape = np.array([0 * y, length * y, F])
+        pivot = corner + np.array([80, 101]) - (shape.min(axis=0) + shape.max(axis=0)) / 2
+        bob = pivot + length * y
+        draw.path((pivot, bob))
+        draw.path((pivot - 24 * side, pivot + 24 * side), "edge")
+        for end in (-24, 24):
+            rotor = pivot + end * side + 4 * z
+            draw.path((rotor - 10 * side, rotor + 10 * side), "edge")
+        draw.path((pivot + along, pivot + F, pivot + F - along), "edge grid dash")
+        draw.dot(*bob, "in-red", 7)
+        draw.arrow(pivot, pivot + F)
+        for part, look, back in ((along, "edge blue", 1), (F - along, "edge pink", -1)):
+            size = np.linalg.norm(part)
+            if size > 9:  # a shorter arrow is all head
+                draw.arrow(pivot, pivot + part, look=look)
+                way = back * part / size
+                draw.arrow(bob + 8 * way, bob + (14 + size / 2) * way, look=look)
+        draw.text(corner[0] + 80, corner[1] + 18, name, "strong")
+        for line, words in enumerate(said):
+            draw.text(corner[0] + 80, corner[1] + 192 + 16 * line, words, "small")
+    for line, (look, words) in enumerate(
+        (
+            ("edge", "thrust"),
+            ("edge blue", "along the rod:"),
+            ("", "carries the bob"),
+            ("edge pink", "across the rod:"),
+            ("", "turns it, the bob"),
+            ("", "goes the other way"),
+        )
+    ):
+        top = 290 + 19 * line
+        if look:
+            draw.arrow((326, top - 4), (346, top - 4), look=look)
+        draw.text(352, top, words, "small", "start")
     return draw
 
 
@@ -415,6 +486,7 @@ DIAGRAMS = {
     "planning-phases": planning_phases,
     "lyapunov": lyapunov,
     "throw-phases": throw_phases,
+    "throw-forces": throw_forces,
 }
 
 if __name__ == "__main__":

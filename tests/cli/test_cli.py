@@ -3,8 +3,10 @@
 import dataclasses
 import errno
 import importlib.metadata
+import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,10 +15,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import flypend as fp
 from flypend.cli import terminal
 from flypend.cli.app import app
+from flypend.cli.bars import run_bar, task_bar
 from flypend.files import whole as files
 from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
@@ -705,6 +709,20 @@ def test_the_goal_is_not_mistaken_for_a_law(call, tmp_path):
     assert law.startswith("lqr on hehn2011: ")
     assert goal.startswith("Goal: inverted hover not reached (")
     assert "\nGoal: inverted hover not reached (" in (tmp_path / "run-out" / "report.md").read_text(encoding="utf-8")
+
+
+def test_a_law_of_the_paper_aims_at_a_hanging_rod(call):
+    _, told, _ = call("run", "1", "--law", "corrected", "--set", "duration=15", "--no-figures")
+    assert re.search(r"^Goal: hanging rod reached after \d+\.\d\d s, vehicle fell \d+ m, ", told, flags=re.MULTILINE)
+
+
+def test_progress_cannot_be_taken_for_a_result():
+    for bar in (task_bar, run_bar):
+        on = Console(file=io.StringIO(), force_terminal=True, width=100)
+        with bar(on) as shown:
+            shown.add_task("flying inverted", total=1200, completed=1200)
+        assert "1,200 of 1,200 done" in on.file.getvalue()
+        assert "1200/1200" not in on.file.getvalue()
 
 
 def test_what_is_left_behind_names_its_law_relative_to_itself(call, tmp_path):

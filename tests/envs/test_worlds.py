@@ -13,11 +13,12 @@ from benchmarks import omnidrones_tasks
 from flypend.envs import Randomisation, VectorWorlds, World, environment
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
+from flypend.envs.make import TASKS as BUILT_IN
 from flypend.laws import Controller
 
 VEHICLE = fp.vehicle("hehn2011")
 OMNIDRONES = [make() for make in omnidrones_tasks.TASKS.values()]
-TASKS = ["balance", "swing_up", "track", "catch_in_cup", *OMNIDRONES]
+TASKS = [*BUILT_IN, *OMNIDRONES]
 NAMES = [getattr(task, "name", None) or task.title().replace("_", "") for task in TASKS]
 
 

@@ -369,7 +369,7 @@ def test_an_unknown_key_is_refused_with_the_nearest_name():
         fp.Vehicle.from_dict({**GOOD, "bob_mas": 1})
     with refused("vehicle.rotor_spin", got="did you mean 'rotor_spins'?"):
         fp.vehicle("hehn2011").replace(rotor_spin=[1, -1, 1, -1])
-    names = "one of crazyflie, crazyflie-brushless, hehn2011, hummingbird, hummingbird-omnidrones, nayak2018, x500"
+    names = f"one of {', '.join(vehicle_names())}"
     with refused("vehicle", expected=names, got="'hehn2012' (did you mean 'hehn2011'?)"):
         fp.vehicle("hehn2012")
     with refused("vehicle", got="'zzz'") as caught:

@@ -549,8 +549,8 @@ def test_a_ladder_fits_80_columns_with_nothing_cut_off(wides, count):
     text = " ".join(" ".join(lines).split())
     for name in chosen:
         assert name in text
-    assert "inverted breaks (< 90 %) on: none" in text
-    assert count == 1 or "lqr breaks (< 90 %) on: all" in text
+    assert "inverted falls below 90 % on: none" in text
+    assert count == 1 or "lqr falls below 90 % on: all" in text
     assert sum("100.0 %," in line for line in lines) == len(RUNGS)
 
 
@@ -558,7 +558,7 @@ def test_a_ladder_names_the_rungs_that_break(wides):
     good, bad = Comparison({"a[/b]|c": made([True])}), Comparison({"a[/b]|c": made([False])})
     result = Ladder({"one": good, "two": bad, "three": bad})
     text = " ".join(" ".join(printed(ladder_table(result))).split())
-    assert text.endswith("a[/b]|c breaks (< 90 %) on: two, three")
+    assert text.endswith("a[/b]|c falls below 90 % on: two, three")
     assert ladder_rows(result) == [["one", "100.0 %, 0 m"], ["two", "0.0 %, 0 m"], ["three", "0.0 %, 0 m"]]
 
 

@@ -65,13 +65,13 @@ class _Commands(click.Group):
 @click.version_option(__version__, message="%(prog)s %(version)s", prog_name="flypend")
 @click.option("--debug", is_flag=True, help="Show the full traceback of an error: flypend --debug run 1.")
 def app(debug: bool) -> None:
-    """Spherical pendulum on a quadrotor: reproduce the paper, test its claims, fly your own experiments."""
+    """A spherical pendulum on a quadrotor: fly laws, compare them, study a vehicle, export C, reproduce the paper."""
     # main looks for --debug itself: it must work even if parsing fails
 
 
 @app.command()
 @out_option("paper-out")
-@click.option("--quick", is_flag=True, help="Skip the movies: seconds instead of a minute.")
+@click.option("--quick", is_flag=True, help="Skip the movies.")
 @style_option
 def paper(out: Path, quick: bool, style: str) -> None:
     """Fly the paper's five experiments and check every claim of its theorem.
@@ -279,7 +279,8 @@ def compare(
         check_writable(folder)
     ahead(pictures_of_studies)
     with counter() as tell:
-        result = fly(machine, laws, batch, duration, plant=world, progress=tell)
+        flying = lambda name, done, total: tell(f"flying {name}", done, total)  # noqa: E731
+        result = fly(machine, laws, batch, duration, plant=world, progress=flying)
     failed = failed_runs(result, names, asked, duration)
     write_comparison(result, settings, out, failed)
     if keep is not None:

@@ -18,7 +18,7 @@ class Flights:
 
     plant: str = option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
     sensors: str = option(
-        "--sensors", default="perfect", help="Sensor suite; also flies masses, rod and thrust that are wrong."
+        "--sensors", default="perfect", help="Sensor suite; also flies vehicles with wrong masses, rod and thrust."
     )
     runs: int | None = option(
         "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."

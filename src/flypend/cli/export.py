@@ -24,7 +24,12 @@ if TYPE_CHECKING:
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
 @sensors_option
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
-@click.option("--check/--no-check", "tested", default=True, help="Fly it for some seconds and report the result.")
+@click.option(
+    "--check/--no-check",
+    "tested",
+    default=True,
+    help="Fly the law first, for seconds, and state the result in the header.",
+)
 def export_c(
     law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
 ) -> None:
@@ -56,7 +61,9 @@ def export_c(
 @click.argument("vehicle")
 @out_option("app")
 @click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
-@click.option("--airframe", help="cf2 or cf21bl: for which the firmware is built. Default: whose arms are nearest.")
+@click.option(
+    "--airframe", help="Airframe of the firmware, cf2 or cf21bl; default the one with the nearest arm length."
+)
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
 def export_app(target: str, vehicle: str, out: Path, law: str, airframe: str | None, rate: float) -> None:
     """Write an app for the firmware of TARGET, crazyflie, that flies VEHICLE; see docs/export."""

@@ -38,7 +38,7 @@ def vehicle(context: click.Context) -> None:
 @click.option("--mount", default="gimbal", help="gimbal, hub or cup.")
 @out_option("mine.toml", "The vehicle, with bands and sources.")
 def new(out: Path, **measured: Any) -> None:
-    """Write a vehicle from what a scale, a ruler and its parts tell; every other number is a guess with a band.
+    """Write a vehicle file from weights, lengths and parts; guess the rest.
 
     Quantities are SI numbers or have a unit: 620g, 17cm, 820gf.
     """
@@ -64,7 +64,7 @@ class Rehearsal:
     asked: bool = option(
         "--rehearse", is_flag=True, help="First fly the manoeuvre with --vehicle in simulation, and write LOG."
     )
-    duration: float = option("--duration", default=60.0, help="Of the rehearsal, s.")
+    duration: float = option("--duration", default=60.0, help="Length of the rehearsal, s.")
     seed: int = option("--seed", type=click.IntRange(min=0), default=0, help="Seed of the rehearsal.")
 
 
@@ -72,7 +72,13 @@ class Rehearsal:
 @click.argument("log", type=click.Path(path_type=Path))
 @vehicle_option
 @out_option("identified.toml", "The machine found, with its bands.")
-@click.option("--marker", nargs=3, type=float, default=(0.0, 0.0, 0.0), help="Tracked point from the pivot, m.")
+@click.option(
+    "--marker",
+    nargs=3,
+    type=float,
+    default=(0.0, 0.0, 0.0),
+    help="Position of the tracked point relative to the pivot, body frame, m.",
+)
 @click.option("--command", default="newton", help="What u1, u2, … are: newton, or pwm, fractions from 0 to 1.")
 @click.option("--mass-error", default=0.005, help="Share within which the vehicle's mass is known.")
 @options_of(Rehearsal, "rehearsal")
@@ -87,9 +93,9 @@ def identify(
 ) -> None:
     """Find a machine's numbers, with bands, in LOG, a CSV or ULog file of a flight with the rod hanging.
 
-    --vehicle is the guess: its mass is taken as weighed, its rotors' places, spins and limits as known. The columns of
-    a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and, if there are, ax, ay, az, rx, ry, rz, vbat; PX4's
-    ULog is taken with --command pwm.
+    --vehicle is the guess: its mass is taken as weighed, its rotors' positions, spins and limits as known. The
+    columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry, rz, vbat.
+    For PX4's ULog, add --command pwm.
     """
     from flypend import model
     from flypend.errors import InputError

@@ -22,7 +22,7 @@ HELD_OUT = 10**6  # added to the seed: the starts of the judgement are none of t
 @click.option("--updates", type=click.IntRange(min=1), help="Gradient updates; default 1500, on a hub 1200.")
 @click.option("--runs", type=click.IntRange(min=1), default=500, help="Number of flights that evaluate the result.")
 def learn(vehicle: str, out: Path, seed: int, mount: str | None, updates: int | None, runs: int) -> None:
-    """Learn a law for VEHICLE: a small network that first imitates the tuned law and then flies better.
+    """Learn a law for VEHICLE: a small network that imitates the inverted law and then improves on it.
 
     Writes the policy, which --law learned flies with its gain policy, and the training curve. After an interruption,
     the same command resumes, with the same result.

@@ -17,7 +17,7 @@ WIDTH = 100  # of a table of gains, in which the meanings wrap
 @click.argument("name", required=False)
 @vehicle_option
 def laws(name: str | None, vehicle: str) -> None:
-    """List the laws with their gains: default for a vehicle, unit, meaning. NAME: one law only, or your own."""
+    """List the laws with their gains: default for a vehicle, unit, meaning. NAME selects one, or a law of yours."""
     from flypend import model
     from flypend.laws import law_names
     from flypend.settings.laws import OTHERS, law_named
@@ -36,7 +36,7 @@ def laws(name: str | None, vehicle: str) -> None:
 @click.argument("vehicle", required=False)
 @click.option("-o", "--out", type=path, metavar="FILE", help="Draw VEHICLE into this file, .png, .pdf or .svg.")
 def vehicles(vehicle: str | None, out: Path | None) -> None:
-    """List the vehicles. VEHICLE, a name or a TOML file: print its TOML, or with -o draw it, with mounts and gaps."""
+    """List the vehicles, or print the TOML of VEHICLE (a name or a file), or with -o draw it on its mounts."""
     from flypend import model
     from flypend.errors import InputError
     from flypend.model.shipped import vehicle_text

@@ -18,7 +18,7 @@ LAW_HELP = "a name that flypend laws lists, file.py:function or module:function"
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
-SENSORS_HELP = "perfect, mocap, onboard or laboratory, with the estimator; not ideal."
+SENSORS_HELP = "perfect; or mocap, onboard or laboratory, with the estimator (not on the plant ideal)."
 sensors_option = click.option("--sensors", default="perfect", help=SENSORS_HELP)
 style_option = click.option(
     "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."

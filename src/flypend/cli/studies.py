@@ -49,7 +49,8 @@ def sweep(
 ) -> None:
     """Fly STUDY, a TOML file, into a Zarr store of up to 10⁷ runs; docs/studies/studies.md lists the keys.
 
-    After any interruption, the same command resumes the sweep. The result is bit-identical to that of an unbroken one.
+    After any interruption, the same command resumes the sweep. The result is bit-identical
+    to that of an uninterrupted one.
     """
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep import sweep as fly
@@ -57,7 +58,7 @@ def sweep(
     made = study_from(study, law)
     tell_how(made.law)
     processes = processes or (scheduler is None and stepped(made.law))
-    with resumable(), run_counter(made.law.name) as tell:
+    with resumable(), run_counter(f"flying {made.law.name}") as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
@@ -146,7 +147,7 @@ def draw_map(
 def tune(
     study: Path | None, out: Path, workers: int | None, law: str | None, vehicle: str | None, sensors: str, bands: bool
 ) -> None:
-    """Tune gains by CMA-ES for the objective in STUDY, a TOML file, or for --vehicle; starts of the report are others.
+    """Tune gains by CMA-ES for the objective in STUDY, a TOML file, or for --vehicle; the report uses other starts.
 
     Costs are saved after every generation, so the same command resumes an interrupted search.
     Writes tuned.toml, an input of flypend run, and the history of the search as JSON and as a figure.
@@ -187,7 +188,7 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
 
     made = study_from(content)
     tell_how(made.law)
-    with resumable(), run_counter(made.law.name) as tell:
+    with resumable(), run_counter(f"flying {made.law.name}") as tell:
         flown = fly(made, store, workers=workers, processes=stepped(made.law), force=force, progress=tell)
     console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 

@@ -18,7 +18,7 @@ from flypend.cli.terminal import bold, console, counter
 )  # fmt: skip
 @click.option("--seed", type=click.IntRange(min=0), default=7, help="Seed of the random starts.")
 @click.option("--basin", is_flag=True, help="Count the random starts that end in the certified set, within limits.")
-@click.option("--lag", is_flag=True, help="With --basin: rotors that lag.")
+@click.option("--lag", is_flag=True, help="With --basin: rotors lag as well.")
 @vehicle_option
 @style_option
 @click.pass_context
@@ -30,8 +30,9 @@ def theorem(
     Writes V(t) with its terms, the regions of attraction with their exceptional sets, report.md and report.json.
     Printed, corrected and other laws that lack a part of the proof fly beside them as negative controls.
 
-    With --basin, measures the basin of the inverted law followed by Theorem B's, on --vehicle with rotor limits, and
-    writes basin.json. With --lag, its rotors lag, and Theorem D's law follows.
+    With --basin, counts the random starts from which the inverted law brings --vehicle, with rotor limits, into the
+    certified set, where Theorem B's law takes over, and writes basin.json. With --lag, the rotors lag too, and Theorem
+    D's law takes over.
     """
     if basin:
         refuse_idle("style", why="with --basin, which draws nothing")

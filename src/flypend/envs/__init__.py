@@ -25,7 +25,7 @@ require("gymnasium", extra="rl", for_="flypend.envs")
 import gymnasium  # noqa: E402
 
 from flypend.envs.differentiable import DifferentiableWorlds  # noqa: E402
-from flypend.envs.make import environment  # noqa: E402
+from flypend.envs.make import TASKS, environment  # noqa: E402
 from flypend.envs.problem import Environment  # noqa: E402
 from flypend.envs.randomise import Randomisation  # noqa: E402
 from flypend.envs.single import World  # noqa: E402
@@ -49,11 +49,9 @@ __all__ = [
     "track",
 ]
 
-for _id, _task in {
-    "Balance": "balance", "SwingUp": "swing_up", "Track": "track", "CatchInCup": "catch_in_cup",
-}.items():  # fmt: skip
+for _task, _made in TASKS.items():
     gymnasium.register(
-        id=f"flypend/{_id}-v0",
+        id=f"flypend/{_made().name}-v0",
         entry_point="flypend.envs.single:World",
         vector_entry_point="flypend.envs.vector:VectorWorlds",
         kwargs={"task": _task},

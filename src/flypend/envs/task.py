@@ -220,5 +220,5 @@ def _begin_in_cup(draws: Draws, vehicle: Vehicle) -> Begin:
 
 
 def catch_in_cup() -> Task:
-    """Catch a rod that stands leaning in a cup and topples, without losing it; for a vehicle with a cup."""
+    """Catch a rod that is toppling in a cup, without losing it; for a vehicle with a cup."""
     return Task("CatchInCup", _begin_in_cup, hovered, upright, partial(beyond, radius=5.0), 6.0)

@@ -84,7 +84,7 @@ def export_app(
     out : str or Path
         Folder that receives the files; it may exist.
     airframe : "cf2" or "cf21bl", optional
-        For which the firmware is built; default the one whose arms are nearest.
+        Airframe that the firmware is built for; default the one with the nearest arm length.
     rate : float
         Control rate, Hz: a divisor of 1,000.
 

@@ -72,7 +72,7 @@ def export_c(
         What is measured, or the name of a suite: writes flypend_sensors.h and .c too, the flight computer with an
         estimator. Default "perfect": none.
     check : bool
-        Whether to fly the law for some seconds first, and report the result in the header. A poor one is a warning.
+        Whether to fly the law first, for seconds, and state the result in the header. A poor one is a warning.
 
     Returns
     -------

@@ -69,7 +69,8 @@ def fly_tasks(
 ) -> dict[str, Ensemble]:
     """Fly `vehicle` under `law` through `plant` from the `starts` of each task, e₃ up, for `duration` s.
 
-    Leans are sampled every `TICK`. `workers` as in `simulate_ensemble`; `progress` is called with (task, done, total).
+    Leans are sampled every `TICK`. `workers` as in `simulate_ensemble`; `progress` is called with
+    (activity, done, total).
     """
     found = {}
     for name, batch in starts.items():
@@ -77,7 +78,7 @@ def fly_tasks(
         flight = Flight(
             vehicle=vehicle, law=law, starts=batch.seen(law.e3), duration=duration, plant=plant, times=times
         )
-        found[name] = fly_many(flight, workers=workers, progress=lambda *a, name=name: progress(name, *a))
+        found[name] = fly_many(flight, workers=workers, progress=lambda *a, name=name: progress(f"flying {name}", *a))
     return found
 
 

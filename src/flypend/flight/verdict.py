@@ -49,7 +49,7 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
     elif run.e3 == "up":
         words = f"{POSE} after {judged.settling:.1f} s, {distance}"
     else:
-        words = f"{HANGS} after {judged.settling:.1f} s, {_fall(float(run.x[-1, 2] - run.x[0, 2]))}"
+        words = f"{HANGS} after {judged.settling:.1f} s, {fall(run)}"
     return {
         "words": words,
         "good": bool(judged.success),
@@ -67,7 +67,9 @@ def _moment(time: float) -> str:
     return f"after {time:.3g} s" if time > 0 else "at the start"
 
 
-def _fall(metres: float) -> str:
+def fall(run: Run) -> str:
+    """Return in words how far the vehicle of `run`, in a frame with e₃ along gravity, fell or rose."""
+    metres = float(run.x[-1, 2] - run.x[0, 2])
     return f"vehicle {'fell' if metres >= 0 else 'rose'} {_rounded(abs(metres))} m"
 
 

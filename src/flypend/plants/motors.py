@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import casadi as ca
 import numpy as np
 
@@ -10,19 +12,20 @@ from flypend.model import Vehicle
 from flypend.plants.lag import TIMING_SIZE, Ramp, held, step_timing
 from flypend.plants.plant import Plant
 
+# Fields of a plant on which a step of its motion does not depend: they act before it, after it or on the vehicle.
+BESIDE = (
+    "engine", "limits", "lag", "rate", "delay", "noise", "sensors", "pivot_offset", "centre_of_mass", "pivot_damping",
+    "pivot_friction", "rod_spin", "mismatch", "wind", "interface", "rate_loop_rate", "rate_loop_gain", "seed",
+)  # fmt: skip
+
 
 def moving(plant: Plant) -> Plant:
     """Return what a step of the motion depends on: motors, air and ground of `plant`."""
-    return Plant(spin_up=plant.spin_up, sag=plant.sag, strength=plant.strength, air=plant.air, ground=plant.ground)
-
-
-def delivers(plant: Plant) -> bool:
-    """Whether the rotors of `plant` settle at other forces than commanded."""
-    return plant.sag > 0 or plant.strength != 1.0
+    return Plant(**{each.name: getattr(plant, each.name) for each in fields(plant) if each.name not in BESIDE})
 
 
 def delivered(command: Numbers, vehicle: Vehicle, plant: Plant) -> Numbers:
-    """Return the forces (n,), N, at which rotors settle under a `command` (n,), N, in CasADi.
+    """Return the forces (n,), N, at which rotors settle under a `command` (n,), N, in CasADi; itself if unchanged.
 
     At a given throttle the speed of a rotor is proportional to the voltage V, its force to V², and the current of all
     to their power, Σ f^(3/2). So the share `plant.sag` of the voltage is lost at maximum command of all rotors:

@@ -33,7 +33,7 @@ def draw_front(path: Path, plan: Plan, start: State, kept: Constraints, tell: Te
 
     The plans keep the constraints `kept`, of which the law knows nothing.
     """
-    progress = lambda done, total: tell("plans", done, total)  # noqa: E731
+    progress = lambda done, total: tell("planning", done, total)  # noqa: E731
     found = front(plan.vehicle, start, progress=progress, target=plan.target, constraints=kept)
     law = simulate(plan.vehicle, inverted(hover(plan.target)), start, DURATION)
     save_figure(front_figure(found, law), path)

@@ -93,14 +93,14 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
 def ladder_table(ladder: Ladder) -> Table:
     """Return the ladder as a table for the terminal."""
     laws = list(next(iter(ladder.rungs.values())).ensembles)
-    title = "Reality ladder: success, 95th percentile of the excursion"
-    table = Table(title=title, title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
+    title = "Success, and 95th percentile of the excursion"
+    table = Table(title=title, title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1), min_width=len(title))
     table.add_column("rung")
     for law in laws:
         table.add_column(escape(law), justify="right", overflow="fold")
     for row in ladder_rows(ladder):
         table.add_row(*row)
-    table.caption = escape("; ".join(f"{law} breaks (< 90 %) on: {_broken(ladder, law)}" for law in laws))
+    table.caption = escape("; ".join(f"{law} falls below 90 % on: {_broken(ladder, law)}" for law in laws))
     table.caption_justify = "left"
     return table
 

@@ -15,13 +15,14 @@ from rich.table import Table
 
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
+from flypend.flight.verdict import fall, goal
 from flypend.paper.claims import Finding, Verdict
 
 Column = tuple[str, str]
 # What each cause of failure means by the default criterion, for readers who meet it for the first time.
 _END = "within the last second"
 WHY = {
-    "rod": f"rod: its tip is more than 0.05 rod lengths from upright {_END}",
+    "rod": f"rod: its tip is more than 0.05 rod lengths from its goal {_END}",
     "axis": f"axis: the thrust axis leans by more than 0.05 rad {_END}",
     "position": f"position: the pivot is more than 0.2 m from its reference {_END}",
     "diverged": "diverged: the state left all bounds",
@@ -36,14 +37,16 @@ def number(value: float) -> str:
 
 
 def judgement(run: Trajectory) -> str:
-    """Return one line: whether `run` reaches inverted hover at its reference, its excursion and peak rotor force."""
-    m = metrics(run)
+    """Return one line: whether `run` reaches the goal of its law, its excursion or fall, and its peak rotor force."""
+    m = metrics(run, goal(run.e3))
+    up = run.e3 == "up"
+    pose = "inverted hover" if up else "hanging rod"
     reached = f"reached after {m.settling:.2f} s" if m.success else f"not reached ({WHY.get(m.cause, m.cause)})"
     least = (
         f", rod clear by {number(1e3 * m.clearance)} mm" if m.cause != "collided" and m.clearance < float("inf") else ""
     )
-    largest = f"largest distance {number(m.excursion)} m, largest rotor force {number(m.peak_force)} N"
-    return f"inverted hover {reached}, {largest}{least}"
+    way = f"largest distance {number(m.excursion)} m" if up else fall(run)
+    return f"{pose} {reached}, {way}, largest rotor force {number(m.peak_force)} N{least}"
 
 
 def mark(holds: bool) -> str:

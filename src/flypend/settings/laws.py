@@ -29,7 +29,7 @@ DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
 OTHERS = {
     "detuned": "the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail",
     "plan": "a plan from the start, tracked with feedback (planning.plan_and_track)",
-    "nmpc": "a plan that is made again and again in flight (planning.nmpc)",
+    "nmpc": "plans, and replans in flight (planning.nmpc)",
 }
 ONNX = ".onnx"
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another

@@ -116,7 +116,7 @@ def strays(
     count = int(errors.number("cells", cells, at_least=2))
     place, y = _directions(count)
     starts = State(y=y)
-    plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=partial(tell, "plans"))
+    plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=partial(tell, "planning"))
     by_law = {}
     for law in laws:
         own, told = starts.seen(law.e3), partial(tell, f"flights of {law.name}")

@@ -20,7 +20,7 @@ def possible(
     """Return plans from the first of `starts`; None for a vehicle that the planner refuses."""
     try:
         return plan_ensemble(
-            vehicle, starts[:STARTS], workers=workers, progress=lambda done, total: progress("plans", done, total)
+            vehicle, starts[:STARTS], workers=workers, progress=lambda done, total: progress("planning", done, total)
         )
     except InputError:
         return None

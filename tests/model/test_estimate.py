@@ -22,6 +22,7 @@ MINE = {
     "mass": "620 g", "arm": "17 cm", "propeller": "8x4.5", "motor": "920 KV", "battery": "3S", "rod_length": 0.9,
     "rod_mass": 0.03, "bob_mass": "40 g",
 }  # fmt: skip
+BARE = {"motor": None, "battery": None}
 # Machines of the package whose numbers come from elsewhere: parts, and what lies outside its band, for a reason.
 FLOWN = {
     "crazyflie": ({"propeller": "45mm", "motor": "14000 KV", "battery": "1S"}, {}),
@@ -113,11 +114,23 @@ def test_bands_are_taken_as_known_before_by_identification():
         ({"motor": "fast"}, "920 KV"),
         ({"mass": "5 kg"}, "thrust: expected at least 12.4 N"),
         ({"motor": "9200 KV"}, "at most 20 times the weight"),
-        ({"inertia": [5000, 5000, 9000]}, "in g·mm². write 5e-06"),
+        ({"inertia": [5000, 5000, 9000]}, r"in kg·mm²\? write 0.005"),
         ({"rotors": 5}, "an even number"),
         ({"rod_mass": 0, "bob_mass": 0}, "the mass of the rod"),
         ({"rod_length": -1}, "rod_length"),
-        ({"bob_mass": 5, "rod_length": "12 cm"}, "bob_mass: expected rod and bob of at most"),
+        ({"bob_mass": 5, "rod_length": "12 cm"}, r"bob_mass: .*machine's 0.62 kg.* \(in g\? write 5g\)"),
+        ({"bob_mass": "5 kg", "thrust": 20, **BARE}, "bob_mass: .*machine's 0.62 kg"),
+        ({"bob_mass": "620 g"}, "rod and bob"),  # each is allowed
+        ({"rod_mass": "0.01 g", "bob_mass": 0}, "0.00062 to 0.62 kg of rod and bob"),
+        ({"rod_length": "12 m"}, r"rod_length: expected 0.085 to 8.5 m \(0.5 to 50 times the arm of 0.17 m"),
+        ({"rod_length": "6 cm"}, "rod_length: expected 0.085"),
+        ({"arm": "1.7 m"}, "arm: .* at most 5 diameters of the propeller, 1.02 m"),
+        ({"propeller": "20mm", **BARE}, "arm: .* at most 5 diameters"),
+        ({"mass": "62 kg", **BARE}, "at most 97.3 N from a propeller of 0.203 m.* mass is 62 kg"),
+        ({"mass": "2 kg", "arm": "3 cm", "propeller": "2x1", **BARE}, "below the speed of sound"),
+        ({"inertia": [1, 1, 1]}, "inertia: expected 0.00036 to 0.18 .*0.0045 is common, got 1 and 1$"),
+        ({"inertia": [1e-6, 1e-6, 2e-6]}, "inertia: expected 0.00036"),
+        ({"inertia": [5e-3, 5e-3, 5e-4]}, "yaw at least 0.2 of the larger"),
     ],
 )
 def test_nonsense_is_refused_with_what_would_be_plausible(changes, said):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from flypend.cli.options import laws_option, option, options_of, out_option, plant_asked
+from flypend.cli.options import BANDS_HELP, laws_option, option, options_of, out_option, plant_asked
 from flypend.cli.terminal import bold, console, counter, tell_how
 
 
@@ -24,6 +24,7 @@ class Flights:
         "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."
     )
     seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
+    bands: bool = option("--bands", is_flag=True, help=f"Also: {BANDS_HELP}")
 
 
 @click.command()
@@ -63,7 +64,9 @@ def check(
     checks, trials, joints = {}, {}, {}
     with counter() as tell:
         for name, each in laws.items():
-            checks[name] = examine(machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, progress=tell)
+            checks[name] = examine(
+                machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, bands=own.bands, progress=tell
+            )
             if trial and checks[name].tasks:
                 trials[name] = try_(machine, each, plant=world, seed=seed, progress=tell)
             if own.sensors != "perfect" and checks[name].tasks:

@@ -121,10 +121,12 @@ def _markdown(
     joints: Mapping[str, Joint],
     settings: Mapping[str, Any],
 ) -> str:
-    told = "; ".join(f"{name}: {value}" for name, value in settings.items())
-    parts = ["# Check", f"{told}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
+    set_to = "; ".join(f"{name}: {value}" for name, value in settings.items())
+    parts = ["# Check", f"{set_to}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
     if cells := task_cells(checks):
-        meaning = "\n".join(f"- {name}: {words}" for name, words in TASKS.items())
+        told = {**TASKS, "drawn": "as random, with vehicles drawn from the bands of this one"}
+        flown = {name for check in checks.values() for name in check.tasks}
+        meaning = "\n".join(f"- {name}: {words}" for name, words in told.items() if name in flown)
         parts += [markdown_table([list(COLUMNS), *cells]), meaning, markdown_table(margin_cells(checks))]
     parts += [markdown_table(trial_cells(trials))] if trials else []
     parts += ["\n".join(f"- {line.strip()}" for line in joint_lines(joints))] if joints else []

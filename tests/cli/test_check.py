@@ -43,6 +43,16 @@ def test_vehicles_drawn_from_bands_are_flown_by_check_and_compare(call, tmp_path
     assert json.loads((tmp_path / "compared" / "report.json").read_text(encoding="utf-8"))["settings"]["bands"] is True
 
 
+def test_advice_is_printed_and_written(call, tmp_path):
+    code, out, _ = call("check", written(tmp_path), "--advise", "--law", "inverted", "--law", "lqr", *QUICK)
+    assert code == 0
+    said = "best: inverted. inverted: 16 of 16"
+    assert said in " ".join(out.split())
+    assert said in (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+    told = json.loads((tmp_path / "check-out" / "report.json").read_text(encoding="utf-8"))
+    assert told["advice"]["law"] == "inverted"
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -1,5 +1,8 @@
 """A vehicle from its parts: bands hold what others identified, units are asked back, and every guess has a source."""
 
+import re
+from importlib import resources
+
 import numpy as np
 import pytest
 
@@ -67,6 +70,23 @@ def test_propellers_in_the_table_lie_within_the_band_of_those_that_are_not(name)
     general = THRUST_COEFFICIENT * AIR * part["diameter"] ** 4 / (4 * np.pi**2)
     assert 1 / THRUST_BAND <= part["thrust_constant"] / general <= THRUST_BAND
     assert 1 / TORQUE_BAND <= part["drag_ratio"] / (TORQUE * part["diameter"]) <= TORQUE_BAND
+
+
+def test_coefficients_of_a_propeller_give_its_constants():
+    """Thrust C_T ρ n² D⁴ and torque C_P ρ n² D⁵/2π, of the coefficients that stand beside the constants."""
+    text = (resources.files("flypend") / "model" / "parts.toml").read_text(encoding="utf-8")
+    tables = re.findall(r'propellers\."([^"]+)"\](?:.|\n)+?C_T = ([\d.]+)(?:.|\n)+?C_P = ([\d.]+\d)', text)
+    assert len(tables) >= 4
+    for name, thrust, power in tables:
+        part, c_t, c_p = parts()["propellers"][name], float(thrust), float(power)
+        wanted = c_t * AIR * part["diameter"] ** 4 / (4 * np.pi**2), c_p * part["diameter"] / (2 * np.pi * c_t)
+        np.testing.assert_allclose((part["thrust_constant"], part["drag_ratio"]), wanted, rtol=1e-3)  # four digits
+
+
+def test_a_motor_with_its_speed_in_its_name_has_that_speed():
+    for name, part in parts()["motors"].items():
+        if (number := name.rpartition("-")[2]).isdigit() and "lag" not in part:
+            assert part["kv"] == int(number), name
 
 
 def test_units_and_names_mean_the_same_as_numbers():

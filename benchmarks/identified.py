@@ -27,7 +27,7 @@ GOALS = {
 
 
 def machine(rng):
-    """Return a machine, the plant that it flies in, its thrust scale, and a guess within the bounds of the goals."""
+    """Return a machine near hehn2011, and what `around` draws for it."""
     size = rng.uniform(0.7, 1.4)
     base = fp.vehicle("hehn2011")
     true = base.replace(
@@ -35,6 +35,11 @@ def machine(rng):
         rotor_lag=rng.uniform(0.015, 0.05), inertia=base.inertia * size * rng.uniform(0.8, 1.2),
         rod_length=base.rod_length * rng.uniform(0.7, 1.3), rotor_limits=(0.08, 3.5 * size),
     )  # fmt: skip
+    return true, *around(true, rng)
+
+
+def around(true, rng):
+    """Return the plant that a machine flies in, its thrust scale, and a guess within the bounds of the goals."""
     off = lambda share: 1 + rng.uniform(-share, share)  # noqa: E731
     guess = true.replace(
         mass=true.mass * off(0.005), rod_length=true.rod_length * off(0.1), bob_mass=true.bob_mass * off(0.05),
@@ -48,7 +53,15 @@ def machine(rng):
         wind=fp.Wind(gust_on_vehicle=gust, gust_on_bob=gust / 5, gust_time=rng.uniform(0.5, 2)),
         noise=fp.Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
     )  # fmt: skip
-    return true, plant, rng.uniform(0.88, 1.1), guess
+    return plant, rng.uniform(0.88, 1.1), guess
+
+
+def logged(flown, guess):
+    """Return what `identify` finds in a rehearsal, and the processor time, s."""
+    with TemporaryDirectory() as folder:
+        write_log(f"{folder}/flight.csv", flown.columns)
+        begun = process_time()
+        return fp.identify(f"{folder}/flight.csv", guess), process_time() - begun
 
 
 def identified(k, seed, seconds, engine):
@@ -57,11 +70,7 @@ def identified(k, seed, seconds, engine):
     true, plant, scale, guess = machine(rng)
     flying = plant.replace(engine=engine, strength=tuple(scale * np.array(plant.strength)))
     flown = rehearse(guess, true, flying, duration=seconds, latency=LATENCY, bias=0.01, seed=seed + k)
-    with TemporaryDirectory() as folder:
-        write_log(f"{folder}/flight.csv", flown.columns)
-        begun = process_time()
-        found = fp.identify(f"{folder}/flight.csv", guess)
-        spent = process_time() - begun
+    found, spent = logged(flown, guess)
     middle = float(np.exp(np.log(plant.strength).mean()))
     truth = {
         "mass": true.mass, "rod_length": true.rod_length, "bob_mass": true.bob_mass, "inertia": np.diag(true.inertia),

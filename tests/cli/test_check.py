@@ -29,6 +29,30 @@ def test_a_vehicle_that_flies_exits_with_0_and_leaves_a_report(call, tmp_path):
     assert told["settings"]["plant"] == "rotors"
 
 
+def test_vehicles_drawn_from_bands_are_flown_by_check_and_compare(call, tmp_path):
+    mine = written(tmp_path, bands={"mass": [0.49, 0.51], "delay": [0.0, 0.01]})
+    code, out, _ = call("check", mine, "--bands", *QUICK)
+    assert code == 0
+    assert "random all, drawn all." in " ".join(out.split())
+    report = (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+    assert "- drawn: as random, with vehicles drawn from the bands of this one" in report
+    asked = ("--law", "lqr", "--runs", "9", "--duration", "1", "--bands")
+    assert call("compare", "--vehicle", mine, *asked, "-o", "compared")[0] == 0
+    failed = [path.read_text(encoding="utf-8") for path in (tmp_path / "compared" / "failed").iterdir()]
+    assert len({line for text in failed for line in text.splitlines() if line.startswith("delay")}) > 1
+    assert json.loads((tmp_path / "compared" / "report.json").read_text(encoding="utf-8"))["settings"]["bands"] is True
+
+
+def test_advice_is_printed_and_written(call, tmp_path):
+    code, out, _ = call("check", written(tmp_path), "--advise", "--law", "inverted", "--law", "lqr", *QUICK)
+    assert code == 0
+    said = "best: inverted. inverted: 16 of 16"
+    assert said in " ".join(out.split())
+    assert said in (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+    told = json.loads((tmp_path / "check-out" / "report.json").read_text(encoding="utf-8"))
+    assert told["advice"]["law"] == "inverted"
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -1,5 +1,8 @@
 """A vehicle from its parts: bands hold what others identified, units are asked back, and every guess has a source."""
 
+import re
+from importlib import resources
+
 import numpy as np
 import pytest
 
@@ -22,6 +25,7 @@ MINE = {
     "mass": "620 g", "arm": "17 cm", "propeller": "8x4.5", "motor": "920 KV", "battery": "3S", "rod_length": 0.9,
     "rod_mass": 0.03, "bob_mass": "40 g",
 }  # fmt: skip
+BARE = {"motor": None, "battery": None}
 # Machines of the package whose numbers come from elsewhere: parts, and what lies outside its band, for a reason.
 FLOWN = {
     "crazyflie": ({"propeller": "45mm", "motor": "14000 KV", "battery": "1S"}, {}),
@@ -66,6 +70,23 @@ def test_propellers_in_the_table_lie_within_the_band_of_those_that_are_not(name)
     general = THRUST_COEFFICIENT * AIR * part["diameter"] ** 4 / (4 * np.pi**2)
     assert 1 / THRUST_BAND <= part["thrust_constant"] / general <= THRUST_BAND
     assert 1 / TORQUE_BAND <= part["drag_ratio"] / (TORQUE * part["diameter"]) <= TORQUE_BAND
+
+
+def test_coefficients_of_a_propeller_give_its_constants():
+    """Thrust C_T ρ n² D⁴ and torque C_P ρ n² D⁵/2π, of the coefficients that stand beside the constants."""
+    text = (resources.files("flypend") / "model" / "parts.toml").read_text(encoding="utf-8")
+    tables = re.findall(r'propellers\."([^"]+)"\](?:.|\n)+?C_T = ([\d.]+)(?:.|\n)+?C_P = ([\d.]+\d)', text)
+    assert len(tables) >= 4
+    for name, thrust, power in tables:
+        part, c_t, c_p = parts()["propellers"][name], float(thrust), float(power)
+        wanted = c_t * AIR * part["diameter"] ** 4 / (4 * np.pi**2), c_p * part["diameter"] / (2 * np.pi * c_t)
+        np.testing.assert_allclose((part["thrust_constant"], part["drag_ratio"]), wanted, rtol=1e-3)  # four digits
+
+
+def test_a_motor_with_its_speed_in_its_name_has_that_speed():
+    for name, part in parts()["motors"].items():
+        if (number := name.rpartition("-")[2]).isdigit() and "lag" not in part:
+            assert part["kv"] == int(number), name
 
 
 def test_units_and_names_mean_the_same_as_numbers():
@@ -113,11 +134,23 @@ def test_bands_are_taken_as_known_before_by_identification():
         ({"motor": "fast"}, "920 KV"),
         ({"mass": "5 kg"}, "thrust: expected at least 12.4 N"),
         ({"motor": "9200 KV"}, "at most 20 times the weight"),
-        ({"inertia": [5000, 5000, 9000]}, "in g·mm². write 5e-06"),
+        ({"inertia": [5000, 5000, 9000]}, r"in kg·mm²\? write 0.005"),
         ({"rotors": 5}, "an even number"),
         ({"rod_mass": 0, "bob_mass": 0}, "the mass of the rod"),
         ({"rod_length": -1}, "rod_length"),
-        ({"bob_mass": 5, "rod_length": "12 cm"}, "bob_mass: expected rod and bob of at most"),
+        ({"bob_mass": 5, "rod_length": "12 cm"}, r"bob_mass: .*machine's 0.62 kg.* \(in g\? write 5g\)"),
+        ({"bob_mass": "5 kg", "thrust": 20, **BARE}, "bob_mass: .*machine's 0.62 kg"),
+        ({"bob_mass": "620 g"}, "rod and bob"),  # each is allowed
+        ({"rod_mass": "0.01 g", "bob_mass": 0}, "0.00062 to 0.62 kg of rod and bob"),
+        ({"rod_length": "12 m"}, r"rod_length: expected 0.085 to 8.5 m \(0.5 to 50 times the arm of 0.17 m"),
+        ({"rod_length": "6 cm"}, "rod_length: expected 0.085"),
+        ({"arm": "1.7 m"}, "arm: .* at most 5 diameters of the propeller, 1.02 m"),
+        ({"propeller": "20mm", **BARE}, "arm: .* at most 5 diameters"),
+        ({"mass": "62 kg", **BARE}, "at most 97.3 N from a propeller of 0.203 m.* mass is 62 kg"),
+        ({"mass": "2 kg", "arm": "3 cm", "propeller": "2x1", **BARE}, "below the speed of sound"),
+        ({"inertia": [1, 1, 1]}, "inertia: expected 0.00036 to 0.18 .*0.0045 is common, got 1 and 1$"),
+        ({"inertia": [1e-6, 1e-6, 2e-6]}, "inertia: expected 0.00036"),
+        ({"inertia": [5e-3, 5e-3, 5e-4]}, "yaw at least 0.2 of the larger"),
     ],
 )
 def test_nonsense_is_refused_with_what_would_be_plausible(changes, said):

@@ -5,12 +5,17 @@ import pytest
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.flight.request import Flight
 from flypend.plants import Sampled
-from flypend.studies.bands import worlds_within
+from flypend.settings.runfile import plant_of
+from flypend.studies.bands import fly_within, worlds_within
+from flypend.studies.failed import failed_runs
 
 MINE = fp.Vehicle.estimate(
     mass=0.62, arm=0.17, propeller="8x4.5", motor="920 KV", battery="3S", rod_length=0.9, rod_mass=0.03, bob_mass=0.04
 )
+
+NEAR = MINE.replace(bands={"mass": (0.6, 0.64), "rod_length": (0.68, 0.73), "delay": (0.0, 0.01)})
 
 
 def test_every_world_is_within_the_bands():
@@ -53,3 +58,46 @@ def test_a_flight_in_a_drawn_world():
 def test_a_vehicle_without_bands_is_refused():
     with pytest.raises(InputError, match=r"vehicle\.bands"):
         worlds_within(fp.vehicle("hehn2011"), Sampled(), 1)
+
+
+def test_each_world_flies_its_share_of_the_starts_with_the_noise_of_its_place():
+    """Run by run as alone: in its world, with the seed of its place."""
+    plant = Sampled(noise=fp.Noise(y=2e-3, omega=2e-2), seed=7)
+    worlds = list(worlds_within(NEAR, plant, 1, draws=2).values())
+    starts = fp.random_starts(9, 3)
+    shared = fp.compare(NEAR, fp.laws.inverted(), starts, 2.0, plant=worlds).ensembles["inverted"]
+    np.testing.assert_array_equal(shared.starts.packed(), starts.packed())
+    for run, place in ((1, 0), (3, 1), (8, 2)):  # of three runs each
+        world = worlds[place].replace(seed=7 + run)
+        alone = fp.simulate_ensemble(NEAR, fp.laws.inverted(), starts[run : run + 1], 2.0, plant=world)
+        np.testing.assert_array_equal(alone.final.packed()[0], shared.final.packed()[run])
+    flight = Flight(vehicle=NEAR, law=fp.laws.inverted().bind(NEAR), starts=starts, duration=2.0, plant=plant)
+    again = fly_within(flight, 1)
+    assert len(again) == 9
+    np.testing.assert_array_equal(again.final.packed()[0], shared.final.packed()[0])  # both as written
+
+
+def test_a_failed_flight_names_the_world_in_which_it_failed():
+    plant = {"base": "rotors", "seed": 5}
+    worlds = list(worlds_within(NEAR, plant_of(plant), 1, draws=2).values())
+    compared = fp.compare(NEAR, fp.laws.corrected(), fp.random_starts(6, 3), 1.0, plant=worlds)
+    failed = failed_runs(compared, ["corrected"], plant, 1.0, worlds)
+    assert len(failed) == 6  # it hangs the rod
+    for run, place in ((0, 0), (3, 1), (5, 2)):
+        assert plant_of(failed[f"corrected-{run}"]["plant"]) == worlds[place].replace(seed=5 + run)
+
+
+def test_without_a_plant_nothing_is_compared():
+    with pytest.raises(InputError, match="plant: expected a plant, or several"):
+        fp.compare(NEAR, fp.laws.inverted(), fp.random_starts(2, 1), 1.0, plant=())
+
+
+def test_a_check_flies_what_is_drawn_beside_what_is_written():
+    """A band that the law cannot follow shows in the task drawn, and nowhere else."""
+    wide = fp.vehicle("hehn2011").replace(bands={"thrust_scale": (0.3, 0.31)})
+    found = fp.check(wide, runs=18, duration=6.0, margins=False, bands=True)
+    assert found.envelope["random"] == "all"
+    assert found.rows()["drawn"]["successes"] == 2  # as written
+    assert any("drawn: 2 of 18" in warning for warning in found.warnings)
+    with pytest.raises(InputError, match=r"vehicle\.bands"):
+        fp.check(fp.vehicle("hehn2011"), bands=True)

@@ -29,6 +29,7 @@ from flypend.cli import (
 )
 from flypend.cli.options import (
     LAW_HELP,
+    bands_option,
     laws_option,
     option,
     options_of,
@@ -38,6 +39,7 @@ from flypend.cli.options import (
     refuse_idle,
     sensors_option,
     style_option,
+    within_bands,
 )
 from flypend.cli.terminal import ahead, bold, console, counter, draw, lacking, pictures_of_studies, say, tell_how
 from flypend.errors import InputError, require
@@ -248,6 +250,7 @@ class Starts:
 @options_of(Starts, "chosen")
 @click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
 @sensors_option
+@bands_option
 @click.option("--keep", type=path, metavar="DIR", help="Also save each failed flight in DIR (.nc).")
 def compare(
     law: tuple[str, ...],
@@ -255,6 +258,7 @@ def compare(
     chosen: Starts,
     plant: str,
     sensors: str,
+    bands: bool,
     keep: Path | None,
 ) -> None:
     """Compare laws, your own included, from the same starts, in one table and one figure.
@@ -274,14 +278,15 @@ def compare(
     world = plant_of(asked)
     names = law or ("inverted", "lqr", "corrected", "detuned")
     laws, batch, machine, settings = chosen.of(names)
-    settings = {**settings, "plant": asked}
+    settings = {**settings, "plant": asked} | ({"bands": True} if bands else {})
+    drawn = list(within_bands(machine, asked, chosen.seed).values()) if bands else []
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
     ahead(pictures_of_studies)
     with counter() as tell:
         flying = lambda name, done, total: tell(f"flying {name}", done, total)  # noqa: E731
-        result = fly(machine, laws, batch, duration, plant=world, progress=flying)
-    failed = failed_runs(result, names, asked, duration)
+        result = fly(machine, laws, batch, duration, plant=drawn or world, progress=flying)
+    failed = failed_runs(result, names, asked, duration, drawn)
     write_comparison(result, settings, out, failed)
     if keep is not None:
         with staged(keep) as folder, counter() as tell:
@@ -299,7 +304,7 @@ def compare(
     "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
 )
 @click.option("--sensors", help="Fly what may be wrong with these sensors instead: mocap or onboard.")
-@click.option("--bands", is_flag=True, help="Fly vehicles drawn from the bands of --vehicle instead.")
+@bands_option
 def ladder(
     law: tuple[str, ...],
     out: Path,
@@ -310,17 +315,14 @@ def ladder(
 ) -> None:
     """Find what breaks each law: limits, lag, motors, air, sampling, delay, noise, wrong models, or several at once."""
     from flypend.files.staging import check_writable
-    from flypend.plants import plant, sampled_plant
+    from flypend.plants import plant
     from flypend.report.studies import ladder_table, write_ladder
-    from flypend.settings.runfile import plant_of
     from flypend.studies import ladder as climb
-    from flypend.studies.bands import worlds_within
     from flypend.studies.ladder import rung_named, rungs_for, sensor_rungs
 
     laws, batch, machine, settings = chosen.of(law or ("inverted", "lqr"))
     if bands:
-        world = sampled_plant(plant_of(plant_asked("rotors", sensors or "perfect")))
-        rungs: Mapping[str, AnyPlant] = worlds_within(machine, world, chosen.seed)
+        rungs: Mapping[str, AnyPlant] = within_bands(machine, plant_asked("rotors", sensors or "perfect"), chosen.seed)
     else:
         rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
     flown = {

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from flypend.cli.options import laws_option, option, options_of, out_option, plant_asked
+from flypend.cli.options import BANDS_HELP, laws_option, option, options_of, out_option, plant_asked
 from flypend.cli.terminal import bold, console, counter, tell_how
 
 
@@ -24,6 +24,12 @@ class Flights:
         "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."
     )
     seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
+    advise: bool = option(
+        "--advise",
+        is_flag=True,
+        help="Name the best law, by default of inverted and learned; if none will do, what would.",
+    )
+    bands: bool = option("--bands", is_flag=True, help=f"Also: {BANDS_HELP}")
 
 
 @click.command()
@@ -48,6 +54,7 @@ def check(
     from flypend.report.check import check_tables, joint_lines, verdicts, write_check
     from flypend.settings.runfile import plant_of
     from flypend.studies import law_named
+    from flypend.studies.advice import advise
     from flypend.studies.check import check as examine
     from flypend.studies.joint import joint
     from flypend.studies.trial import trial as try_
@@ -56,23 +63,26 @@ def check(
     errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
     asked = plant_asked(own.plant, own.sensors)
     world, seed = plant_of(asked), own.seed
-    laws = {name: law_named(name) for name in law or ("inverted",)}
+    laws = {name: law_named(name) for name in law or ("inverted", *(["learned"] if own.advise else []))}
     for each in laws.values():
         tell_how(each)
     check_writable(out)
     checks, trials, joints = {}, {}, {}
     with counter() as tell:
         for name, each in laws.items():
-            checks[name] = examine(machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, progress=tell)
+            checks[name] = examine(
+                machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, bands=own.bands, progress=tell
+            )
             if trial and checks[name].tasks:
                 trials[name] = try_(machine, each, plant=world, seed=seed, progress=tell)
             if own.sensors != "perfect" and checks[name].tasks:
                 joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
+        advice = advise(machine, checks, plant=world, seed=seed, progress=tell) if own.advise else None
     settings = {"vehicle": vehicle, "laws": list(laws), "plant": asked, "seed": seed}
-    write_check(checks, trials, settings, out, figures=figures, joints=joints)
+    write_check(checks, trials, settings, out, figures=figures, joints=joints, advice=advice)
     for table in check_tables(checks, trials):
         console.print(table)
-    for line in (*verdicts(checks), *joint_lines(joints)):
+    for line in (*verdicts(checks), *joint_lines(joints), *(advice.lines() if advice else ())):
         console.print(line, markup=False)
     console.print(f"The report{' and its figure are' if figures else ' is'} in {bold(out)}.")
     if not all(each.ok for each in checks.values()):

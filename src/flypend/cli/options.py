@@ -20,6 +20,8 @@ laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
 SENSORS_HELP = "perfect; or mocap, onboard or laboratory, with the estimator (not on the plant ideal)."
 sensors_option = click.option("--sensors", default="perfect", help=SENSORS_HELP)
+BANDS_HELP = "Fly vehicles drawn from the bands of the vehicle; the law believes what is written."
+bands_option = click.option("--bands", is_flag=True, help=BANDS_HELP)
 style_option = click.option(
     "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."
 )
@@ -61,6 +63,15 @@ def refuse_idle(*names: str, why: str) -> None:
         if parameter.name in names and given:
             option = max((*parameter.opts, *parameter.secondary_opts), key=len)
             raise InputError(option, f"nothing {why}", repr(context.params[parameter.name]))
+
+
+def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
+    """Return the worlds of --bands by name; `plant` as in a run file. Raises InputError without bands."""
+    from flypend.plants import sampled_plant
+    from flypend.settings.runfile import plant_of
+    from flypend.studies.bands import worlds_within
+
+    return dict(worlds_within(machine, sampled_plant(plant_of(plant)), seed))
 
 
 def plant_asked(plant: str, sensors: str) -> Any:

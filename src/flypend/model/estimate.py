@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
+from flypend.model.plausible import INERTIAS
 from flypend.model.quantity import Quantity, quantity
 from flypend.model.rod import rod_with_bob
 
@@ -38,6 +39,12 @@ SURPLUS, SURPLUS_BAND = 2.0, 1.8  # thrust of all rotors over weight, where no m
 ARM_RADIUS, HUB_RADIUS, ROD_RADIUS = 0.04, 0.2, 0.005  # over the arm, the arm, and the rod
 OFF_CENTRE = 0.05  # pivot off the centre of mass over arm
 MOST_ROTORS, MOST_SURPLUS = 12, 20.0
+# What a person's numbers are refused for, several times beyond common machines: rods of 1 to 12 arms with 0.01 to 0.6
+# of the machine's mass, arms of 0.6 to 1.5 diameters, moments of inertia of 0.1 to 1 mass · arm².
+RODS, LOADS, WIDEST, MOMENTS = (0.5, 50.0), (1e-3, 1.0), 5.0, (0.02, 10.0)
+SLIMMEST = 0.2  # yaw moment over the larger of the others; 1.5 to 2 are common
+# N/m², thrust over the disc: tips at the speed of sound push 2,200 with the coefficient below, broad blades some more.
+MOST_PRESSURE = 3000.0
 # Bands of what no part of the machine tells.
 OTHERS = {"spin_up": [0.6, 1.8], "sag": [0.0, 0.12], "delay": [0.0, 0.05], "latency": [0.0, 0.03]}
 SCALING = "I/(m arm²) alike for like machines (Kumar and Michael 2012), as of the package's vehicles"
@@ -101,11 +108,11 @@ def guess(measured: Measured) -> Guess:
     n = errors.integer("rotors", measured.rotors, 4, MOST_ROTORS)
     if n % 2:
         raise InputError("rotors", "an even number, of which half spin each way", f"{n}")
-    rod = _rod(measured)
-    if measured.thrust is None and rod["bob_mass"] > m:
-        wanted = f"rod and bob of at most the machine's {m:.3g} kg (g, not kg?), or thrust, as measured"
-        raise InputError("bob_mass", wanted, f"{rod['bob_mass']:.3g} kg")
+    rod = _rod(measured, m, a)
     prop, motor_known = _propeller(measured.propeller), _motor(measured.motor)
+    if a > WIDEST * (diameter := prop["diameter"]):
+        wanted = f"an arm of at most {WIDEST:g} diameters of the propeller, {WIDEST * diameter:.3g} m"
+        raise InputError("arm", wanted, f"{a:.3g} m")
     weight = (m + rod["bob_mass"]) * EARTH
     most, pushed, off = _thrust(measured, motor_known, prop, weight / n)
     if n * most * off < weight:
@@ -114,8 +121,13 @@ def guess(measured: Measured) -> Guess:
     if n * most > MOST_SURPLUS * off * weight:
         wanted = f"rotors of at most {MOST_SURPLUS:g} times the weight ({weight:.3g} N)"
         raise InputError("thrust", wanted, f"{n * most / weight:.3g} times ({pushed})")
+    if most > (strongest := MOST_PRESSURE * np.pi / 4 * diameter**2):
+        wanted = (
+            f"at most {strongest:.3g} N from a propeller of {diameter:.3g} m, whose tips stay below the speed of sound"
+        )
+        raise InputError("thrust", wanted, f"{most:.3g} N ({pushed}; the mass is {m:.3g} kg)")
     given = measured.inertia is not None
-    moments = errors.array("inertia", measured.inertia if given else np.array([ROLL, ROLL, YAW]) * m * a**2, (3,))
+    moments = _moments(measured.inertia, m * a**2) if given else np.array([ROLL, ROLL, YAW]) * m * a**2
     known = "drag_ratio" in prop
     ratio = prop["drag_ratio"] if known else TORQUE * prop["diameter"]
     lag, slow = (motor_known["lag"], 1.3) if "lag" in motor_known else (LAG, LAG_BAND)
@@ -158,13 +170,35 @@ def guess(measured: Measured) -> Guess:
     return Guess(fields, sources)
 
 
-def _rod(measured: Measured) -> dict[str, float]:
-    """Return the fields of the rod."""
-    length = quantity("rod_length", measured.rod_length, "m", 0.05, 20)
-    alone, bob = (quantity(name, getattr(measured, name), "kg", 0, 20) for name in ("rod_mass", "bob_mass"))
+def _rod(measured: Measured, mass: float, arm: float) -> dict[str, float]:
+    """Return the fields of the rod on a machine of `mass`, kg, with arms of `arm`, m."""
+    low, high = (share * mass for share in LOADS)
+    why = f"at most the machine's {mass:.3g} kg"
+    alone, bob = (quantity(name, getattr(measured, name), "kg", 0, high, why) for name in ("rod_mass", "bob_mass"))
     if alone + bob == 0:
         raise InputError("rod_mass", "the mass of the rod, its bob or both, kg", "none")
+    if not low <= alone + bob <= high:
+        raise InputError("bob_mass", f"{low:.3g} to {high:.3g} kg of rod and bob ({why})", f"{alone + bob:.3g} kg")
+    shortest, longest = (share * arm for share in RODS)
+    why = f"{RODS[0]:g} to {RODS[1]:g} times the arm of {arm:.3g} m; 1 to 12 are common"
+    length = quantity("rod_length", measured.rod_length, "m", shortest, longest, why)
     return {name: _short(value) for name, value in rod_with_bob(alone, length, bob).items()}
+
+
+def _moments(value: ArrayLike | None, scale: float) -> Any:
+    """Return the principal moments (3,) that a person knows, kg m², beside `scale`, mass × arm². Raises InputError."""
+    moments = errors.array("inertia", value, (3,))
+    usual, (low, high) = ROLL * scale, (share * scale for share in MOMENTS)
+    if not (low <= moments[:2].min() and moments[:2].max() <= high):
+        unit, meant = min(((name, f * moments[0]) for name, f in INERTIAS.items()), key=lambda one: abs(one[1] - usual))
+        hint = f" (in {unit}? write {meant:.4g}, …)" if low <= meant <= high else ""
+        wanted = f"{low:.2g} to {high:.2g} kg m² of roll and pitch, where {usual:.2g} is common"
+        raise InputError("inertia", wanted, f"{moments[0]:.3g} and {moments[1]:.3g}{hint}")
+    slim = moments[2] / moments[:2].max()
+    if not slim >= SLIMMEST:
+        wanted = f"roll, pitch, yaw: yaw at least {SLIMMEST:g} of the larger of the others (1.8 is common)"
+        raise InputError("inertia", wanted, f"{slim:.3g} of it")
+    return moments
 
 
 def _propeller(value: Quantity) -> dict[str, Any]:

@@ -19,10 +19,10 @@ _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s]*)
 MOST_TEXT = 40  # characters of a quantity
 
 
-def quantity(field: str, value: Quantity | None, unit: str, low: float, high: float) -> float:
+def quantity(field: str, value: Quantity | None, unit: str, low: float, high: float, why: str = "") -> float:
     """Return `value`, a number in the SI `unit` or text with a unit, "620 g", as a float in SI.
 
-    Raises InputError unless it lies between `low` and `high`, and asks for the unit that was probably meant.
+    Raises InputError unless it lies between `low` and `high`; it says `why`, and asks for the unit probably meant.
     """
     known = {unit: 1.0, **UNITS[unit]}
     plain, factor = value, 1.0
@@ -36,4 +36,5 @@ def quantity(field: str, value: Quantity | None, unit: str, low: float, high: fl
         return number
     others = [name for name, other in UNITS[unit].items() if factor == 1.0 and low <= number * other <= high]
     hint = f" ({'; '.join(f'in {name}? write {number:g}{name}' for name in others)})" if others else ""
-    raise InputError(field, f"{low:g} to {high:g} {unit}", f"{number:g} {unit}{hint}")
+    told = f" ({why})" if why else ""
+    raise InputError(field, f"{low:.3g} to {high:.3g} {unit}{told}", f"{number:g} {unit}{hint}")

@@ -16,6 +16,7 @@ from flypend.files.staging import staged
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
 from flypend.report.text import markdown_table, number, write_json
+from flypend.studies.advice import Advice
 from flypend.studies.check import Check
 from flypend.studies.joint import Joint
 from flypend.studies.trial import Trial
@@ -92,20 +93,23 @@ def write_check(
     *,
     figures: bool = True,
     joints: Mapping[str, Joint] | None = None,
+    advice: Advice | None = None,
 ) -> None:
     """Write report.md, report.json (with `settings`) and check.pdf and .png of `checks` into the folder `out`.
 
-    `checks`, `trials` and `joints` are keyed by law. Without `figures`, or if nothing was flown, there is no picture.
+    `checks`, `trials` and `joints` are keyed by law; `advice` is what follows from them. Without `figures`, or if
+    nothing was flown, there is no picture.
     """
     from flypend.files.whole import save_both
 
     with staged(out) as folder:
-        (folder / "report.md").write_text(_markdown(checks, trials, joints or {}, settings), encoding="utf-8")
+        (folder / "report.md").write_text(_markdown(checks, trials, joints or {}, settings, advice), encoding="utf-8")
         content = {
             "flypend": __version__,
             "settings": dict(settings),
             "checks": {law: check.to_dict() for law, check in checks.items()},
             "trials": {law: trial.to_dict() for law, trial in trials.items()},
+            "advice": None if advice is None else advice.to_dict(),
             "joint": {law: one.to_dict() for law, one in (joints or {}).items()},
         }
         write_json(folder / "report.json", content)
@@ -120,14 +124,18 @@ def _markdown(
     trials: Mapping[str, Trial],
     joints: Mapping[str, Joint],
     settings: Mapping[str, Any],
+    advice: Advice | None,
 ) -> str:
-    told = "; ".join(f"{name}: {value}" for name, value in settings.items())
-    parts = ["# Check", f"{told}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
+    set_to = "; ".join(f"{name}: {value}" for name, value in settings.items())
+    parts = ["# Check", f"{set_to}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
     if cells := task_cells(checks):
-        meaning = "\n".join(f"- {name}: {words}" for name, words in TASKS.items())
+        told = {**TASKS, "drawn": "as random, with vehicles drawn from the bands of this one"}
+        flown = {name for check in checks.values() for name in check.tasks}
+        meaning = "\n".join(f"- {name}: {words}" for name, words in told.items() if name in flown)
         parts += [markdown_table([list(COLUMNS), *cells]), meaning, markdown_table(margin_cells(checks))]
     parts += [markdown_table(trial_cells(trials))] if trials else []
     parts += ["\n".join(f"- {line.strip()}" for line in joint_lines(joints))] if joints else []
+    parts += ["\n".join(f"- {line.strip()}" for line in advice.lines())] if advice else []
     return "\n\n".join(parts) + "\n"
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from flypend.errors import InputError
+from flypend.flight.ensemble import Ensemble
+from flypend.flight.request import Flight
 from flypend.model import Vehicle
-from flypend.plants import Sampled
+from flypend.plants import Sampled, sampled_plant
+from flypend.studies.compare import flown, joined, shared
 
 DRAWS = 8  # each is compiled
 LEAST = 1e-3  # factor of a number whose band begins at zero
@@ -25,6 +29,24 @@ def worlds_within(vehicle: Vehicle, plant: Sampled, seed: int, draws: int = DRAW
     rng = np.random.default_rng(seed)
     worlds = [_drawn(vehicle, plant, rng) for _ in range(draws)]
     return {"as written": plant, **{f"drawn {i + 1}": world for i, world in enumerate(worlds)}}
+
+
+def fly_within(
+    flight: Flight, seed: int, workers: int | None = None, progress: Callable[[int, int], Any] = lambda *_: None
+) -> Ensemble:
+    """Fly `flight`, whose starts are shared by the worlds that `worlds_within` draws from `seed`.
+
+    `workers` as in `simulate_ensemble`; `progress` is called with (runs begun, all). Raises InputError without bands.
+    """
+    worlds = list(worlds_within(flight.vehicle, sampled_plant(flight.plant), seed).values())
+    parts = {str(place): part for place, part in enumerate(shared(flight, worlds))}
+    begun = dict.fromkeys(parts, 0)
+
+    def tell(name: str, done: int, total: int) -> None:
+        begun[name] = done
+        progress(sum(begun.values()), flight.runs)
+
+    return joined(list(flown(parts, workers, tell).values()))
 
 
 def check_bands(vehicle: Vehicle) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from flypend.laws.located import LawError
 from flypend.model import Vehicle
 from flypend.planning.result import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
+from flypend.studies.bands import check_bands, fly_within
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
 from flypend.studies.possible import STARTS, possible, told
@@ -68,7 +70,7 @@ class Check:
     feasibility : Feasibility
         What the vehicle's numbers allow, whatever the law.
     tasks : dict of Ensemble
-        Flights of each task: see `flypend.flight.tasks.TASKS`. Empty if there is nothing to fly.
+        Flights of each task: see `flypend.flight.tasks.TASKS`, and with bands "drawn". Empty without flights.
     catch : Catch, optional
         Leans that are caught directly.
     margins : dict of Margin
@@ -162,6 +164,7 @@ def check(
     seed: int = 1,
     duration: float | None = None,
     margins: bool | None = None,
+    bands: bool = False,
     workers: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> Check:
@@ -187,6 +190,8 @@ def check(
         Seconds per flight; default 30, or 10 where there are only 24.
     margins : bool, optional
         Whether to search for margins; default where there are 1000 random starts.
+    bands : bool
+        Whether to fly the random starts again as the task "drawn", with vehicles drawn from the bands of `vehicle`.
     workers : int, optional
         As in `simulate_ensemble`.
     progress : callable
@@ -195,10 +200,12 @@ def check(
     Raises
     ------
     InputError
-        For the ideal plant, which has no margins, a law that does not fly any vehicle, and numbers out of range. A
-        vehicle that cannot be flown is a result.
+        For the ideal plant, which has no margins, a law that does not fly any vehicle, numbers out of range, and
+        `bands` of a vehicle without any. A vehicle that cannot be flown is a result.
     """
     world = plants.sampled_plant(plant)
+    if bands:
+        check_bands(vehicle)
     chosen = law if law is not None else inverted()
     found = feasibility(world.true_vehicle(vehicle), world.delay)
     name = chosen.name
@@ -221,6 +228,10 @@ def check(
         vehicle, usual if runs is None else errors.integer("runs", runs, 1, MOST_RUNS), seed, directions
     )
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
+    if bands:
+        random = starts["random"].seen(bound.e3)
+        flight = Flight(vehicle=vehicle, law=bound, starts=random, duration=seconds, plant=world)
+        tasks["drawn"] = fly_within(flight, seed, workers, partial(progress, "drawn"))
     reasons, shortfalls = _shortfalls(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
     if (quick if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:

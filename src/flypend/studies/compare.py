@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
 
 from flypend import errors, plants, signals
 from flypend.errors import InputError
@@ -63,7 +65,7 @@ def compare(
     starts: State,
     duration: float = 10.0,
     *,
-    plant: str | AnyPlant = "rotors",
+    plant: str | AnyPlant | Sequence[AnyPlant] = "rotors",
     workers: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> Comparison:
@@ -77,14 +79,51 @@ def compare(
         Laws to compare; e₃-down laws fly the same physical starts in their own frame.
     starts : State
         A batch of states in the e₃-up frame.
-    duration, plant, workers
+    duration, workers
         As in `simulate_ensemble`.
+    plant : str, Plant or sequence of Plant
+        As in `simulate_ensemble`; of several, each flies an equal share of the starts, in their order.
     progress : callable
         Called with `(name of the law, done, total)`.
     """
-    world = plants.plant(plant)
-    flights = flights_of(vehicle, laws, starts, duration)
-    return Comparison(flown({name: flight.through(world) for name, flight in flights.items()}, workers, progress))
+    several = plant if isinstance(plant, Sequence) and not isinstance(plant, str) else (plant,)
+    worlds = [plants.plant(one) for one in several]
+    flights = {
+        (name, str(place)): part
+        for name, flight in flights_of(vehicle, laws, starts, duration).items()
+        for place, part in enumerate(shared(flight, worlds))
+    }
+    ensembles = flown(flights, workers, lambda key, done, total: progress(key[0], done, total))
+    parts: dict[str, list[Ensemble]] = {}
+    for (name, _), ensemble in ensembles.items():
+        parts.setdefault(name, []).append(ensemble)
+    return Comparison({name: joined(some) for name, some in parts.items()})
+
+
+def shared(flight: Flight, worlds: Sequence[AnyPlant]) -> list[Flight]:
+    """Return the parts of `flight` that fly through each of `worlds`. A run has the noise of its place in `flight`."""
+    if not worlds:
+        raise InputError("plant", "a plant, or several", "none")
+    ends = share_ends(flight.runs, len(worlds))
+    parts = [(flight.through(world), a, b) for world, a, b in zip(worlds, ends, ends[1:], strict=False) if a < b]
+    return [one.replace(starts=one.starts[a:b], seed=(one.seed or 0) + a) for one, a, b in parts]
+
+
+def share_ends(runs: int, worlds: int) -> list[int]:
+    """Return where the equal shares of `worlds` begin among `runs`, and where the last one ends."""
+    return [runs * place // worlds for place in range(worlds + 1)]
+
+
+def joined(parts: Sequence[Ensemble]) -> Ensemble:
+    """Return ensembles of one law on one vehicle, without samples, as one."""
+    if len(parts) == 1:
+        return parts[0]
+    changes: dict[str, Any] = {
+        name: np.concatenate([part.columns[name] for part in parts]) for name in parts[0].columns
+    }
+    for name in ("starts", "final"):
+        changes[name] = State.trusted(np.concatenate([getattr(part, name).packed() for part in parts]))
+    return replace(parts[0], **changes)
 
 
 def flights_of(

@@ -1,0 +1,212 @@
+"""Which of several checked laws to fly on a vehicle; and where none will do, which change of the vehicle would.
+
+A change is flown, not foretold: the inverted law, whose gains follow from the changed vehicle, from random starts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from flypend import plants
+from flypend.errors import InputError
+from flypend.flight.ensemble import Ensemble, fly_many
+from flypend.flight.feasibility import feasibility
+from flypend.flight.metrics import wilson
+from flypend.flight.request import Flight, bound_to
+from flypend.flight.tasks import task_starts
+from flypend.laws import inverted
+from flypend.model import Vehicle
+from flypend.plants import AnyPlant, Sampled
+from flypend.studies.check import Check
+from flypend.studies.margins import LEAST_RATE
+
+RUNS, DURATION = 100, 30.0  # flights of a changed vehicle, and seconds of each, as in a check
+# Factors of each number, from a small change to the largest that leaves the machine recognisable, and how to make it.
+CHANGES: Mapping[str, tuple[tuple[float, ...], str]] = {
+    "rod_length": ((1.25, 1.6, 2.0), "a longer rod"),
+    "bob_mass": ((0.7, 0.5, 0.25), "a lighter rod and bob"),
+    "rotor_limits": ((1.25, 1.6, 2.0), "stronger rotors: a battery of more cells, or larger propellers"),
+    "rotor_lag": ((0.7, 0.5, 0.3), "quicker rotors: smaller propellers, or controllers that brake"),
+}
+UNITS = {"rod_length": "m to the centre of mass", "bob_mass": "kg", "rotor_limits": "N each", "rotor_lag": "s"}
+
+
+@dataclass(frozen=True)
+class Change:
+    """A changed vehicle that was flown.
+
+    Parameters
+    ----------
+    factors : dict
+        Factor of each number that was changed, of `CHANGES`.
+    how : str
+        The change in words, with the numbers it leads to.
+    successes, runs : int
+        How many of how many random flights succeed.
+    """
+
+    factors: Mapping[str, float]
+    how: str
+    successes: int
+    runs: int
+
+    @property
+    def works(self) -> bool:
+        """Whether at least 90 % succeed."""
+        return self.successes >= LEAST_RATE * self.runs
+
+    def told(self) -> str:
+        """Return change and success with its Wilson interval, 95 %, in a line."""
+        low, high = wilson(self.successes, self.runs)
+        return f"{self.how}: {self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
+
+
+@dataclass(frozen=True)
+class Advice:
+    """What to fly on a vehicle.
+
+    Parameters
+    ----------
+    law : str
+        The best of the laws; empty if none flies the vehicle from 90 % of the random starts.
+    why : str
+        What it does beside the others, in a line.
+    changes : tuple of Change
+        Changes of a vehicle that no law flies: the smallest of each kind that works; if no kind does, all at once.
+    as_written : tuple of str
+        Laws that fly the vehicle as written, where none flies vehicles drawn from its bands.
+    """
+
+    law: str
+    why: str
+    changes: tuple[Change, ...] = ()
+    as_written: tuple[str, ...] = ()
+
+    def lines(self) -> list[str]:
+        """Return the law and why, or what to change."""
+        if self.law:
+            return [f"best: {self.law}. {self.why}"]
+        if self.as_written:
+            told = f"{', '.join(self.as_written)} will do for the vehicle as written"
+            return [f"none of these laws will do within the bands. {self.why}", f"narrow them by a longer log: {told}"]
+        good = [f"  {one.told()}" for one in self.changes if one.works]
+        best = max(self.changes, key=lambda one: one.successes, default=None)
+        if good:
+            return [f"none of these laws will do. {self.why}", "what would help, flown with the inverted law:", *good]
+        tried = "nothing that could be tried" if best is None else f"not even {best.told()}"
+        return [f"none of these laws will do. {self.why}", f"what would help: {tried}"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything as plain numbers, lists and dicts."""
+        return {
+            "law": self.law,
+            "why": self.why,
+            "as_written": self.as_written,
+            "changes": [asdict(one) for one in self.changes],
+        }
+
+
+def advise(
+    vehicle: Vehicle,
+    checks: Mapping[str, Check],
+    *,
+    plant: str | AnyPlant = "rotors",
+    seed: int = 1,
+    progress: Callable[[str, int, int], Any] = lambda *_: None,
+) -> Advice:
+    """Name the best of checked laws, or find out which change of `vehicle` would do.
+
+    The best law succeeds from 90 % of the random starts, of drawn vehicles if those were flown; no other law's interval
+    of success lies above its own; and of such laws its median excursion is the smallest.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        The vehicle of the checks.
+    checks : dict of Check
+        By name of the law.
+    plant, seed
+        As in `check`.
+    progress : callable
+        Called with `(task, done, total)`.
+    """
+    flown = {law: _judged(check) for law, check in checks.items() if check.ok and check.tasks}
+    why = "; ".join(f"{law}: {_told(flown[law])}" if law in flown else f"{law}: cannot hover" for law in checks)
+    able = {law: one for law, one in flown.items() if one.rate >= LEAST_RATE}
+    written = tuple(law for law in flown if checks[law].tasks["random"].rate >= LEAST_RATE)
+    if not able and written:
+        return Advice("", why, as_written=written)
+    if not able:
+        return Advice("", why, changes_of(vehicle, plant, seed, progress))
+    surest = max(one.interval[0] for one in able.values())
+    equal = {law: one.percentile("excursion", 50) for law, one in able.items() if one.interval[1] >= surest}
+    return Advice(min(equal, key=equal.__getitem__), why)
+
+
+def changes_of(
+    vehicle: Vehicle,
+    plant: str | AnyPlant = "rotors",
+    seed: int = 1,
+    progress: Callable[[str, int, int], Any] = lambda *_: None,
+) -> tuple[Change, ...]:
+    """Return for each kind of `CHANGES` the smallest that lets the inverted law fly `vehicle`, or the largest tried.
+
+    If no kind works alone, the last is all of them at once. `plant`, `seed` and `progress` as in `advise`.
+    """
+    world, found = plants.sampled_plant(plant), []
+    for done, (name, (factors, _)) in enumerate(CHANGES.items()):
+        progress("changes", done, len(CHANGES) + 1)
+        if not np.any(getattr(vehicle, name)):
+            continue
+        largest = _flown(vehicle, {name: factors[-1]}, world, seed)
+        smaller = (_flown(vehicle, {name: factor}, world, seed) for factor in factors[:-1])
+        found.append(next((one for one in smaller if one.works), largest) if largest.works else largest)
+    if not any(one.works for one in found):
+        found.append(_flown(vehicle, {name: factors[-1] for name, (factors, _) in CHANGES.items()}, world, seed))
+    progress("changes", len(CHANGES) + 1, len(CHANGES) + 1)
+    return tuple(found)
+
+
+def changed(vehicle: Vehicle, factors: Mapping[str, float]) -> Vehicle:
+    """Return `vehicle` with numbers of `CHANGES` times their factors; the rod keeps its shape."""
+    new: dict[str, Any] = {name: getattr(vehicle, name) * np.float64(factor) for name, factor in factors.items()}
+    if "rotor_limits" in factors:
+        least, most = vehicle.rotor_limits
+        new["rotor_limits"] = (least, most * factors["rotor_limits"])
+    longer = factors.get("rod_length", 1.0)
+    new["rod_inertia"] = vehicle.rod_inertia * longer**2 * factors.get("bob_mass", 1.0)
+    new["rod_end"] = None if vehicle.rod_end is None else vehicle.rod_end * longer
+    return vehicle.replace(**new)
+
+
+def _flown(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed: int) -> Change:
+    new = changed(vehicle, factors)
+    told = ", ".join(f"{CHANGES[name][1]} (× {factor:g}, {_number(new, name)})" for name, factor in factors.items())
+    if feasibility(plant.true_vehicle(new), plant.delay).impossible:
+        return Change(dict(factors), told, 0, RUNS)
+    try:
+        law = bound_to(new, inverted())
+    except InputError:  # the law refuses such a vehicle
+        return Change(dict(factors), told, 0, RUNS)
+    starts = task_starts(new, RUNS, seed)["random"]
+    flight = Flight(vehicle=new, law=law, starts=starts.seen(law.e3), duration=DURATION, plant=plant)
+    return Change(dict(factors), told, int(fly_many(flight).success.sum()), RUNS)
+
+
+def _number(vehicle: Vehicle, name: str) -> str:
+    value, unit = np.ravel(getattr(vehicle, name))[-1], UNITS[name]
+    return f"{value:.3g} {unit}"
+
+
+def _judged(check: Check) -> Ensemble:
+    return check.tasks.get("drawn", check.tasks["random"])
+
+
+def _told(flown: Ensemble) -> str:
+    low, high = flown.interval
+    share = f"{int(flown.success.sum())} of {len(flown)} ({100 * low:.1f} to {100 * high:.1f} %)"
+    return f"{share}, {flown.percentile('excursion', 50):.3g} m off in the median"

@@ -55,7 +55,7 @@ class Firmware:
         self.c = ctypes.CDLL(str(library))
         self.c.standin_entries.restype = ctypes.POINTER(Entry)
         self.logs, self.parameters = self._entries(0), self._entries(1)
-        self.tick, self.low, self.kind, self.flying, self.stale = 1000, 0, 2, 1, 0
+        self.tick, self.low, self.kind, self.flying, self.posed, self.sees_pose = 1000, 0, 2, 1, 0, True
         self.c.controllerOutOfTreeInit()
 
     def _entries(self, parameters):
@@ -81,7 +81,8 @@ class Firmware:
 
     def _set(self):
         """The time, battery, estimator, whether it flies, and when the last pose came."""
-        ticks = (ctypes.c_uint32(value) for value in (self.tick, self.tick - self.stale))
+        self.posed = self.tick if self.sees_pose else self.posed
+        ticks = (ctypes.c_uint32(value) for value in (self.tick, self.posed))
         turning = round(65535 * VEHICLE.weight / 4 / VEHICLE.rotor_limits[1])  # hover, by the stand-in's linear fit
         self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks), turning)
 
@@ -184,8 +185,8 @@ def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
 
 
 def test_the_law_commands_what_the_board_does(firmware):
-    # Near hover, where no rotor is at its limit; at rest, so that the bob is the same whenever it was seen.
-    state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0.02, 0, np.sqrt(1 - 0.02**2))), (0.05, -0.02, 1.0)
+    # In hover, where no rotor is at its limit, and at rest, so that bob and pose are the same whenever they were seen.
+    state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0, 0, 1.0)), (0.05, -0.02, 1.0)
     firmware.begin(fp.State(x=state.x, y=state.y))
     wanted = _commands(state, target, 3)
     assert firmware.told()[4] == 0
@@ -206,7 +207,6 @@ def test_the_law_commands_what_the_board_does(firmware):
 )  # fmt: skip
 def test_it_does_not_begin_without(firmware, what, why):
     state = _state()
-    firmware.stale = 300 if what == "old pose" else 0
     firmware.flying = what != "on the ground"
     firmware.low, firmware.kind = int(what == "low battery"), 1 if what == "other estimator" else 2
     modes = (VELOCITY,) * 3 if what == "velocity setpoint" else (ABSOLUTE,) * 3
@@ -215,6 +215,9 @@ def test_it_does_not_begin_without(firmware, what, why):
         here = fp.State(x=(0, 0, 0.3), y=(0, 0, -1.0))
     if what != "no bob":
         firmware.watch(state, modes=modes)
+    if what == "old pose":
+        firmware.sees_pose = False
+        firmware.watch(state, frames=21, modes=modes)
     firmware.upload("on", 1)
     if what != "tumbling is checked":
         firmware.tick += firmware.tick % 2
@@ -242,14 +245,15 @@ def test_what_is_lost_in_flight_ends_in_a_landing(firmware, what, why):
     firmware.fly(state, steps=90)
     assert firmware.log("flies") == BY_LAW
     if what != "bob":
-        firmware.low, firmware.stale = int(what == "battery"), 300 * (what == "pose")
-        firmware.see(state)
+        firmware.low, firmware.sees_pose = int(what == "battery"), what != "pose"
+        firmware.watch(state, frames=18)
+        assert firmware.log("flies") == (BY_LAW if what == "pose" else LANDING)
     mode, _ = firmware.fly(state, steps=30)
     assert (mode, firmware.log("flies"), firmware.log("why")) == (LEGACY, LANDING, why)
     told = firmware.told()
     assert (told[1], told[2]) == (VELOCITY, 0)  # it hovers where it lost the bob
     assert told[3] == pytest.approx(state.x[0])
-    firmware.low = firmware.stale = 0
+    firmware.low, firmware.sees_pose = 0, True
     firmware.see(state)
     firmware.upload("on", 1)
     firmware.fly(state, steps=1100)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from flypend import errors, signals
-from flypend.board import rod
+from flypend.board import pose, rod
 from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
@@ -123,7 +123,7 @@ def export_app(
         "weight": f"{1e3 * (flown.M + flown.m):.3g}",
         "rod": f"{flown.l:.3g}",
     }
-    track = lower(rod.tracking(PERIOD))
+    track, follow = lower(rod.tracking(PERIOD)), lower(pose.tracking(PERIOD, flown.gravity))
     values |= {
         "track_rod": function(track, "float"),
         "track_scratch": str(scratch(track).size),
@@ -131,6 +131,11 @@ def export_app(
         "call_track_rod": call(
             track, ("rod", "end->from_pivot", "&age", "force", "&params.rod_length"), ["rod"], "scratch"
         ),
+        "track_pose": function(follow, "float"),
+        "pose_scratch": str(scratch(follow).size),
+        "pose_numbers": str(pose.RECORD.length),
+        "pose_attitude": str(pose.RECORD.place("R").start),
+        "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
     texts = core(made, "float")
     texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}

@@ -184,6 +184,7 @@ def happen(name: str, library: Path, vehicle: fp.Vehicle, *, instead: int | None
     """Hold the rod inverted for a second, let it happen; `instead`: the tick at which the firmware's PID takes over."""
     flown = Vehicle(library, vehicle, home=LOW)
     flown.lift()
+    flown.firmware.set("flypend.height", LOW[2])
     assert flown.release(fp.State(x=LOW, y=(np.sin(0.1), 0, np.cos(0.1))))
     flown.fly(1.0)
     event = flown.ticks

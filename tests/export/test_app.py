@@ -4,6 +4,7 @@ Around stand-in headers in every run; against the firmware itself where it lies 
 """
 
 import ctypes
+import re
 import struct
 
 import numpy as np
@@ -25,13 +26,14 @@ CUT, PID, BY_LAW, LANDING = range(4)
 FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, ON_GROUND = range(9)
 DISABLE, ABSOLUTE, VELOCITY = range(3)
 LEGACY, FORCE = 0, 2
+HEIGHT = 3.5  # m
 BUDGET = 1000  # bytes of the stabilizer task's stack
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("app")
-    flown = fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), place)
+    flown = fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), place, height=HEIGHT)
     assert flown == VEHICLE
     for name in HEADERS:
         (place / name).write_text('#include "firmware.h"\n')
@@ -141,7 +143,7 @@ def firmware(library):
 
 def _state(seed=3):
     start = fp.State.random(np.random.default_rng(seed), 1)[0]
-    return fp.State(x=(0.1, -0.2, 1.5), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)
+    return fp.State(x=(0.1, -0.2, 4.0), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)
 
 
 def _commands(state, target, steps):
@@ -186,7 +188,7 @@ def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
 
 def test_the_law_commands_what_the_board_does(firmware):
     # In hover, where no rotor is at its limit, and at rest, so that bob and pose are the same whenever they were seen.
-    state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0, 0, 1.0)), (0.05, -0.02, 1.0)
+    state, target = fp.State(x=(0, 0, 4), omega=(0.1, -0.1, 0), y=(0, 0, 1.0)), (0.05, -0.02, 4.0)
     firmware.begin(fp.State(x=state.x, y=state.y))
     wanted = _commands(state, target, 3)
     assert firmware.told()[4] == 0
@@ -212,7 +214,7 @@ def test_it_does_not_begin_without(firmware, what, why):
     modes = (VELOCITY,) * 3 if what == "velocity setpoint" else (ABSOLUTE,) * 3
     here = _Nowhere(state) if what == "no estimate" else state
     if what == "too low":
-        here = fp.State(x=(0, 0, 0.3), y=(0, 0, -1.0))
+        here = fp.State(x=(0, 0, float(HEIGHT) - 0.3), y=(0, 0, -1.0))
     if what != "no bob":
         firmware.watch(state, modes=modes)
     if what == "old pose":
@@ -273,7 +275,7 @@ def test_a_landing_ends_though_the_ground_is_not_where_it_was(firmware):
     firmware.begin(state)
     firmware.fly(state, steps=120)
     assert firmware.log("flies") == LANDING
-    assert firmware.fly(state, steps=12_000)[0] == FORCE  # 1.5 m at 0.3 m/s, and some seconds
+    assert firmware.fly(state, steps=18_000)[0] == FORCE  # 4 m at 0.3 m/s, and some seconds
     assert np.array_equal(firmware.fly(state)[1], np.zeros(4))
 
 
@@ -329,6 +331,8 @@ def test_parameters_that_the_law_cannot_fly_with_are_refused_at_upload(firmware)
             assert firmware.upload(name, bad) == pytest.approx(good)
     assert firmware.upload("late", 12.0) == 12
     assert firmware.upload("late", np.nan) == 12
+    assert firmware.upload("height", 2.5) == 2.5
+    assert firmware.upload("height", 0.1) == 2.5
     firmware.begin(state)
     firmware.fly(state)
     assert firmware.upload("rodLength", 0.6) == pytest.approx(0.45)  # it flies
@@ -355,8 +359,30 @@ def test_what_is_no_such_vehicle_is_refused_and_nothing_is_written(target, chang
     assert not (tmp_path / "app").exists()
 
 
+def test_a_law_that_does_not_swing_up_is_refused_unless_a_height_is_given(tmp_path):
+    with pytest.raises(fp.InputError, match=r"law: .*swings the rod up.*lqr: \d+ of 25"):
+        fp.export_app("crazyflie", fp.laws.lqr(), fp.vehicle("crazyflie"), tmp_path / "app")
+    assert not (tmp_path / "app").exists()
+    fp.export_app("crazyflie", fp.laws.lqr(), fp.vehicle("crazyflie"), tmp_path / "app", height=2.0)
+
+
+def test_the_height_is_that_of_a_swing_up_and_the_same_everywhere(tmp_path):
+    vehicle = fp.vehicle("crazyflie")
+    drops = []
+    for turn in (0.5, 2.0, 3.5, 5.0):
+        y = (0.02 * np.cos(turn), 0.02 * np.sin(turn), -np.sqrt(1 - 0.02**2))
+        run = fp.simulate(VEHICLE, LAW, fp.State(y=y), 6.0)
+        drops.append(-min(run.x[:, 2].min(), (run.x + vehicle.l * run.y)[:, 2].min()))
+    fp.export_app("crazyflie", LAW, vehicle, tmp_path)
+    height = float(re.search(r"height = ([0-9.]+)f;", (tmp_path / "flypend_app.c").read_text())[1])
+    assert max(drops) < height < 3 * max(drops)
+    readme = (tmp_path / "README.md").read_text()
+    assert f"--hover {height:g}`" in readme
+    assert f"take {height:g} m below" in readme
+
+
 def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
-    fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path)
+    fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path, height=HEIGHT)
     for path in tmp_path.iterdir():
         assert path.read_bytes() == (folder / path.name).read_bytes(), path.name
 

@@ -16,6 +16,7 @@ from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.interface import Interface, interface
+from flypend.export.room import Room, swing_up_room
 from flypend.export.write import core, filled, values_of
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
@@ -68,6 +69,7 @@ def export_app(
     *,
     airframe: str | None = None,
     rate: float = 500.0,
+    height: float | None = None,
 ) -> Vehicle:
     """Write an app for the firmware of `target` that flies `law` on `vehicle`.
 
@@ -87,6 +89,9 @@ def export_app(
         For which the firmware is built; default the one whose arms are nearest.
     rate : float
         Control rate, Hz: a divisor of 1,000.
+    height : float, optional
+        Height above the ground, m, below which the law does not begin. Default: what a swing-up needs in the model,
+        with a margin.
 
     Returns
     -------
@@ -96,7 +101,8 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, for a vehicle that is no such airframe, and for a law that takes too long.
+        As `export_c`, for another target, for a vehicle that is no such airframe, for a law that does not swing the rod
+        up unless a height is given, and for one that takes too long.
     """
     errors.one_of("target", target, TARGETS)
     if not isinstance(vehicle, Vehicle):
@@ -111,6 +117,10 @@ def export_app(
     flown = limited(vehicle, frame)
     made = interface(law, flown, rate, None)
     _check_fits(made)
+    if height is None:
+        room = swing_up_room(law, flown, rate)
+    else:
+        room = Room(errors.number("height", height, at_least=0.5, at_most=100, unit="m"), height)
     values = values_of(made, "float") | {
         "airframe": name,
         "arm": literal(arm, "float"),
@@ -122,6 +132,9 @@ def export_app(
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
         "weight": f"{1e3 * (flown.M + flown.m):.3g}",
         "rod": f"{flown.l:.3g}",
+        "height": literal(room.height, "float"),
+        "metres": f"{room.height:g}",
+        "room": f"{room.aside:g}",
     }
     track, follow = lower(rod.tracking(PERIOD)), lower(pose.tracking(PERIOD, flown.gravity))
     values |= {

@@ -2,7 +2,7 @@
  *
  * The law flies only while all of these hold; else the firmware's own PID controller does, on the same setpoint:
  * - it is switched on (parameter flypend.on), and the supervisor's check for tumbling is off, which appMain sees to;
- * - the setpoint holds a position on all three axes, and, to begin with, the vehicle is in the air;
+ * - the setpoint holds a position on all three axes, and, to begin with, the vehicle is as high as a swing-up needs;
  * - bob and pose were seen within ROD_TICKS and POSE_GAP, to begin with for SETTLE_TICKS, and the estimate is sound;
  * - the battery is not low.
  * A setpoint without thrust, as the supervisor gives it when nobody is armed or the vehicle is stopped, cuts all motors at
@@ -49,7 +49,7 @@ _Static_assert($least_force >= 0.9999f * THRUST_MIN, "rotor_limits of the vehicl
 #define GRACE_STEPS 3000U /* by which a landing may be late */
 #define SINK 0.3f         /* m/s */
 #define GROUND 0.05f      /* m: below it a landing ends, and a flight of the law */
-#define AIR 0.5f          /* m: above it the law may begin */
+#define MISSED 0.2f       /* m by which a hover may be lower than asked */
 #define ROD_NUMBERS $rod_numbers
 #define POSE_NUMBERS $pose_numbers
 #define POSE_R $pose_attitude
@@ -103,9 +103,10 @@ static float spinning[4]; /* N, what the rotors give: behind what the motors are
 static struct {
     float mass, bob_mass, rod_length; /* kg, kg, m */
     float late;                       /* ms from a picture to its packets */
-} asked = {$mass, $bob_mass, $rod_length, 0};
+    float height;                     /* m */
+} asked = {$mass, $bob_mass, $rod_length, 0, $height};
 static flypend_params params = $params;
-static float late;
+static float late, height = $height;
 
 /* Messages of the app channel: 'b', then the bob's position from the vehicle in the world frame, m, as floats. */
 typedef struct {
@@ -278,7 +279,7 @@ static uint8_t obstacle(const setpoint_t *setpoint, const state_t *state, const 
         return OFF;
     }
     if (flies != LAW) {
-        if (!supervisorIsFlying() || !(state->position.z > AIR)) {
+        if (!supervisorIsFlying() || !(state->position.z > height - MISSED)) {
             return ON_GROUND;
         }
         if (!tumble_check_is_off) {
@@ -304,10 +305,10 @@ static void reset_pid(control_t *control, const sensorData_t *sensors, const sta
 
 static void begin_landing(const state_t *state, stabilizerStep_t step)
 {
-    const float height = (state->position.z > 0) ? state->position.z : 0;
+    const float down = (state->position.z > 0) ? state->position.z : 0;
     flies = LANDING;
     landing_step = step;
-    landing_steps = PAUSE_STEPS + GRACE_STEPS + (stabilizerStep_t)(1000 * height / SINK);
+    landing_steps = PAUSE_STEPS + GRACE_STEPS + (stabilizerStep_t)(1000 * down / SINK);
     memset(&landing, 0, sizeof landing);
     landing.mode.x = landing.mode.y = landing.mode.yaw = modeAbs;
     landing.mode.z = modeVelocity;
@@ -447,17 +448,20 @@ static void take(void)
     next.mass = asked.mass;
     next.bob_mass = asked.bob_mass;
     next.rod_length = asked.rod_length;
-    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= 100);
+    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= 100)
+        && (asked.height >= 2 * MISSED) && (asked.height <= 1000);
     taskENTER_CRITICAL();
     if (good && (flies != LAW)) {
         params = next;
         late = asked.late;
+        height = asked.height;
     }
     taskEXIT_CRITICAL();
     asked.mass = params.mass;
     asked.bob_mass = params.bob_mass;
     asked.rod_length = params.rod_length;
     asked.late = late;
+    asked.height = height;
 }
 
 PARAM_GROUP_START(flypend)
@@ -465,6 +469,8 @@ PARAM_GROUP_START(flypend)
 PARAM_ADD(PARAM_UINT8, on, &on)
 /** ms from a picture of vehicle and bob to the arrival of its packets, 0 to 100. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, late, &asked.late, take)
+/** m above the ground, from which a swing-up has room: the law does not begin lower. */
+PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, height, &asked.height, take)
 /** kg, the vehicle without rod and bob. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, mass, &asked.mass, take)
 /** kg, the bob. */
@@ -477,7 +483,7 @@ LOG_GROUP_START(flypend)
 /** What flies: 0 motors cut, 1 PID, 2 the law, 3 PID that lands. */
 LOG_ADD(LOG_UINT8, flies, &flies)
 /** Why the law does not: 0 it does, 1 off, 2 no position setpoint, 3 no bob, 4 no state, 5 low battery, 6 tumble check
- * still on, 7 the law refused, 8 not in the air. */
+ * still on, 7 the law refused, 8 not in the air, or too low. */
 LOG_ADD(LOG_UINT8, why, &why)
 /** The last answer of the flight computer, flypend_status. */
 LOG_ADD(LOG_UINT8, status, &status)

@@ -13,10 +13,12 @@ from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from benchmarks.app_cost import APP, HEADERS, LAWS, exported, stack
+from benchmarks.app_cost import APP, HEADERS, LAWS, exported, size, stack
 from flypend.board.program import initial_memory
-from flypend.export import records, vectors
+from flypend.export import fits, records, vectors
 from flypend.export.app import AIRFRAMES, limited
+from flypend.export.interface import interface
+from flypend.export.write import core
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
 
@@ -27,7 +29,6 @@ FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, O
 DISABLE, ABSOLUTE, VELOCITY = range(3)
 LEGACY, FORCE = 0, 2
 HEIGHT = 3.5  # m
-BUDGET = 1000  # bytes of the stabilizer task's stack
 
 
 @pytest.fixture(scope="module")
@@ -394,13 +395,23 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
     used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
-    assert 150 < used < BUDGET
+    assert 150 < used < fits.MOST["bytes of stack"]
+    made = interface(LAWS[name](), VEHICLE)
+    told = fits.compiled(*(core(made, "float")[f"flypend_law.{end}"] for end in "hc"))
+    assert 0 <= told["bytes of stack"] - used < 40
+    flash, memory = size(tmp_path / "app", APP)
+    assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
+    assert told["bytes of RAM"] == pytest.approx(memory, rel=0.05)
 
 
-def test_a_law_that_takes_too_long_is_refused_and_told_by_how_much(tmp_path, monkeypatch):
-    monkeypatch.setattr("flypend.export.app.MOST_CYCLES", 40_000)
-    with pytest.raises(fp.InputError, match=r"law: .*at most 40,000 cycles.*\d+ % too many"):
-        fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app")
+@pytest.mark.parametrize(
+    ("what", "most"),
+    [("cycles", 40_000), ("bytes of stack", 300), ("bytes of flash", 50_000), ("bytes of RAM", 3_000)],
+)
+def test_a_law_that_does_not_fit_is_refused_and_told_by_how_much(what, most, tmp_path, monkeypatch):
+    monkeypatch.setitem(fits.MOST, what, most)
+    with pytest.raises(fp.InputError, match=rf"law: .*at most {most:,} {what} .*inverted: [\d,]+ {what}, \d+ % too"):
+        fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app", height=HEIGHT)
     assert not (tmp_path / "app").exists()
 
 

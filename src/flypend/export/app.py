@@ -15,7 +15,8 @@ from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
-from flypend.export.interface import Interface, interface
+from flypend.export.fits import check_fits
+from flypend.export.interface import interface
 from flypend.export.room import Room, swing_up_room
 from flypend.export.write import core, filled, values_of
 from flypend.files.staging import staged
@@ -24,9 +25,6 @@ from flypend.model import Vehicle
 
 TARGETS = ("crazyflie",)
 PERIOD = 1e-3  # s, of the firmware's stabilizer
-# Of the 168,000 cycles of that period, what the law may take, the rest being the firmware's; and cycles of
-# an operation, about those of the learned law, whose step is the longest (benchmarks/app_cost.py).
-MOST_CYCLES, CYCLES_OF_OPERATION = 100_000, 7
 
 
 @dataclass(frozen=True)
@@ -102,7 +100,7 @@ def export_app(
     ------
     InputError
         As `export_c`, for another target, for a vehicle that is no such airframe, for a law that does not swing the rod
-        up unless a height is given, and for one that takes too long.
+        up unless a height is given, and for one that takes too many cycles, or too much memory (`fits`).
     """
     errors.one_of("target", target, TARGETS)
     if not isinstance(vehicle, Vehicle):
@@ -116,7 +114,8 @@ def export_app(
     _check_motors(vehicle, name, frame)
     flown = limited(vehicle, frame)
     made = interface(law, flown, rate, None)
-    _check_fits(made)
+    texts = core(made, "float")
+    check_fits(made, texts)
     if height is None:
         room = swing_up_room(law, flown, rate)
     else:
@@ -150,7 +149,6 @@ def export_app(
         "pose_attitude": str(pose.RECORD.place("R").start),
         "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
-    texts = core(made, "float")
     texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}
     texts |= {
         file: filled(f"crazyflie/{file}", values)
@@ -170,14 +168,6 @@ def limited(vehicle: Vehicle, frame: Airframe) -> Vehicle:
         what = f"a vehicle lighter than 4 × {largest:g} N, which the firmware gives"
         raise InputError("vehicle", what, f"{vehicle.weight:.3g} N")
     return vehicle.replace(rotor_limits=(least, largest))
-
-
-def _check_fits(made: Interface) -> None:
-    """Raise InputError for a law whose step takes too long for the firmware."""
-    cycles = CYCLES_OF_OPERATION * made.board.operations()
-    if cycles > MOST_CYCLES:
-        over = f"{made.law.name}, about {cycles:,}: {100 * (cycles / MOST_CYCLES - 1):.0f} % too many"
-        raise InputError("law", f"a step of at most {MOST_CYCLES:,} cycles of the Crazyflie's processor", over)
 
 
 def _check_motors(vehicle: Vehicle, name: str, frame: Airframe) -> None:

@@ -57,6 +57,7 @@ def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
     if not flown.success.all():
         came = f"{bound.name}: {flown.success.sum()} of {len(flown)} within {DURATION:g} s"
         raise InputError("law", f"one that swings the rod up on {vehicle.name}, or a height", came)
+    assert flown.samples is not None  # since times were given
     motion = flown.samples.seen(bound.e3)  # back to e₃ up
     bob = motion.x + vehicle.l * motion.y
     lowest = min(motion.x[..., 2].min(), bob[..., 2].min())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from collections.abc import Mapping
 from functools import cache, lru_cache
 from pathlib import Path
@@ -12,6 +11,7 @@ from tempfile import TemporaryDirectory
 
 from flypend.errors import InputError
 from flypend.export.interface import Interface
+from flypend.signals import waiting
 
 COMPILER = "arm-none-eabi-gcc"
 FLAGS = ("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", "-Os", "-fno-math-errno", "-std=gnu11")
@@ -76,7 +76,7 @@ def deepest(graph: str, entry: str) -> int:
 
 
 def _run(folder: Path, *words: str) -> str:
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    done = waiting.run(words, cwd=folder, text=True)
     if done.returncode:
         raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
     return done.stdout

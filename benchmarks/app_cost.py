@@ -104,7 +104,7 @@ def main() -> None:
 
 def exported(law: fp.laws.Law, vehicle: fp.Vehicle, folder: Path) -> Path:
     """The app of `law` among stand-ins for the firmware."""
-    fp.export_app("crazyflie", law, vehicle, folder / "app")
+    fp.export_app("crazyflie", law, vehicle, folder / "app", height=4.0)  # some do not swing up
     for header in HEADERS:
         (folder / "app" / header).write_text('#include "firmware.h"\n')
     return folder / "app"

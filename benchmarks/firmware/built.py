@@ -54,8 +54,7 @@ def build(firmware: Path, app: Path, airframe: str) -> Path:
     made = []
     for source in [*sources, folder / "compensation.c"]:
         done = folder / f"{Path(source).stem}.o"
-        own = ["-DstateEstimator=host_estimate"] if source.name == "stabilizer.c" else []
-        _run(["gcc", *FLAGS, *own, *includes, "-include", "groups.h", "-c", source, "-o", done], folder)
+        _run(["gcc", *FLAGS, *includes, "-include", "groups.h", "-c", source, "-o", done], folder)
         made.append(done)
     (folder / "absent.c").write_text(_absent(made))
     library = folder / "firmware.so"

@@ -42,20 +42,20 @@ HOST = _host_script()
 
 class _World(ctypes.Structure):
     _fields_ = (
-        ("gyro", ctypes.c_float * 3), ("acc", ctypes.c_float * 3), ("x", ctypes.c_float * 3), ("v", ctypes.c_float * 3),
-        ("q", ctypes.c_float * 4), ("voltage", ctypes.c_float), ("battery_is_low", ctypes.c_int32),
+        ("gyro", ctypes.c_float * 3), ("acc", ctypes.c_float * 3), ("voltage", ctypes.c_float),
+        ("battery_is_low", ctypes.c_int32),
     )  # fmt: skip
 
 
 class Firmware:
-    """The firmware after power-up, in memory of its own; `known`: it is told its true state."""
+    """The firmware after power-up, in memory of its own."""
 
-    def __init__(self, library: Path, *, known: bool = False) -> None:
+    def __init__(self, library: Path) -> None:
         with tempfile.TemporaryDirectory() as folder:  # each needs a library that nobody has loaded
             self._c = ctypes.CDLL(shutil.copy(library, folder))
         self._c.host_log.restype = self._c.host_parameter.restype = ctypes.c_double
         self._c.host_said.restype = ctypes.c_char_p
-        self._c.host_boot(KALMAN, int(known))
+        self._c.host_boot(KALMAN)
         self._forces = (ctypes.c_float * 4)()
 
     def step(self, world: _World) -> np.ndarray:
@@ -103,13 +103,10 @@ class Vehicle:
         Its engine.
     home : (3,)
         Where the rig is, and where it is asked to hover, m.
-    known : bool
-        Whether the firmware is told its true state, in place of its Kalman filter's.
     """
 
-    def __init__(self, library: Path, vehicle: fp.Vehicle, plant="rotors", *, home=HOME, known: bool = False) -> None:
-        self.vehicle, self.firmware = vehicle, Firmware(library, known=known)
-        self.known, self.world = known, _World()
+    def __init__(self, library: Path, vehicle: fp.Vehicle, plant="rotors", *, home=HOME) -> None:
+        self.vehicle, self.firmware, self.world = vehicle, Firmware(library), _World()
         self.engine = make_engine(vehicle, sampled_plant(plant))
         self.rest = fp.State(x=home, y=(0.0, 0.0, -1.0))
         self.engine.reset(self.rest.packed(), np.zeros(4))
@@ -164,9 +161,6 @@ class Vehicle:
         world = self.world
         world.gyro[:], world.acc[:] = np.degrees(state.omega).tolist(), acc.tolist()
         world.voltage, world.battery_is_low = self.voltage, int(self.battery_is_low)
-        if self.known:
-            world.x[:], world.v[:] = state.x.tolist(), state.x_dot.tolist()
-            world.q[:] = geometry.quat_xyzw_from_rotation(state.R).tolist()
         self.forces = self.firmware.step(world)
         self._before = state
         self.engine.step(self.forces, TICK, STILL)

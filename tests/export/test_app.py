@@ -4,6 +4,7 @@ Around stand-in headers in every run; against the firmware itself where it lies 
 """
 
 import ctypes
+import re
 import struct
 
 import numpy as np
@@ -12,10 +13,12 @@ from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from benchmarks.app_cost import APP, HEADERS, LAWS, exported, stack
+from benchmarks.app_cost import APP, HEADERS, LAWS, exported, size, stack
 from flypend.board.program import initial_memory
-from flypend.export import records, vectors
+from flypend.export import fits, records, vectors
 from flypend.export.app import AIRFRAMES, limited
+from flypend.export.interface import interface
+from flypend.export.write import core
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
 
@@ -25,13 +28,13 @@ CUT, PID, BY_LAW, LANDING = range(4)
 FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, ON_GROUND = range(9)
 DISABLE, ABSOLUTE, VELOCITY = range(3)
 LEGACY, FORCE = 0, 2
-BUDGET = 1000  # bytes of the stabilizer task's stack
+HEIGHT = 3.5  # m
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("app")
-    flown = fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), place)
+    flown = fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), place, height=HEIGHT)
     assert flown == VEHICLE
     for name in HEADERS:
         (place / name).write_text('#include "firmware.h"\n')
@@ -55,7 +58,7 @@ class Firmware:
         self.c = ctypes.CDLL(str(library))
         self.c.standin_entries.restype = ctypes.POINTER(Entry)
         self.logs, self.parameters = self._entries(0), self._entries(1)
-        self.tick, self.low, self.kind, self.flying, self.stale = 1000, 0, 2, 1, 0
+        self.tick, self.low, self.kind, self.flying, self.posed, self.sees_pose = 1000, 0, 2, 1, 0, True
         self.c.controllerOutOfTreeInit()
 
     def _entries(self, parameters):
@@ -81,7 +84,8 @@ class Firmware:
 
     def _set(self):
         """The time, battery, estimator, whether it flies, and when the last pose came."""
-        ticks = (ctypes.c_uint32(value) for value in (self.tick, self.tick - self.stale))
+        self.posed = self.tick if self.sees_pose else self.posed
+        ticks = (ctypes.c_uint32(value) for value in (self.tick, self.posed))
         turning = round(65535 * VEHICLE.weight / 4 / VEHICLE.rotor_limits[1])  # hover, by the stand-in's linear fit
         self.c.standin_set(next(ticks), self.low, self.kind, self.flying, next(ticks), turning)
 
@@ -140,7 +144,7 @@ def firmware(library):
 
 def _state(seed=3):
     start = fp.State.random(np.random.default_rng(seed), 1)[0]
-    return fp.State(x=(0.1, -0.2, 1.5), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)
+    return fp.State(x=(0.1, -0.2, 4.0), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)
 
 
 def _commands(state, target, steps):
@@ -184,8 +188,8 @@ def test_until_it_is_switched_on_the_pid_controller_flies(firmware):
 
 
 def test_the_law_commands_what_the_board_does(firmware):
-    # Near hover, where no rotor is at its limit; at rest, so that the bob is the same whenever it was seen.
-    state, target = fp.State(x=(0, 0, 1), omega=(0.1, -0.1, 0), y=(0.02, 0, np.sqrt(1 - 0.02**2))), (0.05, -0.02, 1.0)
+    # In hover, where no rotor is at its limit, and at rest, so that bob and pose are the same whenever they were seen.
+    state, target = fp.State(x=(0, 0, 4), omega=(0.1, -0.1, 0), y=(0, 0, 1.0)), (0.05, -0.02, 4.0)
     firmware.begin(fp.State(x=state.x, y=state.y))
     wanted = _commands(state, target, 3)
     assert firmware.told()[4] == 0
@@ -206,15 +210,17 @@ def test_the_law_commands_what_the_board_does(firmware):
 )  # fmt: skip
 def test_it_does_not_begin_without(firmware, what, why):
     state = _state()
-    firmware.stale = 300 if what == "old pose" else 0
     firmware.flying = what != "on the ground"
     firmware.low, firmware.kind = int(what == "low battery"), 1 if what == "other estimator" else 2
     modes = (VELOCITY,) * 3 if what == "velocity setpoint" else (ABSOLUTE,) * 3
     here = _Nowhere(state) if what == "no estimate" else state
     if what == "too low":
-        here = fp.State(x=(0, 0, 0.3), y=(0, 0, -1.0))
+        here = fp.State(x=(0, 0, float(HEIGHT) - 0.3), y=(0, 0, -1.0))
     if what != "no bob":
         firmware.watch(state, modes=modes)
+    if what == "old pose":
+        firmware.sees_pose = False
+        firmware.watch(state, frames=21, modes=modes)
     firmware.upload("on", 1)
     if what != "tumbling is checked":
         firmware.tick += firmware.tick % 2
@@ -242,14 +248,15 @@ def test_what_is_lost_in_flight_ends_in_a_landing(firmware, what, why):
     firmware.fly(state, steps=90)
     assert firmware.log("flies") == BY_LAW
     if what != "bob":
-        firmware.low, firmware.stale = int(what == "battery"), 300 * (what == "pose")
-        firmware.see(state)
+        firmware.low, firmware.sees_pose = int(what == "battery"), what != "pose"
+        firmware.watch(state, frames=18)
+        assert firmware.log("flies") == (BY_LAW if what == "pose" else LANDING)
     mode, _ = firmware.fly(state, steps=30)
     assert (mode, firmware.log("flies"), firmware.log("why")) == (LEGACY, LANDING, why)
     told = firmware.told()
     assert (told[1], told[2]) == (VELOCITY, 0)  # it hovers where it lost the bob
     assert told[3] == pytest.approx(state.x[0])
-    firmware.low = firmware.stale = 0
+    firmware.low, firmware.sees_pose = 0, True
     firmware.see(state)
     firmware.upload("on", 1)
     firmware.fly(state, steps=1100)
@@ -269,7 +276,7 @@ def test_a_landing_ends_though_the_ground_is_not_where_it_was(firmware):
     firmware.begin(state)
     firmware.fly(state, steps=120)
     assert firmware.log("flies") == LANDING
-    assert firmware.fly(state, steps=12_000)[0] == FORCE  # 1.5 m at 0.3 m/s, and some seconds
+    assert firmware.fly(state, steps=18_000)[0] == FORCE  # 4 m at 0.3 m/s, and some seconds
     assert np.array_equal(firmware.fly(state)[1], np.zeros(4))
 
 
@@ -325,6 +332,8 @@ def test_parameters_that_the_law_cannot_fly_with_are_refused_at_upload(firmware)
             assert firmware.upload(name, bad) == pytest.approx(good)
     assert firmware.upload("late", 12.0) == 12
     assert firmware.upload("late", np.nan) == 12
+    assert firmware.upload("height", 2.5) == 2.5
+    assert firmware.upload("height", 0.1) == 2.5
     firmware.begin(state)
     firmware.fly(state)
     assert firmware.upload("rodLength", 0.6) == pytest.approx(0.45)  # it flies
@@ -351,8 +360,30 @@ def test_what_is_no_such_vehicle_is_refused_and_nothing_is_written(target, chang
     assert not (tmp_path / "app").exists()
 
 
+def test_a_law_that_does_not_swing_up_is_refused_unless_a_height_is_given(tmp_path):
+    with pytest.raises(fp.InputError, match=r"law: .*swings the rod up.*lqr: \d+ of 25"):
+        fp.export_app("crazyflie", fp.laws.lqr(), fp.vehicle("crazyflie"), tmp_path / "app")
+    assert not (tmp_path / "app").exists()
+    fp.export_app("crazyflie", fp.laws.lqr(), fp.vehicle("crazyflie"), tmp_path / "app", height=2.0)
+
+
+def test_the_height_is_that_of_a_swing_up_and_the_same_everywhere(tmp_path):
+    vehicle = fp.vehicle("crazyflie")
+    drops = []
+    for turn in (0.5, 2.0, 3.5, 5.0):
+        y = (0.02 * np.cos(turn), 0.02 * np.sin(turn), -np.sqrt(1 - 0.02**2))
+        run = fp.simulate(VEHICLE, LAW, fp.State(y=y), 6.0)
+        drops.append(-min(run.x[:, 2].min(), (run.x + vehicle.l * run.y)[:, 2].min()))
+    fp.export_app("crazyflie", LAW, vehicle, tmp_path)
+    height = float(re.search(r"height = ([0-9.]+)f;", (tmp_path / "flypend_app.c").read_text())[1])
+    assert max(drops) < height < 3 * max(drops)
+    readme = (tmp_path / "README.md").read_text()
+    assert f"--hover {height:g}`" in readme
+    assert f"take {height:g} m below" in readme
+
+
 def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
-    fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path)
+    fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path, height=HEIGHT)
     for path in tmp_path.iterdir():
         assert path.read_bytes() == (folder / path.name).read_bytes(), path.name
 
@@ -364,13 +395,23 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
     used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
-    assert 150 < used < BUDGET
+    assert 150 < used < fits.MOST["bytes of stack"]
+    made = interface(LAWS[name](), VEHICLE)
+    told = fits.compiled(*(core(made, "float")[f"flypend_law.{end}"] for end in "hc"))
+    assert 0 <= told["bytes of stack"] - used < 40
+    flash, memory = size(tmp_path / "app", APP)
+    assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
+    assert told["bytes of RAM"] == pytest.approx(memory, rel=0.05)
 
 
-def test_a_law_that_takes_too_long_is_refused_and_told_by_how_much(tmp_path, monkeypatch):
-    monkeypatch.setattr("flypend.export.app.MOST_CYCLES", 40_000)
-    with pytest.raises(fp.InputError, match=r"law: .*at most 40,000 cycles.*\d+ % too many"):
-        fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app")
+@pytest.mark.parametrize(
+    ("what", "most"),
+    [("cycles", 40_000), ("bytes of stack", 300), ("bytes of flash", 50_000), ("bytes of RAM", 3_000)],
+)
+def test_a_law_that_does_not_fit_is_refused_and_told_by_how_much(what, most, tmp_path, monkeypatch):
+    monkeypatch.setitem(fits.MOST, what, most)
+    with pytest.raises(fp.InputError, match=rf"law: .*at most {most:,} {what} .*inverted: [\d,]+ {what}, \d+ % too"):
+        fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app", height=HEIGHT)
     assert not (tmp_path / "app").exists()
 
 

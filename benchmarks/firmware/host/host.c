@@ -50,6 +50,7 @@ static int task_count, order[TASKS];
 static task_t *current;
 static ucontext_t outside;
 static TickType_t ticks = 1000;
+static bool queues_changed;
 
 TickType_t xTaskGetTickCount(void) { return ticks; }
 
@@ -88,13 +89,17 @@ TaskHandle_t xTaskCreateStatic(void (*run)(void *), const char *name, int depth,
     return task;
 }
 
+/* Until nobody has anything to do in this tick: a task may wait for what another one sends. */
 static void all_tasks(void)
 {
-    for (int i = 0; i < task_count; i++) {
-        current = &tasks[order[i]];
-        swapcontext(&outside, &current->context);
-        current = NULL;
-    }
+    do {
+        queues_changed = false;
+        for (int i = 0; i < task_count; i++) {
+            current = &tasks[order[i]];
+            swapcontext(&outside, &current->context);
+            current = NULL;
+        }
+    } while (queues_changed);
 }
 
 void vTaskDelay(TickType_t duration)
@@ -131,6 +136,7 @@ int host_queue_send(QueueHandle_t queue, const void *item, bool overwrite)
         memcpy(queue->items + queue->size * ((queue->first + queue->count) % queue->length), item, (size_t)queue->size);
     }
     queue->count++;
+    queues_changed = true;
     return pdTRUE;
 }
 
@@ -225,6 +231,7 @@ static double value_of(const struct log_s *row)
 }
 
 unsigned int logGetUint(logVarId_t id) { return (unsigned int)value_of(log_row(id)); }
+float logGetFloat(logVarId_t id) { return (float)value_of(log_row(id)); }
 
 /* The radio link --------------------------------------------------------------------------------------------------- */
 
@@ -245,8 +252,6 @@ static bool ready;
 static float voltage = 4.2f;
 static bool battery_is_low;
 static uint16_t ratios[4];
-static bool truth_is_known;
-static state_t truth;
 
 void sensorsInit(void) {}
 bool sensorsTest(void) { return true; }
@@ -268,15 +273,6 @@ void sensorsAcquire(sensorData_t *sensors)
     estimatorEnqueue(&sample);
     sample = (measurement_t){.type = MeasurementTypeAcceleration, .data.acceleration.acc = measured.acc};
     estimatorEnqueue(&sample);
-}
-
-/* The stabilizer's calls of stateEstimator come here. */
-void host_estimate(state_t *state, stabilizerStep_t step)
-{
-    stateEstimator(state, step);
-    if (truth_is_known) {
-        *state = truth;
-    }
 }
 
 float pmGetBatteryVoltage(void) { return voltage; }
@@ -338,13 +334,12 @@ int eprintf(putc_t put, const char *format, ...)
 typedef struct {
     float gyro[3];           /* deg/s */
     float acc[3];            /* g */
-    float x[3], v[3], q[4];  /* what is true: m, m/s, quaternion x, y, z, w */
     float voltage;
     int32_t battery_is_low;
 } host_world;
 
 void appInit(void);
-void host_boot(int estimator, int known);
+void host_boot(int estimator);
 void host_step(const host_world *world, float *forces);
 int host_packet(int port, int channel, const void *data, int length);
 double host_log(const char *group, const char *name);
@@ -353,10 +348,9 @@ int host_set(const char *group, const char *name, double value);
 const char *host_said(void);
 void host_numbers(float *numbers);
 
-/* In the order of system.c; `known`: the true state takes the place of the estimate. */
-void host_boot(int estimator, int known)
+/* In the order of system.c. */
+void host_boot(int estimator)
 {
-    truth_is_known = known != 0;
     crtpSupervisorInit();
     platformserviceInit();
     locSrvInit();
@@ -375,24 +369,16 @@ static float force_of(uint16_t ratio)
     return ((ratio > 0) && (force > 0)) ? force : 0;
 }
 
-/* One tick. */
+/* One tick; packets before it arrived in the same one. */
 void host_step(const host_world *world, float *forces)
 {
-    ticks++;
     memcpy(measured.gyro.axis, world->gyro, sizeof measured.gyro.axis);
     memcpy(measured.acc.axis, world->acc, sizeof measured.acc.axis);
     voltage = world->voltage;
     battery_is_low = world->battery_is_low != 0;
-    truth.position = (point_t){.timestamp = ticks, .x = world->x[0], .y = world->x[1], .z = world->x[2]};
-    truth.velocity = (velocity_t){.timestamp = ticks, .x = world->v[0], .y = world->v[1], .z = world->v[2]};
-    const float *q = world->q;
-    truth.attitudeQuaternion = (quaternion_t){.x = q[0], .y = q[1], .z = q[2], .w = q[3]};
-    const float degrees = 57.2957795f;
-    truth.attitude.roll = degrees * atan2f(2 * (q[3] * q[0] + q[1] * q[2]), 1 - 2 * (q[0] * q[0] + q[1] * q[1]));
-    truth.attitude.pitch = degrees * asinf(-2 * (q[3] * q[1] - q[0] * q[2])); /* the firmware's sign */
-    truth.attitude.yaw = degrees * atan2f(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
     ready = true;
     all_tasks();
+    ticks++;
     for (int i = 0; i < 4; i++) {
         forces[i] = force_of(ratios[i]);
     }

@@ -61,11 +61,14 @@ def export_c(
 @click.argument("vehicle")
 @out_option("app")
 @click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
+@click.option("--height", type=float, help="Height, m, below which it does not begin. Default: what a swing-up needs.")
 @click.option(
     "--airframe", help="Airframe of the firmware, cf2 or cf21bl; default the one with the nearest arm length."
 )
 @click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
-def export_app(target: str, vehicle: str, out: Path, law: str, airframe: str | None, rate: float) -> None:
+def export_app(
+    target: str, vehicle: str, out: Path, law: str, height: float | None, airframe: str | None, rate: float
+) -> None:
     """Write an app for the firmware of TARGET, crazyflie, that flies VEHICLE; see docs/export."""
     from flypend import model
     from flypend.export import export_app as write
@@ -73,7 +76,7 @@ def export_app(target: str, vehicle: str, out: Path, law: str, airframe: str | N
 
     check_writable(out)
     machine, chosen = model.vehicle(vehicle), _symbolic(law)
-    flown = write(target, chosen, machine, out, airframe=airframe, rate=rate)
+    flown = write(target, chosen, machine, out, airframe=airframe, rate=rate, height=height)
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")

@@ -10,12 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from flypend import errors, signals
-from flypend.board import rod
+from flypend.board import pose, rod
 from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
-from flypend.export.interface import Interface, interface
+from flypend.export.fits import check_fits
+from flypend.export.interface import interface
+from flypend.export.room import Room, swing_up_room
 from flypend.export.write import core, filled, values_of
 from flypend.files.staging import staged
 from flypend.laws import BoundLaw, Law
@@ -23,9 +25,6 @@ from flypend.model import Vehicle
 
 TARGETS = ("crazyflie",)
 PERIOD = 1e-3  # s, of the firmware's stabilizer
-# Of the 168,000 cycles of that period, what the law may take, the rest being the firmware's; and cycles of
-# an operation, about those of the learned law, whose step is the longest (benchmarks/app_cost.py).
-MOST_CYCLES, CYCLES_OF_OPERATION = 100_000, 7
 
 
 @dataclass(frozen=True)
@@ -68,6 +67,7 @@ def export_app(
     *,
     airframe: str | None = None,
     rate: float = 500.0,
+    height: float | None = None,
 ) -> Vehicle:
     """Write an app for the firmware of `target` that flies `law` on `vehicle`.
 
@@ -87,6 +87,9 @@ def export_app(
         Airframe that the firmware is built for; default the one with the nearest arm length.
     rate : float
         Control rate, Hz: a divisor of 1,000.
+    height : float, optional
+        Height above the ground, m, below which the law does not begin. Default: what a swing-up needs in the model,
+        with a margin.
 
     Returns
     -------
@@ -96,7 +99,8 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, for a vehicle that is no such airframe, and for a law that takes too long.
+        As `export_c`, for another target, for a vehicle that is no such airframe, for a law that does not swing the rod
+        up unless a height is given, and for one that takes too many cycles, or too much memory (`fits`).
     """
     errors.one_of("target", target, TARGETS)
     if not isinstance(vehicle, Vehicle):
@@ -110,7 +114,12 @@ def export_app(
     _check_motors(vehicle, name, frame)
     flown = limited(vehicle, frame)
     made = interface(law, flown, rate, None)
-    _check_fits(made)
+    texts = core(made, "float")
+    check_fits(made, texts)
+    if height is None:
+        room = swing_up_room(law, flown, rate)
+    else:
+        room = Room(errors.number("height", height, at_least=0.5, at_most=100, unit="m"), height)
     values = values_of(made, "float") | {
         "airframe": name,
         "arm": literal(arm, "float"),
@@ -122,8 +131,11 @@ def export_app(
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
         "weight": f"{1e3 * (flown.M + flown.m):.3g}",
         "rod": f"{flown.l:.3g}",
+        "height": literal(room.height, "float"),
+        "metres": f"{room.height:g}",
+        "room": f"{room.aside:g}",
     }
-    track = lower(rod.tracking(PERIOD))
+    track, follow = lower(rod.tracking(PERIOD)), lower(pose.tracking(PERIOD, flown.gravity))
     values |= {
         "track_rod": function(track, "float"),
         "track_scratch": str(scratch(track).size),
@@ -131,8 +143,12 @@ def export_app(
         "call_track_rod": call(
             track, ("rod", "end->from_pivot", "&age", "force", "&params.rod_length"), ["rod"], "scratch"
         ),
+        "track_pose": function(follow, "float"),
+        "pose_scratch": str(scratch(follow).size),
+        "pose_numbers": str(pose.RECORD.length),
+        "pose_attitude": str(pose.RECORD.place("R").start),
+        "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
-    texts = core(made, "float")
     texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}
     texts |= {
         file: filled(f"crazyflie/{file}", values)
@@ -152,14 +168,6 @@ def limited(vehicle: Vehicle, frame: Airframe) -> Vehicle:
         what = f"a vehicle lighter than 4 × {largest:g} N, which the firmware gives"
         raise InputError("vehicle", what, f"{vehicle.weight:.3g} N")
     return vehicle.replace(rotor_limits=(least, largest))
-
-
-def _check_fits(made: Interface) -> None:
-    """Raise InputError for a law whose step takes too long for the firmware."""
-    cycles = CYCLES_OF_OPERATION * made.board.operations()
-    if cycles > MOST_CYCLES:
-        over = f"{made.law.name}, about {cycles:,}: {100 * (cycles / MOST_CYCLES - 1):.0f} % too many"
-        raise InputError("law", f"a step of at most {MOST_CYCLES:,} cycles of the Crazyflie's processor", over)
 
 
 def _check_motors(vehicle: Vehicle, name: str, frame: Airframe) -> None:

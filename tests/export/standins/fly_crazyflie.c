@@ -14,6 +14,7 @@ static setpoint_t asked;
 static int pid_calls, tumble_check = 1;
 static int flying = 1;
 static uint32_t pose_tick;
+static float pose[8];
 static uint16_t ratio; /* of all motors */
 static int battery_is_low, estimator = StateEstimatorTypeKalman;
 
@@ -23,8 +24,14 @@ bool pmIsBatteryLow(void) { return battery_is_low != 0; }
 float pmGetBatteryVoltage(void) { return 4.0f; }
 uint16_t motorsGetRatio(uint32_t id) { return (id < 4) ? ratio : 0; }
 bool supervisorIsFlying(void) { return flying != 0; }
-logVarId_t logGetVarId(const char *group, const char *name) { return (group[0] == 'l') && (name[0] == 't'); }
-unsigned int logGetUint(logVarId_t id) { return (id == 1) ? (uint16_t)pose_tick : 0; }
+/* Of the last pose 1 to 3 are x, y, z, 4 to 7 its quaternion w, x, y, z, 8 when it came. */
+logVarId_t logGetVarId(const char *group, const char *name)
+{
+    const int letter = name[strlen(name) - 1];
+    return (strncmp(group, "locSrv", 6) != 0) ? 0 : (letter == 'k') ? 8 : (letter - 'w') + ((name[0] == 'q') ? 4 : 0);
+}
+unsigned int logGetUint(logVarId_t id) { return (id == 8) ? (uint16_t)pose_tick : 0; }
+float logGetFloat(logVarId_t id) { return pose[id]; }
 paramVarId_t paramGetVarId(const char *group, const char *name)
 {
     return (strcmp(group, "supervisor") == 0) && (strcmp(name, "tmblChckEn") == 0);
@@ -115,7 +122,12 @@ void standin_fly(const float *v, const int *modes, uint32_t step, float *found)
                            {v[6], v[7], v[8], v[9]},
                            {ticks, v[0], v[1], v[2]},
                            {ticks, v[3], v[4], v[5]}};
-    const sensorData_t sensors = {.gyro = {v[10], v[11], v[12]}};
+    const float x = v[6], y = v[7], z = v[8], w = v[9];
+    const sensorData_t sensors = {
+        .acc = {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}, /* it is carried */
+        .gyro = {v[10], v[11], v[12]}};
+    const float seen[8] = {0, v[0], v[1], v[2], w, x, y, z};
+    memcpy(pose, seen, sizeof pose);
     setpoint_t setpoint = {.thrust = v[16], .position = {ticks, v[13], v[14], v[15]}};
     setpoint.mode.x = (stab_mode_t)modes[0];
     setpoint.mode.y = (stab_mode_t)modes[1];

@@ -100,6 +100,7 @@ void paramSetInt(paramVarId_t id, int value);
 typedef int logVarId_t;
 logVarId_t logGetVarId(const char *group, const char *name);
 unsigned int logGetUint(logVarId_t id);
+float logGetFloat(logVarId_t id);
 
 #define ARM_LENGTH 0.046f
 #define THRUST_MIN 0.012817578f

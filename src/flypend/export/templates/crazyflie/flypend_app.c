@@ -2,8 +2,8 @@
  *
  * The law flies only while all of these hold; else the firmware's own PID controller does, on the same setpoint:
  * - it is switched on (parameter flypend.on), and the supervisor's check for tumbling is off, which appMain sees to;
- * - the setpoint holds a position on all three axes, and, to begin with, the vehicle is in the air;
- * - bob and pose were seen within ROD_TICKS and POSE_TICKS, to begin with for SETTLE_TICKS, and the estimate is sound;
+ * - the setpoint holds a position on all three axes, and, to begin with, the vehicle is as high as a swing-up needs;
+ * - bob and pose were seen within ROD_TICKS and POSE_GAP, to begin with for SETTLE_TICKS, and the estimate is sound;
  * - the battery is not low.
  * A setpoint without thrust, as the supervisor gives it when nobody is armed or the vehicle is stopped, cuts all motors at
  * once and switches the law off. When the law loses bob, pose or battery in flight, it switches itself off, and the PID
@@ -44,14 +44,16 @@ _Static_assert($least_force >= 0.9999f * THRUST_MIN, "rotor_limits of the vehicl
 
 #define ROD_TICKS M2T(100)
 #define SETTLE_TICKS M2T(200)
-#define POSE_TICKS 200    /* ms */
+#define POSE_GAP 0.2f     /* s */
 #define PAUSE_STEPS 1000U /* of the stabilizer loop, 1 ms: hover before landing */
 #define GRACE_STEPS 3000U /* by which a landing may be late */
 #define SINK 0.3f         /* m/s */
 #define GROUND 0.05f      /* m: below it a landing ends, and a flight of the law */
-#define AIR 0.5f          /* m: above it the law may begin */
-#define FOLLOWING 10.0f /* 1/s: how fast the attitude follows the firmware's in hover */
+#define MISSED 0.2f       /* m by which a hover may be lower than asked */
 #define ROD_NUMBERS $rod_numbers
+#define POSE_NUMBERS $pose_numbers
+#define POSE_R $pose_attitude
+#define POSE_LOGS 8
 #define GRAVITY 9.81f          /* m/s^2, in which the firmware's accelerometer counts */
 
 enum { CUT = 0, PID = 1, LAW = 2, LANDING = 3 };
@@ -76,7 +78,10 @@ typedef struct {
 
 static flypend_board board;
 static rod_end bob;                    /* written by the app's task, the rest by the stabilizer's, if nothing else is said */
-static float attitude[4];              /* unit quaternion w, x, y, z */
+static float pose[POSE_NUMBERS];       /* what track_pose remembers: position, velocity, attitude, .., age */
+static uint16_t pose_tick;             /* of the newest pose */
+static logVarId_t pose_logs[POSE_LOGS]; /* position, quaternion w, x, y, z and tick of the newest pose */
+static volatile bool logs_are_known;   /* written by the app's task */
 static float rod[ROD_NUMBERS];         /* what track_rod remembers: direction, rate, age */
 static uint32_t rod_tick, rod_begun;   /* of its newest direction, and of its first */
 static setpoint_t landing;
@@ -86,7 +91,6 @@ static stabilizerStep_t turned_step;   /* when the law last flew */
 static bool grounded;
 static volatile bool turning;          /* the vehicle may be upside down on purpose */
 static bool tumble_check_is_off;       /* written by the app's task */
-static volatile uint16_t pose_age;     /* ms; written by the app's task */
 static uint8_t on;                     /* what the operator wants; a parameter */
 static uint8_t flies = CUT;
 static uint8_t why = OFF;
@@ -98,10 +102,11 @@ static float spinning[4]; /* N, what the rotors give: behind what the motors are
 /* What is uploaded, and what is flown: written by the parameters' task. */
 static struct {
     float mass, bob_mass, rod_length; /* kg, kg, m */
-    float late;                       /* ms from the picture of the bob to its packet */
-} asked = {$mass, $bob_mass, $rod_length, 0};
+    float late;                       /* ms from a picture to its packets */
+    float height;                     /* m */
+} asked = {$mass, $bob_mass, $rod_length, 0, $height};
 static flypend_params params = $params;
-static float late;
+static float late, height = $height;
 
 /* Messages of the app channel: 'b', then the bob's position from the vehicle in the world frame, m, as floats. */
 typedef struct {
@@ -109,6 +114,7 @@ typedef struct {
     float from_pivot[3];
 } __attribute__((packed)) bob_message;
 
+$track_pose
 $track_rod
 
 static bool finite3(const float *values)
@@ -116,11 +122,26 @@ static bool finite3(const float *values)
     return isfinite(values[0]) && isfinite(values[1]) && isfinite(values[2]);
 }
 
+/* The last number of an estimate is its age. */
+static void begin_anew_if_not_finite(float *estimate, int numbers)
+{
+    for (int i = 0; i < numbers; i++) {
+        if (!isfinite(estimate[i])) {
+            memset(estimate, 0, sizeof *estimate * (size_t)numbers);
+            estimate[numbers - 1] = -1;
+        }
+    }
+}
+
 void appMain(void)
 {
     const paramVarId_t tumble_check = paramGetVarId("supervisor", "tmblChckEn");
-    const logVarId_t pose_tick = logGetVarId("locSrvZ", "tick");
+    static const char *const names[POSE_LOGS] = {"x", "y", "z", "qw", "qx", "qy", "qz", "tick"};
     bob_message message;
+    for (int i = 0; i < POSE_LOGS; i++) {
+        pose_logs[i] = logGetVarId((i < POSE_LOGS - 1) ? "locSrv" : "locSrvZ", names[i]);
+    }
+    logs_are_known = true;
     while (true) {
         const size_t length = appchannelReceiveDataPacket(&message, sizeof message, 20);
         if ((length == sizeof message) && (message.kind == 'b')) {
@@ -132,7 +153,6 @@ void appMain(void)
                 taskEXIT_CRITICAL();
             }
         }
-        pose_age = (uint16_t)(xTaskGetTickCount() - logGetUint(pose_tick));
         /* A swing-up turns the vehicle over, which the supervisor would take for a crash. */
         const bool off = turning;
         if (off != tumble_check_is_off) {
@@ -151,6 +171,7 @@ void controllerOutOfTreeInit(void)
     turning = false;
     bob.seen = false;
     rod[ROD_NUMBERS - 1] = -1;
+    pose[POSE_NUMBERS - 1] = -1;
 }
 
 bool controllerOutOfTreeTest(void)
@@ -158,33 +179,32 @@ bool controllerOutOfTreeTest(void)
     return controllerPidTest();
 }
 
-/* The firmware's Kalman filter turns its attitude on a hundred times a second, so in a turn it is up to 10 ms old. This one
- * follows the gyroscope in every step, and the filter's the more, the slower the vehicle turns. */
-static void follow_attitude(const sensorData_t *sensors, const state_t *state)
+/* The firmware's Kalman filter predicts a hundred times a second, so in a turn its attitude is up to 10 ms old, and a pose
+ * corrects it for another time. The law therefore has an estimate of its own; once a step. */
+static void follow_pose(const sensorData_t *sensors)
 {
-    const float step = 1.0f / RATE_MAIN_LOOP;
-    const float half = flypend_radians(step) / 2;
-    const float a = half * sensors->gyro.x, b = half * sensors->gyro.y, c = half * sensors->gyro.z;
-    const float told[4] = {state->attitudeQuaternion.w, state->attitudeQuaternion.x, state->attitudeQuaternion.y,
-                           state->attitudeQuaternion.z};
-    const float w = attitude[0], x = attitude[1], y = attitude[2], z = attitude[3];
-    const float turned[4] = {w - x * a - y * b - z * c, x + w * a + y * c - z * b, y + w * b + z * a - x * c,
-                             z + w * c + x * b - y * a};
-    const float rate = 2 * (a * a + b * b + c * c) / (step * step); /* half the square of its rate, rad^2/s^2 */
-    const float share = FOLLOWING * step / (1 + 2 * rate);
-    float along = 0, squares = 0;
-    for (int i = 0; i < 4; i++) {
-        along += turned[i] * told[i];
+    static float scratch[$pose_scratch];
+    const float gyro[3] = {flypend_radians(sensors->gyro.x), flypend_radians(sensors->gyro.y),
+                           flypend_radians(sensors->gyro.z)};
+    const float felt[3] = {GRAVITY * sensors->acc.x, GRAVITY * sensors->acc.y, GRAVITY * sensors->acc.z};
+    float position[3] = {0, 0, 0}, turned[9] = {0}, age = -1;
+    if (logs_are_known) {
+        const uint16_t tick = (uint16_t)logGetUint(pose_logs[POSE_LOGS - 1]);
+        float told[POSE_LOGS - 1], squares = 0;
+        for (int i = 0; i < POSE_LOGS - 1; i++) {
+            told[i] = logGetFloat(pose_logs[i]);
+            squares += (i < 3) ? 0 : told[i] * told[i];
+        }
+        /* Not before the first pose, nor where positions come without attitude. */
+        if ((tick != pose_tick) && finite3(told) && (fabsf(squares - 1) < 0.1f)) {
+            age = (float)(uint16_t)(T2M(xTaskGetTickCount()) - tick) / 1000 + late / 1000;
+            memcpy(position, told, sizeof position);
+            flypend_rotation_of_wxyz(told[3], told[4], told[5], told[6], turned);
+        }
+        pose_tick = tick;
     }
-    for (int i = 0; i < 4; i++) {
-        attitude[i] = turned[i] + share * ((along < 0 ? -told[i] : told[i]) - turned[i]);
-        squares += attitude[i] * attitude[i];
-    }
-    const bool far = !(along * along > 0.9f); /* 37 degrees apart: it has begun, or the filter has */
-    const float length = sqrtf(squares);
-    for (int i = 0; i < 4; i++) {
-        attitude[i] = far ? told[i] : attitude[i] / length;
-    }
+    $call_track_pose
+    begin_anew_if_not_finite(pose, POSE_NUMBERS);
 }
 
 /* Between frames the rod turns as the accelerometer feels; once a step. */
@@ -193,8 +213,7 @@ static void follow_rod(const sensorData_t *sensors, const rod_end *end)
     static float scratch[$track_scratch];
     const uint32_t now = xTaskGetTickCount();
     const float felt[3] = {GRAVITY * sensors->acc.x, GRAVITY * sensors->acc.y, GRAVITY * sensors->acc.z};
-    float R[9], force[3];
-    float age = -1;
+    float force[3], age = -1;
     if (end->seen && ((end->tick != rod_tick) || (rod[ROD_NUMBERS - 1] < 0))) {
         age = (float)T2M(now - end->tick) / 1000 + late / 1000;
         if ((rod[ROD_NUMBERS - 1] < 0) || (end->tick - rod_tick > ROD_TICKS)) {
@@ -202,24 +221,18 @@ static void follow_rod(const sensorData_t *sensors, const rod_end *end)
         }
         rod_tick = end->tick;
     }
-    flypend_rotation_of_wxyz(attitude[0], attitude[1], attitude[2], attitude[3], R);
-    flypend_to_world(R, felt, force);
+    flypend_to_world(pose + POSE_R, felt, force);
     $call_track_rod
-    for (int i = 0; i < ROD_NUMBERS; i++) {
-        if (!isfinite(rod[i])) { /* so was the estimate of the state: begin anew */
-            memset(rod, 0, sizeof rod);
-            rod[ROD_NUMBERS - 1] = -1;
-        }
-    }
+    begin_anew_if_not_finite(rod, ROD_NUMBERS);
 }
 
-static void read_measurement(const sensorData_t *sensors, const state_t *from, flypend_measurement *to)
+static void read_measurement(const sensorData_t *sensors, flypend_measurement *to)
 {
     static const flypend_measurement zero = $zero_measurement;
     *to = zero;
-    memcpy(to->x, &from->position.x, sizeof to->x);
-    memcpy(to->x_dot, &from->velocity.x, sizeof to->x_dot);
-    flypend_rotation_of_wxyz(attitude[0], attitude[1], attitude[2], attitude[3], to->R);
+    memcpy(to->x, pose, sizeof to->x);
+    memcpy(to->x_dot, pose + 3, sizeof to->x_dot);
+    memcpy(to->R, pose + POSE_R, sizeof to->R);
     to->omega[0] = flypend_radians(sensors->gyro.x);
     to->omega[1] = flypend_radians(sensors->gyro.y);
     to->omega[2] = flypend_radians(sensors->gyro.z);
@@ -251,7 +264,9 @@ static uint8_t obstacle(const setpoint_t *setpoint, const state_t *state, const 
     if (!end->seen || (age > ROD_TICKS) || ((flies != LAW) && (end->tick - rod_begun < SETTLE_TICKS))) {
         return NO_BOB;
     }
-    if ((stateEstimatorGetType() != StateEstimatorTypeKalman) || (pose_age > POSE_TICKS) || !is_sound(state)) {
+    const float unseen = pose[POSE_NUMBERS - 1];
+    if ((stateEstimatorGetType() != StateEstimatorTypeKalman) || !(unseen >= 0) || (unseen > POSE_GAP)
+        || !is_sound(state)) {
         return NO_STATE;
     }
     if (pmIsBatteryLow()) {
@@ -264,7 +279,7 @@ static uint8_t obstacle(const setpoint_t *setpoint, const state_t *state, const 
         return OFF;
     }
     if (flies != LAW) {
-        if (!supervisorIsFlying() || !(state->position.z > AIR)) {
+        if (!supervisorIsFlying() || !(state->position.z > height - MISSED)) {
             return ON_GROUND;
         }
         if (!tumble_check_is_off) {
@@ -290,10 +305,10 @@ static void reset_pid(control_t *control, const sensorData_t *sensors, const sta
 
 static void begin_landing(const state_t *state, stabilizerStep_t step)
 {
-    const float height = (state->position.z > 0) ? state->position.z : 0;
+    const float down = (state->position.z > 0) ? state->position.z : 0;
     flies = LANDING;
     landing_step = step;
-    landing_steps = PAUSE_STEPS + GRACE_STEPS + (stabilizerStep_t)(1000 * height / SINK);
+    landing_steps = PAUSE_STEPS + GRACE_STEPS + (stabilizerStep_t)(1000 * down / SINK);
     memset(&landing, 0, sizeof landing);
     landing.mode.x = landing.mode.y = landing.mode.yaw = modeAbs;
     landing.mode.z = modeVelocity;
@@ -317,12 +332,12 @@ static void land(control_t *control, const setpoint_t *setpoint, const sensorDat
 }
 
 /* One period of the law; false where it refuses. */
-static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state)
+static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors)
 {
     static flypend_measurement now;
     static flypend_path path;
     flypend_rotors rotors;
-    read_measurement(sensors, state, &now);
+    read_measurement(sensors, &now);
     read_path(setpoint, &path);
     status = (uint8_t)flypend_board_step(&board, &now, &path, &params, &rotors);
     if (status == (uint8_t)FLYPEND_NOT_BEGUN) { /* damaged: it levels out for a period, and begins again */
@@ -346,14 +361,14 @@ static void follow_rotors(void)
     }
 }
 
-static bool begin(const setpoint_t *setpoint, const sensorData_t *sensors, const state_t *state)
+static bool begin(const setpoint_t *setpoint, const sensorData_t *sensors)
 {
     flypend_rotors now;
     for (int i = 0; i < 4; i++) {
         now.force[i] = isfinite(spinning[i]) ? spinning[i] : 0;
     }
     return (flypend_board_restart(&board, &flypend_default_gains, &params, &now) == FLYPEND_OK)
-        && fly(setpoint, sensors, state);
+        && fly(setpoint, sensors);
 }
 
 void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
@@ -362,7 +377,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     const rod_end end = bob;
     const bool due = RATE_DO_EXECUTE($rate, step);
     follow_rotors();
-    follow_attitude(sensors, state);
+    follow_pose(sensors);
     follow_rod(sensors, &end);
     const uint8_t found = obstacle(setpoint, state, &end);
     const bool is_null = (setpoint->mode.z == modeDisable) && (setpoint->thrust <= 0);
@@ -382,7 +397,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     if (flies == LAW) {
         why = found;
         turned_step = step;
-        if ((found == FLIES) && due && !fly(setpoint, sensors, state)) {
+        if ((found == FLIES) && due && !fly(setpoint, sensors)) {
             why = REFUSED;
         }
         if (is_sound(state) && (state->position.z <= GROUND)) {
@@ -402,7 +417,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
         flies = PID;
         why = found;
         if ((found == FLIES) && due) {
-            on = begin(setpoint, sensors, state);
+            on = begin(setpoint, sensors);
             flies = (on != 0) ? LAW : PID;
             why = (on != 0) ? FLIES : REFUSED;
         }
@@ -433,24 +448,29 @@ static void take(void)
     next.mass = asked.mass;
     next.bob_mass = asked.bob_mass;
     next.rod_length = asked.rod_length;
-    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= 100);
+    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= 100)
+        && (asked.height >= 2 * MISSED) && (asked.height <= 1000);
     taskENTER_CRITICAL();
     if (good && (flies != LAW)) {
         params = next;
         late = asked.late;
+        height = asked.height;
     }
     taskEXIT_CRITICAL();
     asked.mass = params.mass;
     asked.bob_mass = params.bob_mass;
     asked.rod_length = params.rod_length;
     asked.late = late;
+    asked.height = height;
 }
 
 PARAM_GROUP_START(flypend)
 /** 1: the law flies as soon as it can; 0: the firmware's PID controller does. */
 PARAM_ADD(PARAM_UINT8, on, &on)
-/** ms from the picture of the bob to the arrival of its packet, 0 to 100. */
+/** ms from a picture of vehicle and bob to the arrival of its packets, 0 to 100. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, late, &asked.late, take)
+/** m above the ground, from which a swing-up has room: the law does not begin lower. */
+PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, height, &asked.height, take)
 /** kg, the vehicle without rod and bob. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, mass, &asked.mass, take)
 /** kg, the bob. */
@@ -463,7 +483,7 @@ LOG_GROUP_START(flypend)
 /** What flies: 0 motors cut, 1 PID, 2 the law, 3 PID that lands. */
 LOG_ADD(LOG_UINT8, flies, &flies)
 /** Why the law does not: 0 it does, 1 off, 2 no position setpoint, 3 no bob, 4 no state, 5 low battery, 6 tumble check
- * still on, 7 the law refused, 8 not in the air. */
+ * still on, 7 the law refused, 8 not in the air, or too low. */
 LOG_ADD(LOG_UINT8, why, &why)
 /** The last answer of the flight computer, flypend_status. */
 LOG_ADD(LOG_UINT8, status, &status)

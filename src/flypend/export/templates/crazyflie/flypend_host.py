@@ -17,7 +17,6 @@ import tty
 from collections import namedtuple
 
 LATE = 10.0  # ms from the picture to the packet: measure yours
-HEIGHT = 1.5  # m, of a hover with the rod hanging
 SETTLE = 2.0  # s of poses before it arms: the estimator needs them
 CLIMB = 0.5  # m/s
 LANDING = 4.0  # s
@@ -197,8 +196,8 @@ def main():
         parser.add_argument(f"--{name}", type=float, help=f"{unit}; default: as exported")
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--watch", action="store_true", help="send poses and print; never arm")
-    what = f"arm, take off and hover at this height, default {HEIGHT:g} m; a swing-up needs 4"
-    kind.add_argument("--hover", nargs="?", type=float, const=HEIGHT, metavar="HEIGHT", help=what)
+    what = "arm, take off and hover at this height, m; the law begins no lower than flypend.height"
+    kind.add_argument("--hover", type=float, metavar="HEIGHT", help=what)
     given = parser.parse_args()
 
     import cflib.crtp

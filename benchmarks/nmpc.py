@@ -1,4 +1,4 @@
-"""nmpc on random starts of hehn2011 in MuJoCo: how many stand, how far they go, how long a step takes.
+"""nmpc on random starts of hehn2011 in MuJoCo, and the inverted law beside it: how many succeed, how far they go.
 
 python -m benchmarks.nmpc --runs 60 --seed 2211
 python -m benchmarks.nmpc --runs 60 --seed 2211 --row hub
@@ -11,6 +11,7 @@ import argparse
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -27,12 +28,34 @@ DURATION = 10.0  # s
 PATIENT = 600.0  # s: a busy machine must not decide
 DELAY = 0.01  # s
 BY_MUJOCO = fp.Plant(engine="mujoco")
+BLOW, BLOWN = 4.0, (0.3, 2.0)  # m/s, and when, s
+GUSTS = fp.Wind(on_vehicle=(0.4, 0.0, 0.0), gust_on_vehicle=0.1)  # N
+STANDS = (0.1, 0.2)  # rad and m, from upright and from the origin in the last second: in wind hover leans
 
 
 def off(i: int) -> dict[str, float]:
     """Return masses of run `i`: ten per cent larger or smaller in turn."""
     factor = 1.1 if i % 2 == 0 else 0.9
     return {"mass": factor, "bob_mass": factor}
+
+
+def masses(i: int, *, equal: bool) -> dict[str, float]:
+    """Return masses of run `i`: a fifth larger and smaller in turn, vehicle and bob alike or the other way round."""
+    factors = (1.2, 0.8) if i % 2 == 0 else (0.8, 1.2)
+    return {"mass": factors[0], "bob_mass": factors[0 if equal else 1]}
+
+
+@cache
+def blow(i: int) -> fp.Plant:
+    """Return a plant that strikes the vehicle of run `i` once in its throw, which changes its speed by `BLOW`."""
+    upright, law = fp.State(y=(0, 0, 1)), fp.laws.inverted()
+    for seed in range(1000 * i, 1000 * (i + 1)):
+        wind = fp.Wind(knock_on_vehicle=BLOW * VEHICLE.M, knock_period=DURATION)
+        run = fp.simulate(VEHICLE, law, upright, BLOWN[1], plant=fp.Plant(wind=wind, seed=seed))
+        jumps = np.linalg.norm(np.diff(run.x_dot, axis=0), axis=1)
+        if np.max(jumps) > BLOW / 2 and run.t[np.argmax(jumps)] > BLOWN[0]:
+            break
+    return BY_MUJOCO.replace(wind=wind, seed=seed)
 
 
 @dataclass(frozen=True)
@@ -50,18 +73,27 @@ ROWS = {
     "untold": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=3 * DELAY)),
     "mocap": Row(lambda i: BY_MUJOCO.replace(sensors="mocap", seed=i), 0.0),
     "mocap-mismatch": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY, sensors="mocap", seed=i), DELAY),
+    "masses": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True))),
+    "unequal": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=False))),
+    "weak": Row(lambda _: BY_MUJOCO.replace(strength=0.85)),
+    "late": Row(lambda _: BY_MUJOCO.replace(delay=2 * DELAY)),
+    "gusts": Row(lambda i: BY_MUJOCO.replace(wind=GUSTS, seed=i)),
+    "mocap-masses": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True), sensors="mocap", seed=i)),
+    "blow": Row(blow),
     "hub": Row(lambda _: BY_MUJOCO, 0.0, VEHICLE.replace(mount="hub")),
 }
 
 
 @dataclass(frozen=True)
 class Flight:
-    """What came of run `i`: its excursion and that of `fp.plan` (m), None without a plan; times in s."""
+    """What came of run `i`: its excursion, that of `fp.plan` (None without one) and that of the law, m; times in s."""
 
     i: int
     stood: bool
     excursion: float
     best: float | None
+    law_stood: bool
+    law: float
     clearance: float
     changes: int
     spent: list[float]
@@ -78,11 +110,20 @@ def told(flights: Sequence[Flight]) -> str:
     parts += [f"ratio to the plan {quantiles(ratio, 0.5, 0.95)}"] if ratio else []
     parts += [f"step p50, p99 {quantiles(1e3 * np.array(spent), 0.5, 0.99)} ms"]
     parts += [f"clearance p5 {quantiles(kept, 0.05)} m"] if np.isfinite(kept[0]) else []
+    parts += [f"law {sum(f.law_stood for f in flights)} of {runs}, {quantiles([f.law for f in flights], 0.5, 0.95)} m"]
+    parts += [f"less than the law {sum(f.excursion < f.law for f in flights)} of {runs}"]
     return ", ".join([*parts, f"handed over more than twice: {sum(flight.changes > 2 for flight in flights)}"])
 
 
+def stands(run: Any) -> bool:
+    """Return whether rod and pivot stayed near hover in the last second of a `run`."""
+    last = run.t > DURATION - 1
+    lean, off = np.arccos(run.y[last, 2]), np.linalg.norm(run.x[last], axis=1)
+    return bool(run.t[-1] > DURATION - 1e-6 and np.max(lean) < STANDS[0] and np.max(off) < STANDS[1])
+
+
 def fly(row: Row, start: fp.State, i: int) -> tuple[Any, Pilot]:
-    """Return metrics and pilot of run `i` of a `row` from a `start`."""
+    """Return the flight and the pilot of run `i` of a `row` from a `start`."""
     law, pilots = fp.nmpc(row.vehicle, latency=row.latency), []
 
     def make(loop: Any, rotors: Any) -> Pilot:
@@ -91,18 +132,24 @@ def fly(row: Row, start: fp.State, i: int) -> tuple[Any, Pilot]:
         return pilots[-1]  # type: ignore[no-any-return]
 
     run = fp.simulate(row.vehicle, replace(law, flight_computer=make), start, DURATION, plant=row.plant(i))
-    return fp.metrics(run), pilots[0]
+    return run, pilots[0]
 
 
 def flown(row: Row, start: fp.State, i: int) -> Flight:
     """Fly run `i` of a `row` from a `start`, and plan from it."""
-    result, pilot = fly(row, start, i)
+    run, pilot = fly(row, start, i)
+    result = fp.metrics(run)
     best = fp.plan(row.vehicle, start, time_limit=PATIENT)
-    if not result.success or len(pilot.changes) > 2:
+    by_law = fp.simulate(row.vehicle, fp.laws.inverted(), start, DURATION, plant=row.plant(i))
+    law, stood = fp.metrics(by_law), [fp.metrics(flight).success for flight in (run, by_law)]
+    if row.plant(i).wind is not None:
+        stood = [stands(flight) for flight in (run, by_law)]
+    if not stood[0] or len(pilot.changes) > 2:
         changes = "; ".join(f"{t:.2f} s {mode}, {why}" for t, mode, why in pilot.changes)
         print(f"  run {i}: {result.cause or 'stands'}, {changes}", flush=True)
     excursion, changed = best.excursion if best else None, len(pilot.changes)
-    return Flight(i, result.success, result.excursion, excursion, result.clearance, changed, pilot.spent)
+    kept = result.clearance, changed, pilot.spent
+    return Flight(i, stood[0], result.excursion, excursion, stood[1], law.excursion, *kept)
 
 
 def flights_of(row: Row, starts: fp.State, kept: Path | None, piece: int) -> list[Flight]:

@@ -9,6 +9,7 @@ import flypend as fp
 from flypend.board.delay import LEAST
 from flypend.flight.tasks import task_starts
 from flypend.geometry import norm
+from flypend.planning import real_time as real_time_module
 from flypend.planning import receding_horizon
 from flypend.planning.dynamics import Units
 from flypend.planning.problem import request
@@ -155,6 +156,25 @@ def test_masses_off_by_a_tenth_and_late_commands(factor):
     assert result.excursion < 1.5 * flown.plans[0].excursion
 
 
+@pytest.mark.parametrize(
+    "plant",
+    [
+        {"mismatch": {"mass": 0.8, "bob_mass": 0.8}},
+        {"mismatch": {"mass": 1.2, "bob_mass": 1.2}},
+        {"mismatch": {"mass": 1.2, "bob_mass": 0.8}},
+        {"strength": 0.85},
+    ],
+)
+def test_a_wrong_thrust_scale_is_not_taken_for_a_force(plant):
+    """Taken for a force, masses x 0.8 led this start 5.4 m away, and never to hover."""
+    start, plant = fp.random_starts(16, seed=7100)[1], fp.Plant(**plant)
+    run, flown = flown_by(fp.nmpc(), start, 6, plant)
+    law = fp.simulate(HEHN, fp.laws.inverted(), start, 6, plant=plant)
+    assert fp.metrics(run).success
+    assert modes(flown) == ["planned", "hovering"]
+    assert fp.metrics(run).excursion < 0.7 * fp.metrics(law).excursion
+
+
 @pytest.mark.parametrize("number", range(3))
 def test_a_delay_that_nobody_told_of_is_found(number):
     """Not looked for, 30 ms lost every plan, and the law between them."""
@@ -244,6 +264,28 @@ def test_a_late_plan_is_not_flown(by_law, monkeypatch):
     run, flown = flown_by(fp.nmpc(computing="measured"), STARTS[1], 1.0)
     same_flight(run, by_law)
     assert {why for _, _, why in flown.changes} == {"the plan is late"}
+
+
+def test_a_blow_in_mid_throw_is_noticed_at_once_and_planned_for():
+    """The plan is left within three stages; waiting until it is a rod length off doubled the excursion."""
+    start = fp.random_starts(16, seed=7100)[1]
+    plant = fp.Plant(wind=fp.Wind(knock_on_vehicle=4 * HEHN.M, knock_period=10.0), seed=1011)
+    run, flown = flown_by(fp.nmpc(), start, 10, plant)
+    law = fp.simulate(HEHN, fp.laws.inverted(), start, 10, plant=plant)
+    struck = run.t[np.argmax(norm(np.diff(run.x_dot, axis=0)))]
+    assert [(mode, why) for _, mode, why in flown.changes][1] == ("waiting", "the flight is not as predicted")
+    assert struck < flown.changes[1][0] < struck + 3 * flown.plans[0].stage
+    assert modes(flown)[2:] == ["planned", "hovering"]
+    assert fp.metrics(run).success
+    assert fp.metrics(run).excursion < 0.8 * fp.metrics(law).excursion
+
+
+def test_after_two_plans_that_are_not_flown_as_predicted_the_law_flies_until_hover(monkeypatch):
+    monkeypatch.setattr(real_time_module, "GAP", 0.0)
+    run, flown = flown_by(fp.nmpc(), STARTS[1], 9.0)
+    assert modes(flown)[:5] == ["planned", "waiting", "planned", "waiting", "hovering"]
+    assert flown.changes[4][0] > flown.changes[3][0] + 1  # s: nothing but the law brings it there
+    assert fp.metrics(run).success
 
 
 def test_iterations_that_fail_end_a_plan(monkeypatch):

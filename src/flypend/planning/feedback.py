@@ -25,8 +25,9 @@ from flypend.planning.inequalities import Structure
 from flypend.planning.programs import programs
 from flypend.planning.result import Plan
 from flypend.planning.solver import Scratch, one_lane
-from flypend.plants.equations import rotor_step
+from flypend.plants import equations
 from flypend.plants.lag import step_timing
+from flypend.plants.plant import ROTORS
 
 # Largest acceptable deviations, own units: position, velocity, attitude, spin, rod, its rate; heading; command.
 ACCEPTABLE = (0.3, 0.5, 0.5, 2.0, 0.1, 0.3)
@@ -36,7 +37,7 @@ TINY = 1e-12  # keeps a heading finite that does not exist, or is half a turn aw
 HOVER_STAGES = 300  # after so many the cost to go of hover has settled: 25 √(l/g)
 
 Array = NDArray[np.float64]
-STILL = np.zeros(6)
+STILL, AS_MODELLED = np.zeros(6), np.ones(2)
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: fl
         [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
         axis=2,
     )
-    return whole * units.force / _units_of_deviation(units, n)
+    return whole * units.force / of_deviation(units, n)
 
 
 @lru_cache(maxsize=1)
@@ -114,7 +115,8 @@ def _cost(n: int) -> Array:
     return np.array(ca.DM(ca.evalf(cost))).ravel()
 
 
-def _units_of_deviation(units: Units, n: int) -> Array:
+def of_deviation(units: Units, n: int) -> Array:
+    """Return the units of the entries of a `deviation` (18 + n,) of a vehicle with `units` and n rotors."""
     rate = 1 / units.time
     return np.concatenate(
         [[units.length] * 3, [units.length * rate] * 3, [1.0] * 3, [rate] * 3, [1.0] * 3, [rate] * 3, [units.force] * n]
@@ -160,12 +162,15 @@ def hovering(rotors: int) -> ca.Function:
 
 
 class Follower:
-    """The feedback of a `vehicle` along a nominal flight; its last stage is held for ever."""
+    """The feedback of a `vehicle` along a nominal flight; its last stage is held for ever.
+
+    `scales` (2,) are those of thrust and moment, true over those of the vehicle.
+    """
 
     def __init__(self, feedback: Feedback, vehicle: Vehicle) -> None:
         self.feedback = feedback
         (self._deviation, self._hovering), self.stepped = _deviations(len(vehicle.rotor_spins)), stepping(vehicle)
-        self._limits = vehicle.rotor_limits
+        self._limits, self.scales = vehicle.rotor_limits, AS_MODELLED
 
     def command(self, t: float, state: Array, rotors: Array) -> tuple[Array, Array]:
         """Return the command (n,), N, at `t` (s) for a `state` (24,) and `rotors` (n,), and the deviation (18 + n,)."""
@@ -181,21 +186,43 @@ class Follower:
         into = t - k * f.stage
         if k == len(f.commands) - 1 or into < 1e-9:
             return f.commands[k], f.states[k], k
-        return f.commands[k], self.stepped(f.states[k, :SIZE], f.states[k, SIZE:], f.commands[k], into), k
+        state, rotors = f.states[k, :SIZE], f.states[k, SIZE:]
+        return f.commands[k], self.stepped(state, rotors, f.commands[k], into, scales=self.scales), k
 
 
 @lru_cache(maxsize=16)
 def stepping(vehicle: Vehicle) -> Any:
-    """Return (state, rotors, command, duration, forces) → state and rotor forces (24 + n,), a step of the plant later.
+    """Return (state, rotors, command, duration, forces, scales) → state and rotors (24 + n,) after a step of the plant.
 
-    A duration is in s; `forces` (6,), N, are those from outside.
+    A duration is in s; `forces` (6,), N, are those from outside, and `scales` (2,) those of thrust and moment.
     """
-    step, lag = as_numpy(rotor_step(vehicle)), vehicle.rotor_lag
+    scales = ca.SX.sym("scales", 2)
+    scaled: Any = _Scaled(vehicle, scales)
+    s, r, u, w, h = equations.rotor_step(vehicle).sx_in()
+    outputs = equations.stepped(s, r, u, w, h, scaled, ROTORS)
+    step, lag = as_numpy(ca.Function("step", [s, r, u, w, h, scales], outputs)), vehicle.rotor_lag
 
-    def stepped(state: Array, rotors: Array, command: Array, duration: float, forces: Array = STILL) -> Array:
-        return np.append(*step(state, rotors, command, forces, step_timing(lag, round(duration, 9))))
+    def stepped(
+        state: Array, rotors: Array, command: Array, duration: float, forces: Array = STILL, scales: Array = AS_MODELLED
+    ) -> Array:
+        return np.append(*step(state, rotors, command, forces, step_timing(lag, round(duration, 9)), scales))
 
     return stepped
+
+
+class _Scaled:
+    """A `vehicle` whose thrust and moment are `scales` (2, 1), symbols, times as large."""
+
+    def __init__(self, vehicle: Vehicle, scales: ca.SX) -> None:
+        self._vehicle, self._scales = vehicle, scales
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._vehicle, name)
+
+    def mixing(self) -> ca.SX:
+        """As `Vehicle.mixing`."""
+        thrust, moment = ca.vertsplit(self._scales)
+        return ca.mtimes(ca.diag(ca.vertcat(thrust, moment, moment, moment)), ca.DM(self._vehicle.mixing()))
 
 
 @lru_cache(maxsize=4)

@@ -30,6 +30,7 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gathered
 from flypend.planning.dynamics import Units
 from flypend.planning.fallback import LONGEST, SKETCH, Fallback, Schedule
+from flypend.planning.model_error import ModelError
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import STAGES_PER_UNIT, Request, request
 from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, upright, weighed
@@ -53,7 +54,10 @@ MEASURED_AT_FIRST = 2e-3  # s, expected of an iteration that is measured
 # In hover an estimator learns slowly of forces that last; until then the law is shown a position that is off by the
 # integral of the distance, of this rate, √(g/l), and at most so long, rod lengths.
 INTEGRAL, MOST_OFF = 0.06, 1.0
-PAUSE = 1.0  # √(l/g), after the second failure in a row, and ever longer; after the last attempt only the law flies
+PAUSE = 1.0  # √(l/g), after the second failure in a row, and ever longer; after the last attempt the law flies to hover
+# A plan that is lost may have met a blow, and the next one catches it with half the law's excursion. When that is lost
+# too, the model is wrong, and the law flies to hover.
+MOST_LOST = 2
 
 
 @errors.named_arguments
@@ -143,7 +147,7 @@ class Receding:
 class Coming(NamedTuple):
     """A plan under way: it is there at `due` (s) and begins at `begin` (s); without one, `why`.
 
-    `schedule` are commands that fly until then; without, the law.
+    `schedule` are commands that fly until then; without, the law. `scales` (2,) are what it was planned for.
     """
 
     plan: Plan | None
@@ -152,6 +156,7 @@ class Coming(NamedTuple):
     due: float
     begin: float
     schedule: Schedule | None
+    scales: Array
 
 
 class Pilot(Boards):
@@ -179,6 +184,7 @@ class Pilot(Boards):
         self._common, self._vehicle = receding, loop.vehicle
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
         self._where = _moving(receding.reference)
+        self._error = ModelError(loop.vehicle, 1 / loop.sampled.rate)
         self._fallback = Fallback(self._by_law, receding.constraints.clearance or 0.0)
         self._mode = "waiting"
         self._coming: Coming | None = None
@@ -191,7 +197,8 @@ class Pilot(Boards):
 
     def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
         """See `Boards`."""
-        here, outside = self._relative(t, state), weighed(forces, self._where(t)[6:], self._vehicle)
+        self._error.update(state, rotors)
+        here, outside = self._relative(t, state), weighed(self._error.forces, self._where(t)[6:], self._vehicle)
         level = upright(outside, self._m)[:2]
         if self._coming is not None and t + 1e-9 >= self._coming.due:
             self._arrive(t, self._coming)
@@ -220,9 +227,9 @@ class Pilot(Boards):
         self, flight: PlanInFlight, t: float, here: Array, rotors: Array, outside: Array, level: Level
     ) -> Array | None:
         """Return the command of a plan that is flown; None if it ends now."""
-        command, lost = flight.command(t, here, rotors, outside)
+        command, lost = flight.command(t, here, rotors, outside, self._error.scales)
         if lost:
-            self._fail(t, lost)
+            self._fail(t, lost, MOST_LOST)
         elif hovers(here, level, self._units) or (flight.over(t) and not falls(here, level, self._units)):
             self._hover(t)
         return None if self._flight is None else command
@@ -240,14 +247,14 @@ class Pilot(Boards):
 
     def _hover(self, t: float) -> None:
         self._change(t, "hovering", "the rod stands")
-        self._failures, self._patience = 0, 1.0
+        self._failures, self._patience, self._not_before = 0, 1.0, -np.inf
 
-    def _fail(self, t: float, why: str) -> None:
-        """Let the law fly, for good after too many failures."""
+    def _fail(self, t: float, why: str, most: int = len(ATTEMPTS)) -> None:
+        """Let the law fly, after `most` failures until it hovers."""
         self._change(t, "waiting", why)
         self._failures += 1
         pause = (2.0 ** (self._failures - 1) - 1) * PAUSE * self._units.time
-        self._not_before = t + pause if self._failures < len(ATTEMPTS) else np.inf
+        self._not_before = t + pause if self._failures < most else np.inf
 
     def _arrive(self, t: float, coming: Coming) -> None:
         if coming.plan is None or coming.asked is None:
@@ -255,7 +262,9 @@ class Pilot(Boards):
             return
         self._change(t, "planned", coming.plan.told)
         self.plans.append(coming.plan)
-        self._flight = PlanInFlight(coming.plan, coming.asked, coming.begin, self._common.computing)
+        self._flight = PlanInFlight(
+            coming.plan, coming.asked, coming.begin, self._common.computing, self._vehicle, coming.scales
+        )
 
     def _relative(self, t: float, state: Array) -> Array:
         """Return the `state` (24,) at time `t` relative to the reference."""
@@ -273,7 +282,7 @@ class Pilot(Boards):
         each *= OF_GUESS * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
         first, given = (each * work(*much) for much in (SKETCH, (ROUNDS, WIDTH, iterations)))
         if given > horizon * self._units.time:
-            return Coming(None, None, "a plan would take longer than its flight", t, t, None)
+            return Coming(None, None, "a plan would take longer than its flight", t, t, None, self._error.scales)
         first *= not self._failures and given <= LONGEST * self._units.time
         given, begun = first + given, time.process_time()
         here = np.append(state, rotors)
@@ -286,13 +295,13 @@ class Pilot(Boards):
         took = time.process_time() - begun if self._common.computing is None else given
         if took > given:
             found, why, self._patience = None, "the plan is late", LATE * self._patience
-        return Coming(found, asked, why, t + max(took, given), t + given, schedule)
+        return Coming(found, asked, why, t + max(took, given), t + given, schedule, self._error.scales)
 
     def _ask(self, t: float, here: Array) -> Request:
         """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError."""
         start, forces = State.from_packed(self._relative(t, here[:SIZE])), here[SIZE:]
         rotors = np.clip(forces, *self._vehicle.rotor_limits)
-        return request(self._vehicle, start, "excursion", np.zeros(3), rotors, self._common.constraints)
+        return request(self._error.machine, start, "excursion", np.zeros(3), rotors, self._common.constraints)
 
     def _plan(self, t: float, here: Array, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
         """Return a plan from `here` as in `_ask`, what it answers, and why there is none."""

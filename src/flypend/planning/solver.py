@@ -240,9 +240,16 @@ class Solver:
         """Set the number at `place` of the inequalities, a `weight`, in the lanes `on`."""
         self._problem.numbers[place, on] = weight
 
-    def aim(self, outside: Lanes, hover: Lanes) -> None:
-        """Let forces `outside` (6, lanes) act, weights, and let `hover` (24 + n, lanes) under them be the end."""
-        self._problem.vehicle[-6:], self._hover[0] = outside, hover
+    def aim(self, vehicle: Lanes, hover: Lanes, force: float) -> None:
+        """Let `vehicle` (k, lanes) be its numbers, and `hover` (24 + n, lanes) the end.
+
+        Rotor forces are in a new unit, whose ratio to the old one is `force`.
+        """
+        if force != 1:
+            limits = self._limits[:2], self._problem.numbers[LOW : HIGH + 1]
+            for forces in (self.states[:, SIZE:], self.commands, *limits):
+                forces /= force
+        self._problem.vehicle[:], self._hover[0] = vehicle, hover
         self._end_in_hover(0, 1)
         np.negative(self._errors, out=self._offset)
 

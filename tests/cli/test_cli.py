@@ -656,6 +656,16 @@ def test_failed_flights_are_kept_and_fly_again_to_the_same_end(call, tmp_path):
     np.testing.assert_allclose(again.packed[-1], flown.ensembles["lqr"].final[number].packed(), atol=1e-9)
 
 
+def test_a_floor_is_an_option_of_what_flies(call, tmp_path):
+    given = ("compare", "--law", "lqr", "--runs", "4", "--duration", "1", "--floor", "-0.4")
+    assert call(*given)[0] == 0
+    told = json.loads((tmp_path / "compare-out" / "report.json").read_text(encoding="utf-8"))
+    assert told["settings"]["plant"] == {"base": "rotors", "floor": -0.4}
+    (row,) = told["laws"]
+    assert row["causes"]["collided"] > 0
+    assert row["lowest_p5"] < 0 < row["box_z_p95"]
+
+
 def test_a_long_command_tells_how_far_it_is_without_a_terminal(monkeypatch, capsys):
     """Runs that an earlier command flew cost no time, and a count does not pay for the pace of the one before it."""
     told = [  # time, task, done, and the time left that one can know

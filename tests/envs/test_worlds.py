@@ -70,6 +70,17 @@ def test_a_world_flies_as_simulate_does_bit_for_bit(changes):
     assert np.array_equal(states, flown)
 
 
+def test_a_world_ends_on_its_floor():
+    """Without thrust, a hanging rod lands, first in one world and not at all in the other."""
+    ends = {}
+    for floor in (None, -0.8):
+        world = World("swing_up", plant=PHYSICS.replace(floor=floor))
+        world.reset(seed=5)
+        ends[floor] = [world.step(np.full(4, -1, dtype=np.float32))[2] for _ in range(20)]
+    assert any(ends[-0.8])
+    assert not any(ends[None])
+
+
 @pytest.mark.parametrize("task", OMNIDRONES, ids=lambda task: task.name)
 def test_so_does_a_world_of_omnidrones_every_16_ms(task):
     world = World(task, randomise={})

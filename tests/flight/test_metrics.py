@@ -16,6 +16,9 @@ VEHICLE = fp.vehicle("hehn2011")
 SHARE = VEHICLE.weight / 4  # of one rotor in hover, N
 E3 = np.array([0.0, 0.0, 1.0])
 T = np.linspace(0.0, 3.0, 301)
+# Of the box about the upright machine: from disc to disc, and above the pivot, m.
+WIDE = 2 * (np.max(VEHICLE.rotor_positions[:, 0]) + VEHICLE.body.disc_radius)
+TALL = VEHICLE.rod_length + VEHICLE.body.rod_radius
 
 
 def about(axis, angle):
@@ -74,8 +77,35 @@ def test_a_flight_that_stands_from_the_start():
         peak_force=SHARE,
         end=3.0,
         clearance=float("inf"),
+        lowest=-VEHICLE.body.hub_radius,
+        box_x=pytest.approx(WIDE),
+        box_y=pytest.approx(WIDE),
+        box_z=pytest.approx(VEHICLE.body.hub_radius + TALL),
         cause="",
     )
+
+
+@pytest.mark.parametrize("e3", ["up", "down"])
+def test_the_box_holds_the_machine_on_its_whole_way(e3):
+    """It climbs 2 m, and goes 1 m along e₁ and 3 m along −e₂; the height is upward in either frame."""
+    share = np.linspace(0, 1, len(T))[:, None]
+    run = flight(x=share * np.array([1.0, -3.0, 2.0]), x_ref=share * np.array([1.0, -3.0, 2.0]))
+    found = metrics(run if e3 == "up" else run.flipped())
+    assert found.lowest == pytest.approx(-VEHICLE.body.hub_radius)
+    sizes = (found.box_x, found.box_y, found.box_z)
+    assert sizes == pytest.approx((1 + WIDE, 3 + WIDE, 2 + VEHICLE.body.hub_radius + TALL))
+
+
+def test_an_ensemble_has_the_box_of_each_run():
+    starts = fp.random_starts(6, 4)
+    for plant in ("rotors", "mujoco"):
+        found = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), starts, 2.0, plant=plant)
+        for i in range(len(found)):
+            own = metrics(fp.simulate(VEHICLE, fp.laws.inverted(), starts[i], 2.0, plant=plant))
+            for name in ("lowest", "box_x", "box_y", "box_z"):
+                assert getattr(found, name)[i] == pytest.approx(getattr(own, name), abs=1e-9)
+    ideal = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), starts, 2.0, plant="ideal")
+    assert np.all(np.isnan(ideal.lowest))
 
 
 LIMITS = {

@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import casadi as ca
 import numpy as np
 import pytest
 
@@ -189,3 +190,112 @@ def test_mujoco_gives_the_same_verdict_in_500_flights():
     touched, late = compared_with_mujoco(500, seed=24, duration=4.0)
     assert 100 < touched < 500
     assert late < 5e-3
+
+
+# A floor ---------------------------------------------------------------------------------------------------------
+
+FREE = fp.vehicle("hehn2011")  # its rod can touch nothing but a floor
+FLOOR = -1.0
+FLOORS = {
+    "rotors": fp.Plant(floor=FLOOR),
+    "mujoco": fp.Plant(engine="mujoco", floor=FLOOR),
+    "rates": fp.Plant(interface="rates", rate=50.0, delay=0.03, floor=FLOOR),
+    "wrong rod": fp.Plant(mismatch={"rod_length": 1.2}, floor=FLOOR),
+    "ideal": fp.Ideal(floor=FLOOR),
+}
+
+
+@pytest.mark.parametrize("name", FLOORS)
+def test_kernel_and_reference_end_at_the_same_floor(name):
+    starts, duration, plant = fp.random_starts(12, 3), 2.0, FLOORS[name]
+    ends = fp.simulate_ensemble(FREE, LAW, starts, duration, plant=plant)
+    seen = set()
+    for i in range(0, len(ends), 3):
+        run = fp.simulate(FREE, LAW, starts[i], duration, plant=plant, engine="scipy")
+        assert (ends.cause[i] == "collided") == (run.outcome.status == "collided")
+        # Between looks heights are linear. In the ideal plant the two do not look at the same times: in 2 ms, at 1 m/s
+        # and an acceleration of 3 g, that is a dt²/8 / v = 15 µs.
+        assert ends.end[i] == pytest.approx(run.outcome.time, abs=2e-5 if name == "ideal" else 1e-8)
+        single = fp.simulate(FREE, LAW, starts[i], duration, plant=plant)
+        assert (single.outcome.status, single.outcome.reason) == (run.outcome.status, run.outcome.reason)
+        seen.add(run.outcome.status)
+    assert seen == {"completed", "collided"}
+    assert np.all(np.isinf(ends.clearance))  # the floor is no part of the mount
+
+
+@pytest.mark.parametrize("e3", ["up", "down"])
+def test_in_free_fall_the_lowest_part_lands_when_galileo_says(e3):
+    """The rod hangs, and no rotor gives any force; height is upward in either frame."""
+    vehicle = FREE.replace(rotor_limits=(0.0, FREE.rotor_limits[1]))
+    law = fp.Law(name="rest", e3=e3, control=lambda *_: fp.Wrench(ca.SX(0), ca.SX.zeros(3)))
+    start = fp.State(y=(0, 0, -1)).seen(e3)
+    height = -FLOOR - vehicle.reach - vehicle.body.rod_radius
+    for plant in (fp.Plant(limits=False, lag=0.0, floor=FLOOR), fp.Ideal(floor=FLOOR)):
+        outcome = fp.simulate(vehicle, law, start, 1.0, plant=plant).outcome
+        assert outcome.reason == "the rod touched the floor"
+        # Linear within 2 ms: (g/8) dt² at a speed of 3 m/s.
+        assert outcome.time == pytest.approx(np.sqrt(2 * height / vehicle.g), abs=2e-6)
+
+
+def test_a_floor_ends_the_flights_that_go_below_it_and_changes_no_other():
+    start = fp.random_starts(1, 5)[0]
+    free = flown(FREE, start)
+    lowest = fp.metrics(free).lowest
+    low, high = (flown(FREE, start, plant=fp.Plant(floor=lowest + d)) for d in (-1e-6, 1e-3))
+    np.testing.assert_array_equal(low.packed, free.packed)
+    assert low.outcome.status == "completed"
+    assert high.outcome.status == "collided"
+    assert fp.metrics(high).lowest > lowest
+    np.testing.assert_array_equal(high.packed, free.packed[: len(high.t)])
+
+
+def test_who_lands_on_a_hub_or_in_a_cup_is_told_from_who_touches_the_mount():
+    reasons = set()
+    for vehicle in (HUB, CUP):
+        for i in range(6):
+            start = fp.random_starts(6, 21)[i]
+            bare = flown(vehicle, start, 1.5).outcome
+            run = flown(vehicle, start, 1.5, plant=fp.Plant(floor=-0.65)).outcome
+            assert run.status == "collided" or bare.status == "completed"
+            assert run.time <= bare.time
+            assert "floor" in run.reason or run == bare
+            reasons.add("floor" in run.reason)
+    assert reasons == {True, False}
+
+
+def test_a_machine_that_begins_below_the_floor_does_not_fly():
+    for plant in (fp.Plant(floor=-0.1), fp.Ideal(floor=-0.1)):
+        run = fp.simulate(FREE, LAW, fp.State(y=(0, 0, -1)), 1.0, plant=plant)
+        assert (run.outcome.status, run.outcome.time) == ("collided", 0.0)
+        assert fp.simulate(FREE, LAW, fp.State(y=(0, 0, 1)), 1.0, plant=plant).outcome.status == "completed"
+
+
+def test_geometry_of_mujoco_meets_the_floor_at_the_same_time():
+    """Hub, discs and the end of the rod as MuJoCo's geoms, and its own search for their distance to a plane."""
+    body = FREE.body
+    discs = "".join(
+        f'<geom type="cylinder" pos="{x} {y} {z}" size="{body.disc_radius} 1e-6"/>' for x, y, z in FREE.rotor_positions
+    )
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><worldbody><geom type="box" pos="0 0 {FLOOR - 5}" size="50 50 5"/><body mocap="true">{discs}'
+        f'<geom type="sphere" size="{body.hub_radius}"/></body>'
+        f'<body mocap="true"><geom type="sphere" size="{body.rod_radius}"/></body></worldbody></mujoco>'
+    )
+    data, landed = mujoco.MjData(model), 0
+    for i in range(12):
+        start = fp.random_starts(12, 3)[i]
+        free = flown(FREE, start, 2.0, law=BLIND, plant="mujoco")
+        time = None
+        for t, x, R, y in zip(free.t, free.x, free.R, free.y, strict=True):
+            data.mocap_pos[:] = x, x + FREE.reach * y
+            mujoco.mju_mat2Quat(data.mocap_quat[0], R.ravel())
+            mujoco.mj_kinematics(model, data)
+            if min(mujoco.mj_geomDistance(model, data, 0, g, 9.0, None) for g in range(1, model.ngeom)) <= 0:
+                time = t
+                break
+        ours = flown(FREE, start, 2.0, law=BLIND, plant=fp.Plant(engine="mujoco", floor=FLOOR)).outcome
+        assert (time is not None) == (ours.status == "collided")
+        if time is not None:
+            landed += 1
+            assert time - 0.002 - 1e-9 <= ours.time <= time + 1e-9
+    assert 1 < landed < 12

@@ -59,6 +59,12 @@ def test_the_floor_stays_where_it_is_while_a_live_flight_falls(visit):
     assert page.evaluate("flypend.floor()") == before
 
 
+def test_the_floor_is_drawn_where_the_world_has_one(visit):
+    run = fp.simulate(MACHINE, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.5, plant=fp.Plant(floor=-1.25))
+    assert visit(run).evaluate("flypend.floor()") == -1.25
+    assert visit(hovering()).evaluate("flypend.floor()") != -1.25
+
+
 def test_the_pole_tells_the_height_of_the_machine(visit):
     """The pivot hovers at the height of the start, so the mark of 0 m is level with it, but for the perspective."""
     page = visit(hovering())

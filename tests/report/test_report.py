@@ -392,10 +392,12 @@ def test_the_judgement_tells_whether_a_run_stands_and_what_it_took():
     vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
     stands = fp.simulate(vehicle, law, fp.State(y=(0, 0, 1), x=(0.3, 0, 0)), 3.0, plant="ideal")
     told = re.fullmatch(
-        r"inverted hover reached after ([\d.]+) s, largest distance ([\d.]+) m, largest rotor force ([\d.]+) N",
+        r"inverted hover reached after ([\d.]+) s, largest distance ([\d.]+) m, largest rotor force ([\d.]+) N, "
+        r"lowest point at (-[\d.]+) m",
         text.judgement(stands),
     )
-    since, distance, force = map(float, told.groups())
+    since, distance, force, lowest = map(float, told.groups())
+    assert lowest == pytest.approx(fp.metrics(stands).lowest, rel=5e-3)
     assert 0 < since < 3
     assert distance == pytest.approx(np.max(norm(stands.x)), rel=5e-3)
     assert force == pytest.approx(np.max(stands.rotor_forces), rel=5e-3)

@@ -516,6 +516,14 @@ def test_a_plant_by_name_can_be_changed_in_one_number():
         flight("1", ["plant=ideal", "plant.lag=0.05"])
 
 
+def test_a_floor_is_part_of_any_plant():
+    assert flight(SWING_UP, ["plant.floor=-1.5"]).plant.floor == -1.5
+    assert flight("1", ["plant=ideal", "plant.floor=-1.5"]).plant == fp.Ideal(floor=-1.5)
+    for name in ("rotors", "ideal"):
+        with pytest.raises(fp.InputError, match=r"^plant\.floor: expected a finite number m, got nan$"):
+            flight(SWING_UP, [f"plant={name}", "plant.floor=nan"])
+
+
 def test_motors_and_air_of_a_plant_arrive():
     overrides = [
         'plant.air=["rotor_drag", "lift"]', "plant.spin_up=1.5", "plant.sag=0.1", "plant.strength=[1, 1, 0.8, 1]",

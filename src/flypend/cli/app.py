@@ -30,6 +30,7 @@ from flypend.cli import (
 from flypend.cli.options import (
     LAW_HELP,
     bands_option,
+    floor_option,
     laws_option,
     option,
     options_of,
@@ -251,6 +252,7 @@ class Starts:
 @click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
 @sensors_option
 @bands_option
+@floor_option
 @click.option("--keep", type=path, metavar="DIR", help="Also save each failed flight in DIR (.nc).")
 def compare(
     law: tuple[str, ...],
@@ -259,6 +261,7 @@ def compare(
     plant: str,
     sensors: str,
     bands: bool,
+    floor: float | None,
     keep: Path | None,
 ) -> None:
     """Compare laws, your own included, from the same starts, in one table and one figure.
@@ -274,7 +277,7 @@ def compare(
     from flypend.studies import compare as fly
     from flypend.studies.failed import failed_runs, flown_again
 
-    asked, duration = plant_asked(plant, sensors), chosen.duration
+    asked, duration = plant_asked(plant, sensors, floor), chosen.duration
     world = plant_of(asked)
     names = law or ("inverted", "lqr", "corrected", "detuned")
     laws, batch, machine, settings = chosen.of(names)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from flypend.cli.options import BANDS_HELP, laws_option, option, options_of, out_option, plant_asked
+from flypend.cli.options import BANDS_HELP, FLOOR_HELP, laws_option, option, options_of, out_option, plant_asked
 from flypend.cli.terminal import bold, console, counter, tell_how
 
 
@@ -20,6 +20,7 @@ class Flights:
     sensors: str = option(
         "--sensors", default="perfect", help="Sensor suite; also flies vehicles with wrong masses, rod and thrust."
     )
+    floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
     runs: int | None = option(
         "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."
     )
@@ -61,7 +62,7 @@ def check(
 
     machine = model.vehicle(vehicle)
     errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
-    asked = plant_asked(own.plant, own.sensors)
+    asked = plant_asked(own.plant, own.sensors, own.floor)
     world, seed = plant_of(asked), own.seed
     laws = {name: law_named(name) for name in law or ("inverted", *(["learned"] if own.advise else []))}
     for each in laws.values():

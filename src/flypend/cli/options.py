@@ -22,6 +22,8 @@ SENSORS_HELP = "perfect; or mocap, onboard or laboratory, with the estimator (no
 sensors_option = click.option("--sensors", default="perfect", help=SENSORS_HELP)
 BANDS_HELP = "Fly vehicles drawn from the bands of the vehicle; the law believes what is written."
 bands_option = click.option("--bands", is_flag=True, help=BANDS_HELP)
+FLOOR_HELP = "Height of a floor, upward from the origin: a machine that touches it has collided."
+floor_option = click.option("--floor", type=float, metavar="M", help=FLOOR_HELP)
 style_option = click.option(
     "--style", default="paper", help="paper (one or two columns) or slides (16:9, larger fonts)."
 )
@@ -74,14 +76,17 @@ def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
     return dict(worlds_within(machine, sampled_plant(plant_of(plant)), seed))
 
 
-def plant_asked(plant: str, sensors: str) -> Any:
-    """Return the plant of --plant and --sensors, as a run file has it: a name, or a table. Raises InputError."""
+def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:
+    """Return the plant of --plant, --sensors and --floor, as a run file has it: a name, or a table.
+
+    Raises InputError.
+    """
     from flypend import errors
     from flypend.plants import PRESETS, SUITES
 
     errors.one_of("--plant", plant, PRESETS)
-    if errors.one_of("--sensors", sensors, SUITES) == "perfect":
-        return plant
-    if plant == "ideal":
+    perfect = errors.one_of("--sensors", sensors, SUITES) == "perfect"
+    if plant == "ideal" and not perfect:
         raise errors.InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
-    return {"base": plant, "sensors": sensors}
+    given = ({} if perfect else {"sensors": sensors}) | ({} if floor is None else {"floor": floor})
+    return {"base": plant, **given} if given else plant

@@ -12,6 +12,7 @@ from typing import Any
 import click
 
 from flypend.cli.options import (
+    FLOOR_HELP,
     LAW_HELP,
     SENSORS_HELP,
     option,
@@ -71,6 +72,7 @@ class Standard:
     vehicle: str | None = option("--vehicle", help="With --law: vehicle name or TOML file.")
     plant: str = option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
     sensors: str = option("--sensors", default="perfect", help=SENSORS_HELP)
+    floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
     runs: int = option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")
     seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="With --law: seed of the starts.")
     duration: float | None = option("--duration", type=float, help="With --law: seconds per run.")
@@ -113,10 +115,10 @@ def draw_map(
     check_file(out, FIGURES)
     if what is not None:
         why = "beside a study or a store, which has its own"
-        refuse_idle("vehicle", "plant", "sensors", "runs", "seed", "duration", why=why)
+        refuse_idle("vehicle", "plant", "sensors", "floor", "runs", "seed", "duration", why=why)
     content = None
     if own.law is not None:
-        plant = plant_asked(own.plant, own.sensors)
+        plant = plant_asked(own.plant, own.sensors, own.floor)
         content = standard(own.law, own.vehicle, plant, own.runs, own.seed, own.duration)
     elif what is not None and what.suffix == ".toml":
         content = study_from(what).settings

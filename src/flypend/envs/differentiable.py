@@ -69,6 +69,8 @@ class DifferentiableWorlds:
 
     def __init__(self, task: Any = "balance", *, workers: int | None = None, **arguments: Any) -> None:
         self.env = environment(task, **arguments)
+        if self.env.plant.floor is not None:
+            raise InputError("plant.floor", "none: touching has no derivative", f"{self.env.plant.floor:g}")
         if self.env.vehicle.mount != "gimbal":
             raise InputError("mount", "'gimbal': touching has no derivative", repr(self.env.vehicle.mount))
         if self.env.sensors is not None:

@@ -135,7 +135,7 @@ def problem(env: Environment) -> WorldsProblem:
         queued=parts.queued,
         steps=env.steps,
         length=1 / env.plant.rate,
-        touch=touch_of(env.vehicle, "up", by_rotors=True),
+        touch=touch_of(env.vehicle, "up", by_rotors=True, floor=env.plant.floor),
         estimating=None if parts.estimates is None else parts.estimates.programs(parts.asked()),
     )
 

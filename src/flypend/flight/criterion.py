@@ -18,6 +18,8 @@ PARTS = ("rod", "axis", "position")
 # Reductions over a run in a kernel, in order: time since which everything is within tolerance, last time out of
 # tolerance for each part, largest distance, and mean square over time and maximum of the rotor forces.
 REDUCTIONS = ("since", "last", "last", "last", "max", "mean", "max")
+# What a sampled flight reduces beside them: the highest corner of the box about the machine, and minus the lowest.
+EXTENTS = ("max",) * 6
 
 
 @errors.named_arguments

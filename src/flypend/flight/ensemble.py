@@ -40,7 +40,7 @@ class Ensemble:
         Initial states (n,), in the law's frame.
     final : State
         Final states (n,), in the law's frame.
-    success, settling, excursion, effort, peak_force, end, clearance, cause : (n,)
+    success, settling, excursion, effort, peak_force, end, clearance, lowest, box_x, box_y, box_z, cause : (n,)
         The fields of `Metrics`, run by run.
     e3 : "up" or "down"
         Direction of the frame's third axis.
@@ -65,6 +65,10 @@ class Ensemble:
     peak_force: NDArray[np.float64]
     end: NDArray[np.float64]
     clearance: NDArray[np.float64]
+    lowest: NDArray[np.float64]
+    box_x: NDArray[np.float64]
+    box_y: NDArray[np.float64]
+    box_z: NDArray[np.float64]
     cause: NDArray[np.str_]
     e3: E3Direction
     vehicle: Vehicle

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 UNITS = {
     "t": "s", "x": "m", "x_dot": "m/s", "R": "1", "omega": "rad/s", "y": "1", "y_dot": "1/s", "thrust": "N",
     "moment": "N m", "rotor_forces": "N", "x_ref": "m", "settling": "s", "excursion": "m", "peak_force": "N",
-    "end": "s", "clearance": "m",
+    "end": "s", "clearance": "m", "lowest": "m", "box_x": "m", "box_y": "m", "box_z": "m",
 }  # fmt: skip
 # Axes of the world and of the body.
 AXES = {"axis": ("1", "2", "3"), "body_axis": ("1", "2", "3")}

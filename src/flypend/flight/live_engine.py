@@ -13,14 +13,14 @@ from flypend.compile.llvm import runge_kutta, sampled
 from flypend.flight.criterion import PARTS, REDUCTIONS
 from flypend.flight.kernels.flown import STATUS
 from flypend.flight.kernels.pieces import pieces_problem
+from flypend.flight.kernels.sampled import JUDGED
 from flypend.flight.kernels.single import REASONS
 from flypend.flight.kernels.web import LANES, WebModule, flown_vehicle, web_module
 from flypend.flight.request import SAMPLE_PERIOD, Tolerances
 from flypend.flight.sampled import LEFT, NOT_FINITE
-from flypend.flight.touch import touched
+from flypend.flight.touch import touchable, touched
 from flypend.flight.verdict import HANGS, MISSED, POSE, goal
 from flypend.laws.closed_loop import lyapunov_function
-from flypend.model.mount import part_names
 from flypend.model.state import SIZE
 from flypend.plants import Ideal, Noise
 from flypend.plants.knobs import LONGEST_DELAY, knob_values
@@ -56,7 +56,7 @@ def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule
     facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
     return web_module(loop, criterion, exact, lanes), {
         **facts,
-        "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins), "reductions": len(REDUCTIONS),
+        "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins),
         "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],
         "judge": max(1, round(SAMPLE_PERIOD / facts["period"])), "e3": law.e3, "rod": true.rod_length,
         "masses": {"bob": true.bob_mass, "vehicle": true.mass},
@@ -65,7 +65,7 @@ def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule
         "words": {
             "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSE, "hangs": HANGS,
             "status": np.asarray(STATUS).tolist(), "reasons": _reasons(loop),
-            "touched": [[name, touched(loop.vehicle, i)] for i, name in enumerate(part_names(loop.vehicle))],
+            "touched": [[name, touched(loop.vehicle, i)] for i, name in enumerate(touchable(loop.vehicle))],
         },
     }  # fmt: skip
 
@@ -76,14 +76,14 @@ def _sampled(loop: Loop) -> dict[str, Any]:
         "kind": "sampled", "arguments": list(sampled.ARGUMENTS),
         "plant": sum(pieces_problem(loop, goal(loop.law.e3)).inputs),
         "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)],
-        "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate,
+        "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate, "reductions": len(JUDGED),
     }  # fmt: skip
 
 
 def _ideal(loop: Loop, exact: Tolerances) -> dict[str, Any]:
     return {
         "kind": "ideal", "arguments": list(runge_kutta.ARGUMENTS), "knobs": {"origin": [0.0, 0.0, 0.0]}, "noise": [],
-        "delay": 0.0, "period": PERIOD,
+        "delay": 0.0, "period": PERIOD, "reductions": len(REDUCTIONS),
         "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps},
     }  # fmt: skip
 

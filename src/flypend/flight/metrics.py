@@ -11,7 +11,9 @@ import numpy as np
 from flypend import errors
 from flypend.flight.criterion import PARTS, Criterion, lean
 from flypend.geometry import Numbers, norm
-from flypend.model import Vehicle
+from flypend.model import State, Vehicle
+from flypend.model.outline import extent
+from flypend.model.state import seen_packed
 
 Trajectory = Any  # flypend.Trajectory, not imported: its module judges runs for the replay
 
@@ -46,6 +48,11 @@ class Metrics:
         End time, s.
     clearance : float
         Smallest distance of the rod to what its mount lets it touch, m; infinite on a gimbal.
+    lowest : float
+        Height of the lowest point of hub, rod and rotor discs, m, upward from the origin; NaN in an ensemble through
+        the ideal plant, as are the next three.
+    box_x, box_y, box_z : float
+        Sizes of the box, along the axes of the world, that holds the machine throughout, m; see `model.outline`.
     cause : str
         Cause of failure: "diverged", "singular" or "collided", else the first of "rod", "axis", "position" out of
         tolerance during the last `Criterion.hold` seconds. Empty for a success.
@@ -58,6 +65,10 @@ class Metrics:
     peak_force: float
     end: float
     clearance: float
+    lowest: float
+    box_x: float
+    box_y: float
+    box_z: float
     cause: str
 
 
@@ -71,7 +82,11 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     out = [~(part <= 0) for part in excess]
     reductions = [_since(run.t, np.any(out, axis=0)), *(_last(run.t, bad) for bad in out)]
     forces = run.rotor_forces
-    values = [*reductions, np.max(distance), _mean(run.t, np.mean(forces**2, axis=1)), np.max(forces)]
+    low, high = extent(State.trusted(seen_packed(run.packed, run.e3)), run.vehicle)
+    values = [
+        *reductions, np.max(distance), _mean(run.t, np.mean(forces**2, axis=1)), np.max(forces),
+        *np.max(high, axis=0), *np.max(-low, axis=0),
+    ]  # fmt: skip
     columns = judged(
         np.array([values]), [run.outcome.status], np.array([run.outcome.time]), run.vehicle, criterion,
         clearance=np.array([np.min(run.clearance)]),
@@ -100,8 +115,8 @@ def judged(
 
     Parameters
     ----------
-    reductions : (n, 7)
-        See `criterion.REDUCTIONS`.
+    reductions : (n, 7) or (n, 13)
+        See `criterion.REDUCTIONS`, and `EXTENTS` for the last six.
     status : (n,)
         "completed", "diverged", "singular" or "collided".
     end : (n,)
@@ -114,6 +129,8 @@ def judged(
     since, last, excursion, square, peak = (
         reductions[:, 0], reductions[:, 1:4], reductions[:, 4], reductions[:, 5], reductions[:, 6]
     )  # fmt: skip
+    extents = reductions[:, 7:] if reductions.shape[1] > 7 else np.full((len(end), 6), np.nan)
+    room = {"lowest": -extents[:, 5]} | {f"box_{'xyz'[i]}": extents[:, i] + extents[:, 3 + i] for i in range(3)}
     status = np.asarray(status)
     late = last >= (end - criterion.hold - SAME)[:, None]
     success = (status == "completed") & ~np.any(late, axis=1)
@@ -127,6 +144,8 @@ def judged(
         "peak_force": peak,
         "end": end,
         "clearance": np.full(len(end), np.inf) if clearance is None else clearance,
+        # A run that ended at its start was not looked at: infinite.
+        **{name: np.where(np.isfinite(values), values, np.nan) for name, values in room.items()},
         "cause": np.where(success, "", cause),
     }
 

@@ -19,8 +19,8 @@ class Outcome:
     Parameters
     ----------
     status : "completed", "diverged", "singular" or "collided"
-        The run reached its duration, the state left all bounds, the law stopped being defined, or the rod touched the
-        vehicle or left its cup.
+        The run reached its duration, the state left all bounds, the law stopped being defined, the rod touched the
+        vehicle or left its cup, or the machine touched the floor.
     time : float
         End time, s.
     reason : str

@@ -286,7 +286,7 @@ def _setter(record: Any) -> Any:
 def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
     """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
     if isinstance(plant, Ideal) and isinstance(law, Controller):
-        return Sampled(limits=plant.limits, lag=None if plant.lag else 0.0, rate=law.rate)
+        return Sampled(limits=plant.limits, lag=None if plant.lag else 0.0, rate=law.rate, floor=plant.floor)
     return plant
 
 

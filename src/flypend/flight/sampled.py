@@ -73,7 +73,7 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     states, forces = [engine.packed], [engine.rotors]
     commands, segments = Commands(idle_command(loop, begin)), within_period(plant.delay, period)
     outcome = Outcome("completed", ticks * period)
-    watch, there = watcher(true), np.append(engine.packed, engine.rotors)
+    watch, there = watcher(true, floor=plant.floor), np.append(engine.packed, engine.rotors)
     if (touch := watch(there, there, period)) is not None:
         outcome, ticks = Outcome("collided", 0.0, touch.reason), 0
     with np.errstate(all="ignore"):

@@ -158,9 +158,10 @@ def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
 
 def _touch(flight: Flight, loop: ClosedLoop) -> Callable[[Any], tuple[float, str] | None]:
     """Return what looks for a touch in the interpolant of a step, every two milliseconds; at the start, in None."""
-    if flight.vehicle.mount == "gimbal":
+    if not flight.loop.touches:
         return lambda _: None
-    watch, start = watcher(flight.vehicle, flight.law.e3, by_rotors=False), flight.packed[0]
+    watch = watcher(flight.vehicle, flight.law.e3, by_rotors=False, floor=flight.plant.floor)
+    start = flight.packed[0]
     outputs = as_numpy(loop.outputs)
 
     def state(interpolant: Any, t: float) -> Numbers:

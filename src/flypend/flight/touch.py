@@ -1,4 +1,4 @@
-"""Whether and where the rod touches within an interval, as one function for kernels and the step-by-step reference."""
+"""Whether and where a machine touches itself or a floor within an interval; one source for kernels and reference."""
 
 from __future__ import annotations
 
@@ -13,42 +13,82 @@ from flypend.compile.numeric import as_numpy
 from flypend.geometry import Numbers, dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, part_names, rod_in_body
-from flypend.model.state import SIZE, E3Direction
+from flypend.model.outline import outline, outline_parts
+from flypend.model.state import SIZE, E3Direction, seen_packed
 
+_End = tuple[Any, Any, Any]  # rod in the body frame, its rate, its push on the vehicle
 # Points within a control period at which the rod is looked at. At 500 Hz they are 0.5 ms apart: the tip of a rod of
 # half a metre at 15 rad/s moves 4 mm, less than the thickness of the rod.
 POINTS = 4
-NEVER = 2.0  # the share of an interval in which the rod touches nothing
+BOUNDS = {"gimbal": np.inf, "cup": -1.0}  # `room` where it is not computed
+LANDED = "floor: "  # begins the name of what has met the floor
+NEVER = 2.0  # the share of an interval in which nothing is touched
 
 
-def touching(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> ca.Function:
+def touching(
+    vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None
+) -> ca.Function:
     """Build (before, after, period) → (clearance, share, part) for two states in the frame `e3`, `period` (s) apart.
 
     Each state is followed by the rotor forces, (24 + n,), or unless `by_rotors` by the thrust, (25,). In between the
     rod moves in the body frame along the cubic through directions and rates at both ends, and is looked at in `POINTS`
     equally spaced shares of the interval. `clearance` is the smallest distance there, m, `share` the first at which a
-    margin of `model.mount` is negative, `NEVER` if none is, and `part` the place of that margin in `part_names`.
+    margin of `model.mount` is negative, `NEVER` if none is, and `part` the place of that margin in `touchable`.
+
+    A part of the machine that is below the height `floor` (m, upward whatever the frame) at the end of the interval has
+    passed it at the share that its heights at both ends give. Whoever comes back up within the interval is missed: in
+    2 ms by less than 0.1 mm.
     """
     before, after, period, ends = _ends(vehicle, e3, by_rotors)
     least, share, part = ca.SX(np.inf), ca.SX(NEVER), ca.SX(-1)
-    for k in range(POINTS, 0, -1):
+    for k in range(POINTS, 0, -1) if vehicle.mount != "gimbal" else ():
         smallest, place, clearance = least_margin(*_between(ends, period, k / POINTS), vehicle)
         least = ca.fmin(least, clearance)
         share = ca.if_else(smallest < 0, k / POINTS, share)
         part = ca.if_else(smallest < 0, place, part)
+    if floor is not None:
+        high, low = (_heights(packed, vehicle, e3, floor) for packed in (before, after))
+        share, part = _landing(high, low, vehicle, share, part)
     return ca.Function("touching", [before, after, period], [ca.cse(ca.vertcat(least, share, part))])
 
 
-def room(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> ca.Function:
+def _heights(packed: Numbers, vehicle: Vehicle, e3: E3Direction, floor: float) -> Numbers:
+    """Heights (k, 1) of the lowest points of the parts of the outline above the `floor`, m."""
+    low, _ = outline(State.symbolic(seen_packed(packed[:SIZE], e3)), vehicle)
+    return low[:, 2] - floor
+
+
+def _landing(
+    before: Numbers, after: Numbers, vehicle: Vehicle, share: Numbers, part: Numbers
+) -> tuple[Numbers, Numbers]:
+    """Share and part of the first touch: that of the mount at `share` by `part`, or where a height falls below 0."""
+    first = len(part_names(vehicle))
+    for k, (high, low) in enumerate(zip(ca.vertsplit(before), ca.vertsplit(after), strict=True)):
+        when = ca.if_else(high > 0, high / (high - low), 0)
+        earlier = ca.logic_and(low < 0, when < share)
+        share, part = ca.if_else(earlier, when, share), ca.if_else(earlier, first + k, part)
+    return share, part
+
+
+def room(
+    vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None
+) -> ca.Function:
     """Build (before, after, period), as in `touching`, → a lower bound of every distance in between, m, much cheaper.
 
     A point of a disc at height h and radius ρ is at least ρ |u₃| − |h| from a rod u in the body frame, one of an arm at
     least 2 ρ sin(ε/2), sin ε = |u₃|. In between, |u₃| changes by at most |u̇| for half the interval. In a cup nothing is
-    bounded: the result is negative.
+    bounded: the result is negative. So it is where the machine has come below the `floor`.
     """
-    before, after, period, ((u_0, rate_0, _), (u_1, rate_1, _)) = _ends(vehicle, e3, by_rotors)
-    if vehicle.mount != "hub":
-        return ca.Function("room", [before, after, period], [ca.SX(-1)])
+    before, after, period, ends = _ends(vehicle, e3, by_rotors)
+    bound = _room_on_hub(vehicle, period, *ends) if vehicle.mount == "hub" else ca.SX(BOUNDS[vehicle.mount])
+    if floor is not None:
+        bound = ca.if_else(ca.mmin(_heights(after, vehicle, e3, floor)) < 0, -1, bound)
+    return ca.Function("room", [before, after, period], [ca.cse(bound)])
+
+
+def _room_on_hub(vehicle: Vehicle, period: Any, before: _End, after: _End) -> Any:
+    """See `room`."""
+    (u_0, rate_0, _), (u_1, rate_1, _) = before, after
     body, centres = vehicle.body, vehicle.rotors_from_pivot
     inner = float(np.min(np.linalg.norm(centres[:, :2], axis=1))) - body.disc_radius
     speed = ca.fmax(ca.sqrt(dot(rate_0, rate_0)), ca.sqrt(dot(rate_1, rate_1)))
@@ -57,20 +97,27 @@ def room(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) ->
     discs = inner * up - float(np.max(np.abs(centres[:, 2]))) - body.rod_radius
     chord = ca.sqrt(2 * up**2 / (1 + ca.sqrt(ca.fmax(1 - up**2, 0))))  # 2 sin(ε/2) without cancellation
     arms = body.hub_radius * chord - body.arm_radius - body.rod_radius
-    return ca.Function("room", [before, after, period], [ca.cse(ca.fmin(discs, arms))])
+    return ca.fmin(discs, arms)
+
+
+def touchable(vehicle: Vehicle) -> list[str]:
+    """Return the names of what `touching` tells apart: the parts of the mount, then those that can meet a floor."""
+    return part_names(vehicle) + [f"{LANDED}{part}" for part in outline_parts(vehicle)]
 
 
 def touched(vehicle: Vehicle, part: int) -> str:
     """Return the reason of an outcome, for the `part` of `touching`."""
-    name = part_names(vehicle)[part]
+    name = touchable(vehicle)[part]
+    if name.startswith(LANDED):
+        return f"the {name.removeprefix(LANDED)} touched the floor"
     if vehicle.mount == "hub":
         return f"the rod touched {name}"
     return "the rod left the cone of its cup" if name == "cone" else "the cup would have had to pull the rod"
 
 
 def touched_part(vehicle: Vehicle, reason: str) -> str | None:
-    """Return the name in `part_names` of the part that an outcome's `reason` is about; None if it is about none."""
-    names = part_names(vehicle)
+    """Return the name in `touchable` of the part that an outcome's `reason` is about; None if it is about none."""
+    names = touchable(vehicle)
     return next((name for part, name in enumerate(names) if touched(vehicle, part) == reason), None)
 
 
@@ -85,20 +132,17 @@ Watch = Callable[[Any, Any, float], Touch | None]
 
 
 @lru_cache(maxsize=64)
-def watcher(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True) -> Watch:
+def watcher(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None) -> Watch:
     """Return (before, after, period) → the first touch between two states; arguments as in `touching`."""
-    if vehicle.mount == "gimbal":
+    if vehicle.mount == "gimbal" and floor is None:
         return lambda *_: None
-    look = as_numpy(touching(vehicle, e3, by_rotors=by_rotors))
+    look = as_numpy(touching(vehicle, e3, by_rotors=by_rotors, floor=floor))
 
     def watch(before: Numbers, after: Numbers, period: float) -> Touch | None:
         _, share, part = look(before, after, period)
         return Touch(float(share), touched(vehicle, int(part))) if share <= 1 else None
 
     return watch
-
-
-_End = tuple[Any, Any, Any]
 
 
 def _ends(vehicle: Vehicle, e3: E3Direction, by_rotors: bool) -> tuple[Any, Any, Any, tuple[_End, _End]]:

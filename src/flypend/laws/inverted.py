@@ -30,8 +30,9 @@ from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer
 from flypend.laws.law import Law
 from flypend.laws.passage import FREE, Passage, heading, passage_of, steered
 from flypend.laws.references import Path, Reference, hover
-from flypend.laws.smooth import smooth_step, soft
+from flypend.laws.smooth import soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
+from flypend.laws.spinning import DAMPING, braking, leading, spin_of
 from flypend.laws.throw import (
     Bob,
     Demand,
@@ -62,10 +63,6 @@ HUB_CONE, CUP_SHARE = 1.4, 0.8
 ANTIPODE_PUSH = 0.03
 # Largest rate demanded of the thrust axis, in units of √α: the vehicle stops from it within TURN²/2 rad.
 TURN = 1.3
-# Spin about the thrust axis, in units of the one at which turning the axis as fast as the vehicle flips takes all
-# moment there is: up to one unit the gyroscopic moment is compensated; from here on not at all, the axis moves as a
-# gyroscope's, and the rod waits, hanging, until the spin has decayed.
-SPUN = 2.0
 # Rotors that follow a fast spin are at their limits, where no lead helps: the body turns on for this multiple of their
 # lag, chosen among 0.4 to 2 by how many spins of 20 to 40 rad/s recover.
 SPIN_LAG = 1.3
@@ -183,13 +180,12 @@ def inverted_control(
         steering = steered(state, heading(state, ahead.y, caught, k.coast_time), k.mounting.passage)
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
     clear = ca.SX.sym("clear")
-    authority, inertia = angular_authority(vehicle), vehicle.I
-    turn_rate = TURN * ca.sqrt(authority)
-    fast_spin = ca.fmax(inertia[0, 0], inertia[1, 1]) / inertia[2, 2] * ca.sqrt(authority)
-    calm = 1 - smooth_step(((state.omega[2] / fast_spin) ** 2 - 1) / (SPUN**2 - 1))
+    authority = angular_authority(vehicle)
+    spin = spin_of(state, vehicle, authority, TURN * ca.sqrt(authority))
+    calm, brake = spin.calm, (1 - spin.calm) * braking(state, vehicle)
     pose = Pose(low, height, steering.aside, clear)
     present = force(nearer, path_nearer, pose._replace(low=low_rod(nearer, state.z, path_nearer.up, k)))
-    f = ca.fmin(ca.fmax(dot(present, state.z), 0), largest_thrust(vehicle))
+    f = ca.fmin(ca.fmax(dot(calm * present + brake, state.z), 0), spin.thrust * largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(*forces))
 
@@ -213,6 +209,7 @@ def inverted_control(
         if ideal:
             wanted_dot += along(wanted, ideal[1])
     f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
+    wanted, wanted_dot = calm * wanted + brake, calm * wanted_dot
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)
     # From here on in the body frame, where z = e₃ and half of what follows is zero. ż_d is known up to a component
     # along z_d, which the transport map of Lemma 2 annihilates.
@@ -229,12 +226,15 @@ def inverted_control(
     bandwidth = k.attitude_bandwidth * (1 + k.mounting.haste * low)
     stiffness, damping = bandwidth**2, 2 * k.attitude_damping * bandwidth
     # Turn no faster than the vehicle can stop; the bare spring would turn it at stiffness / damping per radian.
-    u_z = stiffness * limited_force(spring, turn_rate * damping / stiffness) - damping * v_e
-    u_z = calm * u_z + (1 - calm) * soft(u_z, authority / 2)
+    pull = stiffness * limited_force(spring, spin.rate * damping / stiffness)
+    u_z = pull - damping * v_e
+    u_z = calm * u_z + (1 - calm) * soft(u_z, DAMPING * spin.acceleration)
 
     # What is left of the rotors' lag turns a spinning body on before they act.
     yaw = steering.yaw - k.yaw_damping * state.omega[2]
-    moment = axis_moment(state, vehicle, u_z, yaw, turned=-k.mounting.lag_left * state.omega[2], compensated=calm)
+    turned = -calm * k.mounting.lag_left * state.omega[2]
+    moment = axis_moment(state, vehicle, u_z, yaw, turned=turned, compensated=calm)
+    moment = moment + leading(state, vehicle, pull / damping, 1 - calm)
     if ideal:
         f, moment, z_d = ca.substitute([f, moment, z_d], list(HELD), list(ideal[0]))
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}

@@ -158,6 +158,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "hold": hold,
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
         "vehicle": drawn(vehicle),
+        "floor": run.flight.plant.floor if run.flight else None,
         "columns": {name: in_base64(values) for name, values in columns.items()},
     }
 

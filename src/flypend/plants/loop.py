@@ -53,6 +53,11 @@ class Loop:
         return isinstance(self.plant, Ideal) and self.plant.lag
 
     @property
+    def touches(self) -> bool:
+        """Whether there is something to touch: for the rod on its mount, or a floor."""
+        return self.vehicle.mount != "gimbal" or self.plant.floor is not None
+
+    @property
     def sampled(self) -> Sampled:
         """The plant, which must be sampled. Raises InputError for the ideal plant."""
         return sampled_plant(self.plant)

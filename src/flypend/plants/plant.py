@@ -115,6 +115,8 @@ class Ideal:
     rotors : array, optional
         With `lag`, forces of the n rotors at the start, N: (n,) for all runs, or (runs, n) for each. Default: their
         minimum.
+    floor : float, optional
+        As in `Plant`.
 
     Raises
     ------
@@ -125,8 +127,10 @@ class Ideal:
     limits: bool = False
     lag: bool = False
     rotors: Any = None
+    floor: float | None = None
 
     def __post_init__(self) -> None:
+        _check_height("floor", self.floor)
         for name in ("limits", "lag"):
             if not isinstance(getattr(self, name), bool):
                 raise InputError(f"plant.{name}", "true or false", repr(getattr(self, name)))
@@ -182,7 +186,10 @@ class Sampled:
         vehicle's `air`. "all" stands for those that are not zero there.
     ground : float, optional
         Height of a ground that raises the thrust of rotors close to it, m; None for none. The radius of the rotors is
-        that of the vehicle's `body`. Nothing collides with the ground.
+        that of the vehicle's `body`. Nothing collides with the ground: see `floor`.
+    floor : float, optional
+        Height of a floor, m, upward from the origin of the world; None for none. A flight ends as collided where the
+        hub, a rotor disc or the end of the rod touches it; see `flypend.model.outline`.
     sensors : Sensors, str or dict, optional
         What measures the state, or the name of a suite ("mocap", "onboard") or a table. Default "perfect": the
         flight computer measures the state itself, with `noise`.
@@ -226,6 +233,7 @@ class Sampled:
     strength: Any = 1.0
     air: Any = ()
     ground: float | None = None
+    floor: float | None = None
     sensors: Any = None
     pivot_offset: Any = (0.0, 0.0, 0.0)
     centre_of_mass: Any = (0.0, 0.0, 0.0)
@@ -257,8 +265,8 @@ class Sampled:
         errors.number("plant.sag", self.sag, at_least=0, at_most=MOST_SAG)
         object.__setattr__(self, "strength", _strength(self.strength))
         object.__setattr__(self, "air", _effects(self.air))
-        if self.ground is not None:
-            errors.number("plant.ground", self.ground, unit="m")
+        _check_height("ground", self.ground)
+        _check_height("floor", self.floor)
         for name, kind, expected in _KINDS:
             if not isinstance(value := getattr(self, name), kind):
                 raise InputError(f"plant.{name}", expected, repr(value))
@@ -335,6 +343,11 @@ class Sampled:
         """Return a copy with the fields in `changes` replaced, validated again. Raises InputError."""
         errors.only_known("plant", changes, [entry.name for entry in fields(self)])
         return replace(self, **changes)
+
+
+def _check_height(name: str, value: Any) -> None:
+    if value is not None:
+        errors.number(f"plant.{name}", value, unit="m")
 
 
 def _strength(value: Any) -> float | tuple[float, ...]:

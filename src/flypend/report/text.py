@@ -27,7 +27,7 @@ WHY = {
     "position": f"position: the pivot is more than 0.2 m from its reference {_END}",
     "diverged": "diverged: the state left all bounds",
     "singular": "singular: the law stopped being defined",
-    "collided": "collided: the rod touched the vehicle or left its cup",
+    "collided": "collided: the rod touched the vehicle or left its cup, or the machine met the floor",
 }
 
 
@@ -45,7 +45,7 @@ def judgement(run: Trajectory) -> str:
     least = (
         f", rod clear by {number(1e3 * m.clearance)} mm" if m.cause != "collided" and m.clearance < float("inf") else ""
     )
-    way = f"largest distance {number(m.excursion)} m" if up else fall(run)
+    way = f"largest distance {number(m.excursion)} m, lowest point at {number(m.lowest)} m" if up else fall(run)
     return f"{pose} {reached}, {way}, largest rotor force {number(m.peak_force)} N{least}"
 
 

@@ -6,7 +6,7 @@ import os
 import tomllib
 from collections.abc import Iterable
 from copy import deepcopy
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -162,9 +162,9 @@ def plant_of(value: Any) -> AnyPlant:
     given = dict(value)
     base = plant(given.pop("base", "rotors"))
     if isinstance(base, Ideal):
-        if given:
+        if given.keys() - {"floor"}:
             raise InputError("plant", "a base with numbers, such as 'rotors'", "the ideal plant")
-        return base
+        return replace(base, **given)
     for key, kind in (("noise", Noise), ("wind", Wind)):
         if key in given:
             table = table_at(given, key)

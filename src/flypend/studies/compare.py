@@ -183,6 +183,8 @@ def summary(ensemble: Ensemble) -> dict[str, Any]:
         "excursion_p50": ensemble.percentile("excursion", 50),
         "excursion_p95": ensemble.percentile("excursion", 95),
         "excursion_max": ensemble.percentile("excursion", 100),
+        "lowest_p5": ensemble.percentile("lowest", 5),
+        **{f"{name}_p95": ensemble.percentile(name, 95) for name in ("box_x", "box_y", "box_z")},
         "effort_p50": ensemble.percentile("effort", 50),
         "peak_force_max": ensemble.percentile("peak_force", 100),
         **({"clearance_p5": ensemble.percentile("clearance", 5)} if ensemble.vehicle.mount != "gimbal" else {}),

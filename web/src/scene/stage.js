@@ -13,7 +13,7 @@ import { Rig } from "./rig.js";
 import { Walls } from "./walls.js";
 import { World } from "./world.js";
 
-const FLOOR = { under: 1.25, below: 0.35 }; // reaches of the machine: of the floor under the start, and below all that a flight passes
+const FLOOR = { under: 1.25, below: 0.35 }; // reaches of the machine: of a floor that is only drawn, under the start, and below all that a flight passes
 const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
 const ROOM = 0.55, BLURRED = 0.04; // strength of the light that comes from a room, and how far it is blurred, rad
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
@@ -60,7 +60,7 @@ export class Stage {
     const reach = Math.max(...flights.map((flight) => flight.vehicle.reach));
     const box = bounds(this.flyers.flatMap((flyer) => [flyer.pivots, flyer.bobs]));
     const start = Array.from(this.flyers[0].pivots.subarray(0, 3));
-    const floor = Math.min(start[2] - FLOOR.under * reach, box.centre[2] - box.half[2] - FLOOR.below * reach);
+    const floor = flights[0].floor ?? Math.min(start[2] - FLOOR.under * reach, box.centre[2] - box.half[2] - FLOOR.below * reach);
     this.world = new World(floor, reach, Boolean(this.scene.environment));
     this.pole = new Pole(start, flights[0].direction, floor, box.centre[2] + box.half[2], reach);
     this.walls = new Walls(flights[0].windows ?? []);

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend.errors import InputError
-from flypend.flight.criterion import REDUCTIONS
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.geometry import Numbers
 from flypend.plants.loop import Loop
@@ -39,8 +38,8 @@ class Flown:
         End time of each run, s.
     code : (n,)
         How it ended: see `flypend.compile.llvm.runge_kutta`. `STATUS` maps codes to strings.
-    reductions : (n, 7), optional
-        See `criterion.REDUCTIONS`.
+    reductions : (n, 7) or (n, 13), optional
+        See `criterion.REDUCTIONS`, and in a sampled plant `EXTENTS`.
     samples : (n, times, 24 or more), optional
         States at the sample times, followed by rotor forces in a sampled flight, and by the wrench that acts in the
         ideal plant with lag; NaN after the end.
@@ -62,14 +61,17 @@ class Flown:
 
     @classmethod
     def of_size(
-        cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: bool, touching: bool = False
+        cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: int, touching: bool = False
     ) -> Flown:
-        """Allocate results for `runs` runs with states of `size`; `samples` is (times, length) if they are kept."""
+        """Allocate results for `runs` runs with states of `size`.
+
+        `samples` is (times, length) if they are kept, `judged` the number of reductions, 0 for none.
+        """
         return cls(
             final=np.empty((runs, size)),
             end=np.empty(runs),
             code=np.empty(runs, dtype=np.int64),
-            reductions=np.empty((runs, len(REDUCTIONS))) if judged else None,
+            reductions=np.empty((runs, judged)) if judged else None,
             samples=None if samples is None else aligned((runs, *samples)),
             steps=np.empty(runs, dtype=np.int64) if steps else None,
             clearance=np.empty(runs) if touching else None,

@@ -21,7 +21,7 @@ from flypend.compile.methods import method as method_named
 from flypend.compile.problem import Judging, Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
-from flypend.flight.criterion import Criterion, gauge_bounds, gauged
+from flypend.flight.criterion import REDUCTIONS, Criterion, gauge_bounds, gauged
 from flypend.flight.kernels.flown import Flown, Progress, from_queue, inputs_of, ordered
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.flight.kernels.touching import touch_of
@@ -142,8 +142,8 @@ class IdealKernel:
         size = starts.shape[1]
         samples = None if keep_at is None else (len(moments.kept) - 1, size)
         out = Flown.of_size(
-            len(starts), size, samples=samples, steps=True, judged=judge_at is not None,
-            touching=self.loop.vehicle.mount != "gimbal",
+            len(starts), size, samples=samples, steps=True, judged=0 if judge_at is None else len(REDUCTIONS),
+            touching=self.loop.touches,
         )  # fmt: skip
 
         def fly(queue: Any, stop: Word) -> None:
@@ -172,12 +172,12 @@ def integrate(
     """Fly one run by a compiled ideal kernel from `start` (24,) or (28,), keeping the states at increasing `times`.
 
     `values` (1, k) are the parameter values. `knots` receives the number of accepted steps
-    and four numbers for each: its time, and the drift (3,) before projection. `touching` says whether the rod can touch
-    anything.
+    and four numbers for each: its time, and the drift (3,) before projection. `touching` says whether there is
+    anything to touch.
     """
     moments = Moments.of(keep_at=times)
     size = len(start)
-    out = Flown.of_size(1, size, samples=(len(moments.kept) - 1, size), steps=True, judged=False, touching=touching)
+    out = Flown.of_size(1, size, samples=(len(moments.kept) - 1, size), steps=True, judged=0, touching=touching)
     heard([lambda stop: call(function, start[None], values, limits, moments, out, stop, knots=knots)])
     return out
 
@@ -213,7 +213,7 @@ def ideal_kernel(
 ) -> IdealKernel:
     """Return the kernel of a `loop` in continuous time, compiled or from the cache.
 
-    Of the loop's plant only counts whether it is ideal with lag.
+    Of the loop's plant only count lag and floor.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
         margin=_margin(symbols, law, inputs),
         judging=_judging(vehicle, law, criterion, size),
         # Entry 24 of what touches is the thrust: the first of the wrench, wherever it stands.
-        touch=touch_of(vehicle, law.e3, by_rotors=False),
+        touch=touch_of(vehicle, law.e3, by_rotors=False, floor=loop.plant.floor),
     )
 
 

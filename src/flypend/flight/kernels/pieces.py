@@ -28,9 +28,9 @@ from flypend.compile.numeric import as_numpy
 from flypend.compile.program import lower
 from flypend.compile.sampled_problem import Resuming, SampledProblem
 from flypend.errors import InputError
-from flypend.flight.criterion import REDUCTIONS, Criterion
+from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import STATUS, aligned, inputs_of, ordered
-from flypend.flight.kernels.sampled import ARGUMENT_KINDS, sampled_problem, structure, written
+from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, written
 from flypend.flight.kernels.single import sampled_outcome
 from flypend.flight.outcome import Outcome
 from flypend.model import State
@@ -125,7 +125,7 @@ class PiecewiseFlight:
         begin = np.append(seen_packed(start.packed(), loop.law.e3), rotors)
         self._given: dict[str, Any] = {
             "starts": begin[None], "parameters": inputs_of(loop, None, 1).copy(), "seeds": np.array([seed]), "runs": 1,
-            "reductions": np.zeros((1, len(REDUCTIONS))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
+            "reductions": np.zeros((1, len(JUDGED))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
             "status": np.zeros(1, dtype=np.int64), "clearance": np.zeros(1), "part": np.zeros(1, dtype=np.int64),
             "stop": np.zeros(1, dtype=np.int64), "context": aligned((kernel.room // 8,)),
             "mujoco": None,

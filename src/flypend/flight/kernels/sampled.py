@@ -23,7 +23,7 @@ from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
 from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.errors import array
-from flypend.flight.criterion import REDUCTIONS, Criterion, observed
+from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observed
 from flypend.flight.kernels.flown import Flown, Progress, in_pieces, inputs_of, ordered
 from flypend.flight.kernels.stopping import Word
 from flypend.flight.kernels.touching import touch_of
@@ -31,6 +31,7 @@ from flypend.flight.moments import merged
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.geometry import Numbers
 from flypend.model import State, Vehicle
+from flypend.model.outline import extent
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import rotor_step
@@ -45,6 +46,7 @@ from flypend.plants.schedule import steps_in, within_period
 from flypend.plants.sensing import START_TICK, first_estimate, first_memory, sensing, start_draws
 
 WIDTH = 8
+JUDGED = REDUCTIONS + EXTENTS
 ARGUMENT_KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
 # Runs per piece of work; MuJoCo flies them one by one, some tens of milliseconds each.
 PIECE, PIECE_MUJOCO = 4 * WIDTH, 1
@@ -83,11 +85,6 @@ class SampledKernel:
     criterion: Criterion
     function: Any
     key: str
-
-    @property
-    def touches(self) -> bool:
-        """Whether there is something that the rod can touch."""
-        return self.loop.vehicle.mount != "gimbal"
 
     def through(self, plant: Plant) -> SampledKernel:
         """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
@@ -139,7 +136,7 @@ class SampledKernel:
         count = number_of_ticks(duration, loop.sampled)
         values = inputs_of(loop, parameters, runs)
         samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + n)
-        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=True, touching=self.touches)
+        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=len(JUDGED), touching=self.loop.touches)
         numbers = plant_numbers(loop)
         piece = PIECE if loop.sampled.engine == "equations" else PIECE_MUJOCO
 
@@ -291,13 +288,13 @@ def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None 
         measure=lower(measurement()) if plant.noise is not None else None,
         gusts=lower(gusts(knocks=plant.wind.knocks)) if plant.wind is not None else None,
         judge=lower(_judge(loop, criterion)),
-        reductions=REDUCTIONS,
+        reductions=JUDGED,
         flown=tuple(Stretch(age, steps) for age, _, steps in _flown(plant)),
         timing=timing_size(plant) if plant.engine == "equations" else 1 + STEP_NUMBERS,
         period=1 / plant.rate,
         random=is_random(plant),
         sensing=_sensing(loop) if plant.sensors is not None else None,
-        touch=touch_of(true, "up", by_rotors=True),
+        touch=touch_of(true, "up", by_rotors=True, floor=plant.floor),
     )
 
 
@@ -322,10 +319,11 @@ def _sensing(loop: Loop) -> Sensing:
 
 
 def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
-    """Return (t, state and rotor forces with e₃ up, gains) → values that `criterion.REDUCTIONS` reduce."""
+    """Return (t, state and rotor forces with e₃ up, gains) → values that `JUDGED` reduces."""
     law = loop.symbolic
     n = len(loop.vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))
     own = seen_packed(packed[:SIZE], law.e3)
+    low, high = extent(State.symbolic(packed[:SIZE]), loop.vehicle)
     seen = observed(t, State.symbolic(own), packed[SIZE:], loop.vehicle, law.reference, criterion, law.e3)
-    return ca.Function("judge", [t, packed, p], [ca.densify(seen)])
+    return ca.Function("judge", [t, packed, p], [ca.cse(ca.densify(ca.vertcat(seen, high, -low)))])

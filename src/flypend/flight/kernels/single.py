@@ -42,7 +42,7 @@ class Solution:
         self._values = inputs_of(kernel.loop, None if parameters is None else np.asarray(parameters)[None], 1)
         room = np.empty(1 + 4 * self._limits.max_steps)
         room[0] = 0
-        self._touching = flight.vehicle.mount != "gimbal"
+        self._touching = flight.loop.touches
         flown = self._fly(np.zeros(0), room)
         steps = room[1 : 1 + 4 * int(room[0])].reshape(-1, 4)
         self.knots, self.drift = np.append(0.0, steps[:, 0]), steps[:, 1:].copy()

@@ -9,9 +9,9 @@ from flypend.model import Vehicle
 from flypend.model.state import E3Direction
 
 
-def touch_of(vehicle: Vehicle, e3: E3Direction, *, by_rotors: bool) -> Touch | None:
-    """Return what the rod of `vehicle` can touch, None on a gimbal; arguments as in `flight.touch.touching`."""
-    if vehicle.mount == "gimbal":
+def touch_of(vehicle: Vehicle, e3: E3Direction, *, by_rotors: bool, floor: float | None) -> Touch | None:
+    """Return what `vehicle` can touch, None on a gimbal without a floor; arguments as in `flight.touch.touching`."""
+    if vehicle.mount == "gimbal" and floor is None:
         return None
-    bound, search = room(vehicle, e3, by_rotors=by_rotors), touching(vehicle, e3, by_rotors=by_rotors)
+    bound, search = (make(vehicle, e3, by_rotors=by_rotors, floor=floor) for make in (room, touching))
     return Touch(lower(bound), lower(search))

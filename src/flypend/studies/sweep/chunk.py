@@ -24,7 +24,9 @@ from flypend.studies.sweep.study import Study, study
 
 # The meaning of the stored cause codes, by index.
 CAUSES = ("success", *PARTS, "diverged", "singular", "collided")
-FLOATS = ("settling", "excursion", "effort", "peak_force", "end", "clearance")
+FLOATS = (
+    "settling", "excursion", "effort", "peak_force", "end", "clearance", "lowest", "box_x", "box_y", "box_z"
+)  # fmt: skip
 
 
 @lru_cache(maxsize=4)

@@ -34,7 +34,7 @@ ROWS = {
 }
 UNITS = {
     "settling": "s", "excursion": "m", "peak_force": "N", "end": "s", "clearance": "m", "x": "m", "x_dot": "m/s",
-    "omega": "rad/s",
+    "omega": "rad/s", "lowest": "m", "box_x": "m", "box_y": "m", "box_z": "m",
     "y_dot": "1/s", "tilt": "rad", "azimuth": "rad", "heading": "rad", "rate": "1/s",
 }  # fmt: skip
 NOTES = {
@@ -44,6 +44,8 @@ NOTES = {
     "peak_force": "largest force of any rotor",
     "end": "time at which the run ended",
     "clearance": "least distance of the rod to what its mount lets it touch; infinite on a gimbal",
+    "lowest": "height of the lowest point of hub, rod and rotor discs; NaN in the ideal plant",
+    **{f"box_{axis}": f"size along {axis} of the box that holds the machine; NaN in the ideal plant" for axis in "xyz"},
     "tilt": "tilt of the rod from inverted",
     "quat_xyzw": "rotation from body to world, order x, y, z, w",
     "final": "packed final state: x, x_dot, R (row-major), omega, y, y_dot",

@@ -12,7 +12,7 @@ Upright is a saddle, from which no first step tells a rod which way to lean: the
 a small lean. Where the lean is limited and there is a window to pass, most guesses therefore lean in the wall. Their
 rods lean by λ(t), a level vector, which takes an acceleration λ − λ̈ of the pivot while it is small. λ is the least sum
 of bumps that brings the pivot from the start to rest at the target, through the middle of each window at a given speed,
-and leans as wanted there. Thrust and attitude follow from it, as far as the rotors can.
+and leans as wanted there. Thrust and attitude follow from it, as far as the rotors can. Arcs are made likewise.
 """
 
 from __future__ import annotations
@@ -75,6 +75,9 @@ AGAIN = [
     (-0.5, 0, 2.5),
 ]
 WAYS = np.array([FIRST, AGAIN])
+AZIMUTHS = np.pi / 4 * np.arange(8) + 0.2  # of the ways in which the rod turns, off the planes of the rotors,
+BUMPS_ASIDE = (0.3, 0.8)  # and how wide: a straight rod turns in its plane anyway
+PLANAR = 1e-6  # share of the largest singular value below which an arc stays in a plane
 BUMPS = 16
 MOST = 0.95  # of the lean that is allowed
 LEAST = 1e-9
@@ -162,6 +165,34 @@ def _acceleration(x: ca.SX, x_dot: ca.SX, y: ca.SX, H: ca.SX, style: ca.SX, e3: 
 def _smooth_step(value: ca.SX) -> ca.SX:
     """Return a step from 0 to 1 about `value` 0, without an exponential."""
     return (1 + value / ca.sqrt(1 + value**2)) / 2
+
+
+def arcs(asked: Request, stages: int, h: float) -> list[tuple[Array, Array]]:
+    """Return guesses as `leaned` does, in which the rod turns to upright on one smooth arc: the quickest ways up.
+
+    The rod is y = w/|w| with w a quintic step from the start to e₃, its first rate that of the start, and a bump
+    sideways that says which way it turns. What it does needs the force −ÿ across the rod. That along the rod is free:
+    the least change of it, from what carries the rod, that brings the pivot to rest at the target. There are as many as
+    ways in `AZIMUTHS` and `BUMPS_ASIDE`.
+    """
+    t, T = np.linspace(0, 1, stages + 1)[:, None], stages * h
+    step, start = t**3 * (10 - 15 * t + 6 * t**2), asked.start
+    across, begun = 16 * (t * (1 - t)) ** 2, t * (1 - t) ** 3 * T * start[21:24]
+    left, share = T * (1 - t), np.full((stages + 1, 1), h)
+    share[[0, -1]] /= 2
+    rest, found = -np.concatenate([start[3:6], start[:3] + T * start[3:6]]), []
+    for azimuth in AZIMUTHS:
+        for aside in BUMPS_ASIDE:
+            way = aside * np.array([np.cos(azimuth), np.sin(azimuth), 0])
+            y = unit((1 - step) * start[18:21] + step * E3 + across * way + begun)
+            bent = np.gradient(np.gradient(y, h, axis=0), h, axis=0)
+            a = y * (y[:, 2:] + np.sum(bent * y, axis=1, keepdims=True)) - bent - E3
+            moves = np.hstack([y, left * y]) * share
+            missed = rest - np.concatenate([np.sum(share * a, axis=0), np.sum(share * left * a, axis=0)])
+            a = a + y * (np.linalg.lstsq((moves / np.sqrt(share)).T, missed, rcond=PLANAR)[0][:, None] / np.sqrt(share))
+            x_dot = start[3:6] + _integral(a, h)
+            found.append(_with_thrust(asked, start[:3] + _integral(x_dot, h), y, h))
+    return found
 
 
 def leans(asked: Request, style: int) -> bool:

@@ -27,10 +27,11 @@ STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
 HATCH = 0.1  # least level part of the normal of a window in which guesses lean
 FAR = 1e6  # rod lengths: no wall
+# The less the way matters beside the end, the fewer iterations the least time takes; some, or the machine wanders off.
 # Each objective has a little of the other, without which its problem has no unique solution.
 LEAST = {"excursion": 1e-3, "effort": 1e-4}
 OBJECTIVES: Mapping[str, Mapping[str, float]] = MappingProxyType(
-    {"excursion": {"excursion": 1.0}, "effort": {"effort": 1.0}, "time": {"excursion": 1.0}}
+    {"excursion": {"excursion": 1.0}, "effort": {"effort": 1.0}, "time": {"excursion": 0.03}}
 )
 
 
@@ -70,6 +71,11 @@ class Request:
         """Whether the rod touches something at the start, from where no plan leads."""
         start = self.start * self.units.states(self.rotors)
         return bool(begins_touching(start[None, :SIZE], start[None, SIZE:], self.vehicle))
+
+    @property
+    def falls(self) -> bool:
+        """Whether the rod may fall and be pumped up again."""
+        return not self.structure.lean and self.vehicle.mount != "cup"
 
     @property
     def leaning(self) -> bool:

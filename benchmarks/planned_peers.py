@@ -120,7 +120,7 @@ class Shooting:
         body, last = z[: -self.width].reshape(self.N, -1), z[-self.width : -1]
         lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
         ways = np.vstack([body[:, : self.width - 1], last]), body[:, self.width :]
-        what = Found(*ways, float(found["f"]), lacks, "", 0, (float(found["f"]),), stats["iter_count"], took)
+        what = Found(*ways, float(found["f"]), lacks, "", 0, (float(found["f"]),), 0.0, stats["iter_count"], took)
         return Answer(plans_of([asked], [what], HORIZONS[0])[0], took, derivatives)
 
 

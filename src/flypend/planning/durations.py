@@ -18,7 +18,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from flypend.geometry import E3
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.result import Plan
 from flypend.planning.search import SOFT_LAST, Found, Guess, Job, Watch, agreeing, guesses_of, improved, together
@@ -116,11 +115,12 @@ class Search:
 def ladder(duration: float | None, asked: Request) -> list[float]:
     """Return the horizons to try, √(l/g), up to a `duration` of so many.
 
-    With a path there is no other: it says where to be at each time.
+    With a path there is no other, since it says where to be at each time; nor where the end is no place to wait.
     """
+    waits = asked.waits and not asked.structure.path
     if duration is None:
-        return [*SHORTER, *HORIZONS]
-    shorter = [] if asked.structure.path else [each for each in (*SHORTER, *HORIZONS) if each < (1 - EQUAL) * duration]
+        return [*(SHORTER if waits else ()), *HORIZONS]
+    shorter = [] if not waits else [each for each in (*SHORTER, *HORIZONS) if each < (1 - EQUAL) * duration]
     return [*shorter, duration]
 
 
@@ -181,5 +181,6 @@ def _waiting(tried: Tried, horizon: float) -> Guess:
     """Return what was `tried`, followed by hover until `horizon` (√(l/g))."""
     states, commands = tried.found.states, tried.found.commands
     wait = max(0, round((horizon / tried.horizon - 1) * len(commands)))
-    hover = np.concatenate([np.zeros(6), states[-1, 6:15], np.zeros(3), E3, np.zeros(3), np.ones(commands.shape[1])])
+    hover = tried.asked.rest
+    hover[6:15] = states[-1, 6:15]  # the heading does not matter
     return np.vstack([states, np.tile(hover, (wait, 1))]), np.vstack([commands, np.ones((wait, commands.shape[1]))])

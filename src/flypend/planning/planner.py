@@ -42,13 +42,13 @@ def plan(
     objective: str | Mapping[str, float] = "excursion",
     *,
     duration: float | None = None,
-    target: ArrayLike | None = None,
+    target: ArrayLike | State | None = None,
     rotors: ArrayLike | None = None,
     constraints: Constraints | None = None,
     time_limit: float | None = None,
     **keywords: Unpack[Keywords],
 ) -> Plan:
-    """Plan a flight of `vehicle` from `start` to inverted hover at the `target`.
+    """Plan a flight of `vehicle` from `start` to inverted hover at the `target`, or to a target state.
 
     Parameters
     ----------
@@ -57,14 +57,16 @@ def plan(
         offset, friction of the joint, spin of the rod and air as zero.
     start : State
         A single state, e₃ up.
-    objective : "excursion", "effort", "time" or dict
+    objective : "excursion", "effort", "time", "cost" or dict
         What to make small: the largest distance of the pivot from target or path, the deviation of the rotor commands
-        from hover, or the duration; or weights of "excursion" (of its square, in rod lengths) and "effort".
+        from hover, the duration, or the `cost` of the constraints alone; or weights of "excursion" (of its square, in
+        rod lengths) and "effort".
     duration : float, optional
         By when it hovers, s; default 12.5 √(l/g), or longer if that is too short. A plan takes less time only if none
         that takes all of it is as good.
-    target : (3,)
-        Where the pivot is to hover, m; default the origin, or the end of the path.
+    target : (3,) or State
+        Where the pivot is to hover, m; default the origin, or the end of the path. Or a single state to end in, e₃ up:
+        hanging, `State(y=(0, 0, -1))`, or in motion; its heading does not matter.
     rotors : (n,), optional
         Rotor forces at the start, N; default their minimum.
     constraints : Constraints, optional
@@ -74,7 +76,8 @@ def plan(
         limited anyway, so that a plan does not depend on the machine. Compiling, once per kind of constraints, does not
         count.
     **keywords
-        Fields of `Constraints` one by one: box, floor, ceiling, speed, lean, window, waypoints, path, clearance.
+        Fields of `Constraints` one by one: box, floor, ceiling, speed, lean, window, waypoints, path,
+        clearance, keep, cost.
 
     Returns
     -------
@@ -132,7 +135,7 @@ def plan_ensemble(
     objective: str | Mapping[str, float] = "excursion",
     *,
     duration: float | None = None,
-    target: ArrayLike | None = None,
+    target: ArrayLike | State | None = None,
     rotors: ArrayLike | None = None,
     constraints: Constraints | None = None,
     guesses: int = 2,

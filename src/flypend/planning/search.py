@@ -29,7 +29,7 @@ Guess = tuple[Array, Array]  # states (stages + 1, 24 + n) and commands (stages,
 
 
 NEVER = np.full(1, np.inf)
-LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True))  # of a guess that is given up
+LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True), NEVER)  # of a guess that is given up
 MOST_ITERATIONS = 80
 # Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
@@ -37,6 +37,7 @@ SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
 SAME = 0.01  # share by which costs of guesses differ that lead to the same plan
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
 NOT_REACHED, NOT_KEPT = "inverted hover is not reached", "a wish is not kept"
+UNKNOWN = 1e9  # stationarity of what has no cost
 UNFINISHED = "the solver had not converged"
 
 
@@ -118,6 +119,7 @@ class Found:
     unfinished: str  # whether the solver had not converged; empty if it had
     style: int  # of its guess
     costs: tuple[float, ...]  # of all guesses of which it is the best, infinite for those that failed or were given up
+    stationarity: float  # see `Plan`
     iterations: int
     spent: float  # processor time, s: of every iteration, an equal part for each guess that was being solved
 
@@ -131,6 +133,8 @@ class Verdict:
         The cost, infinite for what cannot be flown; and how far it is from that, in tolerances.
     arrives : (lanes,)
         Whether it reaches hover, whatever it breaks on the way.
+    stationarity : (lanes,)
+        The change of the cost that the last step was to bring, as a share of it.
     barrier, stuck : (lanes,)
         See `solver.Measures`.
     """
@@ -139,6 +143,8 @@ class Verdict:
         cost, violation = (measures.cost if soft else measures.value), measures.violation
         self.arrives, self.stuck = (measures.end <= 1) & (measures.gap <= CLOSED), measures.stuck
         self.barrier = measures.barrier
+        with np.errstate(all="ignore"):
+            self.stationarity = np.nan_to_num(measures.change / measures.value, nan=UNKNOWN, posinf=UNKNOWN)
         self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
         lacks = np.maximum(measures.end, 1) + violation / TOLERANCE + measures.gap / CLOSED
         self.lacks = np.where(np.isfinite(lacks), lacks, np.inf)
@@ -165,7 +171,7 @@ class Watch:
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
         self._costs: tuple[float, ...] = (np.inf,) * len(on)
         self._soft = jobs[0].asked.structure.soft
-        self._kept: tuple[Array, Array, str, int] | None = None
+        self._kept: tuple[Array, Array, str, int, float] | None = None
         self._stuck = False
 
     @property
@@ -187,7 +193,7 @@ class Watch:
         settled = np.isfinite(self._best) and score > (1 - STEADY) * self._best
         self._steady = self._steady + 1 if settled and verdict.barrier[lane] <= STEADY_BARRIER else 0
         if self._kept is None or not score > self._best:
-            self._kept = *solver.iterate(lane), lacks, place
+            self._kept = *solver.iterate(lane), lacks, place, float(verdict.stationarity[lane])
         self._best = min(self._best, score)
         self._costs = tuple(verdict.cost[self._on].tolist())
         self._iterations += 1
@@ -196,12 +202,12 @@ class Watch:
 
     def found(self, solver: Solver | Race) -> Found:
         """Return the best so far."""
-        none = *solver.iterate(int(self._on[0])), NOT_REACHED, 0
-        states, commands, lacks, place = self._kept or none
+        none = *solver.iterate(int(self._on[0])), NOT_REACHED, 0, UNKNOWN
+        states, commands, lacks, place, stationarity = self._kept or none
         unfinished = "" if self._steady >= STEADY_FOR else UNFINISHED
         return Found(
-            states, commands, self._best, lacks, unfinished, self._jobs[place].style, self._costs, self._iterations,
-            self._spent,
+            states, commands, self._best, lacks, unfinished, self._jobs[place].style, self._costs, stationarity,
+            self._iterations, self._spent,
         )  # fmt: skip
 
 
@@ -346,7 +352,7 @@ def _places(jobs: Sequence[Job], stages: int, h: float) -> Array | None:
 def _columns(job: Job, h: float) -> tuple[Any, ...]:
     """Return what `_problem` does, then style, rotor limits and start of a `job`, own units."""
     asked = job.asked
-    style = styles(asked.vehicle, falls=asked.falls)[:, job.style]
+    style = styles(asked.vehicle, falls=asked.falls, hangs=bool(asked.end.y[2] < 0))[:, job.style]
     return *_problem(asked, h), style, asked.vehicle.rotor_limits / asked.units.force, asked.start
 
 

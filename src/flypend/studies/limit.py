@@ -61,7 +61,8 @@ def front(
     if not shortest:
         return Front(np.array([shortest.duration]), (shortest,))
     longest = max(HORIZONS[0] * Units.of(vehicle).time, 2 * shortest.duration)
-    durations, plans = np.geomspace(shortest.duration, longest, count), []
+    durations = np.geomspace(shortest.duration, longest, count)
+    plans: list[Plan] = []
     for duration in durations:
         found = plan(vehicle, start, duration=duration, time_limit=time_limit, **asked)
         plans.append(found or (found if plans else shortest))  # there are few ways in the least time

@@ -22,12 +22,14 @@ from benchmarks.plans import PATIENT, VEHICLE, quantiles
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints
+from flypend.planning.durations import HORIZONS
 from flypend.planning.dynamics import Scaled, stepped
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, end_errors
-from flypend.planning.planner import HORIZONS, ORDER, told
+from flypend.planning.planner import ORDER
 from flypend.planning.problem import Request, request
 from flypend.planning.search import NOT_REACHED, Found, Job, guessed, one_by_one, stages_of
 from flypend.planning.solver import Settings
+from flypend.planning.verdict import plans_of
 from flypend.plants.lag import step_timing
 
 TOLERANCE, ITERATIONS = 1e-6, 300
@@ -118,8 +120,8 @@ class Shooting:
         body, last = z[: -self.width].reshape(self.N, -1), z[-self.width : -1]
         lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
         ways = np.vstack([body[:, : self.width - 1], last]), body[:, self.width :]
-        what = Found(*ways, float(found["f"]), lacks, "", 0, 1, 1, stats["iter_count"], took)
-        return Answer(told([asked], [what], HORIZONS[0])[0], took, derivatives)
+        what = Found(*ways, float(found["f"]), lacks, "", 0, (float(found["f"]),), 0.0, stats["iter_count"], took)
+        return Answer(plans_of([asked], [what], HORIZONS[0])[0], took, derivatives)
 
 
 def row(name: str, plans: Sequence[fp.Plan], best: Sequence[fp.Plan], took: Any) -> str:
@@ -141,7 +143,7 @@ def main() -> None:
     wished = [request(VEHICLE, start, "excursion", (0, 0, 0), kept=Constraints(clearance=0)) for start in runs]
     best = [fp.plan(VEHICLE, start, duration=HORIZONS[0] * each.units.time, time_limit=PATIENT)
             for start, each in zip(runs, wished, strict=True)]  # fmt: skip
-    alone = told(wished, one_by_one([Job(each, ORDER[0]) for each in wished], HORIZONS[0]), HORIZONS[0])
+    alone = plans_of(wished, one_by_one([Job(each, ORDER[0]) for each in wished], HORIZONS[0]), HORIZONS[0])
     print("solver: solved, excursion against our plan p50, most; processor time p50, most")
     for name, plans in (("plan, eight guesses", best), ("plan, one guess", alone)):
         print(row(name, plans, best, [plan.solve_time for plan in plans]), flush=True)

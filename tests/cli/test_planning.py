@@ -23,6 +23,19 @@ def test_a_swing_up_is_planned_and_flown(tmp_path, capsys):
     assert page.read_text().startswith("<!doctype html")
 
 
+def test_the_rod_is_let_down_and_tabled(tmp_path, capsys):
+    table, start = tmp_path / "plan.csv", tmp_path / "start.toml"
+    start.write_text('vehicle = "hehn2011"\nduration = 5.0\nlaw.name = "inverted"\n[start]\ny = [0, 0, 1]\n')
+    out = ["-o", str(tmp_path / "plan.nc")]
+    cli.app(["plan", str(start), *out, "--end", "hanging", "--csv", str(table)], standalone_mode=False)
+    assert "hehn2011: converged: 3.00 s" in capsys.readouterr().out
+    header, *rows = table.read_text().splitlines()
+    last = dict(zip(header.split(","), map(float, rows[-1].split(",")), strict=True))
+    assert last["y_3 [1]"] < -0.999
+    with pytest.raises(fp.InputError, match=r"--end: expected one of inverted, hanging"):
+        cli.app(["plan", *out, "--end", "hangin"], standalone_mode=False)
+
+
 def test_a_run_file_gives_vehicle_and_start(tmp_path, capsys):
     out = tmp_path / "plan.nc"
     with pytest.raises(SystemExit) as ended:

@@ -164,3 +164,22 @@ def test_the_same_constraint_written_again_has_the_same_programs():
 def test_what_cannot_be_kept_is_refused(keep):
     with pytest.raises(fp.InputError, match=r"^keep: "):
         fp.plan(HEHN, LEANING, keep=keep)
+
+
+def test_a_cost_of_ones_own_is_made_small():
+    """A plan that may turn only slowly turns a tenth as fast, and takes more room for it."""
+    hanging = fp.State(y=(0, 0, -1))
+    free, slow = fp.plan(HEHN, hanging), fp.plan(HEHN, hanging, "cost", cost=lambda m: 0.3 * m.omega)
+    assert free
+    assert slow
+    turned = [np.mean(np.square(plan.omega)) for plan in (free, slow)]
+    assert turned[1] < 0.05 * turned[0]
+    assert slow.excursion > free.excursion
+
+
+def test_what_is_no_cost_is_refused():
+    for cost in (3, lambda m: m.z, lambda m: []):
+        with pytest.raises(fp.InputError, match=r"^cost: "):
+            fp.plan(HEHN, LEANING, cost=cost)
+    with pytest.raises(fp.InputError, match=r"^cost: expected the cost that is the objective, got nothing"):
+        fp.plan(HEHN, LEANING, "cost")

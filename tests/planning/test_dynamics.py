@@ -9,6 +9,7 @@ import flypend as fp
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import rotation_defect
 from flypend.model.state import SIZE
+from flypend.planning.constraints import own_function
 from flypend.planning.coordinates import local, plane, retract
 from flypend.planning.dynamics import Stage, Units
 from flypend.planning.inequalities import Barrier, Structure, end_errors
@@ -112,7 +113,10 @@ def test_derivatives_are_those_by_finite_differences(maps):
         np.testing.assert_allclose(A[:, i] if i < 20 else B[:, i - 20], column, rtol=1e-7, atol=2e-8)
 
 
-@pytest.mark.parametrize("structure", [Structure(), Structure(box=True, speed=True)])
+COST = own_function(lambda m: [0.3 * m.omega, m.y[2] ** 2, m.rotor_forces[1]], 4, "cost").serialize()
+
+
+@pytest.mark.parametrize("structure", [Structure(), Structure(box=True, speed=True), Structure(speed=True, cost=COST)])
 def test_the_terms_are_the_gradient_of_the_barrier(maps, structure):
     """With s = g and z = μ/s, the gradient of the linear-quadratic problem is that of cost − μ Σ log g."""
     forth, _ = maps
@@ -124,15 +128,17 @@ def test_the_terms_are_the_gradient_of_the_barrier(maps, structure):
     state = random_state(rng, HEHN) / Units.of(HEHN).states(4)
     state[:3] = rng.normal(size=3) * 0.3
     walls = [1.0, *[-3.0] * 3, *[3.0] * 3] if structure.box else []
-    numbers = np.array([1.0, 0.3, 0.06, 2.6, 0.1, *walls, *([5.0] if structure.speed else [])])
+    own = [0.1, 0.2, 0.3, 0.6, 0.25, 2.0, 0.3] if structure.cost else []
+    numbers = np.array([1.0, 0.3, 0.06, 2.6, 0.1, *own, *walls, *([5.0] if structure.speed else [])])
     command, vehicle, mu = rng.uniform(0.2, 2.4, 4), Units.of(HEHN).numbers(HEHN), 0.02
 
     def merit(delta, upsilon, epsilon):
         point = (forth(state, delta), command + upsilon, 2.0 + epsilon, numbers, vehicle)
         return values(*point, np.full(barrier.inequalities, -np.inf), mu)
 
-    (_, violation), slack = merit(np.zeros(20), np.zeros(4), 0.0)
+    (_, violation, *wished), slack = merit(np.zeros(20), np.zeros(4), 0.0)
     assert violation == 0
+    assert bool(wished) == bool(structure.cost)
     assert np.all(slack > 0)
     cost = terms(state, command, 2.0, numbers, vehicle, slack, mu / slack, mu)
     q, r, g = cost[:20], cost[20:24], cost[[2 * layout.width + 5]]

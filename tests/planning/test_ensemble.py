@@ -5,11 +5,13 @@ import pytest
 
 import flypend as fp
 from flypend.flight.tasks import task_starts
-from flypend.planning.planner import HORIZONS, ORDER, told
+from flypend.planning.durations import HORIZONS
+from flypend.planning.planner import ORDER
 from flypend.planning.problem import request
 from flypend.planning.programs import programs
 from flypend.planning.search import Job, guessed, one_by_one
 from flypend.planning.solver import Solver
+from flypend.planning.verdict import plans_of
 
 HEHN = fp.vehicle("hehn2011")
 STARTS = fp.random_starts(11, seed=909)
@@ -44,7 +46,7 @@ def test_a_plan_that_touches_on_the_way_is_not_the_last_word():
     hub = HEHN.replace(mount="hub")
     starts = task_starts(hub, 6, 3)["random"][np.array([4])]
     asked = request(hub, starts[0], "excursion", (0, 0, 0))
-    one = told([asked], one_by_one([Job(asked, ORDER[0])], HORIZONS[0]), HORIZONS[0])[0]
+    one = plans_of([asked], one_by_one([Job(asked, ORDER[0])], HORIZONS[0]), HORIZONS[0])[0]
     assert "touched" in one.reason
     assert np.all(fp.plan_ensemble(hub, starts, guesses=1).success)
 

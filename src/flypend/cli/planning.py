@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Kept:
-    """What a plan keeps: the fields of `Constraints`, with a cube about the target for a box, and angles in degrees."""
+    """How a plan ends and what it keeps: `Constraints`, with a cube about the target for a box, angles in degrees."""
 
+    end: str = option("--end", default="inverted", help="How it ends: in hover with the rod inverted or hanging.")
     floor: float | None = option("--floor", type=float, metavar="M", help="Minimum height of pivot and rod.")
     ceiling: float | None = option("--ceiling", type=float, metavar="M", help="Maximum height of pivot and rod.")
     cube: float | None = option(
@@ -52,6 +53,14 @@ class Kept:
         help="Point that the pivot passes; repeatable, in order.",
     )
 
+    def state(self, target: tuple[float, float, float]) -> State:
+        """Return the state in which it ends at the `target`, m."""
+        from flypend import errors
+        from flypend.model import State
+
+        up = errors.one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
+        return State(x=target, y=(0.0, 0.0, 1.0 if up else -1.0))
+
     def about(self, target: tuple[float, float, float]) -> Constraints:
         """Return the constraints of a flight to the `target`, m."""
         import numpy as np
@@ -77,6 +86,7 @@ class Outputs:
     in_c: Path | None = option(
         "--c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C."
     )
+    csv: Path | None = option("--csv", type=path, metavar="FILE", help="Also write the plan as a table (.csv).")
     figure: Path | None = option(
         "--figure", type=path, metavar="FILE", help="Also draw the plan; with --fly, beside its flight."
     )
@@ -111,7 +121,7 @@ def plan(
     keep: Kept,
     also: Outputs,
 ) -> None:
-    """Plan a flight to inverted hover: from the start in WHAT, a run file, or else from hanging at rest.
+    """Plan a flight to hover: from the start in WHAT, a run file, or else from hanging at rest.
 
     The run file also gives the vehicle; its law and duration are ignored. Figures are .png, .pdf or .svg.
     """
@@ -122,15 +132,18 @@ def plan(
     from flypend.planning.tracking import track
 
     figures = {"--figure": also.figure, "--front": also.front, "--map": also.sphere}
-    pages = {"--out": (out, (".nc",)), "--html": (also.html, (".html",))}
+    pages = {"--out": (out, (".nc",)), "--html": (also.html, (".html",)), "--csv": (also.csv, (".csv",))}
     _check_files(pages | {option: (file, FIGURES) for option, file in figures.items()})
     _check_options(what, also.fly, also.in_c)
     machine, start = _from(what, vehicle)
     kept = keep.about(target)
-    found = planned(machine, start, objective, duration=duration, target=target, constraints=kept)
+    found = planned(machine, start, objective, duration=duration, target=keep.state(target), constraints=kept)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
+    if also.csv is not None:
+        found.to_csv(also.csv)
+        console.print(f"The table is {bold(also.csv)}.")
     if not found:
         sys.exit(1)
     if also.in_c is not None:

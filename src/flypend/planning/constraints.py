@@ -29,7 +29,7 @@ OWN_TOLERANCE = 1e-3  # the same of `Constraints.keep`, in its unit
 
 
 class Motion(NamedTuple):
-    """What a constraint of one's own is a function of: CasADi expressions in SI units, world frame with e₃ up."""
+    """What constraints and costs of one's own are made of: CasADi expressions in SI units, world frame with e₃ up."""
 
     x: Any  # (3, 1), m: position of the pivot
     x_dot: Any  # (3, 1), m/s
@@ -40,7 +40,7 @@ class Motion(NamedTuple):
     rotor_forces: Any  # (n, 1), N
 
 
-Keep = Callable[[Motion], Any]
+Own = Callable[[Motion], Any]
 
 
 class Keywords(TypedDict, total=False):
@@ -55,7 +55,8 @@ class Keywords(TypedDict, total=False):
     waypoints: ArrayLike | None
     path: Reference | None
     clearance: float | None
-    keep: Keep | None
+    keep: Own | None
+    cost: Own | None
 
 
 FIELDS = tuple(Keywords.__annotations__)
@@ -92,6 +93,10 @@ class Constraints:
         m.rotor_forces (N), that gives a CasADi expression, or several, each to stay ≥ 0. It is kept to a thousandth of
         its unit, so scale it to the order of one. It must be smooth where the flight may go, and positive at the start
         and in hover at the target.
+    cost : callable, optional
+        A cost of one's own, beside the objective: as `keep`, a function of `m` that gives one or several expressions.
+        Half the sum of their squares, integrated over time in units of √(l/g), is added. The weight of an excursion of
+        a rod's length is 1: scale it against that.
 
     Attributes
     ----------
@@ -119,7 +124,8 @@ class Constraints:
     waypoints: ArrayLike | None = None
     path: Reference | None = None
     clearance: float | None = None
-    keep: Keep | None = None
+    keep: Own | None = None
+    cost: Own | None = None
     given: dict[str, Any] = field(init=False, repr=False)
     walls: Array | None = field(init=False, repr=False)
     windows: tuple[Window, ...] = field(init=False, repr=False)
@@ -136,8 +142,9 @@ class Constraints:
         if self.lean is not None and errors.number("lean", self.lean, above=0, unit="rad") > np.pi:
             raise InputError("lean", f"at most {angle(np.pi)}", angle(self.lean))
         check_reference(self.path, "path")
-        if self.keep is not None:
-            kept_function(self.keep, 4)
+        for name in ("keep", "cost"):
+            if name in given:
+                own_function(given[name], 4, name)
         points = np.zeros((0, 3)) if self.waypoints is None else errors.array("waypoints", self.waypoints, (None, 3))
         walls, windows = self._walls(), _several(self.window)
         found = {"given": given, "walls": walls, "windows": windows, "points": points, "clearance": apart}
@@ -164,21 +171,21 @@ class Constraints:
         return None if np.all(np.isinf(walls)) else walls
 
 
-def kept_function(keep: Keep, rotors: int) -> ca.Function:
-    """Return `keep` of a vehicle with so many `rotors` as (packed state (24,), rotor forces, N) → values (k, 1).
+def own_function(own: Own, rotors: int, name: str) -> ca.Function:
+    """Return the field `name`, with so many `rotors`, as (packed state (24,), rotor forces, N) → values (k, 1).
 
     Raises InputError unless it gives expressions of what it is given.
     """
     packed, forces = ca.SX.sym("s", SIZE), ca.SX.sym("f", rotors)
     s, what = State.symbolic(packed), "a function of a Motion that gives CasADi expressions"
     try:
-        values = keep(Motion(s.x, s.x_dot, s.R, s.omega, s.y, s.y_dot, forces))
+        values = own(Motion(s.x, s.x_dot, s.R, s.omega, s.y, s.y_dot, forces))
         values = ca.vertcat(*values) if isinstance(values, list | tuple) else ca.SX(values)
-        function = ca.Function("keep", [packed, forces], [ca.densify(ca.vec(values))])
+        function = ca.Function(name, [packed, forces], [ca.densify(ca.vec(values))])
     except Exception as error:
-        raise InputError("keep", what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
+        raise InputError(name, what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
     if not values.numel():
-        raise InputError("keep", what, "one that gives none")
+        raise InputError(name, what, "one that gives none")
     return function
 
 
@@ -224,7 +231,7 @@ def broken(packed: Array, rotor_forces: Array, vehicle: Vehicle, kept: Constrain
     if kept.speed is not None and (over := float(np.max(norm(state.x_dot))) - kept.speed) > tolerance:
         return f"the speed is exceeded by {over:.3g} m/s"
     if kept.lean is not None and (over := float(np.max(np.arccos(state.y[:, 2]))) - kept.lean) > tolerance:
-        return f"the rod leans {over:.3g} rad too far"
+        return f"the rod leans {angle(over)} too far"
     for window in kept.windows:
         if (room := float(np.min(window.room(state, vehicle)))) < 0:
             return f"the frame of a window is {-room:.3g} m too near"
@@ -238,7 +245,7 @@ def _own_broken(packed: Array, rotor_forces: Array, kept: Constraints) -> str:
     """Return by how much a constraint of one's own is broken; or ""."""
     if kept.keep is None:
         return ""
-    values = np.array(kept_function(kept.keep, rotor_forces.shape[1])(packed.T, rotor_forces.T))
+    values = np.array(own_function(kept.keep, rotor_forces.shape[1], "keep")(packed.T, rotor_forces.T))
     lacking = -float(np.min(values))
     return "" if lacking <= OWN_TOLERANCE else f"keep is broken by {lacking:.3g}"  # NaN breaks it, too
 

@@ -33,7 +33,7 @@ FLIGHT: Mapping[str, Field] = {
 }  # fmt: skip
 ATTRIBUTES: Mapping[str, type] = {
     "objective": str, "windows": str, "status": str, "reason": str, "stage": float, "solve_time": float,
-    "iterations": float, "guess": float, "guesses": float, "agreeing": float,
+    "iterations": float, "stationarity": float, "guess": float, "guesses": float, "agreeing": float,
 }  # fmt: skip
 SEAL = "plan_digest"
 WINDOW = ("centre", "width", "height", "normal", "up", "depth")
@@ -103,6 +103,7 @@ def checked(
         "status": errors.one_of("status", about["status"], STATUSES),
         "reason": about["reason"],
         "solve_time": errors.number("solve_time", about["solve_time"], at_least=0, unit="s"),
+        "stationarity": errors.number("stationarity", about["stationarity"], at_least=0),
         **{name: _count(name, about) for name in ("iterations", "guess", "guesses", "agreeing")},
     }
     _check(plan, run)

@@ -12,7 +12,7 @@ Upright is a saddle, from which no first step tells a rod which way to lean: the
 a small lean. Where the lean is limited and there is a window to pass, most guesses therefore lean in the wall. Their
 rods lean by λ(t), a level vector, which takes an acceleration λ − λ̈ of the pivot while it is small. λ is the least sum
 of bumps that brings the pivot from the start to rest at the target, through the middle of each window at a given speed,
-and leans as wanted there. Thrust and attitude follow from it, as far as the rotors can.
+and leans as wanted there. Thrust and attitude follow from it, as far as the rotors can. Arcs are made likewise.
 """
 
 from __future__ import annotations
@@ -59,6 +59,8 @@ ALIGNED = 0.7  # cosine between thrust and wanted force from which the force cou
 KICK = 0.5  # acceleration that moves a hanging rod at rest
 ATTITUDE_SHARE = 0.5  # stiffness of the attitude per largest angular acceleration, 1/rad
 
+ENERGY, TOP, NEVER = 3, 5, 2.0  # places in a style, and a height that no rod has: it is not balanced
+
 assert len(PUMPS) == len(CATCHES) == WIDTH
 # Per style: lean along the width of a window and along its normal, as shares of what is allowed, and speed, own units;
 # two guesses stay upright. Then those for another attempt. They were chosen on windows of 0.3 m to 0.5 m by 0.55 m and
@@ -75,22 +77,28 @@ AGAIN = [
     (-0.5, 0, 2.5),
 ]
 WAYS = np.array([FIRST, AGAIN])
+AZIMUTHS = np.pi / 4 * np.arange(8) + 0.2  # of the ways in which the rod turns, off the planes of the rotors,
+BUMPS_ASIDE = (0.3, 0.8)  # and how wide: a straight rod turns in its plane anyway
+PLANAR = 1e-6  # share of the largest singular value below which an arc stays in a plane
 BUMPS = 16
 MOST = 0.95  # of the lean that is allowed
 LEAST = 1e-9
 
 
-def styles(vehicle: Vehicle, *, falls: bool) -> Array:
+def styles(vehicle: Vehicle, *, falls: bool, hangs: bool = False) -> Array:
     """Return the styles (9, lanes) for `vehicle`, the last entry being the stiffness of its attitude, own units.
 
-    `falls` is whether the rod may fall and be pumped up again.
+    `falls` is whether the rod may fall and be pumped up again, and `hangs` whether it is to hang at the end.
     """
     units = Units.of(vehicle)
     low, high = vehicle.rotor_limits
     moments = vehicle.mixing()[1:3]
     largest = np.sum(np.abs(moments), axis=1) * (high - low) / 2 / np.diag(vehicle.I)[:2]
     stiffness = ATTITUDE_SHARE * float(np.min(largest)) * units.time**2
-    return np.vstack([(PUMPS if falls else CATCHES).T, np.full(WIDTH, stiffness)])
+    found = np.vstack([(PUMPS if falls else CATCHES).T, np.full(WIDTH, stiffness)])
+    if hangs:
+        found[ENERGY], found[TOP] = -1.0, NEVER
+    return found
 
 
 @lru_cache(maxsize=8)
@@ -142,8 +150,8 @@ def _acceleration(x: ca.SX, x_dot: ca.SX, y: ca.SX, H: ca.SX, style: ca.SX, e3: 
     y_dot, speed = cross(H, y), dot(H, H)
     pump = -gain * (energy - speed / 2 - y[2]) * y_dot + uncircle * H[2] * cross(e3, y)
     high = _smooth_step(25 * (y[2] - top)) * _smooth_step(4 * (slow - speed))
-    hangs = ca.logic_and(speed + 1 - y[2] ** 2 < 0.02, y[2] < 0)
-    kick = ca.if_else(hangs, KICK, 0) * ca.SX([1, 0, 0])
+    stuck = ca.logic_and(speed + 1 - y[2] ** 2 < 0.02, y[2] * energy < 0)  # at rest, where it is not to be
+    kick = ca.if_else(stuck, KICK, 0) * ca.SX([1, 0, 0])
     back = -(bandwidth**2) * x - 1.6 * bandwidth * x_dot
     p = POLES
     balance = (1 + 6 * p**2 + p**4) * y + 4 * p * (1 + p**2) * y_dot + p**4 * x + 4 * p**3 * x_dot
@@ -162,6 +170,34 @@ def _acceleration(x: ca.SX, x_dot: ca.SX, y: ca.SX, H: ca.SX, style: ca.SX, e3: 
 def _smooth_step(value: ca.SX) -> ca.SX:
     """Return a step from 0 to 1 about `value` 0, without an exponential."""
     return (1 + value / ca.sqrt(1 + value**2)) / 2
+
+
+def arcs(asked: Request, stages: int, h: float) -> list[tuple[Array, Array]]:
+    """Return guesses as `leaned` does, in which the rod turns to its end on one smooth arc: the quickest ways.
+
+    The rod is y = w/|w| with w a quintic step from the start to the end, its first rate that of the start, and a bump
+    sideways that says which way it turns. What it does needs the force −ÿ across the rod. That along the rod is free:
+    the least change of it, from what carries the rod, that brings the pivot to rest at the target. There are as many as
+    ways in `AZIMUTHS` and `BUMPS_ASIDE`.
+    """
+    t, T = np.linspace(0, 1, stages + 1)[:, None], stages * h
+    step, start = t**3 * (10 - 15 * t + 6 * t**2), asked.start
+    across, begun = 16 * (t * (1 - t)) ** 2, t * (1 - t) ** 3 * T * start[21:24]
+    left, share = T * (1 - t), np.full((stages + 1, 1), h)
+    share[[0, -1]] /= 2
+    rest, found = -np.concatenate([start[3:6], start[:3] + T * start[3:6]]), []
+    for azimuth in AZIMUTHS:
+        for aside in BUMPS_ASIDE:
+            way = aside * np.array([np.cos(azimuth), np.sin(azimuth), 0])
+            y = unit((1 - step) * start[18:21] + step * asked.end.y + across * way + begun)
+            bent = np.gradient(np.gradient(y, h, axis=0), h, axis=0)
+            a = y * (y[:, 2:] + np.sum(bent * y, axis=1, keepdims=True)) - bent - E3
+            moves = np.hstack([y, left * y]) * share
+            missed = rest - np.concatenate([np.sum(share * a, axis=0), np.sum(share * left * a, axis=0)])
+            a = a + y * (np.linalg.lstsq((moves / np.sqrt(share)).T, missed, rcond=PLANAR)[0][:, None] / np.sqrt(share))
+            x_dot = start[3:6] + _integral(a, h)
+            found.append(_with_thrust(asked, start[:3] + _integral(x_dot, h), y, h))
+    return found
 
 
 def leans(asked: Request, style: int) -> bool:

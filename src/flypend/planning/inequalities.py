@@ -26,7 +26,12 @@ END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot
 # Places of the numbers that every plan has: weights of the shared parameter and of effort, rotor limits, and the
 # tolerance of the spin about the thrust axis at the end.
 SHARED, EFFORT, LOW, HIGH, YAW, BASE = 0, 1, 2, 3, 4, 5
-OWN = 6  # numbers of a constraint of one's own: the target, m, and the units of length, time and force
+# Numbers of constraints and costs of one's own: the target, m, units of length, time and force, and the root of the
+# weight of a stage.
+OWN = 7
+# Numbers of another end than hover upright: velocity, thrust axis, angular velocity, rod, its rate, and whether forces
+# are those of hover.
+OTHER_END = 16
 DIFFERENCE = 1e-4
 SOFT = 0.03  # rod lengths, or weights: what is by so much too near costs its full weight
 
@@ -40,17 +45,28 @@ class Structure:
     lean: bool = False  # the lean of the rod is limited
     path: bool = False  # the ball is about a place that moves from stage to stage, not about the target
     gates: int = 0  # windows to fly through and waypoints to pass
-    keep: str = ""  # a function of one's own, of `constraints.kept_function`, as CasADi writes it
+    keep: str = ""  # a function of one's own, of `constraints.own_function`, as CasADi writes it
+    cost: str = ""  # likewise: the half square of its values is a cost
+    end: bool = False  # whether the end is another than hover upright
     mounted: Vehicle | None = None  # a vehicle whose mount limits the rod; None for a gimbal
 
     @property
     def numbers(self) -> int:
-        """Length of the numbers: `BASE`, reach of the rod and corners of the box, speed, lowest y₃, `OWN`, `soft` ones.
+        """Length of the numbers: up to `hard`, reach of the rod and corners of the box, speed, lowest y₃, `soft` ones.
 
         These are the gates, the weight of being too near, and the margin of the mount.
         """
-        hard = BASE + 7 * self.box + self.speed + self.lean + OWN * (self.keep != "")
-        return hard + NUMBERS * self.gates + 2 * self.soft
+        return self.hard + 7 * self.box + self.speed + self.lean + NUMBERS * self.gates + 2 * self.soft
+
+    @property
+    def of_own(self) -> int:
+        """Place of the numbers of one's own functions, after `BASE` and those of another end."""
+        return BASE + OTHER_END * self.end
+
+    @property
+    def hard(self) -> int:
+        """Place of the numbers of the inequalities."""
+        return self.of_own + OWN * (self.keep + self.cost != "")
 
     @property
     def soft(self) -> bool:
@@ -80,7 +96,7 @@ def inequalities(
     structure, machine
         What is wished, and the machine.
     """
-    s, place = State.symbolic(state[:SIZE]), BASE
+    s, place = State.symbolic(state[:SIZE]), structure.hard
     off = s.x - middle if structure.path else s.x
     g = [command - numbers[LOW], numbers[HIGH] - command, shared - dot(off, off)]
     if structure.box:
@@ -95,18 +111,26 @@ def inequalities(
         g.append(s.y[2] - numbers[place])
         place += 1
     if structure.keep:
-        g.append(_own(state, numbers[place : place + OWN], structure.keep))
+        g.append(_own(state, numbers, structure, structure.keep))
     return ca.vertcat(*g)
 
 
-def _own(state: ca.SX, numbers: ca.SX, keep: str) -> ca.SX:
-    """Return the values (k, 1) of the function that is written in `keep` at a `state` in own units."""
-    target, (length, time, force) = numbers[:3], ca.vertsplit(numbers[3:])
+def residuals(state: ca.SX, numbers: ca.SX, structure: Structure) -> ca.SX:
+    """Return the values (k, 1) of the cost of one's own, none without one: half their squares are that of a stage."""
+    if not structure.cost:
+        return ca.SX(0, 1)
+    return numbers[structure.hard - 1] * _own(state, numbers, structure, structure.cost)
+
+
+def _own(state: ca.SX, numbers: ca.SX, structure: Structure, function: str) -> ca.SX:
+    """Return the values (k, 1) of a `function` as CasADi writes it at a `state` in own units."""
+    own = numbers[structure.of_own : structure.hard]
+    target, (length, time, force) = own[:3], ca.vertsplit(own[3:6])
     s = State.symbolic(state[:SIZE])
     packed = State(
         x=target + length * s.x, x_dot=length / time * s.x_dot, R=s.R, omega=s.omega / time, y=s.y, y_dot=s.y_dot / time
     ).packed()
-    values: ca.SX = ca.Function.deserialize(keep)(packed, force * state[SIZE:])
+    values: ca.SX = ca.Function.deserialize(function)(packed, force * state[SIZE:])
     return values
 
 
@@ -154,9 +178,22 @@ def running_cost(command: ca.SX, numbers: ca.SX) -> ca.SX:
     return numbers[EFFORT] * ca.sumsqr(command - 1) / 2
 
 
-def end_errors(state: ca.SX, numbers: ca.SX) -> ca.SX:
-    """Return the errors of the last state about inverted hover, in units of their tolerances."""
+def end_errors(state: ca.SX, numbers: ca.SX, *, other: bool = False) -> ca.SX:
+    """Return the errors of the last state about inverted hover, or an `other` end, in units of their tolerances."""
     s = State.symbolic(state[:SIZE])
+    if other:
+        parts = numbers[BASE : BASE + OTHER_END]
+        x_dot, z, omega, y, y_dot, hovers = (parts[i : i + 3] for i in range(0, OTHER_END, 3))
+        turning = (s.omega - omega) / ca.vertcat(END["omega"], END["omega"], numbers[YAW])
+        return ca.vertcat(
+            s.x / END["x"],
+            (s.x_dot - x_dot) / END["x_dot"],
+            _apart(s.z, z) / END["tilt"],
+            turning,
+            _apart(s.y, y) / END["y"],
+            (s.y_dot - y_dot) / END["y_dot"],
+            hovers * (state[SIZE:] - 1) / END["rotors"],
+        )
     return ca.vertcat(
         s.x / END["x"],
         s.x_dot / END["x_dot"],
@@ -178,6 +215,11 @@ def _lean(a: ca.SX) -> ca.SX:
     return ca.vertcat(level, 1 - a[2])
 
 
+def _apart(a: ca.SX, b: ca.SX) -> ca.SX:
+    """Return the error (4, 1) of a unit vector from another, as `_lean` does from e₃."""
+    return ca.vertcat(2 * cross(a, b) / (1.05 + dot(a, b)), 1 - dot(a, b))
+
+
 class Barrier:
     """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared."""
 
@@ -191,7 +233,8 @@ class Barrier:
         self._g = inequalities(here, command, shared + epsilon, numbers, place, structure, stage.machine)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
         self._near = nearness(here, stage.before, numbers, structure, stage.machine)
-        self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers)
+        self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers, other=structure.end)
+        self._own = residuals(here, numbers, structure)
         self.inequalities, self.end_size = int(self._g.numel()), int(self._end.numel())
         self._of_own = ca.Function.deserialize(structure.keep).numel_out() if structure.keep else 0
         self._slack, self._dual = ca.SX.sym("s", self.inequalities), ca.SX.sym("z", self.inequalities)
@@ -208,14 +251,18 @@ class Barrier:
     def values(self) -> ca.Function:
         """Return (*point, trial slack, μ, *place) → (merit, violation) of the stage, and slack.
 
+        A cost of one's own, which is part of the merit, stands behind them by itself.
+
         A point is (state, command, shared parameter, numbers, vehicle), and there is a place, where the pivot is to be,
         only with a path. The slack of an exact inequality is g, that of another the larger of g and the trial slack:
         what lies above g is the violation.
         """
         k, g = self._exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
-        merit = self._cost + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
+        wished = ca.sumsqr(self._own) / 2
+        merit = self._cost + wished + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
         summary = ca.vertcat(merit, ca.sum1(slack[k:] - g[k:]) if k < g.numel() else 0)
+        summary = ca.vertcat(summary, wished) if self._own.numel() else summary
         return self._function("values", [*self._point, self._slack, self._mu, *self._place], summary, slack)
 
     def terms(self, layout: Layout) -> ca.Function:
@@ -224,13 +271,13 @@ class Barrier:
         push = self._mu / s - z / s * (self._g - s)
         J_x, J_u, J_e = self._J
         weight = ca.diag(z / s)
-        N_x = ca.jacobian(self._near, delta)
+        N_x, W_x = ca.jacobian(self._near, delta), ca.jacobian(self._own, delta)
         r = ca.gradient(self._cost, upsilon)
         R = ca.diag(ca.jacobian(r, upsilon) + ca.mtimes([J_u.T, weight, J_u]))
         cost = layout.cost(
             self._curvature(),
             R,
-            self._weight * ca.mtimes(N_x.T, self._near) - ca.mtimes(J_x.T, push),
+            self._weight * ca.mtimes(N_x.T, self._near) + ca.mtimes(W_x.T, self._own) - ca.mtimes(J_x.T, push),
             ca.mtimes([J_x.T, weight, J_e]),
             r - ca.mtimes(J_u.T, push),
             ca.mtimes([J_e.T, weight, J_e]),
@@ -245,9 +292,9 @@ class Barrier:
 
     def _curvature(self) -> ca.SX:
         """Return Q (16 + n, 16 + n), sparse."""
-        J_x, N_x = self._J[0], ca.jacobian(self._near, self._moves[0])
+        J_x, N_x, W_x = self._J[0], *(ca.jacobian(each, self._moves[0]) for each in (self._near, self._own))
         kept = ca.mtimes([J_x.T, ca.diag(self._dual / self._slack), J_x]) + self._bent()
-        return self._weight * ca.mtimes(N_x.T, N_x) + kept
+        return self._weight * ca.mtimes(N_x.T, N_x) + ca.mtimes(W_x.T, W_x) + kept
 
     def _bent(self) -> ca.SX:
         """Return the curvature of −zᵀg in position and velocity, but not of one's own g, which may have any sign."""

@@ -16,9 +16,9 @@ from flypend.geometry import E3, norm
 from flypend.laws.references import check_reference, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.constraints import Constraints, angle, begins_touching, kept_function
+from flypend.planning.constraints import Constraints, angle, begins_touching, own_function
 from flypend.planning.dynamics import Units
-from flypend.planning.inequalities import BASE, END, Structure
+from flypend.planning.inequalities import END, Structure
 from flypend.planning.window import along, through
 
 Array = NDArray[np.float64]
@@ -27,10 +27,11 @@ STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
 HATCH = 0.1  # least level part of the normal of a window in which guesses lean
 FAR = 1e6  # rod lengths: no wall
+# The less the way matters beside the end, the fewer iterations the least time takes; some, or the machine wanders off.
 # Each objective has a little of the other, without which its problem has no unique solution.
 LEAST = {"excursion": 1e-3, "effort": 1e-4}
 OBJECTIVES: Mapping[str, Mapping[str, float]] = MappingProxyType(
-    {"excursion": {"excursion": 1.0}, "effort": {"effort": 1.0}, "time": {"excursion": 1.0}}
+    {"cost": {}, "excursion": {"excursion": 1.0}, "effort": {"effort": 1.0}, "time": {"excursion": 0.03}}
 )
 
 
@@ -42,6 +43,7 @@ class Request:
     units: Units
     objective: dict[str, float]  # weights of "excursion" and "effort"
     target: Array  # (3,): where the pivot is to hover, m
+    end: State  # how it is to end there
     start: Array  # (24 + n,): state and rotor forces at the start, own units, about the target
     kept: Constraints  # what every sample of the plan must keep
     structure: Structure  # the inequalities,
@@ -72,6 +74,11 @@ class Request:
         return bool(begins_touching(start[None, :SIZE], start[None, SIZE:], self.vehicle))
 
     @property
+    def falls(self) -> bool:
+        """Whether the rod may fall and be pumped up again."""
+        return not self.structure.lean and self.vehicle.mount != "cup"
+
+    @property
     def leaning(self) -> bool:
         """Whether guesses are to lean in windows: where the rod may not fall, upright is a saddle."""
         walls = self.kept.windows
@@ -80,16 +87,30 @@ class Request:
 
     def unconstrained(self) -> Request:
         """The same within the limits of the machine alone; what comes of it is still held against `kept`."""
-        mounted = self.structure.mounted
-        kept = self.numbers[:BASE] if mounted is None else np.append(self.numbers[:BASE], self.numbers[-2:])
-        return replace(self, structure=Structure(path=self.structure.path, mounted=mounted), numbers=kept)
+        its = self.structure
+        free = Structure(path=its.path, cost=its.cost, end=its.end, mounted=its.mounted)
+        kept = self.numbers[: free.hard]
+        return replace(self, structure=free, numbers=np.append(kept, self.numbers[-2:]) if its.mounted else kept)
+
+    @property
+    def waits(self) -> bool:
+        """Whether it can stay as it is at the end: in hover, with the rod upright or hanging."""
+        rates = np.concatenate([self.end.x_dot, self.end.omega, self.end.y_dot, self.end.z[:2], self.end.y[:2]])
+        return not np.any(rates) and bool(self.end.z[2] > 0)
+
+    @property
+    def rest(self) -> Array:
+        """The end (24 + n,) with the forces of hover, own units, about the target."""
+        state = self.end.packed()
+        state[:3] = 0
+        return np.append(state, np.full(self.rotors, self.units.force)) / self.units.states(self.rotors)
 
 
 def request(
     vehicle: Vehicle,
     start: State,
     objective: str | Mapping[str, float],
-    target: ArrayLike,
+    target: ArrayLike | State,
     rotors: ArrayLike | None = None,
     kept: Constraints | None = None,
 ) -> Request:
@@ -113,27 +134,27 @@ def request(
     low, high = (float(limit) for limit in vehicle.rotor_limits)
     if n * high <= vehicle.weight:
         raise InputError("vehicle", f"rotors that lift {vehicle.weight:.3g} N", f"{n * high:.3g} N at most")
-    weights, goal = weights_of(objective), errors.array("target", target, (3,))
+    weights, end = weights_of(objective), _end(target)
+    goal = end.x
     per_command = weights["effort"] / STAGES_PER_UNIT / n
     numbers = [weights["excursion"], per_command, low / units.force, high / units.force, _yaw(vehicle, units)]
+    other = _other_end(end, units)
+    numbers += other
+    if kept.keep is not None or kept.cost is not None:
+        numbers += [*goal, units.length, units.time, units.force, STAGES_PER_UNIT**-0.5]
     if walls is not None:
         _check_inside(walls, vehicle, start.x, start.y, "start")
-        _check_inside(walls, vehicle, goal, E3, "target")
+        _check_inside(walls, vehicle, goal, end.y, "target")
         numbers += [vehicle.reach / units.length, *np.clip((walls - goal) / units.length, -FAR, FAR).ravel()]
     if speed is not None:
-        numbers.append(_speed(speed, start) * units.time / units.length)
+        numbers.append(_speed(speed, start, end) * units.time / units.length)
     if lean is not None:
-        lowest = np.cos(_lean(lean, start))
+        lowest = np.cos(_lean(lean, start, end))
         numbers.append(lowest + min(TIGHTER, (float(start.y[2]) - lowest) / 2))
-    keep = ""
-    if kept.keep is not None:
-        function = kept_function(kept.keep, n)
-        _check_kept(function, start, "start", _forces(rotors, low, high, n))
-        _check_kept(function, State(x=goal, y=E3), "target", np.full(n, units.force))
-        keep = function.serialize()
-        numbers += [*goal, units.length, units.time, units.force]
+    forces = _forces(rotors, low, high, n)
+    keep, cost = _own(kept, objective, (start, forces), (end, np.full(n, units.force)))
     apart, windows, points = kept.clearance or 0.0, kept.windows, kept.points
-    ends = (start, State(x=goal, y=E3))
+    ends = (start, end)
     route = (start, *(State(x=point, y=E3) for point in points), ends[1])
     gates = [through(each, vehicle, route, goal, apart) for each in windows]
     numbers += [number for gate in (*gates, *along(points, vehicle, ends, goal)) for number in gate]
@@ -142,12 +163,12 @@ def request(
         numbers += [0.0, apart / units.length]
     packed = start.packed()
     packed[:3] -= goal
-    begin = np.append(packed, _forces(rotors, low, high, n)) / units.states(n)
+    begin = np.append(packed, forces) / units.states(n)
     structure = Structure(
         box=walls is not None, speed=speed is not None, lean=lean is not None, path=kept.path is not None,
-        gates=len(windows) + len(points), keep=keep, mounted=mounted,
+        gates=len(windows) + len(points), keep=keep, cost=cost, end=bool(other), mounted=mounted,
     )  # fmt: skip
-    return Request(vehicle, units, weights, goal, begin, kept, structure, np.array(numbers))
+    return Request(vehicle, units, weights, goal, end, begin, kept, structure, np.array(numbers))
 
 
 def end_of(path: Any, duration: Any, target: Any) -> Any:
@@ -169,24 +190,56 @@ def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> N
         raise InputError(field, f"room for pivot and rod at the {where}, from corner to corner", walls.tolist())
 
 
+def _own(kept: Constraints, objective: Any, start: tuple[State, Array], end: tuple[State, Array]) -> tuple[str, str]:
+    """Return the functions of one's own, `keep` and `cost`, as CasADi writes them. Raises InputError."""
+    texts, rotors = [], len(start[1])
+    if objective == "cost" and kept.cost is None:
+        raise InputError("cost", "the cost that is the objective", "nothing")
+    if kept.keep is not None:
+        for where, (state, forces) in {"start": start, "target": end}.items():
+            _check_kept(own_function(kept.keep, rotors, "keep"), state, where, forces)
+    for name, own in (("keep", kept.keep), ("cost", kept.cost)):
+        texts.append("" if own is None else str(own_function(own, rotors, name).serialize()))
+    return texts[0], texts[1]
+
+
 def _check_kept(function: Any, state: State, where: str, forces: Any) -> None:
-    """Raise InputError unless the `function` of `constraints.kept_function` is positive at a state."""
+    """Raise InputError unless the `function` of `constraints.own_function` is positive at a state."""
     least = float(np.min(np.array(function(state.packed(), forces))))
     if not least > 0:
         raise InputError("keep", f"values above 0 at the {where}", f"{least:.3g}")
 
 
-def _speed(speed: float, start: State) -> float:
-    begin = float(norm(start.x_dot))
-    if begin >= speed:
-        raise InputError("speed", f"more than the {begin:.3g} m/s of the start", f"{speed:g}")
+def _end(target: Any) -> State:
+    """Return the state in which a plan ends at a `target`. Raises InputError."""
+    if not isinstance(target, State):
+        return State(x=errors.array("target", target, (3,)), y=E3)
+    if target.batch_shape:
+        raise InputError("target", "a position or a single State", repr(target)[:80])
+    return target
+
+
+def _other_end(end: State, units: Units) -> list[float]:
+    """Return the numbers of an `end` that is not hover upright, own units; none if it is."""
+    inverted = State(x=end.x, R=end.R, y=E3)
+    if np.array_equal(inverted.packed(), end.packed()) and end.z[2] == 1:
+        return []
+    still = not np.any(np.concatenate([end.x_dot, end.omega, end.y_dot, end.z[:2], end.y[:2]])) and end.z[2] > 0
+    rates = end.x_dot * units.time / units.length, end.z, end.omega * units.time, end.y, end.y_dot * units.time
+    return [*np.concatenate(rates), float(still)]
+
+
+def _speed(speed: float, start: State, end: State) -> float:
+    for state, where in ((start, "start"), (end, "target")):
+        if (begin := float(norm(state.x_dot))) >= speed:
+            raise InputError("speed", f"more than the {begin:.3g} m/s of the {where}", f"{speed:g}")
     return speed
 
 
-def _lean(lean: float, start: State) -> float:
-    begin = float(np.arccos(np.clip(start.y[2], -1, 1)))
-    if begin >= lean:
-        raise InputError("lean", f"more than the {angle(begin)} of the start", angle(lean))
+def _lean(lean: float, start: State, end: State) -> float:
+    for state, where in ((start, "start"), (end, "target")):
+        if (begin := float(np.arccos(np.clip(state.y[2], -1, 1)))) >= lean:
+            raise InputError("lean", f"more than the {angle(begin)} of the {where}", angle(lean))
     return lean
 
 

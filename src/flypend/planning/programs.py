@@ -25,6 +25,7 @@ class Programs:
     inequalities: int  # their number,
     exact: int  # and that of the exact ones among them, which come first
     end_size: int  # number of errors at the end
+    summary: int  # length of what `values` tells of a stage
     linearised: Stagewise  # of `dynamics.Stage`, as is `rollout`; of the derivatives it writes F
     rollout: Stagewise
     backward: Stagewise  # of `riccati`, as is `forward`
@@ -53,6 +54,7 @@ def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
         inequalities=barrier.inequalities,
         exact=structure.exact(rotors),
         end_size=barrier.end_size,
+        summary=2 + (structure.cost != ""),
         linearised=each(stage.linearised(gap, layout.slopes(A, B)), shared=(3, 4)),
         values=each(barrier.values(), shared=(2, 3, 4, 6)),
         terms=each(barrier.terms(layout), shared=(2, 3, 4, 7)),

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
+from flypend.files.whole import whole_file
 from flypend.flight.metrics import wilson
 from flypend.flight.outcome import Outcome
 from flypend.flight.saved import write
 from flypend.flight.trajectory import Trajectory
-from flypend.geometry import norm
+from flypend.geometry import E3, norm
 from flypend.laws.references import Reference, hover, sampled
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, split
@@ -31,6 +33,12 @@ from flypend.plants.lag import TIMING_SIZE, held, step_timing
 Array = NDArray[np.float64]
 
 INDEPENDENT_STEP = 1e-3  # s
+# Name, unit and shape of the columns of a table before those of the rotors, in the order of `State.packed`.
+COLUMNS = (
+    ("t", "s", ()), ("x", "m", (3,)), ("x_dot", "m/s", (3,)), ("R", "1", (3, 3)), ("omega", "rad/s", (3,)),
+    ("y", "1", (3,)), ("y_dot", "1/s", (3,)),
+)  # fmt: skip
+NEAR_HOVER = 0.5  # m/s, 1/s and 1, which no plan to hover is off at its end
 
 
 @errors.named_arguments
@@ -69,6 +77,9 @@ class Plan:
         Processor time that the solver took, s.
     iterations : int
         Iterations of the solver.
+    stationarity : float
+        How far it is from the conditions of first order: by which share the last Newton step was to change its cost,
+        barrier included. An optimum among neighbours has 0.
     guess : int
         The style of the guess that led here.
     guesses, agreeing : int
@@ -88,6 +99,7 @@ class Plan:
     reason: str
     solve_time: float
     iterations: int
+    stationarity: float
     guess: int
     guesses: int
     agreeing: int
@@ -122,7 +134,12 @@ class Plan:
 
     @property
     def reference(self) -> Reference:
-        """Where the pivot is to be, as a function of time: the path, then the target."""
+        """Where the pivot is to be, as a function of time: the path, then the target.
+
+        Raises InputError if the plan ends otherwise than in inverted hover, after which there is nothing to follow.
+        """
+        if np.max(norm(np.stack([self.x_dot[-1], self.y_dot[-1], self.y[-1] - E3]))) > NEAR_HOVER:
+            raise InputError("plan", "one that ends in inverted hover", "another end, which is not tracked")
         path = self.path
         return hover(self.target) if path is None else lambda t: path(ca.fmin(t, self.duration))
 
@@ -171,6 +188,20 @@ class Plan:
         loaded: with arrays of different length, or numbers that are not finite.
         """
         write(path, *files.content(self))
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write the plan to the file `path` (.csv), a row per sample.
+
+        Columns are named and have units as in `Trajectory.to_dataframe`; command_1, … are the commands held from then
+        on. The file is written atomically. Raises InputError if it is not writable.
+        """
+        per_stage = (len(self.t) - 1) // len(self.commands)
+        commands = self.commands[np.minimum(np.arange(len(self.t)) // per_stage, len(self.commands) - 1)]
+        parts = np.column_stack([self.t, self.packed, self.rotor_forces, commands])
+        names = [f"{name} [{unit}]" for name, unit, shape in COLUMNS for name in _numbered(name, shape)]
+        names += [f"{name}_{i + 1} [N]" for name in ("rotor_force", "command") for i in range(self.commands.shape[1])]
+        with whole_file(path, (".csv",)) as target:
+            np.savetxt(target, parts, fmt="%.9g", delimiter=",", header=",".join(names), comments="")
 
     @cached_property
     def end_error(self) -> float:
@@ -256,6 +287,10 @@ class PlanEnsemble:
         values = getattr(self, errors.one_of("name", name, ("excursion", "duration", "solve_time")))
         values = values[np.isfinite(values)]
         return float(np.percentile(values, q)) if len(values) else float("nan")
+
+
+def _numbered(name: str, shape: tuple[int, ...]) -> list[str]:
+    return ["_".join([name, "".join(str(i + 1) for i in place)]) if shape else name for place in np.ndindex(shape)]
 
 
 def _independent_step(vehicle: Vehicle) -> Any:

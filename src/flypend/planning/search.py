@@ -9,13 +9,13 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
 from flypend.planning.constraints import TOLERANCE
-from flypend.planning.guess import leaned, leans, pumping, styles
+from flypend.planning.guess import arcs, leaned, leans, pumping, styles
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.programs import Programs, programs
 from flypend.planning.solver import Measures, Problem, Scratch, Solver, one_lane
@@ -25,10 +25,11 @@ from flypend.plants.lag import step_timing
 ROUNDS: Mapping[int, int] = MappingProxyType({6: 4})
 
 Array = NDArray[np.float64]
+Guess = tuple[Array, Array]  # states (stages + 1, 24 + n) and commands (stages, n), own units
 
 
 NEVER = np.full(1, np.inf)
-LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True))  # of a guess that is given up
+LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True), NEVER)  # of a guess that is given up
 MOST_ITERATIONS = 80
 # Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
@@ -36,6 +37,7 @@ SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
 SAME = 0.01  # share by which costs of guesses differ that lead to the same plan
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
 NOT_REACHED, NOT_KEPT = "inverted hover is not reached", "a wish is not kept"
+UNKNOWN = 1e9  # stationarity of what has no cost
 UNFINISHED = "the solver had not converged"
 
 
@@ -116,8 +118,8 @@ class Found:
     lacks: str  # why it cannot be flown; empty if it can
     unfinished: str  # whether the solver had not converged; empty if it had
     style: int  # of its guess
-    guesses: int  # of so many it is the best,
-    agreeing: int  # and so many of them came within `SAME` of its cost, itself included
+    costs: tuple[float, ...]  # of all guesses of which it is the best, infinite for those that failed or were given up
+    stationarity: float  # see `Plan`
     iterations: int
     spent: float  # processor time, s: of every iteration, an equal part for each guess that was being solved
 
@@ -131,6 +133,8 @@ class Verdict:
         The cost, infinite for what cannot be flown; and how far it is from that, in tolerances.
     arrives : (lanes,)
         Whether it reaches hover, whatever it breaks on the way.
+    stationarity : (lanes,)
+        The change of the cost that the last step was to bring, as a share of it.
     barrier, stuck : (lanes,)
         See `solver.Measures`.
     """
@@ -139,6 +143,8 @@ class Verdict:
         cost, violation = (measures.cost if soft else measures.value), measures.violation
         self.arrives, self.stuck = (measures.end <= 1) & (measures.gap <= CLOSED), measures.stuck
         self.barrier = measures.barrier
+        with np.errstate(all="ignore"):
+            self.stationarity = np.nan_to_num(measures.change / measures.value, nan=UNKNOWN, posinf=UNKNOWN)
         self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
         lacks = np.maximum(measures.end, 1) + violation / TOLERANCE + measures.gap / CLOSED
         self.lacks = np.where(np.isfinite(lacks), lacks, np.inf)
@@ -163,9 +169,9 @@ class Watch:
     ) -> None:
         self._jobs, self._on, self._most, self._first = jobs, np.array(on), most, soft
         self._best, self._steady, self._iterations, self._spent = np.inf, 0, 0, 0.0
-        self._agreeing = 0
+        self._costs: tuple[float, ...] = (np.inf,) * len(on)
         self._soft = jobs[0].asked.structure.soft
-        self._kept: tuple[Array, Array, str, int] | None = None
+        self._kept: tuple[Array, Array, str, int, float] | None = None
         self._stuck = False
 
     @property
@@ -187,28 +193,28 @@ class Watch:
         settled = np.isfinite(self._best) and score > (1 - STEADY) * self._best
         self._steady = self._steady + 1 if settled and verdict.barrier[lane] <= STEADY_BARRIER else 0
         if self._kept is None or not score > self._best:
-            self._kept = *solver.iterate(lane), lacks, place
+            self._kept = *solver.iterate(lane), lacks, place, float(verdict.stationarity[lane])
         self._best = min(self._best, score)
-        self._agreeing = agreeing(verdict.cost[self._on])
+        self._costs = tuple(verdict.cost[self._on].tolist())
         self._iterations += 1
         self._spent += spent
         self._stuck = bool(np.all(verdict.stuck[self._on]))
 
     def found(self, solver: Solver | Race) -> Found:
         """Return the best so far."""
-        none = *solver.iterate(int(self._on[0])), NOT_REACHED, 0
-        states, commands, lacks, place = self._kept or none
+        none = *solver.iterate(int(self._on[0])), NOT_REACHED, 0, UNKNOWN
+        states, commands, lacks, place, stationarity = self._kept or none
         unfinished = "" if self._steady >= STEADY_FOR else UNFINISHED
         return Found(
-            states, commands, self._best, lacks, unfinished, self._jobs[place].style, len(self._on),
-            self._agreeing, self._iterations, self._spent,
+            states, commands, self._best, lacks, unfinished, self._jobs[place].style, self._costs, stationarity,
+            self._iterations, self._spent,
         )  # fmt: skip
 
 
-def agreeing(costs: Array) -> int:
+def agreeing(costs: ArrayLike) -> int:
     """Return how many of `costs`, infinite for what cannot be flown, are within `SAME` of the least."""
     least = np.min(costs)
-    return int(np.sum(costs <= (1 + SAME) * least)) if np.isfinite(least) else 0
+    return int(np.sum(np.asarray(costs) <= (1 + SAME) * least)) if np.isfinite(least) else 0
 
 
 def stages_of(horizon: float) -> tuple[int, float]:
@@ -236,10 +242,30 @@ def together(
     default no guess is given up where costs are soft at first, since the dearest may be the one that keeps away.
     `first` is the `soft` of `Watch`.
     """
-    jobs, soft = [Job(asked, style) for style in range(WIDTH)], asked.structure.soft
-    given_up = ({} if soft else ROUNDS) if rounds is None else rounds
-    solver = Race(programs(asked.rotors, asked.structure, lanes=False), *guessed(jobs, horizon), given_up)
-    watch = Watch(jobs, range(WIDTH), most, first)
+    jobs = [Job(asked, style) for style in range(WIDTH)]
+    given_up = ({} if asked.structure.soft else ROUNDS) if rounds is None else rounds
+    return _raced(jobs, guessed(jobs, horizon), given_up, Watch(jobs, range(WIDTH), most, first), deadline)
+
+
+def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Watch | None = None) -> Found:
+    """Solve from a `guess` of one's own, in as many stages as it has; its first state is the start.
+
+    `job` says what is asked for, and the number of the guess. By default it is watched as one that keeps its distance.
+    """
+    states, commands = guess
+    stages = len(commands)
+    timing, vehicle, numbers = (part[:, None] for part in _problem(job.asked, horizon / stages))
+    problem = Problem(stages, timing, vehicle, numbers, _places([job], stages, horizon / stages))
+    given = problem, states[..., None], commands[..., None]
+    return _raced([job], given, {}, watch or Watch([job], [0], soft=SOFT_LAST), deadline)
+
+
+def _raced(
+    jobs: Sequence[Job], given: tuple[Problem, Array, Array], rounds: Mapping[int, int], watch: Watch, deadline: float
+) -> Found:
+    """Return what a race from the `given` guesses finds until its `watch` is done, or the `deadline` is over."""
+    asked, soft = jobs[0].asked, jobs[0].asked.structure.soft
+    solver = Race(programs(asked.rotors, asked.structure, lanes=False), *given, rounds)
     while not watch.done and time.thread_time() < deadline:
         signals.poll()
         begin = time.thread_time()
@@ -291,9 +317,17 @@ def _solver(jobs: Sequence[Job], horizon: float) -> Solver:
     return Solver(programs(asked.rotors, asked.structure, lanes=True), *guessed(jobs, horizon))
 
 
-def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]:
+def guesses_of(asked: Request, horizon: float, stages: int) -> list[Guess]:
+    """Return all guesses there are for what is `asked`, in so many `stages`: of all styles, and arcs of the rod."""
+    _, states, commands = guessed([Job(asked, style) for style in range(WIDTH)], horizon, stages)
+    found = [(states[..., lane], commands[..., lane]) for lane in range(WIDTH)]
+    return [*found, *arcs(asked, stages, horizon / stages)] if asked.falls else found
+
+
+def guessed(jobs: Sequence[Job], horizon: float, stages: int | None = None) -> tuple[Problem, Array, Array]:
     """Return the problem of as many `jobs` as lanes, and their guessed states and commands."""
-    stages, h = stages_of(horizon)
+    stages = stages or stages_of(horizon)[0]
+    h = horizon / stages
     n = jobs[0].asked.rotors
     columns = [_columns(job, h) for job in jobs]
     timing, vehicle, numbers, style, limits, begin = (_side_by_side(some) for some in zip(*columns, strict=True))
@@ -303,21 +337,29 @@ def guessed(jobs: Sequence[Job], horizon: float) -> tuple[Problem, Array, Array]
     for lane, job in enumerate(jobs):
         if leans(job.asked, job.style):
             states[..., lane], commands[..., lane] = leaned(job.asked, job.style, stages, h)
-    places = None
-    if jobs[0].asked.structure.path:
-        places = lanes(stages + 1, 3)
-        places[:] = np.stack([job.asked.places(h * np.arange(stages + 1, dtype=float)) for job in jobs], axis=-1)
-    return Problem(stages, timing, vehicle, numbers, places), states, commands
+    return Problem(stages, timing, vehicle, numbers, _places(jobs, stages, h)), states, commands
+
+
+def _places(jobs: Sequence[Job], stages: int, h: float) -> Array | None:
+    """Return where the pivots are to be (stages + 1, 3, lanes), own units, if there are paths."""
+    if not jobs[0].asked.structure.path:
+        return None
+    places = lanes(stages + 1, 3, width=len(jobs))
+    places[:] = np.stack([job.asked.places(h * np.arange(stages + 1, dtype=float)) for job in jobs], axis=-1)
+    return places
 
 
 def _columns(job: Job, h: float) -> tuple[Any, ...]:
-    """Return timing, vehicle, numbers, style, rotor limits and start of a `job`, own units."""
-    asked, vehicle, units = job.asked, job.asked.vehicle, job.asked.units
-    falls = not asked.structure.lean and vehicle.mount != "cup"
-    return (
-        step_timing(vehicle.rotor_lag / units.time, h), units.numbers(vehicle), asked.numbers,
-        styles(vehicle, falls=falls)[:, job.style], vehicle.rotor_limits / units.force, asked.start,
-    )  # fmt: skip
+    """Return what `_problem` does, then style, rotor limits and start of a `job`, own units."""
+    asked = job.asked
+    style = styles(asked.vehicle, falls=asked.falls, hangs=bool(asked.end.y[2] < 0))[:, job.style]
+    return *_problem(asked, h), style, asked.vehicle.rotor_limits / asked.units.force, asked.start
+
+
+def _problem(asked: Request, h: float) -> tuple[Array, Array, Array]:
+    """Return timing, vehicle and numbers of what is `asked`, own units, in stages of `h`."""
+    vehicle, units = asked.vehicle, asked.units
+    return np.array(step_timing(vehicle.rotor_lag / units.time, h)), units.numbers(vehicle), asked.numbers
 
 
 def _side_by_side(columns: Sequence[Any]) -> Array:

@@ -88,7 +88,7 @@ class Scratch:
         layout, k, of = programs.layout, programs.inequalities, partial(some_lanes, stages, width=width)
         one_more = partial(some_lanes, stages + 1, width=width)
         self.slopes, self.d, self.cost = of(layout.of_slopes), of(layout.n), of(layout.of_stage)
-        self.to_go, self.gains, self.summary = one_more(layout.of_to_go), of(layout.of_gains), of(2)
+        self.to_go, self.gains, self.summary = one_more(layout.of_to_go), of(layout.of_gains), of(programs.summary)
         self.delta, self.upsilon = one_more(layout.n), of(layout.m)
         self.costate, self.s_step, self.z_step, self.shares = of(1), of(k), of(k), of(2)
         self.new_states, self.new_commands = one_more(SIZE + layout.m), of(layout.m)
@@ -100,7 +100,8 @@ class Measures(NamedTuple):
 
     `cost` is the merit with the weight of e as it was asked for, `value` excursion and effort with their weights,
     `violation` what inequalities lack, `gap` the sum of all gaps, `end` the largest error there in tolerances, and
-    `barrier` is μ. Lanes that are `stuck` cannot be improved any more, whatever the damping.
+    `barrier` is μ. Lanes that are `stuck` cannot be improved any more, whatever the damping. `change` is that of
+    the cost in the linear-quadratic problem of the last step: 0 where the conditions of first order hold.
     """
 
     cost: Lanes
@@ -110,6 +111,7 @@ class Measures(NamedTuple):
     end: Lanes
     barrier: Lanes
     stuck: NDArray[np.bool_]
+    change: Lanes
 
 
 class Solver:
@@ -136,6 +138,8 @@ class Solver:
         The best so far.
     merit, violation, gap, end : (lanes,)
         Merit, sum of what inequalities lack, sum of all gaps, and largest error at the end in tolerances.
+    change : (lanes,)
+        See `Measures`.
     shared : (lanes,)
         The squared radius e of the ball.
     """
@@ -156,6 +160,7 @@ class Solver:
         self._epsilon, self._new_shared, self._errors = lanes(1), lanes(1), lanes(programs.end_size)
         self._price, self._w = np.ones((2, width)), scratch or Scratch(programs, N, width)
         self.merit, self.violation, self.gap, self.end = (np.full(width, np.inf) for _ in range(4))
+        self._wished, self.change = np.zeros(width), np.full(width, np.inf)  # the cost of one's own
         self._connect()
         self._begin(slice(None))
 
@@ -232,9 +237,11 @@ class Solver:
         numbers, asked = self._problem.numbers, self._asked[0]
         cost = self.merit + (asked - numbers[SHARED]) * self._shared[0]
         excursion = np.sqrt(np.max(self._squared(self.states, slice(None)), axis=0))
-        value = asked * excursion**2 + numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2
+        value = (
+            asked * excursion**2 + numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2 + self._wished
+        )
         stuck = self._damping[1] >= self._set.most_damping
-        return Measures(cost, value, self.violation, self.gap, self.end, self._mu[0], stuck)
+        return Measures(cost, value, self.violation, self.gap, self.end, self._mu[0], stuck, self.change)
 
     def insist(self, place: int, weight: float, on: Any) -> None:
         """Set the number at `place` of the inequalities, a `weight`, in the lanes `on`."""
@@ -283,6 +290,7 @@ class Solver:
         self._back(first, N)
         c, g = w.to_go[first, self._of_shared : self._of_shared + 2]
         self._epsilon[0], w.delta[first] = -g / c, 0.0
+        self.change = np.abs(g * g / (2 * c) - w.to_go[first, self._of_shared + 2])
         self._ahead(first, N)
         self._along(first, N)
         self.gap = np.abs(w.d[stages]).sum(axis=(0, 1))
@@ -290,7 +298,7 @@ class Solver:
         self._price[0] = w.costate[stages].max(axis=(0, 1))
         self._price[1] = dual[:, self._k.exact :].max(axis=(0, 1), initial=0.0)
         self._price = np.maximum(1.0, 1.2 * self._price)
-        self.merit, self.violation, self.end = self._value(stages, new=False, gap=self.gap)
+        self.merit, self.violation, self.end, self._wished = self._value(stages, new=False, gap=self.gap)
 
     def _search(self, stages: slice) -> tuple[Lanes, Lanes]:
         """Shorten the step until the merit falls, lane by lane, and take it. Returns as `step`."""
@@ -304,7 +312,7 @@ class Solver:
             length = np.where(found, length, factor * length)
             self._fly(stages, length)
             gap = (1 - length) * self.gap
-            merit, violation, end = self._value(stages, new=True, gap=gap)
+            merit, violation, end, wished = self._value(stages, new=True, gap=gap)
             found |= merit < self.merit
             if found.all():
                 break
@@ -312,7 +320,7 @@ class Solver:
             (self.states[after], w.new_states[after]), (self.commands[stages], w.new_commands[stages]),
             (self._shared, self._new_shared), (self._slack[stages], w.new_slack[stages]),
             (self._dual[stages], self._dual[stages] + dual_length * w.z_step[stages]),
-            (self.merit, merit), (self.violation, violation), (self.gap, gap), (self.end, end),
+            (self.merit, merit), (self.violation, violation), (self.gap, gap), (self.end, end), (self._wished, wished),
         )  # fmt: skip
         for old, new in pairs:
             np.copyto(old, new, where=found)
@@ -329,19 +337,19 @@ class Solver:
         self._new_shared[0] = np.maximum(self._shared[0] + length * self._epsilon[0], kept.max(axis=0))
         w.trial[stages, exact:] = slack[:, exact:] + length * w.s_step[stages, exact:]
 
-    def _value(self, stages: slice, *, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes]:
-        """Return merit, violation and largest error at the end, each (lanes,), and write the slacks.
+    def _value(self, stages: slice, *, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes, Lanes]:
+        """Return merit, violation, largest error at the end and cost of one's own, (lanes,) each, and write the slacks.
 
         They are those of the `new` states and commands, or of the old ones.
         """
         p, shared = self._problem, self._new_shared if new else self._shared
         self._values[new](stages.start, stages.stop - stages.start)
         self._ends[new](stages.stop, 1)
-        own, violation = self._w.summary[stages].sum(axis=0)
+        own, violation, *wished = self._w.summary[stages].sum(axis=0)
         missed = ((self._errors + self._offset) ** 2).sum(axis=0)
         merit = p.numbers[SHARED] * shared[0] + own + self._weight[0] * missed / 2
         merit += self._price[0] * gap + self._price[1] * violation
-        return merit, violation, np.abs(self._errors).max(axis=0)
+        return merit, violation, np.abs(self._errors).max(axis=0), wished[0] if wished else np.zeros_like(own)
 
     def _adapt(self, length: Lanes) -> None:
         """Adapt damping, barrier and weight of the end to the `length` of the step."""

@@ -14,8 +14,9 @@ from flypend import errors
 from flypend.flight.ensemble import simulate_ensemble
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
+from flypend.planning.durations import HORIZONS
 from flypend.planning.dynamics import Units
-from flypend.planning.planner import HORIZONS, plan, plan_ensemble
+from flypend.planning.planner import plan, plan_ensemble
 from flypend.planning.result import Plan, PlanEnsemble
 from flypend.studies.sweep.bins import EDGE
 
@@ -60,9 +61,11 @@ def front(
     if not shortest:
         return Front(np.array([shortest.duration]), (shortest,))
     longest = max(HORIZONS[0] * Units.of(vehicle).time, 2 * shortest.duration)
-    durations, plans = np.geomspace(shortest.duration, longest, count), []
+    durations = np.geomspace(shortest.duration, longest, count)
+    plans: list[Plan] = []
     for duration in durations:
-        plans.append(plan(vehicle, start, duration=duration, time_limit=time_limit, **asked))
+        found = plan(vehicle, start, duration=duration, time_limit=time_limit, **asked)
+        plans.append(found or (found if plans else shortest))  # there are few ways in the least time
         progress(1 + len(plans), count + 1)
     return Front(durations, tuple(plans))
 

@@ -1,0 +1,186 @@
+"""The search over durations: more time is never the worse, and the shortest flight that there is.
+
+**More time.** A flight that hovers sooner can wait. So a plan with one horizon is also solved from the best with a
+shorter one, followed by hover, and the shorter is kept where even that is worse.
+
+**The least time.** A flight with less time is near one with a little more. From each of many guesses, the horizon of a
+plan is shortened in small steps, its stages with it: states and commands stay, and leave gaps for the solver to close.
+A step that fails is halved, until it is too small to matter. Guesses lead to ways that differ in how far they can be
+shortened, so only those that fall behind are dropped, not those that cost more.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from flypend.planning.problem import STAGES_PER_UNIT, Request
+from flypend.planning.result import Plan
+from flypend.planning.search import SOFT_LAST, Found, Guess, Job, Watch, agreeing, guesses_of, improved, together
+from flypend.planning.verdict import plans_of
+
+HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
+SHORTER = (6.0, 8.0)  # tried before: a plan of 8 is 1.5 to 3 times better than one of 12.5 from 3 of 80 random starts
+EQUAL = 1e-3  # share by which a shorter flight must be better to be kept
+STOPPED = "stopped at the time limit"
+
+# Of the search for the least time. Its first plans have horizons that shrink by `COARSE`, until `FAILURES` in a row.
+COARSE, FAILURES = 0.8, 2
+LOOSE = 1.1  # from this times the shortest of them, all guesses are tried,
+TRIES = 50  # with so many iterations each, as has every attempt to shorten: those that work take 25
+# Shares by which all are shortened, as often as it works; and by how much those that go on may then be behind.
+STEPS: Mapping[float, float] = MappingProxyType(
+    {0.06: 0.1, 0.03: 0.05, 0.015: 0.02, 0.008: 0.01, 0.004: 0.005, 0.002: 0.0}
+)
+MOST = 8  # go on
+FEWEST = 56  # stages, so that switching times are free enough
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What came of an attempt at a request with a `horizon` (√(l/g))."""
+
+    asked: Request
+    horizon: float
+    found: Found
+    plan: Plan
+
+    def __bool__(self) -> bool:
+        """Whether the plan can be flown."""
+        return bool(self.plan)
+
+
+class Search:
+    """Attempts at a plan, and what they took.
+
+    Parameters
+    ----------
+    attempts : sequence of Request
+        The same request in one or several forms, of which the first counts that leads to a plan.
+    deadline : float
+        Processor time of this thread at which it ends, s.
+    """
+
+    def __init__(self, attempts: Sequence[Request], deadline: float) -> None:
+        self._attempts, self._deadline = attempts, deadline
+        self._spent = 0.0
+
+    @property
+    def over(self) -> bool:
+        """Whether its time is over."""
+        return time.thread_time() >= self._deadline
+
+    def cold(self, horizon: float) -> Tried:
+        """Try all forms of the request in turn, each from all styles of guesses."""
+        for asked in self._attempts:
+            tried = self._judged(asked, horizon, together(asked, horizon, self._deadline))
+            if tried or self.over:
+                break
+        return tried
+
+    def warm(self, tried: Tried, horizon: float, guess: Guess, watch: Watch | None = None) -> Tried:
+        """Try another `horizon`, from a `guess` that comes of what was `tried`."""
+        job = Job(tried.asked, tried.found.style)
+        return self._judged(tried.asked, horizon, improved(job, horizon, guess, self._deadline, watch))
+
+    def each(self, horizon: float, stages: int) -> list[Tried]:
+        """Try the last form of the request from every guess that there is, each by itself, in so many `stages`."""
+        asked, tries = self._attempts[-1], []
+        for style, guess in enumerate(guesses_of(asked, horizon, stages)):
+            job = Job(asked, style)
+            found = improved(job, horizon, guess, self._deadline, Watch([job], [0], TRIES))
+            tries.append(self._judged(asked, horizon, found))
+        return tries
+
+    def told(self, best: Tried, costs: Sequence[float]) -> Plan:
+        """Return the plan of the `best`, with what the search took, and how many `costs` agree with its."""
+        plan = replace(best.plan, solve_time=self._spent, guesses=len(costs))
+        if best:
+            plan = replace(plan, agreeing=max(1, agreeing(costs)))
+        if not self.over:
+            return plan
+        if best:
+            return replace(plan, status="feasible", reason=STOPPED)
+        return replace(plan, reason=f"{plan.reason} within the time limit")
+
+    def _judged(self, asked: Request, horizon: float, found: Found) -> Tried:
+        self._spent += found.spent
+        return Tried(asked, horizon, found, plans_of([asked], [found], horizon)[0])
+
+
+def ladder(duration: float | None, asked: Request) -> list[float]:
+    """Return the horizons to try, √(l/g), up to a `duration` of so many.
+
+    With a path there is no other, since it says where to be at each time; nor where the end is no place to wait.
+    """
+    waits = asked.waits and not asked.structure.path
+    if duration is None:
+        return [*(SHORTER if waits else ()), *HORIZONS]
+    shorter = [] if not waits else [each for each in (*SHORTER, *HORIZONS) if each < (1 - EQUAL) * duration]
+    return [*shorter, duration]
+
+
+def in_time(search: Search, horizons: Sequence[float], least: float) -> Plan:
+    """Return the best plan with the last of `horizons`, or with the first from `least` on that has any.
+
+    It is one with a shorter horizon if that is better.
+    """
+    best: Tried | None = None
+    costs: list[float] = []
+    for horizon in horizons:
+        cold = search.cold(horizon)
+        costs += cold.found.costs
+        tries = [cold, search.warm(best, horizon, _waiting(best, horizon))] if best else [cold]
+        latest = min(filter(None, tries), key=lambda each: each.found.cost, default=cold)
+        if not best or (latest and latest.found.cost <= (1 + EQUAL) * best.found.cost):
+            best = latest
+        if search.over or (best and horizon >= least):
+            break
+    assert best is not None
+    return search.told(best, costs)
+
+
+def shortest(search: Search, horizons: Sequence[float]) -> Plan:
+    """Return the shortest plan, which begins with the first of `horizons` that has any."""
+    for horizon in horizons:
+        first = best = search.cold(horizon)
+        if first or search.over:
+            break
+    if not first:
+        return search.told(first, first.found.costs)
+    failures, horizon = 0, first.horizon
+    while failures < FAILURES:
+        tried = search.cold(horizon := COARSE * horizon)
+        best, failures = (tried, 0) if tried else (best, failures + 1)
+    horizon = min(LOOSE * best.horizon, first.horizon)
+    tries = search.each(horizon, max(FEWEST, round(STAGES_PER_UNIT * horizon)))
+    field = [best, *filter(None, tries)]
+    reached = [np.inf] * (len(tries) + 1)
+    for step, behind in STEPS.items():
+        field = sorted((_shortened(search, each, step) for each in field), key=lambda each: each.horizon)
+        reached[: len(field)] = [each.horizon for each in field]
+        field = [each for each in field if each.horizon <= (1 + behind) * field[0].horizon][:MOST]
+    return search.told(field[0], reached)
+
+
+def _shortened(search: Search, tried: Tried, step: float) -> Tried:
+    """Return what was `tried` with a horizon shortened by the share `step`, as often as that works."""
+    while True:
+        watch = Watch([Job(tried.asked, tried.found.style)], [0], TRIES, SOFT_LAST)
+        shorter = search.warm(tried, (1 - step) * tried.horizon, (tried.found.states, tried.found.commands), watch)
+        if not shorter:
+            return tried
+        tried = shorter
+
+
+def _waiting(tried: Tried, horizon: float) -> Guess:
+    """Return what was `tried`, followed by hover until `horizon` (√(l/g))."""
+    states, commands = tried.found.states, tried.found.commands
+    wait = max(0, round((horizon / tried.horizon - 1) * len(commands)))
+    hover = tried.asked.rest
+    hover[6:15] = states[-1, 6:15]  # the heading does not matter
+    return np.vstack([states, np.tile(hover, (wait, 1))]), np.vstack([commands, np.ones((wait, commands.shape[1]))])

@@ -72,7 +72,8 @@ def deepest(graph: str, entry: str) -> int:
     def depth(name: str) -> int:
         return frames.get(name, 0) + max(map(depth, calls.get(name, ())), default=0)
 
-    return depth(entry)
+    size: int = depth(entry)
+    return size
 
 
 def _run(folder: Path, *words: str) -> str:

@@ -45,8 +45,10 @@ def judgement(run: Trajectory) -> str:
     least = (
         f", rod clear by {number(1e3 * m.clearance)} mm" if m.cause != "collided" and m.clearance < float("inf") else ""
     )
-    way = f"largest distance {number(m.excursion)} m, lowest point at {number(m.lowest)} m" if up else fall(run)
-    return f"{pose} {reached}, {way}, largest rotor force {number(m.peak_force)} N{least}"
+    way, lowest = fall(run), ""
+    if up:
+        way, lowest = f"largest distance {number(m.excursion)} m", f", lowest point at {number(m.lowest)} m"
+    return f"{pose} {reached}, {way}, largest rotor force {number(m.peak_force)} N{lowest}{least}"
 
 
 def mark(holds: bool) -> str:

@@ -18,6 +18,8 @@ the task's duration.
 
 from __future__ import annotations
 
+from typing import Any
+
 from flypend.errors import require
 
 require("gymnasium", extra="rl", for_="flypend.envs")
@@ -49,12 +51,17 @@ __all__ = [
     "track",
 ]
 
-for _id, _task in {
-    "Balance": "balance", "SwingUp": "swing_up", "Track": "track", "CatchInCup": "catch_in_cup",
-}.items():  # fmt: skip
+_IDS: dict[str, dict[str, Any]] = {
+    "Balance": {"task": "balance"},
+    "SwingUp": {"task": "swing_up"},
+    "SwingUpShaped": {"task": "swing_up", "shaped": True},
+    "Track": {"task": "track"},
+    "CatchInCup": {"task": "catch_in_cup"},
+}
+for _id, _arguments in _IDS.items():
     gymnasium.register(
         id=f"flypend/{_id}-v0",
         entry_point="flypend.envs.single:World",
         vector_entry_point="flypend.envs.vector:VectorWorlds",
-        kwargs={"task": _task},
+        kwargs=_arguments,
     )

@@ -16,7 +16,9 @@ import re
 import subprocess
 import tempfile
 import time
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +36,9 @@ LAWS = {
     "light": lambda: fp.laws.inverted(form="light"),
     "learned": fp.laws.learned,
     "almost_global": fp.laws.almost_global,
+    "policy": lambda: fp.laws.trained(mlp()),
 }
+HIDDEN = 64  # two layers of it are the default network of Stable-Baselines3
 ARM = (*cortex.FLAGS, "-std=c99", "-O2")
 CLOCK, RATE = 168e6, 500.0
 CALLS = 100
@@ -65,6 +69,16 @@ int main(void)
     return r.force[0] < 0;
 }
 """
+
+
+def mlp() -> list[Any]:
+    """Return layers of a policy: what they weigh makes no difference to the cost."""
+    rng, sizes = np.random.default_rng(0), (24, HIDDEN, HIDDEN, 4)
+    layers = [[rng.normal(0, 0.1, (after, before)), np.zeros(after), "tanh"] for before, after in pairwise(sizes)]
+    layers[-1].pop()
+    return layers
+
+
 # What is measured: the functions that are called, and that of MAIN which calls them.
 PARTS = {"board": (("flypend_board_step",), "period"), "law": (("flypend_step", "flypend_mix"), "once")}
 

@@ -4,10 +4,14 @@
 rotor speeds commanded, JAX) and RotorPy (batched, PyTorch) fly where they are installed (`pip install crazyflow
 rotorpy roma torchdiffeq`), MuJoCo by its own `rollout` over our model. They observe nothing, pay no reward and have no
 rod but for MuJoCo's. Prints steps of the motion and of the environment per second on the wall, the best of some turns.
+
+`--counts` steps 1 to 65,536 worlds of each task instead, in one thread, and prints steps of the environment per second
+of processor time, the best of some turns: what else the machine does hardly counts.
 """
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -102,8 +106,42 @@ def mujoco() -> Iterator[Peer]:
     )
 
 
+KINDS: dict[str, dict[str, Any]] = {
+    "Balance": {"task": "balance"}, "SwingUp": {"task": "swing_up"}, "Track": {"task": "track"},
+    "CatchInCup": {"task": "catch_in_cup"}, "Balance, mocap": {"task": "balance", "sensors": "mocap"},
+    "Balance, onboard": {"task": "balance", "sensors": "onboard"},
+}  # fmt: skip
+COUNTS = (1, 64, 1024, 8192, 65_536)
+
+
+def by_count() -> None:
+    """Print steps per second of processor time by task and number of worlds."""
+    from flypend.envs import VectorWorlds
+
+    print(f"{machine()['processor']}, {machine()['date']}, one thread\n")
+    print("| task | " + " | ".join(f"{count:,}" for count in COUNTS) + " |")
+    print("|---|" + "---|" * len(COUNTS))
+    for name, arguments in KINDS.items():
+        found = []
+        for count in COUNTS:
+            worlds, steps = VectorWorlds(num_envs=count, workers=1, copy=False, **arguments), max(3, 20_000 // count)
+            worlds.reset(seed=0)
+            given = np.random.default_rng(0).uniform(-1, 1, (count, 4)).astype(np.float32)
+            best = np.inf
+            for _ in range(TURNS):
+                begin = time.process_time()
+                for _ in range(min(steps, 2000)):
+                    worlds.step(given)
+                best = min(best, (time.process_time() - begin) / (count * min(steps, 2000)))
+            found.append(f"{1 / best:,.0f}")
+        print(f"| {name} | " + " | ".join(found) + " |", flush=True)
+
+
 def main() -> None:
     """Print the table."""
+    if "--counts" in sys.argv[1:]:
+        by_count()
+        return
     peers: list[Peer] = []
     for make in (flypend, crazyflow, rotorpy, mujoco):
         with suppress(ModuleNotFoundError):

@@ -139,6 +139,7 @@ vehicle = fp.vehicle("hehn2011").replace(mass=0.62, rotor_lag=0.035, mount="hub"
 print(vehicle.weight, vehicle.l)  # N, m
 print(fp.Vehicle(**vehicle.to_dict()) == vehicle)
 print(vehicle.to_mjcf().splitlines()[0])  # for MuJoCo
+print(vehicle.to_urdf().count("<link"))  # for ROS, Gazebo, Drake, Isaac
 parts = {
     "mass": "620 g",
     "arm": "17 cm",

@@ -19,6 +19,7 @@ from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize, VecVideo
 
 import flypend as fp
 import flypend.envs
+from benchmarks import learners, scores
 from flypend.envs import VectorWorlds
 from flypend.envs.sb3 import VecWorlds, make_vec_env
 
@@ -136,6 +137,15 @@ def test_torch_shares_the_memory_of_the_worlds():
     worlds.step(np.zeros((8, 4)))
     assert shared.data_ptr() == seen.ctypes.data
     assert np.array_equal(shared.numpy(), worlds.unwrapped.worlds.observations)
+
+
+@pytest.mark.parametrize(("name", "steps"), [("ppo", 16_384), ("sac", 8_448)])
+def test_the_shipped_settings_train(name, steps, monkeypatch):
+    """One look at the score; whether they learn is measured, by `python -m benchmarks.scores`."""
+    monkeypatch.setitem(learners.EVERY, name, steps)
+    policy, trained_for, _ = learners.trained(name, "swing_up", 0, lambda one: 1.0, wanted=0.5, seconds=1)
+    assert trained_for == steps
+    assert scores.scored("swing_up", policy, 4, 0).returns.shape == (4,)
 
 
 # Others -------------------------------------------------------------------------------------------------------------

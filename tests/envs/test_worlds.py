@@ -230,6 +230,25 @@ def test_the_reward_is_its_formula():
     assert np.allclose(rewards, (1 + s[:, 20]) / 2 * kept - 0.02 * change, atol=1e-6)  # float32
 
 
+def test_the_shaped_swing_up_begins_anywhere_and_pays_for_energy():
+    worlds = gymnasium.make_vec("flypend/SwingUpShaped-v0", 400, vectorization_mode="vector_entry_point").unwrapped
+    plain = VectorWorlds("swing_up", 400)
+    worlds.reset(seed=3)
+    y = worlds.worlds.states[:, 18:21]
+    # Uniform on the sphere: its mean of 400 is within five deviations of 0, its height within those of 1/√3.
+    assert np.all(abs(y.mean(0)) < 5 / np.sqrt(3 * 400))
+    assert abs(y[:, 2].std() - 1 / np.sqrt(3)) < 0.1
+    plain.reset(seed=3)
+    plain.worlds.arrays["memories"][:] = worlds.worlds.arrays["memories"]
+    action = some_actions(1, 400)[0]
+    _, paid, over, *_ = worlds.step(action)
+    upright = plain.step(action)[1]
+    s = worlds.worlds.states
+    energy = s[:, 20] + VEHICLE.l * (s[:, 21:24] ** 2).sum(1) / (2 * VEHICLE.g)
+    assert not over.any()
+    assert np.allclose(paid, 0.8 * upright + 0.2 / (1 + ((energy - 1) / 0.5) ** 2), atol=1e-6)  # float32
+
+
 def test_observations_are_relative_to_the_goal():
     worlds = VectorWorlds("track", 4, shape="circle", size=0.5, turn_rate=1.5)
     seen, _ = worlds.reset(seed=0)
@@ -337,6 +356,29 @@ def test_lag_and_strength_and_wind_are_those_drawn():
     assert ratios.std() > 0.02
 
 
+def test_thrust_is_drawn_once_for_all_rotors():
+    worlds = Worlds(environment("swing_up", randomise={"thrust": (0.8, 1.2)}), 50)
+    worlds.begin(np.arange(50))
+    for _ in range(30):
+        worlds.step(np.ones((50, 4)))
+    ratios = worlds.states[:, 24:] / VEHICLE.rotor_limits[1]
+    assert np.ptp(ratios, axis=1).max() < 1e-12
+    assert ratios.min() >= 0.8 - 1e-6
+    assert ratios.max() <= 1.2
+    assert ratios[:, 0].std() > 0.05  # uniform: 0.115
+
+
+def test_bands_are_ratios_of_what_is_written():
+    bands = {"mass": (0.5, 0.7), "rotor_lag": (0.0, 0.04), "thrust_scale": (0.7, 0.9), "delay": (0.0, 0.02),
+             "strength": ([0.9, 1.0, 1.0, 1.0], [1.0, 1.1, 1.0, 1.0]), "sag": (0.0, 0.1)}  # fmt: skip
+    vehicle = VEHICLE.replace(bands=bands, mass=0.6, thrust_scale=0.8)
+    found = environment("balance", vehicle=vehicle, randomise="bands").randomise
+    wanted = {"mass": (5 / 6, 7 / 6), "lag": (0.05, 0.04 / vehicle.rotor_lag), "thrust": (0.875, 1.125)}
+    wanted |= {"delay": (0.0, 0.02), "strength": (0.9, 1.1), "bob_mass": (1.0, 1.0), "wind": (0.0, 0.0)}
+    for name, interval in wanted.items():
+        assert getattr(found, name) == pytest.approx(interval), name
+
+
 def test_wind_pushes():
     """A constant force, for want of anything else: the centre of mass falls beside where it would."""
     force = 0.5
@@ -421,7 +463,8 @@ def test_what_has_been_flown_is_a_run(tmp_path):
         ({"task": "catch_in_cup", "mount": "hub"}, "mount"), ({"mount": "bogus"}, "mount"),
         ({"history": -1}, "history"), ({"history": 1.5}, "history"), ({"workers": 0}, "workers"),
         ({"num_envs": True}, "num_envs"), ({"randomise": {"mas": (1, 1)}}, "randomise.mas"),
-        ({"randomise": "mass"}, "randomise"), ({"randomise": {"mass": 1.2}}, "randomise.mass"),
+        ({"randomise": "mass"}, "randomise"), ({"randomise": "bands"}, "randomise"),
+        ({"randomise": {"mass": 1.2}}, "randomise.mass"),
         ({"randomise": {"delay": (0, 20)}}, "randomise.delay"), ({"plant": "rotors"}, "plant"),
         ({"shape": "circle"}, "shape"), ({"task": "track", "shap": "circle"}, "shap"),
         ({"task": environment("balance").task, "shape": "circle"}, "shape"),

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from itertools import pairwise
 
 import casadi as ca
 import numpy as np
@@ -21,6 +22,17 @@ from flypend.model.allocation import allocate
 
 VEHICLE = fp.vehicle("hehn2011")
 INVERTED = fp.laws.inverted().bind(VEHICLE)
+
+
+def _layers(*sizes):
+    """Weights of a policy, one layer with each activation that training libraries offer first."""
+    shapes = list(pairwise(sizes))
+    rng, kinds = default_rng(5), ("tanh", "elu", "sigmoid", "identity")
+    return [
+        (rng.normal(0, 0.3, (n, k)), rng.normal(0, 0.1, n), kind) for (k, n), kind in zip(shapes, kinds, strict=True)
+    ]
+
+
 LAWS = {
     "inverted": INVERTED,
     "light": fp.laws.inverted(form="light").bind(VEHICLE),
@@ -29,6 +41,7 @@ LAWS = {
     "lqr": fp.laws.lqr().bind(VEHICLE),
     "repaired": fp.laws.repaired().bind(VEHICLE),
     "almost_global": fp.laws.almost_global().bind(VEHICLE),
+    "trained": fp.laws.trained(_layers(24, 16, 16, 12, 4)).bind(VEHICLE),
 }
 OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE = range(8)
 
@@ -80,7 +93,7 @@ def _float_errors_allowed(law, wanted, seed):
 
 
 @pytest.mark.parametrize("precision", ["double", "float"])
-@pytest.mark.parametrize("name", ["inverted", "light", "corrected", "lqr"])
+@pytest.mark.parametrize("name", ["inverted", "light", "corrected", "lqr", "trained"])
 def test_100_000_random_states_agree_with_python(name, precision):
     law, count = LAWS[name], 100_000 // 4
     for seed in range(4) if name == "inverted" else (0,):

@@ -557,3 +557,43 @@ def test_a_vehicle_as_mjcf_moves_as_our_equations(name, tmp_path):
     data.ctrl[:] = 10 * vehicle.rotor_limits[1]
     mujoco.mj_step(model, data, nstep=2000)
     assert np.allclose(data.act, vehicle.rotor_limits[1])  # a second later, MuJoCo has kept it within the limits
+
+
+@pytest.mark.parametrize("name", ["hehn2011", "crazyflie", UNIFORM])
+def test_a_vehicle_as_urdf_moves_as_the_one_as_mjcf(name):
+    """With motors in the frames of its rotors; the joint off the centre of mass, the inertia tilted, the rod tumbling.
+
+    The ring adds a millionth to the rod's inertia: 2e-5 to 6e-5 at the end, and ten times less with a tenth of it.
+    """
+    vehicle = _tilted(name).replace(pivot_offset=OFFSET / 10)
+    ours = mujoco.MjModel.from_xml_string(vehicle.to_mjcf(timestep=0.5e-3, lag=False))
+    spec = mujoco.MjSpec.from_string(vehicle.to_urdf())
+    spec.compiler.fusestatic = False
+    spec.body("vehicle").add_freejoint()
+    spec.option.timestep, spec.option.integrator = 0.5e-3, mujoco.mjtIntegrator.mjINT_RK4
+    spec.option.gravity, spec.option.disableflags = [0, 0, -vehicle.g], mujoco.mjtDisableBit.mjDSBL_CONTACT
+    for k, spin in enumerate(vehicle.rotor_spins):
+        spec.body(f"rotor{k}").add_site(name=f"rotor{k}")
+        motor = spec.add_actuator(name=f"rotor{k}", target=f"rotor{k}", trntype=mujoco.mjtTrn.mjTRN_SITE)
+        motor.gear[:] = 0, 0, 1, 0, 0, vehicle.drag_ratio * spin
+    theirs = spec.compile()
+    assert sum(theirs.body_mass) == pytest.approx(sum(ours.body_mass), rel=1e-6)
+
+    start = fp.State.random(np.random.default_rng(3))
+    u, w = start.R.T @ start.y, start.omega
+    v = start.R.T @ start.y_dot - np.cross(w, u)
+    first, second = np.arctan2(-u[1], u[2]), np.arcsin(u[0])
+    rates = (u[1] * v[2] - v[1] * u[2]) / (u[1] ** 2 + u[2] ** 2), v[0] / np.cos(second)
+    coordinates, ends = mujoco_coordinates(start.packed()), []
+    for model in (ours, theirs):
+        data = mujoco.MjData(model)
+        data.qpos[:7], data.qvel[:6] = coordinates[:7], coordinates[11:17]
+        data.qpos[7:] = coordinates[7:11] if model is ours else (first, second)
+        data.qvel[6:] = coordinates[17:] if model is ours else rates
+        data.ctrl[:] = np.linspace(0.6, 1.1, 4) * vehicle.weight / 4
+        mujoco.mj_step(model, data, nstep=600)
+        mujoco.mj_forward(model, data)
+        pivot, rod = data.body("vehicle"), data.body("bob")
+        ends.append(np.concatenate([pivot.xpos, pivot.xmat, rod.xmat[2::3]]))
+    assert np.linalg.norm(ends[0][-3:] - start.y) > 0.1
+    assert np.allclose(*ends, rtol=0, atol=1e-4)

@@ -18,6 +18,8 @@ the task's duration.
 
 from __future__ import annotations
 
+from typing import Any
+
 from flypend.errors import require
 
 require("gymnasium", extra="rl", for_="flypend.envs")
@@ -49,10 +51,12 @@ __all__ = [
     "track",
 ]
 
-for _task, _made in TASKS.items():
+_IDS: dict[str, dict[str, Any]] = {made().name: {"task": task} for task, made in TASKS.items()}
+_IDS["SwingUpShaped"] = {"task": "swing_up", "shaped": True}
+for _id, _arguments in _IDS.items():
     gymnasium.register(
-        id=f"flypend/{_made().name}-v0",
+        id=f"flypend/{_id}-v0",
         entry_point="flypend.envs.single:World",
         vector_entry_point="flypend.envs.vector:VectorWorlds",
-        kwargs={"task": _task},
+        kwargs=_arguments,
     )

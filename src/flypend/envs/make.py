@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from inspect import signature
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -49,7 +49,7 @@ def environment(
     action: Action = "rotors",
     attitude: Attitude = "matrix",
     observe: Observe = "all",
-    randomise: Randomisation | Mapping[str, Any] | None = None,
+    randomise: Randomisation | Mapping[str, Any] | Literal["bands"] | None = None,
     sensors: Any = None,
     duration: float | None = None,
     **about: Any,
@@ -68,8 +68,9 @@ def environment(
         See `flypend.envs.Environment`.
     rate : float, optional
         Actions per second; default that of the task, or 100 Hz.
-    randomise : Randomisation or dict, optional
-        What differs from world to world; default what the task says, or nothing.
+    randomise : Randomisation, dict or "bands", optional
+        What differs from world to world: see `flypend.envs.Randomisation`, whose `within_bands` "bands" stands for;
+        default what the task says, or nothing.
     duration : float, optional
         Seconds after which a world is cut off; default that of the task.
     about
@@ -84,6 +85,7 @@ def environment(
     given = {"vehicle": vehicle, "rate": rate, "randomise": randomise}
     chosen = {**DEFAULTS, **made.defaults, **{name: value for name, value in given.items() if value is not None}}
     machine = chosen["vehicle"] if isinstance(chosen["vehicle"], Vehicle) else vehicle_named(chosen["vehicle"])
+    ranges = _ranges(chosen["randomise"], machine)
     machine = machine.commanded()
     wanted = "cup" if made.name == "CatchInCup" and mount is None else mount
     if wanted is not None:
@@ -92,7 +94,6 @@ def environment(
         raise InputError("mount", "'cup', for the task catch_in_cup", repr(machine.mount))
     if duration is not None:
         made = replace(made, duration=duration)
-    ranges = _ranges(chosen["randomise"])
     return Environment(
         made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, observe=observe, randomise=ranges,
         sensors=sensors,
@@ -112,11 +113,13 @@ def _task(task: str | Task, about: Mapping[str, Any]) -> Task:
     return made(**about)
 
 
-def _ranges(given: Any) -> Randomisation:
+def _ranges(given: Any, vehicle: Vehicle) -> Randomisation:
     if isinstance(given, Randomisation):
         return given
+    if isinstance(given, str) and given == "bands":
+        return Randomisation.within_bands(vehicle)
     if not isinstance(given, Mapping):
-        raise InputError("randomise", "a Randomisation or a table of intervals", repr(given))
+        raise InputError("randomise", 'a Randomisation, a table of intervals, or "bands"', repr(given))
     errors.only_known("randomise", given, (entry.name for entry in fields(Randomisation)))
     return Randomisation(**given)
 

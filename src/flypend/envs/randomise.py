@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from flypend import errors
 from flypend.envs.draws import Draws
@@ -13,6 +14,7 @@ from flypend.errors import InputError
 from flypend.model import Vehicle
 
 Interval = tuple[float, float]
+LEAST = 0.05  # of a ratio that a band leaves open downwards
 
 
 @errors.named_arguments
@@ -26,8 +28,9 @@ class Randomisation:
         Ratio of true to nominal value. Inertias scale with their mass, that of the rod also with its length squared.
     lag : (2,)
         Ratio of the true to the nominal time constant of the rotors.
-    strength : (2,)
-        Ratio of the force of a rotor to that commanded, drawn for each rotor.
+    strength, thrust : (2,)
+        Ratio of the force of a rotor to that commanded: their product, of which `strength` is drawn for each rotor, and
+        `thrust` for all at once.
     delay : (2,)
         Delay of the commands, s.
     wind : (2,)
@@ -44,6 +47,7 @@ class Randomisation:
     rod_length: Interval = (1.0, 1.0)
     lag: Interval = (1.0, 1.0)
     strength: Interval = (1.0, 1.0)
+    thrust: Interval = (1.0, 1.0)
     delay: Interval = (0.0, 0.0)
     wind: Interval = (0.0, 0.0)
 
@@ -60,7 +64,30 @@ class Randomisation:
     @property
     def varies(self) -> bool:
         """Whether the vehicle itself differs from world to world."""
-        return any(getattr(self, name) != (1.0, 1.0) for name in ("mass", "bob_mass", "rod_length", "strength"))
+        return any(
+            getattr(self, name) != (1.0, 1.0) for name in ("mass", "bob_mass", "rod_length", "strength", "thrust")
+        )
+
+    @classmethod
+    def within_bands(cls, vehicle: Vehicle) -> Randomisation:
+        """Return what the bands of `vehicle` say of these numbers; of the other bands, worlds draw none.
+
+        A band of zero or below counts from a twentieth of the written number on. Raises InputError if it has no bands.
+        """
+        if not vehicle.bands:
+            wanted = "bands in the vehicle's file, as flypend vehicle new and flypend identify write them"
+            raise InputError("randomise", wanted, f"none in {vehicle.name}")
+        bands, found = vehicle.bands, {}
+        written = {name: getattr(vehicle, name) for name in ("mass", "bob_mass", "rod_length")}
+        written |= {"lag": vehicle.rotor_lag, "thrust": vehicle.thrust_scale, "strength": 1.0}
+        names = {"lag": "rotor_lag", "thrust": "thrust_scale"}
+        for name, value in written.items():
+            if (band := bands.get(names.get(name, name))) is not None and value > 0:
+                low, high = float(np.min(band[0])) / value, float(np.max(band[1])) / value
+                found[name] = (max(low, LEAST), max(high, LEAST))
+        if "delay" in bands:
+            found["delay"] = tuple(max(0.0, end) for end in bands["delay"])
+        return cls(**found)
 
 
 class Varied:
@@ -92,4 +119,5 @@ class Varied:
         if not ranges.varies:
             return ca.SX(0, 1)
         ratios = [draws.between(*getattr(ranges, name)) for name in ("mass", "bob_mass", "rod_length")]
-        return ca.vertcat(*ratios, *(draws.between(*ranges.strength) for _ in vehicle.rotor_spins))
+        strengths = ca.vertcat(*(draws.between(*ranges.strength) for _ in vehicle.rotor_spins))
+        return ca.vertcat(*ratios, draws.between(*ranges.thrust) * strengths)

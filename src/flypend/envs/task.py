@@ -153,9 +153,29 @@ def _begin_hanging(draws: Draws, vehicle: Vehicle) -> Begin:
     return Begin(state, ca.SX(0, 1))
 
 
-def swing_up() -> Task:
-    """Bring the rod up from hanging almost at rest, and balance it; lost once the vehicle is 5 m off."""
-    return Task("SwingUp", _begin_hanging, hovered, upright, partial(beyond, radius=5.0), 10.0)
+def _begin_anywhere(draws: Draws, vehicle: Vehicle) -> Begin:
+    """Begin as `_begin_hanging`, but with the rod in any direction, and as fast as a fall from upright at most."""
+    state, y = _begin_hanging(draws, vehicle).state, draws.direction()
+    fastest = 2 * float(np.sqrt(vehicle.g / vehicle.l))
+    return Begin(State(**(vars(state) | {"y": y, "y_dot": draws.tangent(y, fastest)})), ca.SX(0, 1))
+
+
+def upright_or_swinging(now: Moment) -> Any:
+    """0.8 `upright` + 0.2 near(E − 1, 0.5), with the rod's energy E = y₃ + l|ẏ|²/2g: 1 upright and on the way there."""
+    energy = now.state.y[2] + now.vehicle.l * ca.sumsqr(now.state.y_dot) / (2 * now.vehicle.g)
+    return 0.8 * upright(now) + 0.2 * near(energy - 1, 0.5)
+
+
+def swing_up(*, shaped: bool = False) -> Task:
+    """Bring the rod up from hanging almost at rest, and balance it; lost once the vehicle is 5 m off.
+
+    Parameters
+    ----------
+    shaped : bool
+        Whether worlds begin with the rod anywhere, and a part of the reward is for the energy that takes it up.
+    """
+    begin, reward = (_begin_anywhere, upright_or_swinging) if shaped else (_begin_hanging, upright)
+    return Task("SwingUp", begin, hovered, reward, partial(beyond, radius=5.0), 10.0)
 
 
 @dataclass(frozen=True)

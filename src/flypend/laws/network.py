@@ -36,14 +36,34 @@ class Layer(NamedTuple):
     number: float = 1.0
 
 
+def tanh(v: Any) -> Any:
+    """Return tanh v by basic arithmetic, which any processor has and exported C may use; 3e-13 off at most.
+
+    The seventh convergent of Lambert's continued fraction u/(1 + u²/(3 + u²/(5 + …))) for u = v/4, and twice
+    tanh 2u = 2 tanh u/(1 + tanh² u). From |v| = 20 on tanh is 1 in double precision.
+    """
+    u = ca.fmin(ca.fmax(v, -20), 20) / 4
+    s = u * u
+    t = u * (135135 + s * (17325 + s * (378 + s))) / (135135 + s * (62370 + s * (3150 + 28 * s)))
+    for _ in range(2):
+        t = 2 * t / (1 + t * t)
+    return t
+
+
+def expm1_negative(v: Any) -> Any:
+    """Return exp(v) − 1 for v ≤ 0, by `tanh`."""
+    t = tanh(v / 2)
+    return 2 * t / (1 - t)
+
+
 ACTIVATIONS: Mapping[str, Callable[[Any, float], Any]] = {
     "identity": lambda v, number: v,
-    "tanh": lambda v, number: ca.tanh(v),
+    "tanh": lambda v, number: tanh(v),
     "relu": lambda v, number: ca.fmax(v, 0),
-    "sigmoid": lambda v, number: 1 / (1 + ca.exp(-v)),
+    "sigmoid": lambda v, number: (1 + tanh(v / 2)) / 2,
     "softplus": lambda v, number: ca.fmax(v, 0) + ca.log(1 + ca.exp(-ca.fabs(v))),
     "softsign": lambda v, number: v / (1 + ca.fabs(v)),
-    "elu": lambda v, number: ca.fmax(v, 0) + number * (ca.exp(ca.fmin(v, 0)) - 1),
+    "elu": lambda v, number: ca.fmax(v, 0) + number * expm1_negative(ca.fmin(v, 0)),
     "leaky_relu": lambda v, number: ca.fmax(v, 0) + number * ca.fmin(v, 0),
 }
 

@@ -86,12 +86,11 @@ def model_xml(vehicle: Any, *, timestep: float, lag: float = 0.0, limits: bool =
     torques = vehicle.drag_ratio * vehicle.rotor_spins
     moments, axes = np.linalg.eigh(vehicle.inertia)
     moments[2] = min(moments[2], moments[0] + moments[1])  # planar body: MuJoCo tolerates no roundoff here
-    thin = 0.02 * float(np.max(np.abs(vehicle.rotor_positions)))
-    least = max(BOB_INERTIA * vehicle.bob_mass * vehicle.rod_length**2, LEAST_BOB_INERTIA)
-    center = _numbers(0.0 - offset)
+    thin, (across, along) = drawn_thickness(vehicle), rod_moments(vehicle)
+    center = numbers(0.0 - offset)
     rotors = []
     for k, place in enumerate(places):
-        look = {"k": k, "pos": _numbers(place), "center": center, "thin": thin, "disc": 20 * thin}
+        look = {"k": k, "pos": numbers(place), "center": center, "thin": thin, "disc": 20 * thin}
         rotors.append(_ROTOR.format(**look))
         if np.linalg.norm(vehicle.rotor_positions[k]) > thin:  # MuJoCo rejects a capsule of zero length
             rotors.append(_ARM.format(**look))
@@ -102,12 +101,12 @@ def model_xml(vehicle: Any, *, timestep: float, lag: float = 0.0, limits: bool =
         gravity=-vehicle.g,
         center=center,
         mass=vehicle.mass,
-        moments=_numbers(moments),
-        axes=_numbers(axes[:, :2].T),
+        moments=numbers(moments),
+        axes=numbers(axes[:, :2].T),
         length=vehicle.rod_length,
         bob_mass=vehicle.bob_mass,
-        i=max(vehicle.rod_spin_inertia, least),
-        across=vehicle.rod_inertia + least,
+        i=along,
+        across=across,
         thin=thin,
         thick=4 * thin,
         energy="disable" if bare else "enable",
@@ -117,6 +116,20 @@ def model_xml(vehicle: Any, *, timestep: float, lag: float = 0.0, limits: bool =
     return _SHOWN.sub("", model) if bare else model
 
 
-def _numbers(values: Any) -> str:
-    """Format an array for MJCF with full precision."""
+def drawn_thickness(vehicle: Any) -> float:
+    """Return the radius with which rod and arms are drawn, m."""
+    return 0.02 * float(np.max(np.abs(vehicle.rotor_positions)))
+
+
+def rod_moments(vehicle: Any) -> tuple[float, float]:
+    """Return the rod's moments of inertia about its centre of mass, across and along it, kg m², as engines take them.
+
+    They are never 0.
+    """
+    least = max(BOB_INERTIA * vehicle.bob_mass * vehicle.rod_length**2, LEAST_BOB_INERTIA)
+    return vehicle.rod_inertia + least, max(vehicle.rod_spin_inertia, least)
+
+
+def numbers(values: Any) -> str:
+    """Format an array for XML with full precision."""
     return " ".join(repr(float(value)) for value in np.ravel(values))

@@ -24,6 +24,7 @@ from flypend.model.plausible import check_plausible
 from flypend.model.quantity import Quantity
 from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
+from flypend.model.urdf import model_urdf
 
 
 @errors.named_arguments
@@ -307,6 +308,18 @@ class Vehicle:
             If the timestep is not positive.
         """
         return model_xml(self, timestep=timestep, lag=self.rotor_lag if lag else 0.0, limits=True)
+
+    def to_urdf(self) -> str:
+        """Return the machine as URDF, for ROS, Gazebo, Drake, Isaac, PyBullet and MuJoCo. z up, SI units.
+
+        The link "vehicle" is the root, with its origin in the pivot; whoever loads it decides that it is free. Since
+        URDF has no ball joint, the rod, "bob", hangs in the two axes of a gimbal, "pivot_x" and "pivot_y", with a ring
+        between them whose mass and inertia are a millionth of the rod's: it cannot spin about its own axis, and the
+        angles are singular where it lies along the vehicle's x. The links "rotor0", "rotor1", … are the frames in which
+        the rotors push along z. URDF has no word for rotors: limits, torques, lag and mount are in a comment. Shapes
+        are to be looked at, and do not collide.
+        """
+        return model_urdf(self)
 
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:

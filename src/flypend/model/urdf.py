@@ -1,0 +1,71 @@
+"""A vehicle as URDF, the robot description of ROS, Gazebo, Drake, Isaac and PyBullet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
+
+import numpy as np
+
+from flypend.model.mjcf import drawn_thickness, numbers, rod_moments
+
+# The ring between the two axes of the joint: engines want a mass in every link that moves. As a share of the rod's
+# mass and of its moment of inertia, it moves the rod by as much less.
+RING = 1e-6
+
+
+def model_urdf(vehicle: Any) -> str:
+    """Return `vehicle` as URDF; see `Vehicle.to_urdf`."""
+    robot = Element("robot", name="".join(c if c.isalnum() else "_" for c in vehicle.name))
+    low, high = vehicle.rotor_limits
+    spins = " ".join(f"{spin:+g}" for spin in vehicle.rotor_spins)
+    force, torque = f"pushes along its z with {low:.9g} to {high:.9g} N", f"{vehicle.drag_ratio:.9g} m times that"
+    rest = f"time constant {vehicle.rotor_lag:.9g} s; mount: {vehicle.mount}"
+    robot.append(Comment(f" rotor k {force} and turns the vehicle by {torque}, of sign {spins}; {rest} "))
+    thin, length = drawn_thickness(vehicle), vehicle.rod_length
+    body = _link(robot, "vehicle", vehicle.mass, 0.0 - vehicle.pivot_offset, vehicle.inertia)
+    _drawn(body, "box", 0.0 - vehicle.pivot_offset, size=numbers([4 * thin] * 3))
+    for k, place in enumerate(vehicle.rotors_from_pivot):
+        rotor = SubElement(robot, "link", name=f"rotor{k}")
+        _drawn(rotor, "cylinder", (0, 0, 0), radius=repr(20 * thin), length=repr(2 * thin))
+        _joint(robot, f"arm{k}", "fixed", ("vehicle", rotor.get("name")), place)
+    across, along = rod_moments(vehicle)
+    ring = RING * (vehicle.rod_inertia + vehicle.bob_mass * length**2)
+    _link(robot, "ring", RING * vehicle.bob_mass, (0, 0, 0), ring * np.eye(3))
+    bob = _link(robot, "bob", vehicle.bob_mass, (0, 0, length), np.diag([across, across, along]))
+    _drawn(bob, "cylinder", (0, 0, length / 2), radius=repr(thin), length=repr(length))
+    _drawn(bob, "sphere", (0, 0, length), radius=repr(4 * thin))
+    _joint(robot, "pivot_x", "continuous", ("vehicle", "ring"), axis=(1, 0, 0))
+    _joint(robot, "pivot_y", "continuous", ("ring", "bob"), axis=(0, 1, 0))
+    indent(robot)
+    return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
+
+
+def _link(robot: Element, name: str, mass: float, center: Any, inertia: Any) -> Element:
+    link = SubElement(robot, "link", name=name)
+    inertial = SubElement(link, "inertial")
+    SubElement(inertial, "origin", xyz=numbers(center))
+    SubElement(inertial, "mass", value=repr(float(mass)))
+    I = np.asarray(inertia, dtype=float)
+    places = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+    SubElement(inertial, "inertia", {name: repr(float(I[place])) for name, place in places.items()})
+    return link
+
+
+def _drawn(link: Element, shape: str, center: Any, **size: str) -> None:
+    visual = SubElement(link, "visual")
+    SubElement(visual, "origin", xyz=numbers(center))
+    SubElement(SubElement(visual, "geometry"), shape, size)
+
+
+def _joint(
+    robot: Element, name: str, kind: str, links: Sequence[Any], place: Any = (0, 0, 0), axis: Any = None
+) -> None:
+    """Add a joint of this `kind` between two `links`, the parent first, at a `place` (3,), m, about an `axis` (3,)."""
+    joint = SubElement(robot, "joint", name=name, type=kind)
+    for role, link in zip(("parent", "child"), links, strict=True):
+        SubElement(joint, role, link=link)
+    SubElement(joint, "origin", xyz=numbers(place))
+    if axis is not None:
+        SubElement(joint, "axis", xyz=numbers(axis))

@@ -90,7 +90,7 @@ fuzz: test-tools setup
 # Needs uv on the PATH; writes versions and hashes, no registry and no address.
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-annotate \
     --custom-compile-command "make lock" --upgrade pyproject.toml
-OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl --extra proof --extra logs --extra onnx
+OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --extra rl --extra logs --extra onnx
 
 lock:
 	$(COMPILE) --all-extras --group dev --output-file requirements.lock

@@ -3,6 +3,7 @@
 Each is one file for both themes: its colours follow the colour scheme of the page that shows it.
 """
 
+import math
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from html import escape
@@ -373,6 +374,51 @@ def _swing_up(duration: float) -> tuple[fp.Vehicle, fp.Trajectory]:
     return vehicle, fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), duration)
 
 
+def certified_set() -> Drawing:
+    """Return how far the certified set of hehn2011 reaches, to scale."""
+    vehicle = fp.vehicle("hehn2011")
+    far = fp.laws.almost_global().bind(vehicle).certified_set().extent
+    draw, scale = Drawing(400), 420.0  # pixels per metre
+    pivot = np.array([150.0, 372.0])
+    bob = pivot - (0, scale * vehicle.l)
+
+    def fan(degrees: float, length: float, look: str) -> None:
+        """Draw the directions within `degrees` of upright, from the pivot."""
+        for sign in (-1, 1):
+            angle = sign * math.radians(degrees)
+            draw.path((pivot, pivot + length * np.array([math.sin(angle), -math.cos(angle)])), look)
+
+    turn = np.linspace(0, 2 * np.pi, 73)
+    draw.path(bob + scale * np.column_stack([far["bob"] * np.cos(turn), far["height"] * np.sin(turn)]), "curve red")
+    fan(far["rod"], scale * vehicle.l, "edge red")
+    fan(far["axis"], 120, "edge blue")
+    reach = scale * np.linalg.norm(vehicle.rotor_positions[0][:2])
+    (left, top), (middle, high) = pivot, bob
+    draw.path(((left - reach, top), (left + reach, top)), "curve blue")
+    for end in (left - reach, left + reach):
+        draw.path(((end - 20, top - 6), (end + 20, top - 6)), "curve blue")
+    draw.dot(*pivot, radius=5)
+    draw.dot(*bob, "in-red", 6)
+    draw.path((bob, (middle + scale * far["bob"], high)), "edge dash")
+    draw.text(bob[0] + scale * far["bob"] + 6, bob[1] + 5, f"{100 * far['bob']:.0f} cm", "small", "start")
+    draw.path((bob, (middle, high - scale * far["height"])), "edge dash")
+    draw.text(bob[0], bob[1] - scale * far["height"] - 8, f"{100 * far['height']:.0f} cm", "small")
+    draw.text(pivot[0] + 12, pivot[1] - 160, f"rod ±{far['rod']:.1f}°", "small in-red strong", "start")
+    draw.text(pivot[0] + 12, pivot[1] - 80, f"axis ±{far['axis']:.1f}°", "small in-blue strong", "start")
+    draw.text(262, 60, "One error, the others zero", "strong", "start")
+    rows = (
+        f"speed of the bob {far['speed']:.2g} m/s", f"rate of the rod {math.degrees(far['rod_rate']):.1f} °/s",
+        f"rate of the axis {math.degrees(far['axis_rate']):.0f} °/s",
+        f"yaw rate {math.degrees(far['yaw_rate']):.1f} °/s",
+    )  # fmt: skip
+    for i, row in enumerate(rows):
+        draw.text(262, 88 + 22 * i, row, "small", "start")
+    draw.path(((300, 340), (300 + 0.1 * scale, 340)), "curve")
+    draw.path(((300, 340), (300 + 0.1 * scale, 340)), "edge")
+    draw.text(300 + 0.05 * scale, 360, "10 cm", "small muted")
+    return draw
+
+
 def throw_phases() -> Drawing:
     """Return the phases of a swing-up over time: height of the bob, of the rod, of the thrust axis."""
     end = 2.6
@@ -485,6 +531,7 @@ DIAGRAMS = {
     "compiler-pipeline": compiler_pipeline,
     "planning-phases": planning_phases,
     "lyapunov": lyapunov,
+    "certified-set": certified_set,
     "throw-phases": throw_phases,
     "throw-forces": throw_forces,
 }

@@ -15,6 +15,7 @@ from benchmarks.withstood import withstood
 from flypend.geometry import E3, norm, rotation_from_vector
 from flypend.laws import references
 from flypend.laws.almost_global_bounds import slopes
+from flypend.laws.almost_global_gains import largest_descent
 from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.guarantee import least_distance, rate_bound
 from flypend.laws.repaired import repaired_control, stiffness
@@ -328,3 +329,22 @@ def test_the_law_turns_with_the_world(name):
     two = fp.simulate(vehicle, law, fp.State(**fields, omega=start.omega), 1.0, plant="ideal", rtol=1e-11)
     np.testing.assert_allclose(two.x, one.x @ turn.T, atol=1e-7)
     np.testing.assert_allclose(two.y, one.y @ turn.T, atol=1e-7)
+
+
+def test_a_reference_that_falls_too_fast_is_refused_and_told_when():
+    """Condition (C), over more than the reference's period; a vertical path of the pivot is one of the bob."""
+    allowed = HEHN.g - largest_descent(fp.laws.almost_global().bind(HEHN).gains)
+    assert 0.5 < allowed < HEHN.g
+
+    def up_and_down(fall):
+        """Up and down once in 20 s, with a largest downward acceleration of `fall` at 5 s."""
+        w = 2 * np.pi / 20
+        return lambda t: ca.vertcat(0, 0, fall / w**2 * ca.sin(w * t))
+
+    start = fp.State(y=(0.6, 0, -0.8))
+    for share, covered in ((0.99, True), (1.01, False)):
+        law = fp.laws.almost_global(up_and_down(share * allowed)).bind(HEHN)
+        found = law.guarantee(start)
+        assert found.covered == covered
+        assert ("at 5 s" in found.reason) != covered
+    assert fp.laws.almost_global(references.circle(1.0, 3.0)).bind(HEHN).guarantee(start).covered  # level

@@ -185,8 +185,7 @@ class BoundLaw:
     def certified_set(self) -> Any:
         """Return the largest set {V ≤ c, |ω₃| ≤ w} that is proved to respect the rotor limits: `CertifiedSet`.
 
-        Raises InputError if the law has none, the theorem does not cover vehicle or reference, or python-flint is not
-        installed (extra "proof").
+        Raises InputError if the law has none, or the theorem does not cover vehicle or reference.
         """
         if self.certify is None:
             raise errors.InputError("law", "almost_global, on its own path", self.name)

@@ -1,214 +1,384 @@
-"""Check a certificate of Theorem C in ball arithmetic: `python -m flypend.laws.certificate FILE`.
+"""Check a certificate of Theorem C by validated computation: `python -m flypend.laws.certificate FILE`.
 
 The file says: for every state with V ≤ c and |ω₃| ≤ w, at any heading, the law asks each rotor for a force within its
 limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. This module
-imports nothing of flypend. It evaluates the law's program on Taylor models of degree 2 over the unit ball, which
+imports nothing of flypend. It evaluates the law's program on Taylor models of degree 3 over the unit ball, which
 contains {V ≤ c} in the coordinates of the chart lemma (docs/laws/theorem-proof.md, section 8):
 
-    value = a + l·x + x·Qx + r,   |x| ≤ 1,   ξ = diag(radii) x
+    value = P(x) + δ(x),   P = a + l·x + x·Qx + T(x, x, x),   |x| ≤ 1,   ξ = diag(radii) x
 
-Every number is a ball of python-flint, so no rounding is lost.
+An operation i leaves a remainder of its own, |ϱ_i| ≤ rho, and passes on those of its arguments j:
+
+    δ_i(x) = ϱ_i(x) + Σ_j C_ij(x) δ_j(x),   C_ij(x) = a + l·x ± radius
+
+Summing |C| |δ| forgets that remainders cancel as values do, and is a hundred times too large at the end. So bounds are
+also carried backwards, as in automatic differentiation: the remainder of a value is Σ_i λ_i(x) ϱ_i(x) with
+λ_j = Σ_i λ_i C_ij. Of λ the constant and the linear part are kept; the rest meets the bound on δ_j at once.
+
+Numbers are doubles. ROUND and UP bound what rounding loses, in any order of summation (Higham 2002, section 3.1).
 """
 
 from __future__ import annotations
 
 import json
+import math
 import sys
-from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from flint import arb, arb_mat
+import numpy as np
 
 FORMAT = "flypend certificate 1"
-ZERO = arb(0)
+BLOCK = 1000  # operations between two backward passes: fewer cost time, and more lose what the next one starts from
+# Relative to the sizes of what is summed: a value of at most 10⁴ terms, each a few operations of 2⁻⁵³. A sum of
+# non-negative numbers is larger than computed by less than UP. TINY: underflow.
+ROUND, UP, TINY = 1e-12, 1 + 1e-11, 1e-280
 
 
 class NotProvedError(Exception):
     """The check fails; the message says where."""
 
 
-def up(value: Any) -> Any:
-    """An upper bound of |value|, exact."""
-    return arb(value).abs_upper()
+class Polynomial:
+    """P of degree 3: l (n,), Q (n, n) and T (n, n, n) are symmetric, None where they vanish."""
 
-
-class Taylor:
-    """A Taylor model; l (1, n) and Q (n, n) are None where they vanish, r ≥ 0 bounds the remainder."""
-
-    def __init__(self, a: Any, l: Any = None, Q: Any = None, r: Any = ZERO) -> None:
-        self.a, self.l, self.Q, self.r = a, l, Q, up(r)
-        self._norms: tuple[Any, Any] | None = None
+    def __init__(self, a: float, l: Any = None, Q: Any = None, T: Any = None) -> None:
+        self.a, self.l, self.Q, self.T = a, l, Q, T
+        self._sizes: tuple[float, float, float] | None = None
 
     @property
     def constant(self) -> bool:
-        """Whether the value is a."""
-        return self.l is None and self.Q is None and not self.r > 0
+        """Whether P is a."""
+        return self.l is None and self.Q is None and self.T is None
 
     @property
-    def norms(self) -> tuple[Any, Any]:
-        """Bounds on |l| and on the spectral norm of Q, (tr Q⁸)^(1/8)."""
-        if self._norms is None:
-            linear = ZERO if self.l is None else up(up((self.l * self.l.transpose())[0, 0]).sqrt())
-            square = ZERO
-            if self.Q is not None:
-                power = self.Q * self.Q.transpose()
-                power = power * power
-                square = up(up((power * power.transpose()).trace()).sqrt().sqrt().sqrt())
-            self._norms = linear, square
-        return self._norms
+    def sizes(self) -> tuple[float, float, float]:
+        """Bounds on |l·x|, |x·Qx| and |T(x, x, x)| over the unit ball."""
+        if self._sizes is None:
+            self._sizes = _length(self.l), _spectral(self.Q), _length(self.T)
+        return self._sizes
 
     @property
-    def spread(self) -> Any:
-        """Bound on |value − a|."""
-        return up(sum(self.norms) + self.r)
+    def spread(self) -> float:
+        """Bound on |P − a|."""
+        return sum(self.sizes) * UP
+
+    @property
+    def whole(self) -> float:
+        """Sum of |a| and the Frobenius norms, to which rounding is relative."""
+        return abs(self.a) + sum(map(_length, (self.l, self.Q, self.T)))
+
+
+def _length(entries: Any) -> float:
+    """Bound on the Frobenius norm."""
+    return 0.0 if entries is None else math.sqrt(np.vdot(entries, entries)) * UP + TINY
+
+
+def _spectral(Q: Any) -> float:
+    """Bound on the spectral norm, ‖Q¹⁶‖_F^(1/16), with Q scaled to a Frobenius norm of 1."""
+    size = _length(Q)
+    if size <= 2 * TINY:
+        return size
+    power = Q / size
+    for _ in range(4):
+        power = power @ power
+    return size * float(min(1.0, (_length(power) + ROUND) ** (1 / 16))) * UP
 
 
 def _sum(x: Any, y: Any) -> Any:
     return y if x is None else x if y is None else x + y
 
 
-def _times(x: Any, factor: Any) -> Any:
-    return None if x is None else x * factor
+def _times(x: Any, factor: float) -> Any:
+    return None if x is None or factor == 0 else x * factor
 
 
-def _outer(l: Any, m: Any) -> Any:
-    product = l.transpose() * m
-    return (product + product.transpose()) / 2
+def _square(l: Any, m: Any) -> Any:
+    """Return the symmetric part of l ⊗ m."""
+    if l is None or m is None:
+        return None
+    product = np.multiply.outer(l, m)
+    return (product + product.T) / 2
 
 
-def add(A: Taylor, B: Taylor) -> Taylor:
-    """A + B."""
-    return Taylor(A.a + B.a, _sum(A.l, B.l), _sum(A.Q, B.Q), A.r + B.r)
+def _cube(l: Any, Q: Any) -> Any:
+    """Return the symmetric part of l ⊗ Q."""
+    if l is None or Q is None:
+        return None
+    product = np.multiply.outer(l, Q)
+    return (product + product.transpose(1, 0, 2) + product.transpose(1, 2, 0)) / 3
 
 
-def scaled(A: Taylor, k: Any) -> Taylor:
-    """`k` A."""
-    return Taylor(A.a * k, _times(A.l, k), _times(A.Q, k), A.r * up(k))
+class Factor(NamedTuple):
+    """C(x) = a + l·x ± radius."""
+
+    a: float
+    l: Any
+    radius: float
 
 
-def mul(A: Taylor, B: Taylor) -> Taylor:
-    """A B; terms of degree 3 and 4 go to the remainder."""
-    if A.constant or B.constant:
-        return scaled(B, A.a) if A.constant else scaled(A, B.a)
-    Q = _sum(_times(A.Q, B.a), _times(B.Q, A.a))
-    if A.l is not None and B.l is not None:
-        Q = _sum(Q, _outer(A.l, B.l))
-    (la, qa), (lb, qb) = A.norms, B.norms
-    r = la * qb + qa * lb + qa * qb + A.r * (up(B.a) + lb + qb + B.r) + B.r * (up(A.a) + la + qa)
-    return Taylor(A.a * B.a, _sum(_times(A.l, B.a), _times(B.l, A.a)), Q, r)
+Result = tuple[Polynomial, float, tuple[Factor, ...]]  # of an operation: P, rho, and a factor for each argument
 
 
-def composed(A: Taylor, f: Any, slope: Any, half_bend: Any, sixth: Any) -> Taylor:
-    """φ(A) for φ(a) = `f`, φ'(a), ½φ''(a), and a bound `sixth` on |φ'''|/6 over the range of A."""
-    Q = _times(A.Q, slope)
-    if A.l is not None:
-        Q = _sum(Q, _outer(A.l, A.l) * half_bend)
-    linear, square = A.norms
-    rest = square + A.r
-    r = up(slope) * A.r + up(half_bend) * (2 * linear * rest + rest * rest) + up(sixth) * A.spread * A.spread * A.spread
-    return Taylor(f, _times(A.l, slope), Q, r)
+def plus(A: Polynomial, B: Polynomial, sign: float = 1.0) -> Result:
+    """A + `sign` B."""
+    P = Polynomial(
+        A.a + sign * B.a, _sum(A.l, _times(B.l, sign)), _sum(A.Q, _times(B.Q, sign)), _sum(A.T, _times(B.T, sign))
+    )
+    return P, ROUND * P.whole, (Factor(1.0, None, 0.0), Factor(sign, None, 0.0))
 
 
-def sqrt(A: Taylor) -> Taylor:
-    """√A."""
-    whole = A.a + arb(0, A.spread)
-    if not whole > 0:
+def times(A: Polynomial, B: Polynomial, left: float, right: float) -> Result:
+    """A B, whose remainders are at most `left` and `right`; terms of degree 4 to 6 go to rho."""
+    for P, other, place in ((A, B, 1), (B, A, 0)):
+        if P.constant:
+            scaled = Polynomial(P.a * other.a, _times(other.l, P.a), _times(other.Q, P.a), _times(other.T, P.a))
+            factors = Factor(other.a, other.l, sum(other.sizes[1:])), Factor(P.a, None, 0.0)
+            return scaled, ROUND * scaled.whole, factors if place else factors[::-1]
+    l = _sum(_times(A.l, B.a), _times(B.l, A.a))
+    Q = _sum(_sum(_times(A.Q, B.a), _times(B.Q, A.a)), _square(A.l, B.l))
+    T = _sum(_sum(_times(A.T, B.a), _times(B.T, A.a)), _sum(_cube(A.l, B.Q), _cube(B.l, A.Q)))
+    (la, qa, ta), (lb, qb, tb) = A.sizes, B.sizes
+    rho = la * tb + ta * lb + (qa + ta) * (qb + tb) + ROUND * A.whole * B.whole
+    # (P + δ)(Q + ε) − P Q = (Q + ε/2) δ + (P + δ/2) ε
+    factors = Factor(B.a, B.l, qb + tb + right / 2), Factor(A.a, A.l, qa + ta + left / 2)
+    return Polynomial(A.a * B.a, l, Q, T), rho, factors
+
+
+def composed(A: Polynomial, error: float, values: Sequence[float], fourth: float, third: float) -> Result:
+    """φ(A + δ), |δ| ≤ `error`: `values` are φ(a), φ'(a), φ''(a)/2, φ'''(a)/6.
+
+    `fourth` bounds |φ''''|/24 over the range of A, and `third` |φ'''| over that of A + δ.
+    """
+    f, slope, bend, sixth = values
+    linear, rest = A.sizes[0], A.sizes[1] + A.sizes[2]
+    square = _square(A.l, A.l)
+    P = Polynomial(
+        f, _times(A.l, slope), _sum(_times(A.Q, slope), _times(square, bend)),
+        _sum(_sum(_times(A.T, slope), _times(_cube(A.l, A.Q), 2 * bend)), _times(_cube(A.l, square), sixth)),
+    )  # fmt: skip
+    rho = abs(bend) * (2 * linear * A.sizes[2] + rest**2) + fourth * A.spread**4
+    rho += abs(sixth) * rest * (3 * linear**2 + 3 * linear * rest + rest**2)
+    size = A.whole
+    rho += ROUND * (abs(f) + size * (abs(slope) + size * (abs(bend) + size * abs(sixth))))
+    moved = A.spread + error
+    radius = 2 * abs(bend) * (rest + error) + third * moved**2 / 2
+    return P, rho, (Factor(slope, _times(A.l, 2 * bend), radius),)
+
+
+def root(A: Polynomial, error: float) -> Result:
+    """√(A + δ)."""
+    a, least = A.a, A.a / UP - A.spread * UP
+    sure = least - error * UP
+    if not sure > 0:
         raise NotProvedError("a root of what may not be positive")
-    root = A.a.sqrt()
-    return composed(A, root, 1 / (2 * root), -1 / (8 * A.a * root), 1 / (16 * whole * whole * whole.sqrt()))
+    f = math.sqrt(a)
+    values = f, 1 / (2 * f), -1 / (8 * a * f), 1 / (16 * a**2 * f)
+    return composed(A, error, values, 5 / (128 * least**3.5) * UP, 3 / (8 * sure**2.5) * UP)
 
 
-def inverse(A: Taylor) -> Taylor:
-    """1/A."""
-    whole = A.a + arb(0, A.spread)
-    if not (whole > 0 or whole < 0):
+def inverse(A: Polynomial, error: float) -> Result:
+    """1/(A + δ)."""
+    a, least = A.a, abs(A.a) / UP - A.spread * UP
+    sure = least - error * UP
+    if not sure > 0:
         raise NotProvedError("a division by what may vanish")
-    square = whole * whole
-    return composed(A, 1 / A.a, -1 / (A.a * A.a), 1 / (A.a * A.a * A.a), 1 / (square * square))
+    return composed(A, error, (1 / a, -1 / a**2, 1 / a**3, -1 / a**4), 1 / least**5 * UP, 6 / sure**4 * UP)
 
 
-OPERATIONS: dict[str, Callable[..., Taylor]] = {
-    "add": add, "mul": mul, "sqrt": sqrt, "neg": lambda A: scaled(A, -1), "sub": lambda A, B: add(A, scaled(B, -1)),
-    "div": lambda A, B: mul(A, inverse(B)),
-}  # fmt: skip
+@dataclass(eq=False)
+class Value:
+    """What an operation answers: P until it is used no more, rho, a bound on |δ|, and (j, C_ij)."""
+
+    P: Polynomial | None
+    rho: float = 0.0
+    error: float = 0.0
+    passed: tuple[tuple[int, Factor], ...] = ()
 
 
-def radii(k: Any, c: Any) -> list[Any]:
+def _errors(values: list[Value], targets: Sequence[int], n: int) -> Any:
+    """Return bounds on |δ| of the `targets`, carried backwards, for x in R^n."""
+    rows, found = len(targets), np.zeros(len(targets))
+    waiting = {place: np.zeros((rows, 1 + n)) for place in targets}  # λ of each target, constant and linear part
+    for row, place in enumerate(targets):
+        waiting[place][row, 0] = 1.0
+    for i in range(max(targets), -1, -1):
+        here, value = waiting.pop(i, None), values[i]
+        if here is None:
+            continue
+        linear = np.sqrt(np.einsum("ij,ij->i", here[:, 1:], here[:, 1:]))
+        size = np.abs(here[:, 0]) + linear
+        found += (value.rho + TINY) * size
+        for j, (a, l, radius) in value.passed:
+            there = waiting.get(j)
+            if there is None:
+                there = waiting[j] = np.zeros((rows, 1 + n))
+            there += a * here
+            lost, error = (radius + ROUND * abs(a)) * size, values[j].error
+            if l is not None:
+                steep = _length(l)
+                there[:, 1:] += here[:, :1] * l
+                lost = lost + steep * (linear + ROUND * size)
+            found += lost * error
+    return found * UP
+
+
+Model = tuple[Polynomial, float]  # P and a bound on |δ|
+
+
+class _Tape:
+    """The values of a program, in order; a division is two."""
+
+    def __init__(self) -> None:
+        self.values: list[Value] = []
+
+    def put(self, result: Result, *arguments: int) -> int:
+        """Append what an operation on the values at `arguments` answers, and return its place."""
+        P, rho, factors = result
+        passed = [(j, C) for j, C in zip(arguments, factors, strict=True) if self.values[j].error > 0]
+        error = rho + sum((abs(C.a) + _length(C.l) + C.radius) * self.values[j].error for j, C in passed)
+        self.values.append(Value(P, rho, error * UP + TINY if arguments else 0.0, tuple(passed)))
+        return len(self.values) - 1
+
+    def apply(self, name: str, own: list[int], number: float) -> int:
+        """Append what the operation `name` answers to the values at `own`, and return its place."""
+        given, errors = [_alive(self.values[j]) for j in own], [self.values[j].error for j in own]
+        if name == "constant":
+            return self.put((Polynomial(float(number)), 0.0, ()))
+        if name in ("add", "sub"):
+            return self.put(plus(given[0], given[1], 1.0 if name == "add" else -1.0), *own)
+        if name == "mul":
+            return self.put(times(given[0], given[1], errors[0], errors[1]), *own)
+        if name == "div":
+            second = self.put(inverse(given[1], errors[1]), own[1])
+            place = self.apply("mul", [own[0], second], 0.0)
+            self.values[second].P = None
+            return place
+        if name == "sqrt":
+            return self.put(root(given[0], errors[0]), *own)
+        if name == "neg":
+            P, _, factors = plus(Polynomial(0.0), given[0], -1.0)
+            return self.put((P, 0.0, factors[1:]), *own)
+        raise NotProvedError(f"{name} is not an operation")
+
+
+def evaluate(operations: list[Any], inputs: Any, outputs: list[int]) -> list[Model]:
+    """Return P and a bound on |δ| of each of the `outputs` of the program; `inputs(vector, entry)` is a P."""
+    tape, places, n, first = _Tape(), [], 0, 0  # places: of each operation on the tape
+    last = {place: i for i, (name, arguments, _) in enumerate(operations) if name != "input" for place in arguments}
+    last |= dict.fromkeys(outputs, len(operations))
+    for i, (name, arguments, number) in enumerate(operations):
+        if name == "input":
+            P = inputs(*arguments)
+            n = n if P.l is None else len(P.l)
+            places.append(tape.put((P, 0.0, ())))
+        else:
+            places.append(tape.apply(name, [places[place] for place in arguments], number))
+            for place in arguments:
+                if last[place] == i:
+                    tape.values[places[place]].P = None
+        if len(tape.values) - first >= BLOCK:
+            kept = [at for place, at in enumerate(places) if at >= first and last.get(place, -1) > i]
+            _tighten(tape.values, kept, n)
+            first = len(tape.values)
+    found = [places[place] for place in outputs]
+    _tighten(tape.values, found, n)
+    return [(_alive(tape.values[j]), tape.values[j].error) for j in found]
+
+
+def _alive(value: Value) -> Polynomial:
+    assert value.P is not None
+    return value.P
+
+
+def _tighten(values: list[Value], places: list[int], n: int) -> None:
+    """Replace the bounds on |δ| at `places` by those carried backwards, where these are smaller."""
+    targets = sorted({j for j in places if values[j].error > UP * values[j].rho + TINY})
+    if targets:
+        for j, error in zip(targets, _errors(values, targets, n).tolist(), strict=True):
+            values[j].error = min(values[j].error, error)
+
+
+def radii(k: Any, c: float) -> list[float]:
     """Half axes of an ellipsoid of ξ that contains {V ≤ c}, for the gains `k`."""
 
-    def spring(stiffness: str, reach: str) -> Any:
-        return 2 * k[stiffness] / (2 + c / (k[stiffness] * k[reach] * k[reach]))
+    def spring(stiffness: str, reach: str) -> float:
+        return float(2 * k[stiffness] / (2 + c / (k[stiffness] * k[reach] * k[reach])))
 
     rod, axis = k["rod_weight"] * k["rod_stiffness"], k["axis_weight"] * k["axis_stiffness"]
-    if not (c < rod and c < axis):
+    if not (c * UP < rod and c * UP < axis):
         raise NotProvedError("c is so large that rod or thrust axis may point backwards, where the chart ends")
     for name in ("rod_barrier", "axis_barrier"):
         if not (k[name] > 0 and k[name] <= 1):
             raise NotProvedError(f"{name} is not in (0, 1]")
     level, upright = spring("position_stiffness", "position_reach"), spring("height_stiffness", "height_reach")
-    weights = [level, level, upright, *[arb(1)] * 3, *[rod] * 2, *[k["rod_weight"]] * 2, *[axis] * 2]
+    weights = [level, level, upright, *[1.0] * 3, *[rod] * 2, *[k["rod_weight"]] * 2, *[axis] * 2]
     weights += [k["axis_weight"]] * 2
     if "rotor_lag" in k:
         for name in ("rotor_lag", "wrench_damping", "yaw_damping"):
             if not k[name] > 0:
                 raise NotProvedError(f"{name} is not positive")
         weights += [k["thrust_weight"], *[k["moment_weight"]] * 2]
-    return [up((2 * c / weight).sqrt()) for weight in weights]
+    return [math.sqrt(2 * c / weight) * UP for weight in weights]
 
 
-def evaluated(certificate: Any, c: Any) -> tuple[list[list[Taylor]], list[Taylor]]:
+def evaluated(certificate: Any, c: float) -> tuple[list[list[Model]], list[Model]]:
     """Return (f, u) of each wrench of the program on {V ≤ c}, commanded and then acting, and ż (3)."""
-    numbers = {name: arb(value) for name, value in certificate["numbers"].items()}
-    sizes = radii(numbers, c)
+    numbers = certificate["numbers"]
+    sizes = np.diag(radii(numbers, c))
 
-    def given(vector: int, entry: int) -> Taylor:
-        if vector == 1:
-            return Taylor(numbers[certificate["parameters"][entry]])
-        return Taylor(ZERO, arb_mat([[size if i == entry else ZERO for i, size in enumerate(sizes)]]))
+    def given(vector: int, entry: int) -> Polynomial:
+        return Polynomial(numbers[certificate["parameters"][entry]]) if vector else Polynomial(0.0, sizes[entry])
 
-    values: list[Taylor] = []
-    for name, arguments, number in certificate["operations"]:
-        if name == "input":
-            values.append(given(*arguments))
-        elif name == "constant":
-            values.append(Taylor(arb(number)))
-        else:
-            values.append(OPERATIONS[name](*(values[place] for place in arguments)))
-    found = [values[place] for place in certificate["outputs"]]
+    try:
+        found = evaluate(certificate["operations"], given, certificate["outputs"])
+    except OverflowError:
+        raise NotProvedError("the bounds are too large for a number") from None
     if len(found) != (11 if "rotor_lag" in numbers else 7):
         raise NotProvedError("the program has not the outputs of a law")
     return [found[i : i + 4] for i in range(0, len(found) - 3, 4)], found[-3:]
 
 
-def _length(vector: list[Taylor], *, moved: bool = True) -> Any:
-    """Bound on the length of `vector`; without its linear part if not `moved`."""
-    sizes = [up(t.a) + (t.spread if moved else t.norms[1] + t.r) for t in vector]
-    return up(sum((size * size for size in sizes), ZERO).sqrt())
+def _norm(sizes: Sequence[float]) -> float:
+    """Bound on the length of a vector whose entries are at most `sizes`."""
+    return math.sqrt(sum(size * size for size in sizes)) * UP
 
 
-def _spins(certificate: Any, c: Any, w: Any, wrenches: Any, turn: Any) -> list[tuple[Any, Any, list[Any]]]:
+def _far(model: Model) -> float:
+    """Bound on |P| + |δ|."""
+    P, error = model
+    return (abs(P.a) + P.spread + error) * UP
+
+
+def _above(one: Any, two: Any) -> Any:
+    """Return bounds on the entries of the product of two matrices."""
+    return np.abs(one @ two) + ROUND * (np.abs(one) @ np.abs(two)) + TINY
+
+
+def _spins(certificate: Any, c: float, w: float, wrenches: Any, turn: float) -> list[tuple[float, float, list[float]]]:
     """Return what ω₃, |ω₃| ≤ w, adds to each wrench: bounds on I⁻¹ τ, across and along the axis, and on ω × I ω.
 
     `turn` bounds |ż| = |(ω₁, ω₂)|. The last includes T d/dt(ω × I ω) in what is commanded through a lag T.
     """
-    k = {name: arb(value) for name, value in certificate["numbers"].items()}
-    I = [[arb(entry) for entry in row] for row in certificate["inertia"]]
-    J = [[up(I[i][j] - (I[0][0] if i == j else 0)) for j in range(3)] for i in range(3)]  # ω × I ω = ω × J ω
-    yaw, speed = up(k["yaw_damping"]) * w, [turn, turn, w]
+    k, I = certificate["numbers"], np.array(certificate["inertia"])
+    J = np.abs(I - I[0, 0] * np.eye(3)) + ROUND * np.abs(I[0, 0])  # ω × I ω = ω × J ω
+    yaw, speed = abs(k["yaw_damping"]) * w, [turn, turn, w]
 
-    def crossed(one: list[Any], two: list[Any]) -> list[Any]:
+    def crossed(one: list[float], two: list[float]) -> list[float]:
         """Bounds on a × J b, from those on the entries of a and b."""
-        momentum = [sum((J[i][j] * two[j] for j in range(3)), ZERO) for i in range(3)]
-        return [one[i - 2] * momentum[i - 1] + one[i - 1] * momentum[i - 2] for i in range(3)]
+        momentum = J @ two
+        return [float(one[i - 2] * momentum[i - 1] + one[i - 1] * momentum[i - 2]) for i in range(3)]
 
     gyroscopic = crossed(speed, speed)
     if "rotor_lag" not in k:
         return [(w * turn, yaw, gyroscopic)]
-    T, drift, pushed = up(k["rotor_lag"]), 2 * yaw, _length(wrenches[1][1:])  # |ω̇₃| ≤ k_yaw w + |η_α3|
-    both = 2 * pushed + up((2 * c / k["moment_weight"]).sqrt())  # |u| + |u_a|
+    T, drift, pushed = k["rotor_lag"], 2 * yaw, _norm([_far(model) for model in wrenches[1][1:]])
+    both = 2 * pushed + math.sqrt(2 * c / k["moment_weight"])  # |u| + |u_a|
     across = w * turn + T * (w * both + drift * turn + w * w * turn)
-    along = yaw * (up(1 - T * k["yaw_damping"]) + up(1 - T * (k["yaw_damping"] + k["wrench_damping"])))
+    fast, slow = T * (k["yaw_damping"] + k["wrench_damping"]), T * k["yaw_damping"]
+    along = yaw * (abs(1 - slow) + abs(1 - fast) + ROUND * (1 + fast))  # |ω̇₃| ≤ k_yaw w + |η_α3|
     alpha = [pushed + w * turn] * 2 + [drift]
     growing = [
         here + T * (one + two)
@@ -217,33 +387,30 @@ def _spins(certificate: Any, c: Any, w: Any, wrenches: Any, turn: Any) -> list[t
     return [(across, along, growing), (w * turn, drift, gyroscopic)]
 
 
-def force_ranges(certificate: Any, c: Any, w: Any) -> list[tuple[Any, Any]]:
+def force_ranges(certificate: Any, c: float, w: float) -> list[tuple[float, float]]:
     """Return bounds on each rotor's force, N, over {V ≤ c, |ω₃| ≤ w} at every heading; first on those commanded.
 
     With h_i = (I U_i)₁₂ and U_i the row of the rotor, its force is U_i0 f + |h_i| k·u + spin, k a unit vector.
     """
     wrenches, z_dot = evaluated(certificate, c)
-    spins = _spins(certificate, c, w, wrenches, _length(z_dot))
-    I = [[arb(entry) for entry in row] for row in certificate["inertia"]]
+    spins = _spins(certificate, c, w, wrenches, _norm([_far(model) for model in z_dot]))
+    unmixing, I = np.array(certificate["unmixing"]), np.array(certificate["inertia"])
+    shares, arms = np.abs(unmixing), _above(unmixing[:, 1:], I.T)
     out = []
-    for (f, *u), (across, along, gyroscopic) in zip(wrenches, spins, strict=True):
-        none = arb_mat([[ZERO] * (14 if len(wrenches) == 1 else 17)])
-        linear_f, linear_u = (none if f.l is None else f.l), [none if t.l is None else t.l for t in u]
-        gram = arb_mat([[(p * q.transpose())[0, 0] for q in linear_u] for p in linear_u])
-        fourth = gram * gram
-        largest = up(up((fourth * fourth).trace()).sqrt().sqrt())  # at least the largest eigenvalue
-        inner = [up((p * linear_f.transpose())[0, 0]) for p in linear_u]
-        mixed = up(sum((size * size for size in inner), ZERO).sqrt())
-        for row in certificate["unmixing"]:
-            U = [arb(entry) for entry in row]
-            IU = [sum((I[i][j] * U[1 + j] for j in range(3)), ZERO) for i in range(3)]
-            h = up((IU[0] * IU[0] + IU[1] * IU[1]).sqrt())
-            share = up(U[0])
-            linear = up((share * share * f.norms[0] * f.norms[0] + 2 * share * h * mixed + h * h * largest).sqrt())
-            rest = share * (f.norms[1] + f.r) + h * _length(u, moved=False)
-            spin = h * across + up(IU[2]) * along + sum((up(U[1 + j]) * gyroscopic[j] for j in range(3)), ZERO)
-            spread = up(linear + rest + spin)
-            out.append((U[0] * f.a - spread, U[0] * f.a + spread))
+    for ((F, error), *u), (across, along, gyroscopic) in zip(wrenches, spins, strict=True):
+        none = np.zeros(14 if len(wrenches) == 1 else 17)
+        linear_f, rows = (none if F.l is None else F.l), np.array([none if P.l is None else P.l for P, _ in u])
+        gram = rows @ rows.T
+        largest = _spectral(gram) + ROUND * float(np.trace(gram))  # at least the largest eigenvalue
+        mixed = _norm(_above(rows, linear_f).tolist())
+        turned = _norm([(abs(P.a) + P.sizes[1] + P.sizes[2] + off) * UP for P, off in u])
+        for own, share, (one, two, three) in zip(unmixing[:, 0], shares, arms, strict=True):
+            h = _norm([one, two])
+            linear = math.sqrt((share[0] * F.sizes[0]) ** 2 + 2 * share[0] * h * mixed + h * h * largest)
+            rest = share[0] * (F.sizes[1] + F.sizes[2] + error) + h * turned
+            spin = h * across + three * along + float(share[1:] @ gyroscopic)
+            spread = (linear + rest + spin + ROUND * abs(own * F.a)) * UP
+            out.append((float(own * F.a - spread), float(own * F.a + spread)))
     return out
 
 
@@ -251,20 +418,22 @@ def check(certificate: Any) -> str:
     """Return why the certificate does not hold, in one line; empty if it is proved."""
     if certificate.get("format") != FORMAT:
         return f"not a file of {FORMAT}"
-    c, w = arb(certificate["c"]), arb(certificate["w"])
-    low, high = (arb(limit) for limit in certificate["limits"])
+    c, w = float(certificate["c"]), float(certificate["w"])
     if not (c > 0 and w >= 0):
         return "c must be positive, and w not negative"
     try:
-        ranges = force_ranges(certificate, c, w)
+        return outside(certificate, force_ranges(certificate, c, w))
     except NotProvedError as reason:
         return str(reason)
-    rotors = len(certificate["unmixing"])
+
+
+def outside(certificate: Any, ranges: list[tuple[float, float]]) -> str:
+    """Return which of the `ranges` of force is not within the limits, in one line; empty if none."""
+    (low, high), rotors = certificate["limits"], len(certificate["unmixing"])
     for i, (least, most) in enumerate(ranges):
         if not (least >= low and most <= high):
-            found = f"{float(least.mid()):.4g} to {float(most.mid()):.4g} N"
             verb = "be asked for" if i < rotors else "give"
-            return f"rotor {i % rotors} may {verb} {found}, outside {float(low):g} to {float(high):g} N"
+            return f"rotor {i % rotors} may {verb} {least:.4g} to {most:.4g} N, outside {low:g} to {high:g} N"
     return ""
 
 

@@ -105,8 +105,8 @@ def measure_basin(
     Raises
     ------
     InputError
-        If runs or seed are invalid, the law has e₃ down, the theorem does not cover the vehicle, or one of the extras
-        "proof" and "studies" is missing.
+        If runs or seed are invalid, the law has e₃ down, the theorem does not cover the vehicle, or the extra "studies"
+        is missing.
     """
     errors.require("scipy", extra="studies", for_="basin")
     from scipy.stats import beta  # slow to import

@@ -80,4 +80,4 @@ def _run(folder: Path, *words: str) -> str:
     done = waiting.run(words, cwd=folder, text=True)
     if done.returncode:
         raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
+    return str(done.stdout)

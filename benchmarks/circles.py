@@ -22,7 +22,7 @@ from flypend.geometry import norm
 from flypend.laws import Law, law_names, references
 from flypend.laws.named import FACTORIES, follows
 from flypend.model import State, vehicle
-from flypend.plants import MOTION_CAPTURE, sampled_plant
+from flypend.plants import MOTION_CAPTURE, as_sampled
 from flypend.report.studies import short
 
 # Chosen: a period of four seconds; the rates of their circles are not known here.
@@ -36,7 +36,7 @@ CASES: Mapping[str, Callable[[Any], Any]] = {
 PUBLISHED: Mapping[str, str] = {"hover": "offset about 0.05", "circle R = 0.1 m": "error about 0.1"}
 # The latency that every law compensates here, s: the value they identified and used in their controller.
 LATENCY = 0.03
-PLANT = sampled_plant("hehn2011").replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
+PLANT = as_sampled("hehn2011").replace(noise=MOTION_CAPTURE, mismatch={"mass": 1.02, "rod_length": 0.98})
 DURATION, JUDGED = 20.0, 10.0
 
 
@@ -77,7 +77,7 @@ def _fly(name: str, case: str, reference: Callable[[Any], Any], seed: int) -> Tr
     machine = vehicle("hehn2011")
     law = _law(name, reference).bind(machine)
     law = replace(law, computer=replace(law.computer, latency=LATENCY))
-    start = references.sampled(reference, np.array([0.0, 1e-3]))
+    start = references.sample(reference, np.array([0.0, 1e-3]))
     state = State(x=start[0], x_dot=(start[1] - start[0]) / 1e-3, y=(0.0, 0.0, 1.0))
     run = simulate(machine, law, state, DURATION, plant=PLANT.replace(seed=seed))
     completed = run.outcome.status == "completed"

@@ -23,11 +23,11 @@ from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints
 from flypend.planning.durations import HORIZONS
-from flypend.planning.dynamics import Scaled, stepped
+from flypend.planning.dynamics import Scaled, step_once
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, end_errors
 from flypend.planning.planner import ORDER
 from flypend.planning.problem import Request, request
-from flypend.planning.search import NOT_REACHED, Found, Job, guessed, one_by_one, stages_of
+from flypend.planning.search import NOT_REACHED, Found, Job, make_guesses, one_by_one, stages_of
 from flypend.planning.solver import Settings
 from flypend.planning.verdict import plans_of
 from flypend.plants.lag import step_timing
@@ -69,7 +69,7 @@ class Shooting:
         numbers, machine = ca.SX(ca.DM(asked.numbers)), Scaled(ca.SX(ca.DM(units.numbers(vehicle))), n)
         timing = ca.SX(ca.DM(step_timing(vehicle.rotor_lag / units.time, h)))
         x, u, after = ca.SX.sym("x", width), ca.SX.sym("u", n), ca.SX.sym("after", width)
-        led = ca.vertcat(stepped(x[:-1], u, timing, machine), x[-1])
+        led = ca.vertcat(step_once(x[:-1], u, timing, machine), x[-1])
         inside, errors = x[-1] - ca.sumsqr(x[:3]), end_errors(x[:-1], numbers)
         stages = ca.Function("stage", [x, u, after], [ca.vertcat(after - led, inside)]).map(self.N)
         end = ca.Function("end", [x], [ca.vertcat(inside, errors)])
@@ -151,7 +151,7 @@ def main() -> None:
     for name in asked.solvers:
         solver, answers = shooting.solver(name), []
         for each, ours in zip(wished, best, strict=True):
-            _, states, commands = guessed([Job(each, ORDER[0])] * WIDTH, HORIZONS[0])
+            _, states, commands = make_guesses([Job(each, ORDER[0])] * WIDTH, HORIZONS[0])
             answers.append(shooting.solve(solver, each, states[..., 0], commands[..., 0]))
             told_of = f"{answers[-1].plan}, derivatives {answers[-1].derivatives:.1f} s"
             print(f"  {name}: {told_of}; ours {ours.excursion:.3f} m", flush=True)

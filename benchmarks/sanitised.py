@@ -161,7 +161,7 @@ def step(library: Path, case: str, steps: int, count: int, planted: str) -> None
     """Step `count` worlds with the kernel in `library`, by random actions, some of them absurd."""
     function = ctypes.CDLL(str(library)).kernel
     function.restype, function.argtypes = None, kernel.KINDS
-    kernel.compiled = lambda made: function  # type: ignore[assignment, misc]
+    kernel.compile_worlds = lambda made: function  # type: ignore[assignment, misc]
     worlds = kernel.Worlds(environment(**CASES[case]), count)
     worlds.arrays = {name: exact(array, name == planted) for name, array in worlds.arrays.items()}
     worlds.begin(np.arange(count))

@@ -16,7 +16,7 @@ from playwright.sync_api import sync_playwright
 
 import flypend as fp
 from benchmarks.lab import OPTIONS
-from flypend.flight.live_engine import engine_facts, inflated
+from flypend.flight.live_engine import engine_facts, inflate
 from flypend.flight.request import Tolerances
 from flypend.plants import plant
 from flypend.plants.loop import Loop
@@ -39,7 +39,7 @@ def there(loop, starts, lanes, folder):
     """Milliseconds of processor time a flight by a module with so many `lanes`, and the bytes of the module."""
     facts = engine_facts(loop, Tolerances(), lanes)
     code, asked = folder / "kernel.wasm", folder / "asked.json"
-    code.write_bytes(inflated(facts.pop("code")))
+    code.write_bytes(inflate(facts.pop("code")))
     given = {"facts": facts, "starts": starts.packed().tolist(), "ticks": round(DURATION / facts["period"])}
     asked.write_text(json.dumps(given))
     told = subprocess.run(

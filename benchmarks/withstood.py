@@ -12,7 +12,7 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.laws.bound import BoundLaw
-from flypend.laws.guarantee import least_distance, saturated
+from flypend.laws.guarantee import least_distance, saturate
 from flypend.laws.repaired import axis_step, stiffness
 
 SHARES = np.geomspace(1e-5, 0.5, 400)  # of √k_p, tried as the weight of the cross term; the bound holds for each
@@ -78,7 +78,7 @@ def _with_share(law: BoundLaw, level: float, k_p: float, theta: float) -> Withst
     r, delta = math.sqrt(2 * level), least_distance(level, step)
     if delta == 0.0:
         return None
-    sigma = saturated(k.k_d, k.damping_share * k_p / k.k_d, r)
+    sigma = saturate(k.k_d, k.damping_share * k_p / k.k_d, r)
     spread, barrier = (1 - eps) * delta + 2 * eps, (1 - eps) + 2 * eps / delta  # g|e|² ≥ ½·spread·h²; g ≤ barrier
     form = np.array(
         [

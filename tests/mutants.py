@@ -431,7 +431,7 @@ def use_machine_code_by_text() -> None:
         path = WORK / "machine-code" / hashlib.sha256(text.encode() + linked + makers).hexdigest()
         if not path.exists():
             part = path.with_suffix(f".{os.getpid()}")
-            part.write_bytes(jit.compiled(made, target))
+            part.write_bytes(jit.compile_module(made, target))
             part.rename(path)
         return path.read_bytes()
 

@@ -25,10 +25,10 @@ import numpy as np
 import flypend as fp
 from benchmarks.firmware.built import build
 from benchmarks.firmware.loop import CUT, HOME, LANDING, LAW, OWN, PID, TICK, Vehicle
-from flypend.export.app import AIRFRAMES, limited
+from flypend.export.app import AIRFRAMES, limit_rotors
 from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
-from flypend.plants.plant import sampled_plant
+from flypend.plants.plant import as_sampled
 from flypend.studies.starts import random_starts
 
 VEHICLES = {"cf2": "crazyflie", "cf21bl": "crazyflie-brushless"}
@@ -63,7 +63,7 @@ def exported(firmware: Path, app: Path, airframe: str) -> tuple[Path, fp.Vehicle
     """The library of the firmware with a fresh app, and the vehicle that it flies."""
     vehicle = fp.vehicle(VEHICLES[airframe])
     fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe)
-    return build(firmware, app, airframe), limited(vehicle, AIRFRAMES[airframe])
+    return build(firmware, app, airframe), limit_rotors(vehicle, AIRFRAMES[airframe])
 
 
 # Starts ---------------------------------------------------------------------------------------------------------------
@@ -102,7 +102,7 @@ def in_firmware(library, vehicle, start, plant="rotors"):
     flown.fly(DURATION, lambda: flown.flies != LAW)
     stood, far = judged(packed(flown, begins), HOME, TICK)
     moved = fp.State(x=at.x - HOME, x_dot=at.x_dot, R=at.R, omega=at.omega, y=at.y, y_dot=at.y_dot)
-    plant = sampled_plant(plant)
+    plant = as_sampled(plant)
     flight = Flight(vehicle=vehicle, law=LAW_FLOWN.bind(vehicle), starts=moved, duration=DURATION, plant=plant)
     ideal = judged(fly_stepwise(flight, rotors).packed, np.zeros(3), 1 / plant.rate)
     return begun and flown.flies == LAW and stood, far, *ideal

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 import flypend as fp
 from flypend import geometry
 from flypend.plants.actuation import make_engine
-from flypend.plants.plant import sampled_plant
+from flypend.plants.plant import as_sampled
 from flypend.plants.sensing import mean_force
 
 TICK = 1e-3  # s
@@ -107,7 +107,7 @@ class Vehicle:
 
     def __init__(self, library: Path, vehicle: fp.Vehicle, plant="rotors", *, home=HOME) -> None:
         self.vehicle, self.firmware, self.world = vehicle, Firmware(library), _World()
-        self.engine = make_engine(vehicle, sampled_plant(plant))
+        self.engine = make_engine(vehicle, as_sampled(plant))
         self.rest = fp.State(x=home, y=(0.0, 0.0, -1.0))
         self.engine.reset(self.rest.packed(), np.zeros(4))
         self.state = self._before = self.rest

@@ -114,16 +114,16 @@ def named_arguments(target: F) -> F:
     it fails. A record's public methods are checked only if they fail: equations pass vehicles of symbols to them.
     """
     if not isinstance(target, type):
-        return cast("F", _checked(target, target.__name__, target))
+        return cast("F", _check_calls(target, target.__name__, target))
     for name, member in list(vars(target).items()):
         if name == "__init__":
-            setattr(target, name, _checked(member, target.__name__, target, bound=1))
+            setattr(target, name, _check_calls(member, target.__name__, target, bound=1))
         elif inspect.isfunction(member) and not name.startswith("_"):
-            setattr(target, name, _checked(member, name, member, bound=1, before=False))
+            setattr(target, name, _check_calls(member, name, member, bound=1, before=False))
     return target
 
 
-def _checked(function: Any, name: str, documented: Any, bound: int = 0, before: bool = True) -> Any:
+def _check_calls(function: Any, name: str, documented: Any, bound: int = 0, before: bool = True) -> Any:
     """Return `function`, which is called `name` in messages; its first `bound` arguments are not the caller's.
 
     Records among the arguments are checked `before` the call, if they are.
@@ -132,7 +132,7 @@ def _checked(function: Any, name: str, documented: Any, bound: int = 0, before: 
     @functools.lru_cache(maxsize=1)  # annotations can be read once all modules are imported
     def signature() -> tuple[list[inspect.Parameter], list[tuple[int, str, Any]]]:
         known = list(inspect.signature(function).parameters.values())[bound:]
-        kinds = [_annotated(parameter.annotation, function) for parameter in known]
+        kinds = [_kind_of(parameter.annotation, function) for parameter in known]
         named = [parameter.replace(annotation=kind) for parameter, kind in zip(known, kinds, strict=True)]
         records = [(bound + i, one.name, one.annotation) for i, one in enumerate(named) if _is_record(one.annotation)]
         return named, records if before else []
@@ -172,10 +172,10 @@ def _check_call(
             parameter.VAR_POSITIONAL,
             parameter.VAR_KEYWORD,
         ):
-            raise InputError(f"{name}.{parameter.name}", documented_as(documented, parameter.name), "nothing")
+            raise InputError(f"{name}.{parameter.name}", documentation_of(documented, parameter.name), "nothing")
 
 
-def documented_as(target: Any, name: str) -> str:
+def documentation_of(target: Any, name: str) -> str:
     """Return what the docstring of `target` says of its argument `name`: kind, meaning and unit, up to a full stop."""
     found = re.search(rf"^( +)(?:\w+, )*{name}(?:, \w+)* : (.*)\n((?:\1 +.*\n)+)", f"{target.__doc__}\n", re.MULTILINE)
     if found is None:
@@ -207,7 +207,7 @@ _KINDS: tuple[tuple[Any, Any, str], ...] = (
 )
 
 
-def _annotated(annotation: Any, function: Any) -> Any:
+def _kind_of(annotation: Any, function: Any) -> Any:
     """Return the kind that an `annotation` of `function` stands for; Any for one that only type checkers know."""
     if not isinstance(annotation, str):
         return annotation
@@ -230,7 +230,7 @@ def check_kind(field: str, value: Any, kind: Any) -> None:
     """Raise InputError unless `value` is of a `kind`: an annotation, or the name of a record."""
     members = _members(kind)
     if not any(_fits(value, one) for one in members):
-        names = [_called(one) for one in members if one is not str or Path not in members]
+        names = [_name_of(one) for one in members if one is not str or Path not in members]
         form = next((f", such as {RECORDS[one]}" for one in (_bare(each) for each in members) if one in RECORDS), "")
         raise InputError(field, " or ".join(dict.fromkeys(names)) + form, repr(value)[:80])
 
@@ -239,7 +239,7 @@ def _bare(kind: Any) -> str:
     return str(getattr(kind, "__name__", kind))
 
 
-def _called(kind: Any) -> str:
+def _name_of(kind: Any) -> str:
     """Return what a kind is called in a message."""
     if kind is None or kind is NoneType:
         return "None"

@@ -55,7 +55,7 @@ def _vector(a: Scalar, b: Scalar, c: Scalar, batched: bool) -> Vector:
     return np.stack(np.broadcast_arrays(a, b, c), axis=-1)
 
 
-def _batched(*vectors: Vector) -> bool:
+def _is_batch(*vectors: Vector) -> bool:
     """Whether the CasADi vectors are a batch. A NumPy operand beside CasADi must be a single vector of shape (3,)."""
     symbolic = [v for v in vectors if is_symbolic(v)]
     if symbolic and any(np.ndim(v) > 1 for v in vectors if not is_symbolic(v)):
@@ -86,13 +86,13 @@ def smooth_norm(a: Vector, floor: float) -> Scalar:
 def scale(s: Scalar, v: Vector) -> Vector:
     """Scalar times vector with leading batch axes: `s` has the batch shape, `v` has one more axis."""
     v1, v2, v3 = _components(v)
-    return _vector(s * v1, s * v2, s * v3, _batched(v))
+    return _vector(s * v1, s * v2, s * v3, _is_batch(v))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
     """Vector product a × b."""
     (a1, a2, a3), (b1, b2, b3) = _components(a), _components(b)
-    return _vector(a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1, _batched(a, b))
+    return _vector(a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1, _is_batch(a, b))
 
 
 def unit(a: Vector) -> Vector:
@@ -104,7 +104,7 @@ def hat(v: Vector) -> Matrix:
     """Skew-symmetric matrix v̂ with v̂ w = v × w, shape (..., 3, 3)."""
     v1, v2, v3 = _components(v)
     if is_symbolic(v):
-        if _batched(v):
+        if _is_batch(v):
             raise ValueError("hat of a CasADi expression takes one vector of shape (3, 1), not a batch")
         return ca.vertcat(ca.horzcat(0, -v3, v2), ca.horzcat(v3, 0, -v1), ca.horzcat(-v2, v1, 0))
     zero = np.zeros_like(v1)

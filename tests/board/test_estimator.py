@@ -34,7 +34,7 @@ ERRORS = error_state.ERRORS
 def wrong_by(state, b, error):
     """The packed state (24,) of which `state` is the estimate with this error."""
     packed, tangent, e = ca.SX.sym("s", 24), ca.SX.sym("b", 3), ca.SX.sym("e", ERRORS)
-    s, _, _ = error_state.corrected(fp.State.symbolic(packed), tangent, e, VEHICLE)
+    s, _, _ = error_state.correct(fp.State.symbolic(packed), tangent, e, VEHICLE)
     return np.asarray(ca.Function("f", [packed, tangent, e], [s.packed()])(state, b, error)).ravel()
 
 
@@ -74,12 +74,12 @@ def test_errors_move_as_the_motion_of_two_neighbours_tells(seed):
 
     after = later(state)
     y, y_after = state[18:21], after[18:21]
-    b_after = np.asarray(ca.DM(error_state.carried_frame(*map(ca.DM, (b, y, y_after))))).ravel()
+    b_after = np.asarray(ca.DM(error_state.carry_frame(*map(ca.DM, (b, y, y_after))))).ravel()
     P = ca.SX.sym("P", ERRORS, ERRORS)
     packed, tangent = ca.SX.sym("s", 24), ca.SX.sym("b", 3)
     s = fp.State.symbolic(packed)
     force = float(np.sum(rotors)) * s.z
-    spread = error_state.spread(P, s, tangent, force, VEHICLE, h, error_state.Densities(0.0, 0.0, 0.0))
+    spread = error_state.propagate(P, s, tangent, force, VEHICLE, h, error_state.Densities(0.0, 0.0, 0.0))
     covariance = ca.Function("f", [P, packed, tangent], [ca.densify(spread)])
     for i in range(ERRORS):
         unit = np.zeros(ERRORS)
@@ -112,7 +112,7 @@ def test_unknown_forces_drive_the_errors_that_they_drive_in_the_motion(seed):
     Q[6:9, 6:9] += h * densities.turning * np.eye(3)
     zero = ca.SX(ERRORS, ERRORS)
     given = (ca.DM(b), ca.SX(3, 1), VEHICLE, h, densities)
-    found = error_state.spread(zero, fp.State.symbolic(ca.SX(ca.DM(packed))), *given)
+    found = error_state.propagate(zero, fp.State.symbolic(ca.SX(ca.DM(packed))), *given)
     np.testing.assert_allclose(np.asarray(ca.DM(found)), Q, atol=1e-15)
 
 
@@ -131,7 +131,7 @@ def test_a_bias_of_the_accelerometer_drives_the_errors_that_the_force_would_that
         P = ca.SX(size, size)
         P[error_state.FELT_BIAS.start + i, error_state.FELT_BIAS.start + i] = 1
         still = error_state.Densities(0.0, 0.0, 0.0)
-        after = error_state.spread(P, symbolic, ca.DM(b), ca.SX(3, 1), VEHICLE, h, still)
+        after = error_state.propagate(P, symbolic, ca.DM(b), ca.SX(3, 1), VEHICLE, h, still)
         found = np.asarray(ca.DM(after))[[3, 4, 5, 11, 12], error_state.FELT_BIAS.start + i]
         accelerated = state.R @ axis
         force = np.asarray(felt.force_of(ca.DM(accelerated), ca.DM(state.y), VEHICLE)).ravel()
@@ -152,7 +152,7 @@ def test_a_share_of_the_gain_leaves_the_covariance_of_that_gain(calm):
     share = np.where(np.arange(size) < ERRORS, 1.0, calm)
     gain = share * (P @ row) / (row @ P @ row + noise)
     reading = error_state.Reading(ca.SX(2.0), ca.SX(ca.DM(row[:ERRORS])).T, noise, ca.SX(1))
-    error, after, _ = error_state.updated(ca.SX(ca.DM(P)), [[reading]], ca.SX(0), calm)
+    error, after, _ = error_state.update(ca.SX(ca.DM(P)), [[reading]], ca.SX(0), calm)
     kept = np.eye(size) - np.outer(gain, row)
     np.testing.assert_allclose(np.asarray(ca.DM(error)).ravel(), 2.0 * gain, atol=1e-12)
     np.testing.assert_allclose(np.asarray(ca.DM(after)), kept @ P @ kept.T + noise * np.outer(gain, gain), atol=1e-10)
@@ -312,9 +312,9 @@ def test_a_manoeuvre_tells_a_scale_of_the_thrust_from_a_force():
     memory, thrust, fresh, told = (
         ca.SX.sym(n, k) for n, k in (("m", felt.RECORD.length), ("f", 1), ("a", 1), ("d", 3))
     )
-    after = felt.corrected(memory, fresh, told, thrust, 100.0, VEHICLE, suite, 0.002)
+    after = felt.correct(memory, fresh, told, thrust, 100.0, VEHICLE, suite, 0.002)
     step = as_numpy(ca.Function("f", [memory, fresh, told, thrust], [after]))
-    known, scale, force = np.asarray(felt.begun(VEHICLE)).ravel(), -0.15, np.array([0.3, -0.2, 0.4])
+    known, scale, force = np.asarray(felt.begin(VEHICLE)).ravel(), -0.15, np.array([0.3, -0.2, 0.4])
     noise = VEHICLE.M * suite.accelerometer.noise
     for k in range(500):
         f = 5.0 + 4.0 * np.sin(10 * k * 0.002)
@@ -332,7 +332,7 @@ def test_a_wrong_body_is_left_out_and_a_true_jump_is_taken():
     row[0] = 1
     difference, P, rejected = ca.SX.sym("d"), 1e-6 * ca.SX.eye(ERRORS), ca.SX.sym("r")
     reading = error_state.Reading(difference, row, 1e-6, ca.SX(1))
-    error, _, after = error_state.updated(P, [[reading]], rejected)
+    error, _, after = error_state.update(P, [[reading]], rejected)
     update = as_numpy(ca.Function("f", [difference, rejected], [error[0], after]))
     assert update(4e-3, 0.0)[0].item() == pytest.approx(2e-3)  # below five standard deviations of 1.4 mm
     count = 0.0

@@ -14,7 +14,7 @@ from click import ClickException
 
 import flypend as fp
 from flypend.cli import app as cli
-from flypend.cli.examples import shipped
+from flypend.cli.examples import read_shipped
 from flypend.flight.metrics import metrics
 from flypend.flight.simulate import fly
 from flypend.settings.runfile import run_file
@@ -44,7 +44,7 @@ def at_home(tmp_path, monkeypatch):
 
 
 def test_there_are_examples_and_all_are_found():
-    assert {str(name) for name in shipped()} == {p.relative_to(EXAMPLES).as_posix() for p in TOML + OWN}
+    assert {str(name) for name in read_shipped()} == {p.relative_to(EXAMPLES).as_posix() for p in TOML + OWN}
     assert "swing-up.toml" in {path.name for path in TOML}
     assert "my_law.py" in {path.name for path in OWN}
 
@@ -90,8 +90,8 @@ def test_the_examples_are_written_and_nothing_else_is_touched(tmp_path, monkeypa
     write()
     write()  # what is there already is left as it is
     found = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
-    assert found == {f"examples/{name}" for name in shipped()} | {"examples/mine.toml"}
-    for name, source in shipped().items():
+    assert found == {f"examples/{name}" for name in read_shipped()} | {"examples/mine.toml"}
+    for name, source in read_shipped().items():
         assert (tmp_path / "examples" / name).read_bytes() == source.read_bytes()
 
 

@@ -8,9 +8,17 @@ import pytest
 from cbuild import build
 
 import flypend as fp
-from flypend.compile.c99 import SCRATCH, function, literal, routine_function, routine_scratch, statements, used_inputs
+from flypend.compile.c99 import (
+    SCRATCH,
+    function,
+    inputs_used_by,
+    literal,
+    routine_function,
+    routine_scratch,
+    statements,
+)
 from flypend.compile.matrices import matrices
-from flypend.compile.program import FOLD, Operation, Program, interpret, lower, needed
+from flypend.compile.program import FOLD, Operation, Program, drop_dead, interpret, lower
 from flypend.compile.routine import lower_calls
 from flypend.compile.scratch import SPAN, TRUTHS, scratch
 
@@ -119,7 +127,7 @@ def test_a_routine_calls_its_programs_on_stretches_of_memory(tmp_path):
     middle, product = mean(turn(once, ca.DM([0.5, 2.0])), ca.vertcat(state[2], state[0]))
     whole = ca.Function("whole", [unread, state], [ca.vertcat(product, middle, state[1], 7.0)])
     routine = lower_calls(whole)
-    assert used_inputs(routine) == [1]
+    assert inputs_used_by(routine) == [1]
     parts = [function(program, "double") for program in routine.programs]
     text = "\n\n".join(["typedef double flypend_real;", *parts, routine_function(routine, "double")])
     assert text.count("static void turn(") == 1
@@ -198,7 +206,7 @@ def _long_program(rng, length=600):
         arguments = tuple(int(number - 1 - rng.integers(number) ** 2 // number) for _ in range(kinds[name]))
         operations.append(Operation(name, arguments))
     outputs = tuple(int(place) for place in [*rng.integers(0, length, 20), 2, 0])  # inputs in another order, too
-    return needed(Program("f", (5,), tuple(operations), (outputs,)))
+    return drop_dead(Program("f", (5,), tuple(operations), (outputs,)))
 
 
 @pytest.mark.parametrize("seed", range(4))

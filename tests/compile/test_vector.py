@@ -29,7 +29,7 @@ def compiled(lanes, function, pointers, kept=None):
     builder = ir.IRBuilder(outer.append_basic_block())
     builder.call(function, outer.args)
     builder.ret_void()
-    native = jit.Native(jit.compiled(lanes.module), "outer", (ctypes.c_void_p,) * pointers)
+    native = jit.Native(jit.compile_module(lanes.module), "outer", (ctypes.c_void_p,) * pointers)
     number = np.float64 if lanes.precision == "double" else np.float32
 
     def call(inputs, shapes):

@@ -16,14 +16,14 @@ import flypend as fp
 from benchmarks.app_cost import APP, HEADERS, LAWS, exported, size, stack
 from flypend.board.program import initial_memory
 from flypend.export import fits, records, vectors
-from flypend.export.app import AIRFRAMES, limited
+from flypend.export.app import AIRFRAMES, limit_rotors
 from flypend.export.interface import interface
 from flypend.export.write import core
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
 
 LAW = fp.laws.inverted()
-VEHICLE = limited(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
+VEHICLE = limit_rotors(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
 CUT, PID, BY_LAW, LANDING = range(4)
 FLIES, OFF, NO_POSITION, NO_BOB, NO_STATE, LOW_BATTERY, TUMBLE_CHECK, REFUSED, ON_GROUND = range(9)
 DISABLE, ABSOLUTE, VELOCITY = range(3)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from flypend.flight.live_engine import engine_facts, inflated
+from flypend.flight.live_engine import engine_facts, inflate
 from flypend.flight.request import Tolerances
-from flypend.model.state import seen_packed
+from flypend.model.state import convert_packed
 
 DURATION, SEED = 6.0, 7
 EXACT = Tolerances()
@@ -23,7 +23,7 @@ def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None, exact=EXACT):
     facts, code = machine(loop, exact, tmp_path)
     pieces = pieces or [{"ticks": round(DURATION / facts["period"])}]
     flown, ends = [], []
-    for i, start in enumerate(np.atleast_2d(seen_packed(starts.packed(), loop.law.e3))):
+    for i, start in enumerate(np.atleast_2d(convert_packed(starts.packed(), loop.law.e3))):
         told = by_node({"facts": facts, "start": start.tolist(), "seed": SEED + i, "pieces": pieces}, code)
         rows = np.frombuffer(base64.b64decode(told["rows"])).reshape(-1, 24 + len(loop.vehicle.rotor_spins))
         count = 1 + sum(piece["ticks"] for piece in pieces)
@@ -37,7 +37,7 @@ def flown_by_page(loop, starts, tmp_path, pieces=None, shown=None, exact=EXACT):
 def ended_by_page(loop, starts, tmp_path, exact=EXACT, **given):
     """Status codes, end times (s) and reductions of flights that share the lanes of the module."""
     facts, code = machine(loop, exact, tmp_path, **given)
-    own, ticks = seen_packed(starts.packed(), loop.law.e3).tolist(), round(DURATION / facts["period"])
+    own, ticks = convert_packed(starts.packed(), loop.law.e3).tolist(), round(DURATION / facts["period"])
     told = by_node({"facts": facts, "starts": own, "seed": SEED, "ticks": ticks}, code)
     reductions = [[np.inf if value is None else value for value in end["reductions"]] for end in told]  # as JSON has it
     return [end["status"] for end in told], [end["end"] for end in told], np.array(reductions)
@@ -46,7 +46,7 @@ def ended_by_page(loop, starts, tmp_path, exact=EXACT, **given):
 def machine(loop, exact, tmp_path, **given):
     """What a page knows of its machine code, which is written to the path that is returned with it."""
     facts, code = engine_facts(loop, exact, **given), tmp_path / "kernel.wasm"
-    code.write_bytes(inflated(facts.pop("code")))
+    code.write_bytes(inflate(facts.pop("code")))
     return facts, code
 
 

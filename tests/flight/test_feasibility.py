@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.flight.feasibility import feasibility, forewarned
+from flypend.flight.feasibility import feasibility, forewarn
 from flypend.flight.request import Flight
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.shipped import vehicle_names
@@ -87,7 +87,7 @@ def test_doubts_name_what_is_short(changes, words):
 def test_a_flight_is_forewarned_where_rotors_are_to_stand_a_rod():
     flight = Flight(vehicle=HEHN, law=fp.laws.lqr(), starts=fp.State(y=(0, 0, 1)), duration=1.0)
     late = flight.replace(plant=fp.Plant(lag=0.3))
-    assert not forewarned(flight)
-    assert forewarned(late)
-    assert not forewarned(late.replace(plant=Ideal()))
-    assert not forewarned(late.replace(law=fp.laws.corrected().bind(HEHN)))
+    assert not forewarn(flight)
+    assert forewarn(late)
+    assert not forewarn(late.replace(plant=Ideal()))
+    assert not forewarn(late.replace(law=fp.laws.corrected().bind(HEHN)))

@@ -52,7 +52,7 @@ def targets(law, vehicle, times):
         return np.zeros((len(times), 3)), 0.0
     t = ca.SX.sym("t")
     velocity = ca.jacobian(law.reference(t), t)
-    x = references.sampled(law.reference, times)
+    x = references.sample(law.reference, times)
     if not ca.depends_on(velocity, t):
         return x, 0.0
     acceleration = ca.Function("a", [t], [ca.densify(ca.jacobian(velocity, t))])

@@ -421,7 +421,7 @@ def filler_of_the_stack(length=320_000):
             ret void
         }}
     """
-    return jit.Native(jit.compiled(module), "fill", (ctypes.c_void_p,))
+    return jit.Native(jit.compile_module(module), "fill", (ctypes.c_void_p,))
 
 
 def test_what_nobody_drew_is_zero():

@@ -9,7 +9,7 @@ from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import plant_numbers, sampled_kernel
 from flypend.plants import plant
 from flypend.plants.equations import struck
-from flypend.plants.knobs import KNOBS, knob_values, turned
+from flypend.plants.knobs import KNOBS, knob_values, turn_knobs
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Noise, Wind
 
@@ -108,7 +108,7 @@ def test_knobs_are_the_numbers_of_the_plant():
     rng = np.random.default_rng(9)
     for name in ("rotors", "hehn2011"):
         base = plant(name)
-        turn = as_numpy(turned(base))
+        turn = as_numpy(turn_knobs(base))
         for _ in range(40):
             lag, delay = (
                 rng.choice([0.0, rng.uniform(0.002, 0.1)]),

@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import flypend as fp
-from flypend.compile.aside import aside
-from flypend.flight.kernels.stopping import StoppedError, heard, interruptible, joined
+from flypend.compile.aside import call_in_thread
+from flypend.flight.kernels.stopping import StoppedError, heard, interruptible, join
 
 HEARD = 0.5  # s: what the user is promised
 CALLS = {
@@ -144,9 +144,9 @@ def test_a_script_that_compiles_hears_an_interrupt_at_once():
 
 
 def test_what_is_called_aside_returns_and_raises_as_called():
-    assert aside(lambda: 7) == 7
+    assert call_in_thread(lambda: 7) == 7
     with pytest.raises(ZeroDivisionError):
-        aside(lambda: 1 // 0)
+        call_in_thread(lambda: 1 // 0)
 
 
 def test_what_was_stopped_is_not_believed():
@@ -155,7 +155,7 @@ def test_what_was_stopped_is_not_believed():
 
     def fly(word):
         try:
-            with joined(word):
+            with join(word):
                 fp.simulate(vehicle, law, start, 19_000.0, times=[19_000.0])
         except StoppedError:
             ends.append("stopped")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.export.app import AIRFRAMES, limited
+from flypend.export.app import AIRFRAMES, limit_rotors
 from flypend.model.shipped import vehicle_names
 from flypend.plants import Plant
 
@@ -35,7 +35,7 @@ def test_numbers_are_those_of_rotorpy(name):
 
 def test_the_brushless_crazyflie_has_the_arms_torque_and_forces_of_its_firmware():
     vehicle, frame = fp.vehicle("crazyflie-brushless"), AIRFRAMES["cf21bl"]
-    assert limited(vehicle, frame) == vehicle
+    assert limit_rotors(vehicle, frame) == vehicle
     assert vehicle.drag_ratio == pytest.approx(0.00569, rel=1e-2)  # THRUST2TORQUE
     np.testing.assert_allclose(np.abs(np.array(vehicle.rotor_positions)[:, :2]), frame.arm, rtol=1e-3)
 

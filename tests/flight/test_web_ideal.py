@@ -12,12 +12,12 @@ from flypend.flight.live import tunable
 from flypend.flight.live_engine import PERIOD
 from flypend.flight.request import Tolerances
 from flypend.flight.verdict import goal
-from flypend.lab.flying import poked
+from flypend.lab.flying import poke_state
 from flypend.lab.setting import Poke
 from flypend.laws import law_names
 from flypend.laws.references import circle
 from flypend.model.shipped import vehicle_names
-from flypend.model.state import seen_packed
+from flypend.model.state import convert_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
 
@@ -70,7 +70,10 @@ def assert_equal(law, vehicle, tmp_path):
     here, flown = flown_here(loop, packed, TIGHT)
     assert told["status"] == flown.code[0]
     assert told["end"] == pytest.approx(flown.end[0], abs=1e-9)
-    error, lived = np.max(np.abs(seen_packed(page[0, ::EVERY, :24], loop.law.e3) - here), axis=1), ~np.isnan(here[:, 0])
+    error, lived = (
+        np.max(np.abs(convert_packed(page[0, ::EVERY, :24], loop.law.e3) - here), axis=1),
+        ~np.isnan(here[:, 0]),
+    )
     assert np.array_equal(~np.isnan(error), lived)
     moved = [flown_here(loop, packed + 1e-12 * change, TIGHT)[0] for change in CHANGES]
     apart = np.maximum.accumulate(np.max(np.abs(moved - here), axis=(0, 2)))
@@ -88,7 +91,7 @@ def test_a_law_without_corners_needs_no_tight_tolerance(law, tmp_path):
     loop = loop_of(law)
     page, _ = flown_by_page(loop, start(), tmp_path)
     here, _ = flown_here(loop, start().packed())
-    np.testing.assert_allclose(seen_packed(page[0, ::EVERY, :24], loop.law.e3), here, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(convert_packed(page[0, ::EVERY, :24], loop.law.e3), here, rtol=1e-9, atol=1e-9)
 
 
 def test_its_rotor_forces_are_those_that_the_law_requires(tmp_path):
@@ -109,7 +112,7 @@ def test_pokes_gains_and_a_moved_place_are_those_of_the_package(law, tmp_path):
         velocity, origin = rng.normal(0, 0.1, 3), rng.normal(0, 0.2, 3)
         impulses = [0, 0, 0, *(loop.vehicle.bob_mass * velocity)]
         pieces.append({"ticks": ticks, "impulses": impulses, "gains": gains, "knobs": {"origin": origin.tolist()}})
-        state = poked(state, loop.vehicle, "up", Poke(0.0, "bob", velocity))
+        state = poke_state(state, loop.vehicle, "up", Poke(0.0, "bob", velocity))
         flown = getattr(fp.laws, law)(**gains)
         run = fp.simulate(loop.vehicle, flown, _moved(state, -origin).seen(flown.e3), ticks * PERIOD, plant="ideal")
         state = _moved(run.states[-1].seen(flown.e3), origin)

@@ -19,7 +19,7 @@ from flypend.flight.signals import Signals
 from flypend.laws import law_names
 from flypend.laws.references import circle
 from flypend.model.shipped import vehicle_names
-from flypend.model.state import seen_packed
+from flypend.model.state import convert_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Noise, Plant, Wind
@@ -43,7 +43,7 @@ def assert_equal(loop, starts, tmp_path):
     A flight that makes 1e-3 of that is chaos, which no two processors share.
     """
     (page, ends), here = flown_by_page(loop, starts, tmp_path), flown_here(loop, starts)
-    own = seen_packed(page[:, :: (page.shape[1] - 1) // KEPT, :24], loop.law.e3)
+    own = convert_packed(page[:, :: (page.shape[1] - 1) // KEPT, :24], loop.law.e3)
     assert [end["status"] for end in ends] == here.code.tolist()
     scale, kept = 1 + np.abs(here.samples[..., :24]), here.samples[..., :24]
     beside = flown_here(loop, fp.State.trusted(starts.packed() + 1e-12 * CHANGE)).samples[..., :24]
@@ -157,7 +157,7 @@ def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(
         state = rows[20 * i, :24].copy()
         state[:3] -= piece["knobs"]["origin"]
         t = np.array([20 * i / loop.sampled.rate])
-        V = Signals(loop.vehicle, flown, t, seen_packed(state, flown.e3)[None])["V"]
+        V = Signals(loop.vehicle, flown, t, convert_packed(state, flown.e3)[None])["V"]
         assert numbers[6] == pytest.approx(V[0], rel=1e-9)
 
 
@@ -188,7 +188,7 @@ def rooted():
 
 
 def test_only_functions_of_the_object_are_exported():
-    code = jit.compiled(rooted(), wasm32())
+    code = jit.compile_module(rooted(), wasm32())
     assert wasm.module(code, ["outer"]).startswith(wasm.HEAD)
     with pytest.raises(ValueError, match="sin"):
         wasm.module(code, ["sin"])
@@ -199,7 +199,7 @@ def test_only_functions_of_the_object_are_exported():
 
 
 def test_what_the_c_library_would_give_is_asked_of_the_page(tmp_path):
-    (tmp_path / "a.wasm").write_bytes(wasm.module(jit.compiled(rooted(), wasm32()), ["outer", "inner"]))
+    (tmp_path / "a.wasm").write_bytes(wasm.module(jit.compile_module(rooted(), wasm32()), ["outer", "inner"]))
     script = """
         const env = { sin: Math.sin, __linear_memory: new WebAssembly.Memory({ initial: 1 }) };
         env.__stack_pointer = new WebAssembly.Global({ value: "i32", mutable: true }, 1024);

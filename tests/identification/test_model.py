@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.identification.model import ERROR, LOCAL, MOVING, READING, corrected, moves, reads, shifted_back, sizes
+from flypend.identification.model import ERROR, LOCAL, MOVING, READING, correct, local_error, moves, reads, sizes
 from flypend.identification.numbers import places
 from flypend.identification.rotors import patterns, rotor_forces, rotor_slopes, rotor_table
 from flypend.plants.actuation import make_engine
@@ -25,8 +25,8 @@ def case():
 
 def local():
     at, packed, error = ca.SX.sym("a", 24), ca.SX.sym("s", 24), ca.SX.sym("e", ERROR)
-    apart = ca.Function("apart", [at, packed], [shifted_back(at, packed)])
-    move = ca.Function("move", [packed, error], [corrected(packed, error)])
+    apart = ca.Function("apart", [at, packed], [local_error(at, packed)])
+    move = ca.Function("move", [packed, error], [correct(packed, error)])
     return (lambda a, s: np.array(apart(a, s)).ravel()), (lambda s, e: np.array(move(s, e)).ravel())
 
 

@@ -33,14 +33,14 @@ from flypend.lab import answers
 from flypend.lab.answers import answer, engine_of
 from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly, poked
+from flypend.lab.flying import fly, poke_state
 from flypend.lab.map import region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Slot, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.shares import Shares
-from flypend.lab.tuning import tuned
-from flypend.lab.worker import END, encoded
+from flypend.lab.tuning import tune_loop
+from flypend.lab.worker import END, encode
 from flypend.laws import law_names
 from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import directions
@@ -180,7 +180,7 @@ def flown(step, path=None, value=None):
         reduce(dict.__getitem__, keys, setting)[last] = value
     read = setting_of(setting)
     run = fly(read)
-    return run, verdict(run, tuned(read).criterion)
+    return run, verdict(run, tune_loop(read).criterion)
 
 
 def dragged(step, values):
@@ -237,18 +237,18 @@ def test_a_random_start_is_its_seed():
 
 def test_the_verdict_names_what_the_law_is_to_do():
     setting = setting_of(asked(duration=6.0))
-    told = verdict(fly(setting), tuned(setting).criterion)
+    told = verdict(fly(setting), tune_loop(setting).criterion)
     judged = metrics(fly(setting))
     assert told["good"] is judged.success is True
     assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])
-    told = verdict(fly(preset), tuned(preset).criterion)
+    told = verdict(fly(preset), tune_loop(preset).criterion)
     assert "rod hangs after" in told["words"]
     assert "vehicle fell" in told["words"]
     assert (told["good"], told["state"]) == (True, "recovering")  # the law keeps its promise, and the vehicle falls
     assert "upright" not in told["words"]
     singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
-    assert verdict(fly(singular), tuned(singular).criterion)["words"].startswith("singular after ")
+    assert verdict(fly(singular), tune_loop(singular).criterion)["words"].startswith("singular after ")
 
 
 @pytest.mark.parametrize("plant", ["rotors", "ideal"])
@@ -257,7 +257,7 @@ def test_machine_code_takes_the_gains_that_are_inputs(plant):
     facts = engine_of(asked_for)
     assert facts["kind"] == ("ideal" if plant == "ideal" else "sampled")
     assert facts["fixed"] == []
-    assert facts["gains"] == list(tuned(asked_for).names)
+    assert facts["gains"] == list(tune_loop(asked_for).names)
     assert len(facts["code"]) > 1000
     balanced = engine_of(setting_of(asked("lqr", plant=plant)))
     assert balanced["gains"] == []
@@ -278,7 +278,7 @@ def test_a_blow_obeys_the_laws_of_impact(on, e3):
     vehicle, state = fp.vehicle("hehn2011"), fp.State.random(np.random.default_rng(3))
     velocity = np.array([0.7, -1.1, 0.4])
     seen = velocity if e3 == "up" else velocity * [1, -1, -1]
-    hit = poked(state, vehicle, e3, Poke(1.0, on, velocity))
+    hit = poke_state(state, vehicle, e3, Poke(1.0, on, velocity))
     jump, swing = hit.x_dot - state.x_dot, hit.y_dot - state.y_dot
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     blow = (m if on == "bob" else M) * seen
@@ -498,7 +498,7 @@ def test_a_map_is_made_of_the_flights():
     assert all(bool(cause) != one for cause, one in zip(chunk["cause"], good, strict=True))
     for i in (good.index(True), good.index(False)):
         setting = setting_of(wrong | {"start": START | {"y": chunk["y"][i], "y_dot": [0, 0, 0]}})
-        told = verdict(fly(setting), tuned(setting).criterion)
+        told = verdict(fly(setting), tune_loop(setting).criterion)
         assert told["good"] == good[i]
         if good[i]:
             assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)
@@ -522,7 +522,7 @@ class Clerk:
         for part in (1, 2):
             await asyncio.sleep(0.03)
             assert self.on
-            self.lines.put_nowait(encoded({"number": number, "part": part}))
+            self.lines.put_nowait(encode({"number": number, "part": part}))
             if self.stopped:
                 break
         self.lines.put_nowait(END)

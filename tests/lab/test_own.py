@@ -14,7 +14,7 @@ from flypend.lab.flying import fly
 from flypend.lab.map import region
 from flypend.lab.own import OwnLaws
 from flypend.lab.setting import setting_of
-from flypend.lab.tuning import Stepped, tuned
+from flypend.lab.tuning import Stepped, tune_loop
 from flypend.laws import LawError
 from flypend.settings.runfile import run_file
 
@@ -96,10 +96,10 @@ def test_gains_have_sliders_with_their_names(own):
 
 def test_what_is_not_symbolic_is_mapped_a_few_rods_at_a_time(own):
     setting = setting_of(asked("stepped"), own)
-    assert isinstance(tuned(setting), Stepped)
+    assert isinstance(tune_loop(setting), Stepped)
     chunk = next(region(setting))
     assert (chunk["total"], chunk["done"], len(chunk["y"])) == (96, 2, 2)
-    assert verdict(fly(setting), tuned(setting).criterion)["good"] is False
+    assert verdict(fly(setting), tune_loop(setting).criterion)["good"] is False
 
 
 def test_a_file_that_changes_is_flown_as_it_stands(own, tmp_path):

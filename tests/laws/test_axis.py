@@ -6,7 +6,7 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.laws.axis import axis_moment, spun
+from flypend.laws.axis import axis_moment, spin
 
 VEHICLE = fp.vehicle("hehn2011")
 E3 = np.array([0.0, 0, 1])
@@ -41,7 +41,7 @@ def test_left_alone_what_follows_from_spin_does_no_work_on_the_axis():
 
 @pytest.mark.parametrize("angle", [-0.3, 1e-9, 0.02, 2.0])
 def test_a_plane_vector_is_turned_by_twice_the_arc_tangent_of_half_the_angle(angle):
-    turned = np.array(spun(ca.DM([0.6, -0.8]), angle)).ravel()
+    turned = np.array(spin(ca.DM([0.6, -0.8]), angle)).ravel()
     by = 2 * np.arctan(angle / 2)
     wanted = [0.6 * np.cos(by) + 0.8 * np.sin(by), 0.6 * np.sin(by) - 0.8 * np.cos(by)]
     np.testing.assert_allclose(turned, wanted, rtol=0, atol=1e-15 + 4e-16)

@@ -129,7 +129,7 @@ def test_taylor_models_contain_what_the_program_answers(share, least):
     ctx.prec = BITS
     c = share * made["c"]
     sizes = [arb(size) for size in certificate.radii(made["numbers"], c)]
-    (commanded,), turning = certificate.evaluated(made, c)
+    (commanded,), turning = certificate.evaluate_wrenches(made, c)
     models, used = [*commanded, *turning], 0.0
     for i in range(8):
         x = rng.normal(size=SIZE)

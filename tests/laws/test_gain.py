@@ -9,7 +9,7 @@ import pytest
 import flypend as fp
 from flypend.export.interface import interface
 from flypend.laws import law_from_dict, law_names
-from flypend.laws.gain import POSITIVE, SHARE, Bounds, Gain, checked, documented, is_number, table
+from flypend.laws.gain import POSITIVE, SHARE, Bounds, Gain, check_gains, document_gains, is_number, table
 
 VEHICLE = fp.vehicle("hehn2011")
 FACTORIES = {name: getattr(fp.laws, name) for name in law_names()}
@@ -21,7 +21,7 @@ def test_the_defaults_lie_within_the_bounds_of_every_vehicle_here(name):
     for machine in ("hehn2011", "crazyflie", "nayak2018"):
         values = law.gains_for(fp.vehicle(machine))
         assert list(values) == list(law.gains)
-        assert checked(law.gains, values) == values
+        assert check_gains(law.gains, values) == values
         assert values == dict(law.bind(fp.vehicle(machine)).gains)
 
 
@@ -139,7 +139,7 @@ def test_a_table_comes_from_records_and_from_values():
 
 
 def test_documented_fills_in_one_line_and_keeps_the_rest():
-    @documented(table([Gain("k", 1.0, "m", "How far")]))
+    @document_gains(table([Gain("k", 1.0, "m", "How far")]))
     def f():
         """First.
 

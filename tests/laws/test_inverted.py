@@ -283,9 +283,9 @@ def _numeric(function, *shapes):
 
 STEP = _numeric(throw.smooth_step, ())
 SOFT = _numeric(throw.soft, (3,), ())
-LIMITED = _numeric(throw.limited_force, (3,), ())
-LIFTED = _numeric(throw.lifted, (3,), ())
-COASTED = _numeric(lambda y, y_dot, time: throw.coasted(throw.Rod(y, y_dot), time), (3,), (3,), ())
+LIMITED = _numeric(throw.limit_force, (3,), ())
+LIFTED = _numeric(throw.lift, (3,), ())
+COASTED = _numeric(lambda y, y_dot, time: throw.coast(throw.Rod(y, y_dot), time), (3,), (3,), ())
 vectors = arrays(float, 3, elements=st.floats(-1e3, 1e3))
 
 

@@ -87,7 +87,7 @@ def test_the_energy_upright_is_also_that_of_a_cone():
 
 def _target(force, tilt, share):
     """What z_d is made of, in weights."""
-    return throw.lifted(ca.DM(force), tilt).full().ravel() + share * E3
+    return throw.lift(ca.DM(force), tilt).full().ravel() + share * E3
 
 
 def test_constant_and_tilt_limit_keep_the_target_off_zero_and_neither_does_alone():

@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from flypend.laws.passage import LEVEL_FLOOR, STEERING, heading, passage_of, steered
+from flypend.laws.passage import LEVEL_FLOOR, STEERING, heading, passage_of, steer
 from flypend.model.mount import clearances
 
 HUB = fp.vehicle("hehn2011").replace(mount="hub")
@@ -14,7 +14,7 @@ HUB = fp.vehicle("hehn2011").replace(mount="hub")
 
 def _steered(bearing, vehicle=HUB):
     way = ca.DM([np.cos(bearing), np.sin(bearing)])
-    found = steered(fp.State(y=(0, 0, 1)), way, passage_of(vehicle))
+    found = steer(fp.State(y=(0, 0, 1)), way, passage_of(vehicle))
     return float(found.clear), float(found.yaw)
 
 

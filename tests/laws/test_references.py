@@ -8,7 +8,7 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.laws.references import circle, hover, lemniscate, line, sampled
+from flypend.laws.references import circle, hover, lemniscate, line, sample
 from flypend.laws.throw import carrying, derivatives
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -44,16 +44,16 @@ def _difference(function, t, h):
 
 
 def test_hover_stays():
-    np.testing.assert_array_equal(sampled(REFERENCES["hover"], TIMES), np.tile([1.0, -2, 3], (len(TIMES), 1)))
+    np.testing.assert_array_equal(sample(REFERENCES["hover"], TIMES), np.tile([1.0, -2, 3], (len(TIMES), 1)))
 
 
 def test_a_line_is_left_with_its_velocity():
     expected = np.array([1, 2, 3]) + TIMES[:, None] * [0.5, -0.4, 0.3]
-    np.testing.assert_allclose(sampled(REFERENCES["line"], TIMES), expected, rtol=1e-15)
+    np.testing.assert_allclose(sample(REFERENCES["line"], TIMES), expected, rtol=1e-15)
 
 
 def test_a_circle_has_its_radius_rate_and_sense():
-    from_center = sampled(REFERENCES["circle"], TIMES) - [1, 2, 3]
+    from_center = sample(REFERENCES["circle"], TIMES) - [1, 2, 3]
     np.testing.assert_allclose(geo.norm(from_center), 0.8, rtol=1e-14)
     np.testing.assert_array_equal(from_center[:, 2], 0)
     np.testing.assert_allclose(from_center[0], [0.8, 0, 0], atol=1e-15)
@@ -64,13 +64,13 @@ def test_a_circle_has_its_radius_rate_and_sense():
 def test_a_lemniscate_is_gerono_s_and_passes_its_crossing_twice_a_period():
     a, period = 1.2, 2 * np.pi / 1.1
     t = np.linspace(0, period, 400, endpoint=False)
-    x, y, z = (sampled(REFERENCES["lemniscate"], t) - [-1, 0, 2]).T
+    x, y, z = (sample(REFERENCES["lemniscate"], t) - [-1, 0, 2]).T
     np.testing.assert_allclose(x**4, a**2 * (x**2 - y**2), rtol=0, atol=1e-14)
     np.testing.assert_array_equal(z, 0)
     assert np.max(x) == pytest.approx(a, rel=1e-4)  # a sample within 1/400 of a period
     assert np.min(x) == pytest.approx(-a, rel=1e-4)
     assert np.sum(np.diff(np.sign(x + 1e-9)) != 0) == 2 - 1  # once more at the end of the period
-    np.testing.assert_allclose(sampled(REFERENCES["lemniscate"], t + period), np.array([x - 1, y, z + 2]).T, atol=1e-13)
+    np.testing.assert_allclose(sample(REFERENCES["lemniscate"], t + period), np.array([x - 1, y, z + 2]).T, atol=1e-13)
 
 
 @each
@@ -95,7 +95,7 @@ def test_the_bob_is_a_rod_away_and_its_derivatives_are_those_of_its_position(nam
     bob = _bob(REFERENCES[name], on_bob)
     p, *rates, y = bob(TIMES)
     np.testing.assert_allclose(geo.norm(y), 1, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(p, sampled(REFERENCES[name], TIMES) + VEHICLE.l * y, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(p, sample(REFERENCES[name], TIMES) + VEHICLE.l * y, rtol=0, atol=1e-14)
     for order, rate in enumerate(rates):
         wanted = _difference(lambda t, k=order: bob(t)[k], TIMES, 5e-3)  # errors go with h⁴: 1e-6
         np.testing.assert_allclose(rate, wanted, rtol=0, atol=1e-6 * max(1, np.max(np.abs(rate))))
@@ -107,7 +107,7 @@ def test_without_acceleration_the_rod_leans_against_the_force_on_the_bob(name):
         _, v, a, jerk, y = _bob(REFERENCES[name], on_bob)(TIMES)
         expected = geo.unit(SUPPORT - on_bob / VEHICLE.m)
         np.testing.assert_allclose(y, np.tile(expected, (len(TIMES), 1)), rtol=0, atol=1e-15)
-        np.testing.assert_allclose(v, np.gradient(sampled(REFERENCES[name], TIMES), TIMES, axis=0), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(v, np.gradient(sample(REFERENCES[name], TIMES), TIMES, axis=0), rtol=0, atol=1e-12)
         np.testing.assert_array_equal(a, 0)
         np.testing.assert_array_equal(jerk, 0)
 

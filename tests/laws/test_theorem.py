@@ -18,7 +18,7 @@ from flypend.laws.almost_global_bounds import slopes
 from flypend.laws.almost_global_gains import largest_descent
 from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.guarantee import least_distance, rate_bound
-from flypend.laws.repaired import repaired_control, stiffness
+from flypend.laws.repaired import control_repaired, stiffness
 from flypend.laws.step import Step
 
 PAPERS, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
@@ -57,7 +57,7 @@ def test_the_claimed_rate_of_v_is_the_exact_one_at_ten_thousand_states(name):
 
 
 FALSE = [fp.laws.printed(), fp.laws.printed(beta="off"), fp.laws.corrected(), fp.laws.corrected(beta="regularized")]
-UNCANCELLED = replace(fp.laws.repaired(), control=partial(repaired_control, cancelled=0.0))
+UNCANCELLED = replace(fp.laws.repaired(), control=partial(control_repaired, cancelled=0.0))
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import flypend as fp
 from flypend import geometry as geo
 from flypend.model import equations_of_motion, total_energy
 from flypend.model.shipped import vehicle_names
-from flypend.model.state import SHAPES, project, seen_packed, split
+from flypend.model.state import SHAPES, convert_packed, project, split
 
 EPS = 1e-15
 property_test = settings(max_examples=50, deadline=None, derandomize=True)
@@ -520,8 +520,8 @@ def test_states_wrenches_and_packed_states_are_seen_in_either_frame():
     assert wrench.seen("up") is wrench
     np.testing.assert_array_equal(states.seen("down").packed(), states.flipped().packed())
     # A few units in the last place: a State makes its R a rotation again.
-    np.testing.assert_allclose(seen_packed(states.packed(), "down"), states.flipped().packed(), rtol=0, atol=1e-14)
-    np.testing.assert_array_equal(seen_packed(states.packed(), "up"), states.packed())
+    np.testing.assert_allclose(convert_packed(states.packed(), "down"), states.flipped().packed(), rtol=0, atol=1e-14)
+    np.testing.assert_array_equal(convert_packed(states.packed(), "up"), states.packed())
     np.testing.assert_allclose(states.seen("down").seen("down").packed(), states.packed(), atol=1e-15)
     np.testing.assert_array_equal(wrench.seen("down").thrust, -wrench.thrust)
     np.testing.assert_array_equal(wrench.seen("down").moment, wrench.flipped().moment)

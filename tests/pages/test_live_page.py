@@ -16,9 +16,9 @@ from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
 from flypend.flight.signals import Signals
 from flypend.flight.verdict import goal, verdict
-from flypend.lab.flying import poked
+from flypend.lab.flying import poke_state
 from flypend.lab.setting import Poke
-from flypend.model.state import seen_packed
+from flypend.model.state import convert_packed
 from flypend.plants import MOTION_CAPTURE, plant
 from flypend.plants.sensors import SUITES
 from tests.flight.test_metrics import flight as constructed
@@ -134,7 +134,7 @@ def test_the_lyapunov_function_of_other_gains_is_plotted(visit):
     go_to(page, setting)
     rows, rate = flown(run, setting), run.flight.plant.rate
     law, t = fp.laws.repaired(**gains).bind(vehicle), np.array([0.0, 1.0, 3.0, 5.0])
-    V = Signals(vehicle, law, t, seen_packed(rows[np.rint(t * rate).astype(int), :24], law.e3))["V"]
+    V = Signals(vehicle, law, t, convert_packed(rows[np.rint(t * rate).astype(int), :24], law.e3))["V"]
     for time_, value in zip(t, V, strict=True):
         page.evaluate("t => flypend.seek(t)", time_)
         until(page, "t => flypend.time() === t", time_)
@@ -344,7 +344,7 @@ def test_the_ideal_plant_flies_is_poked_and_goes_on(visit):
 
     poke = {"time": 1.5, "on": "bob", "velocity": [0.8, -0.2, 0.1]}
     go_to(page, page.evaluate("flypend.setting()") | {"pokes": [poke]})
-    struck = poked(run.states[150], vehicle, "down", Poke(1.5, "bob", np.array(poke["velocity"])))
+    struck = poke_state(run.states[150], vehicle, "down", Poke(1.5, "bob", np.array(poke["velocity"])))
     on = fp.simulate(vehicle, fp.laws.corrected(), struck, 6.0, plant="ideal")
     at = page.evaluate("(flypend.seek(1.5), flypend.pose(0))")  # as it was before the blow
     np.testing.assert_allclose(at["y_dot"], run.y_dot[150], atol=1e-6)
@@ -383,7 +383,7 @@ def ideal_states(run, setting, times, moved=0.0):
     start = fp.State(**setting["start"]).seen(run.e3)
     start, [poke] = fp.State.from_packed(start.packed() + moved * np.eye(24)[0]), setting["pokes"]
     before = fp.simulate(run.vehicle, law, start, poke["time"], plant="ideal")
-    struck = poked(before.states[-1], run.vehicle, run.e3, Poke(0.0, poke["on"], np.array(poke["velocity"])))
+    struck = poke_state(before.states[-1], run.vehicle, run.e3, Poke(0.0, poke["on"], np.array(poke["velocity"])))
     after = fp.simulate(run.vehicle, law, struck, setting["duration"], plant="ideal")
     early = times < poke["time"]
     return np.concatenate([before.at(times[early]).packed(), after.at(times[~early] - poke["time"]).packed()])

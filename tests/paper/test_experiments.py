@@ -492,7 +492,7 @@ def test_the_target_is_not_shown_if_it_does_not_turn(runs, monkeypatch):
 
 
 def test_the_target_is_not_shown_if_the_law_flies_by(runs, monkeypatch):
-    monkeypatch.setattr(stability, "_begun", lambda speed: runs.corrected["1"])
+    monkeypatch.setattr(stability, "_begin", lambda speed: runs.corrected["1"])
     assert not stability.target_vanishes(runs).shown
 
 
@@ -500,7 +500,7 @@ def test_the_thrust_is_nought_at_the_very_speed_where_the_target_vanishes(runs):
     speed = stability.target_vanishes(runs).evidence["s*, rad/s"]
     assert speed * (1 + speed) == pytest.approx(0.5 * 9.81 / (0.4 * 0.5), rel=1e-12)
     # |f| = M l |f_p| grows by M l (1 + (M+m)g/(Ml)/(1+s*)²) for each rad/s.
-    thrust = [abs(stability._begun(speed + ahead).thrust[0]) for ahead in (1e-3, 1e-2)]
+    thrust = [abs(stability._begin(speed + ahead).thrust[0]) for ahead in (1e-3, 1e-2)]
     np.testing.assert_allclose(thrust, 0.2 * (1 + 24.525 / (1 + speed) ** 2) * np.array([1e-3, 1e-2]), rtol=5e-3)
 
 

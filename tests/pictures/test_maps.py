@@ -15,7 +15,7 @@ from flypend.flight.metrics import wilson, wilson_bounds
 from flypend.pictures.maps import FAILED, map_figure
 from flypend.studies.sweep import bins, cube
 from flypend.studies.sweep.chunk import CAUSES
-from flypend.studies.sweep.store import existing, opened
+from flypend.studies.sweep.store import existing, open_store
 
 STUDY = {
     "vehicle": "nayak2018", "law": {"name": "corrected"}, "plant": "ideal", "duration": 4.0, "judge_period": 0.1,
@@ -61,7 +61,7 @@ def test_the_projection_keeps_areas():
 
 def test_poles_and_horizon_are_where_they_are_said_to_be():
     tilt = np.radians([0, 30, 60, 90, 120, 150, 180])
-    y = cube.tilted(tilt, np.zeros(7), np.zeros(7), np.zeros(7))[0]
+    y = cube.tilt_rods(tilt, np.zeros(7), np.zeros(7), np.zeros(7))[0]
     upper, flat = bins.lambert(y)
     assert upper.tolist()[:3] + upper.tolist()[4:] == [True] * 3 + [False] * 3
     np.testing.assert_allclose(flat[:3, 0], 2 * np.sin(tilt[:3] / 2), atol=1e-12)
@@ -246,7 +246,7 @@ def test_millions_of_runs_take_no_more_memory_than_a_chunk(runs, tmp_path):
     table = STUDY | {"duration": 0.2, "criterion": STUDY["criterion"] | {"hold": 0.1}, "chunk": 100_000}
     fp.sweep(table | {"runs": 100_000}, small, workers=1)
     columns = existing(small).read(0)
-    kept = opened(large, fp.study(table | {"runs": runs}), "", {})
+    kept = open_store(large, fp.study(table | {"runs": runs}), "", {})
     for number in range(runs // 100_000):
         kept.write(number, columns)
     assert bins.Runs(large).number == runs

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.planning.constraints import Keywords, Motion, gathered
+from flypend.planning.constraints import Keywords, Motion, gather
 from flypend.planning.dynamics import Stage
 from flypend.planning.inequalities import inequalities
 from flypend.planning.problem import request
@@ -30,10 +30,10 @@ def test_fields_one_by_one_and_in_a_record_make_the_same_plan():
 
 
 def test_a_record_and_further_fields_add_up():
-    kept = gathered("plan", fp.Constraints(floor=-0.5), {"ceiling": 1.0})
+    kept = gather("plan", fp.Constraints(floor=-0.5), {"ceiling": 1.0})
     assert kept.given == {"floor": -0.5, "ceiling": 1.0}
     np.testing.assert_array_equal(kept.walls[:, 2], [-0.5, 1.0])
-    assert gathered("plan", None, {}).given == {}
+    assert gather("plan", None, {}).given == {}
 
 
 @pytest.mark.parametrize("function", [fp.plan, fp.plan_ensemble, fp.plan_and_track, fp.nmpc])
@@ -77,8 +77,8 @@ def test_what_is_named_is_kept_by_value():
     assert kept.given == {"clearance": 0.01}
     assert fp.Constraints().clearance == kept.clearance == 0.01
     with pytest.raises(fp.InputError, match=r"^clearance: expected one value"):
-        gathered("plan", kept, {"clearance": 0.02})
-    assert gathered("plan", kept, {"floor": -1.0}).given == {"floor": -1.0, "clearance": 0.01}
+        gather("plan", kept, {"clearance": 0.02})
+    assert gather("plan", kept, {"floor": -1.0}).given == {"floor": -1.0, "clearance": 0.01}
 
 
 def test_a_box_that_changes_later_changes_no_walls():

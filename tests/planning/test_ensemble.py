@@ -9,7 +9,7 @@ from flypend.planning.durations import HORIZONS
 from flypend.planning.planner import ORDER
 from flypend.planning.problem import request
 from flypend.planning.programs import programs
-from flypend.planning.search import Job, guessed, one_by_one
+from flypend.planning.search import Job, make_guesses, one_by_one
 from flypend.planning.solver import Solver
 from flypend.planning.verdict import plans_of
 
@@ -69,8 +69,10 @@ def test_a_lane_that_is_taken_over_begins_anew():
     """Solving on in one lane changes nothing in the others, bit for bit."""
     asked = [request(HEHN, STARTS[i], "excursion", (0, 0, 0)) for i in range(8)]
     jobs = [Job(each, 1) for each in asked]
-    problem = guessed(jobs, HORIZONS[0])
-    one, other = (Solver(programs(4, asked[0].structure, lanes=True), *guessed(jobs, HORIZONS[0])) for _ in range(2))
+    problem = make_guesses(jobs, HORIZONS[0])
+    one, other = (
+        Solver(programs(4, asked[0].structure, lanes=True), *make_guesses(jobs, HORIZONS[0])) for _ in range(2)
+    )
     for solver in (one, other):
         solver.improve()
         solver.improve()
@@ -80,7 +82,7 @@ def test_a_lane_that_is_taken_over_begins_anew():
     kept = [0, 1, 2, 4, 5, 6, 7]
     np.testing.assert_array_equal(one.states[..., kept], other.states[..., kept])
     assert not np.array_equal(one.states[..., 3], other.states[..., 3])
-    fresh = Solver(programs(4, asked[0].structure, lanes=True), *guessed(jobs, HORIZONS[0]))
+    fresh = Solver(programs(4, asked[0].structure, lanes=True), *make_guesses(jobs, HORIZONS[0]))
     fresh.improve()
     np.testing.assert_array_equal(other.states[..., 3], fresh.states[..., 5])
 

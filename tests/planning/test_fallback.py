@@ -88,7 +88,7 @@ def test_a_sketch_under_which_the_rod_touches_is_not_flown(monkeypatch):
     schedule, there = sketched(waits, start, HUB)
     assert schedule is not None
     full = np.array([[HUB.rotor_limits[1], HUB.rotor_limits[0], HUB.rotor_limits[0], HUB.rotor_limits[1]]])
-    monkeypatch.setattr(fallback, "sketched", lambda _, h, begin, end: Schedule(begin, begin + 0.5, 1.0, full))
+    monkeypatch.setattr(fallback, "make_sketch", lambda _, h, begin, end: Schedule(begin, begin + 0.5, 1.0, full))
     otherwise, elsewhere = sketched(waits, start, HUB)
     assert otherwise is None
     np.testing.assert_array_equal(elsewhere, waits.until(0.0, begin_of(start, HUB), WAIT)[1])

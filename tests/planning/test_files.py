@@ -9,7 +9,7 @@ import xarray
 
 import flypend as fp
 from flypend.files.netcdf import read_netcdf, write_netcdf
-from flypend.laws.references import circle, sampled
+from flypend.laws.references import circle, sample
 
 HEHN = fp.vehicle("hehn2011")
 START = fp.State(x=(-1.0, 0.0, 0.0), y=(0, 0, 1))
@@ -87,11 +87,11 @@ def test_a_path_is_kept_at_its_samples(tmp_path):
     h = plan.t[1]
     # Chords of a circle: r (1 − cos(ω h/2)).
     np.testing.assert_allclose(
-        sampled(loaded.reference, between), sampled(path, between), atol=1.01 * 0.3 * (1 - np.cos(2.0 * h / 2))
+        sample(loaded.reference, between), sample(path, between), atol=1.01 * 0.3 * (1 - np.cos(2.0 * h / 2))
     )
     far = np.array([plan.duration, plan.duration + 5.0])
-    np.testing.assert_array_equal(sampled(loaded.reference, far), np.tile(plan.x_ref[-1], (2, 1)))
-    np.testing.assert_array_equal(sampled(loaded.path, np.array([-1.0])), plan.x_ref[:1])
+    np.testing.assert_array_equal(sample(loaded.reference, far), np.tile(plan.x_ref[-1], (2, 1)))
+    np.testing.assert_array_equal(sample(loaded.path, np.array([-1.0])), plan.x_ref[:1])
     loaded.save(tmp_path / "again.nc")
     same(loaded, fp.load_plan(tmp_path / "again.nc"))
 

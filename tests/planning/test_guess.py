@@ -5,7 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.planning.constraints import Constraints
-from flypend.planning.guess import WAYS, leaned, leans
+from flypend.planning.guess import WAYS, lean_guess, leans
 from flypend.planning.problem import request
 from flypend.planning.search import stages_of
 
@@ -22,7 +22,7 @@ def asked(window=LOW, lean=1.0):
 @pytest.mark.parametrize("style", [2, SIDEWAYS, 7])
 def test_it_passes_the_middle_of_the_window_leaning_as_wanted_at_its_speed(style):
     wish, (stages, h) = asked(), stages_of(12.5)
-    states, commands = leaned(wish, style, stages, h)
+    states, commands = lean_guess(wish, style, stages, h)
     unit = wish.units.length
     inside = LOW.inside(states[:, :3] * unit + wish.target)
     k = int(np.argmin(np.linalg.norm(inside[:, ::2], axis=1)))
@@ -41,7 +41,7 @@ def test_it_passes_the_middle_of_the_window_leaning_as_wanted_at_its_speed(style
 def left_of_the_equation(finer):
     """What λ̈ = λ − ẍ, in own units, leaves of λ̈ by differences, as a share, with stages so many times shorter."""
     stages, h = stages_of(12.5)
-    states, _ = leaned(asked(lean=1.5), SIDEWAYS, finer * stages, h / finer)
+    states, _ = lean_guess(asked(lean=1.5), SIDEWAYS, finer * stages, h / finer)
     angle, first = np.arccos(states[:, 20]), slice(5 * finer, -5 * finer)  # the first state is the start
     assert 0.5 < np.max(angle) < 1.4  # beyond 0.95 of the limit it is cut
     lean = states[:, 18:20] * (angle / np.maximum(np.sin(angle), 1e-9))[:, None]

@@ -18,7 +18,7 @@ from flypend.planning.inequalities import Structure
 from flypend.planning.problem import request
 from flypend.planning.programs import programs
 from flypend.planning.riccati import backward
-from flypend.planning.search import Job, Race, guessed, work
+from flypend.planning.search import Job, Race, make_guesses, work
 from flypend.planning.solver import Problem, Solver
 from flypend.plants.lag import step_timing
 
@@ -101,7 +101,7 @@ def test_gains_in_hover_solve_the_algebraic_riccati_equation():
 
 def test_a_solver_of_one_problem_does_what_its_lane_does():
     asked = asked_of()
-    problem, states, commands = guessed([Job(asked, style) for style in range(8)], 12.5)
+    problem, states, commands = make_guesses([Job(asked, style) for style in range(8)], 12.5)
     race = Race(programs(4, asked.structure, lanes=False), problem, states, commands, rounds={})
     together = Solver(programs(4, asked.structure, lanes=True), problem, states, commands)
     for _ in range(3):
@@ -113,7 +113,7 @@ def test_a_solver_of_one_problem_does_what_its_lane_does():
 
 def test_a_race_gives_up_the_dearest():
     asked = asked_of()
-    guesses = guessed([Job(asked, style) for style in range(8)], 12.5)
+    guesses = make_guesses([Job(asked, style) for style in range(8)], 12.5)
     race = Race(programs(4, asked.structure, lanes=False), *guesses, rounds={2: 3})
     for _ in range(2):
         race.improve()
@@ -129,7 +129,7 @@ def test_a_race_gives_up_the_dearest():
 
 def test_problems_in_turn_share_memory_without_seeing_each_other():
     asked = asked_of()
-    problem, states, commands = guessed([Job(asked, style) for style in range(8)], 12.5)
+    problem, states, commands = make_guesses([Job(asked, style) for style in range(8)], 12.5)
     race = Race(programs(4, asked.structure, lanes=False), problem, states, commands, rounds={})
 
     def column(values):
@@ -148,7 +148,7 @@ def test_problems_in_turn_share_memory_without_seeing_each_other():
 def test_every_guess_brings_a_rod_that_hangs_at_rest_over_its_pivot():
     """There nothing is to be pumped: a guess has to push first."""
     asked = request(HEHN, fp.State(y=(0, 0, -1)), "excursion", (0, 0, 0))
-    _, states, _ = guessed([Job(asked, style) for style in range(8)], 12.5)
+    _, states, _ = make_guesses([Job(asked, style) for style in range(8)], 12.5)
     assert np.all(np.max(states[:, 20], axis=0) > 0)
 
 

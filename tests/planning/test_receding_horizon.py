@@ -13,7 +13,7 @@ from flypend.planning import real_time as real_time_module
 from flypend.planning import receding_horizon
 from flypend.planning.dynamics import Units
 from flypend.planning.problem import request
-from flypend.planning.real_time import PlanInFlight, RealTime, hover_under, weighed
+from flypend.planning.real_time import PlanInFlight, RealTime, hover_under, in_weights
 from flypend.plants.equations import EquationsEngine
 from flypend.settings.laws import law_from, law_named
 
@@ -107,7 +107,7 @@ def test_forces_from_outside_move_the_end_to_the_hover_that_they_leave(planned):
 
 def test_hover_under_forces_is_an_equilibrium_of_the_plant():
     forces = np.array([0.3, -0.2, 0.1, 0.02, 0.05, -0.03])
-    outside, units = weighed(forces, np.zeros(3), HEHN), Units.of(HEHN)
+    outside, units = in_weights(forces, np.zeros(3), HEHN), Units.of(HEHN)
     hover = hover_under(outside, HEHN.m / (HEHN.M + HEHN.m), 4) * units.states(4)
     engine = EquationsEngine(HEHN)
     engine.reset(hover[:24], hover[24:])
@@ -117,7 +117,7 @@ def test_hover_under_forces_is_an_equilibrium_of_the_plant():
 
 def test_acceleration_of_the_reference_weighs_like_a_force():
     """Free fall of the frame leaves no weight: the force that it takes is one weight down, shared as the masses are."""
-    falling = weighed(np.zeros(6), np.array([0, 0, -HEHN.g]), HEHN)
+    falling = in_weights(np.zeros(6), np.array([0, 0, -HEHN.g]), HEHN)
     np.testing.assert_allclose(falling[:3] + falling[3:], [0, 0, 1], atol=1e-12)
     assert falling[5] / falling[2] == pytest.approx(HEHN.m / HEHN.M)
 

@@ -6,7 +6,7 @@ import pytest
 
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.compile.numeric import as_numpy
-from flypend.planning.riccati import Layout, backward, forward, solved
+from flypend.planning.riccati import Layout, backward, forward, solve
 
 N, M, STAGES = 4, 2, 3
 
@@ -107,5 +107,5 @@ def test_the_recursion_finds_the_minimum(problem):
 def test_a_definite_system_is_solved_by_its_factors():
     rng = np.random.default_rng(8)
     S, right = definite(rng, 5), rng.normal(size=(5, 3))
-    found = np.array(ca.DM(ca.evalf(solved(ca.SX(ca.DM(S)), ca.SX(ca.DM(right))))))
+    found = np.array(ca.DM(ca.evalf(solve(ca.SX(ca.DM(S)), ca.SX(ca.DM(right))))))
     np.testing.assert_allclose(found, np.linalg.solve(S, right), rtol=1e-9)

@@ -10,7 +10,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.model import State
 from flypend.plants.cascade import cascade_step
 from flypend.plants.equations import EquationsEngine, runge_kutta_step
-from flypend.plants.lag import Ramp, held_in_turn
+from flypend.plants.lag import Ramp, hold_in_turn
 
 LOPSIDED = fp.vehicle("hehn2011").replace(inertia=[[0.0032, 2e-4, -1e-4], [2e-4, 0.0041, 3e-4], [-1e-4, 3e-4, 0.0055]])
 SPINNING = State(x_dot=(1, -2, 0.5), omega=(6, -9, 4), y=(0.6, 0, 0.8), y_dot=(0, 5, 0))
@@ -110,7 +110,7 @@ def test_one_step_predicts_28_ms_of_commands(commands, speed, axis, rates):
         for command in given:
             for _ in range(20):
                 engine.step(command, 1e-4, np.zeros(6))
-        ramp, end = held_in_turn(rotors, list(given), [2e-3] * 14, vehicle.rotor_lag)
+        ramp, end = hold_in_turn(rotors, list(given), [2e-3] * 14, vehicle.rotor_lag)
         state = step(start, mixing @ ramp.mean, mixing @ ramp.change, np.zeros(6), 0.028)
         error = np.abs(state - engine.packed)
         assert np.max(error[6:15]) < axis

@@ -15,7 +15,7 @@ from flypend.errors import InputError
 from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
 from flypend.plants import SUITES, Plant, Sensor, Sensors
-from flypend.plants.defects import CONSTANT, NAMES, NEEDS, NUMBERS, drawn
+from flypend.plants.defects import CONSTANT, NAMES, NEEDS, NUMBERS, names_drawn
 from flypend.plants.loop import Loop
 from flypend.plants.sensing import WIDTH, _defect_draws, draws_of, draws_size, first_memory, sensing, start_draws
 from flypend.plants.sensors import sensors_called
@@ -163,7 +163,7 @@ def test_errors_come_in_the_order_scale_bias_and_marker_frame():
 
 def test_a_number_draws_an_error_for_each_flight():
     suite = EVERY.replace(gyro_bias=0.01, frame_off=0.2)
-    assert drawn(suite) == ["gyro_bias", "frame_off"]
+    assert names_drawn(suite) == ["gyro_bias", "frame_off"]
     states = np.tile(wandering(1), (10, 1))
     truth, biases, offsets = fp.State.trusted(states[0]), [], []
     for seed in range(400):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 
-from flypend.plants.lag import held, held_in_turn, step_timing
+from flypend.plants.lag import hold, hold_in_turn, step_timing
 
 DURATIONS = {
     "one": [0.02],
@@ -35,7 +35,7 @@ def by_quadrature(rotors, commands, durations, lag):
 def test_several_commands_in_turn(durations, lag):
     rng = np.random.default_rng(1)
     rotors, commands = rng.uniform(0, 3, 4), rng.uniform(0, 3, (len(durations), 4))
-    ramp, end = held_in_turn(rotors, list(commands), durations, lag)
+    ramp, end = hold_in_turn(rotors, list(commands), durations, lag)
     mean, change, last = by_quadrature(rotors, commands, durations, lag)
     np.testing.assert_allclose(ramp.mean, mean, rtol=0, atol=1e-13)
     # Roundoff of the end, 1e-16 N, comes in 12 (T/H)² times, and T/H is 62 at most.
@@ -47,14 +47,14 @@ def test_several_commands_in_turn(durations, lag):
 def test_one_command_is_the_case_of_one(lag):
     rng = np.random.default_rng(4)
     rotors, command = rng.uniform(0, 3, (2, 4))
-    one, end = held(rotors, command, step_timing(lag, 2e-3))
-    turn, last = held_in_turn(rotors, [command], [2e-3], lag)
+    one, end = hold(rotors, command, step_timing(lag, 2e-3))
+    turn, last = hold_in_turn(rotors, [command], [2e-3], lag)
     for a, b in zip((*one, end), (*turn, last), strict=True):
         np.testing.assert_allclose(a, b, rtol=0, atol=1e-12)
 
 
 def test_a_ramp_starts_and_ends_about_its_mean():
-    ramp, _ = held(np.array([0.0]), np.array([1.0]), step_timing(1.0, 1e-3))
+    ramp, _ = hold(np.array([0.0]), np.array([1.0]), step_timing(1.0, 1e-3))
     # Over a thousandth of the lag the force rises along its tangent, 1e-3, up to second order.
     assert ramp.start == pytest.approx(0.0, abs=1e-6)
     assert ramp.end == pytest.approx(1e-3, abs=1e-6)

@@ -11,7 +11,7 @@ from flypend.compile.program import lower
 from flypend.plants import ROTORS, Plant
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rotor_step
-from flypend.plants.motors import delivered, followed, motor_timing, timing_size
+from flypend.plants.motors import follow, motor_timing, settle_forces, timing_size
 
 VEHICLE = fp.vehicle("hehn2011")
 LEAST, MOST = VEHICLE.rotor_limits
@@ -21,7 +21,7 @@ ENGINES = pytest.mark.parametrize("engine", ["equations", "mujoco"])
 
 def settled(command, plant):
     u = ca.SX.sym("u", 4)
-    return as_numpy(ca.Function("delivered", [u], [delivered(u, VEHICLE, plant)]))(np.asarray(command, dtype=float))
+    return as_numpy(ca.Function("delivered", [u], [settle_forces(u, VEHICLE, plant)]))(np.asarray(command, dtype=float))
 
 
 def rotors_after(command, begin, duration, plant, steps=1):
@@ -51,7 +51,7 @@ def test_a_ramp_has_the_mean_and_the_first_moment_of_what_it_stands_for():
     plant, h = Plant(spin_up=1.8), 5e-3
     begin, command = np.array([0.1, 3.0]), np.array([2.0, 1.0])
     r, u, timing = ca.SX.sym("r", 2), ca.SX.sym("u", 2), ca.SX.sym("h", timing_size(plant))
-    ramp, _ = followed(r, u, timing)
+    ramp, _ = follow(r, u, timing)
     mean, change = as_numpy(ca.Function("ramp", [r, u, timing], [ramp.mean, ramp.change]))(
         begin, command, motor_timing(0.02, plant, h)
     )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flypend.plants.schedule import Segment, ahead, in_steps
+from flypend.plants.schedule import Segment, in_steps, segments_ahead
 
 CASES = {
     "12 commands in one step": (0.024, 2e-3, 0.025, [12]),
@@ -17,7 +17,7 @@ CASES = {
 
 @pytest.mark.parametrize(("latency", "period", "longest", "parts"), CASES.values(), ids=CASES)
 def test_steps_span_commands_and_divide_long_ones(latency, period, longest, parts):
-    segments = ahead(latency, period)
+    segments = segments_ahead(latency, period)
     steps = in_steps(segments, longest)
     assert [len(step) for step in steps] == parts
     # In order, every command for as long as it is held.

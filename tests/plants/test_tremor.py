@@ -10,7 +10,7 @@ from flypend.flight.request import Flight
 from flypend.laws import inverted
 from flypend.plants import SUITES, Plant
 from flypend.plants.loop import Loop
-from flypend.plants.tremor import MOST_TREMOR, calmed, tremor
+from flypend.plants.tremor import MOST_TREMOR, calm, tremor
 
 VEHICLE = fp.vehicle("hehn2011")
 UPRIGHT = fp.State(y=(0.0, 0.0, 1.0))
@@ -47,8 +47,8 @@ def test_noise_of_the_readings_passes_through_in_proportion():
 
 def test_gains_are_as_calm_as_the_sensors_need():
     law = inverted().bind(VEHICLE)
-    assert calmed(law, Plant(sensors=MOCAP)) is law
-    slower = calmed(law, Plant(sensors=SLOW))
+    assert calm(law, Plant(sensors=MOCAP)) is law
+    slower = calm(law, Plant(sensors=SLOW))
     assert slower.calm > 0
     assert tremor(slower, SLOW, 0.002).axis < MOST_TREMOR < tremor(law, SLOW, 0.002).axis
     assert slower.gains["rod_damping"] > law.gains["rod_damping"]
@@ -71,19 +71,19 @@ def test_a_flight_takes_the_gains_of_its_sensors_and_back():
 
 def test_given_gains_stay():
     damped = inverted(rod_damping=0.5).bind(VEHICLE)
-    found = calmed(damped, Plant(sensors=SLOWER))
+    found = calm(damped, Plant(sensors=SLOWER))
     assert found.gains["rod_damping"] == 0.5
     assert found.gains["rate_feedforward"] > damped.gains["rate_feedforward"]
-    assert calmed(PLAIN, Plant(sensors=SLOWER)) is PLAIN
+    assert calm(PLAIN, Plant(sensors=SLOWER)) is PLAIN
     paper = fp.vehicle("nayak2018")  # too slow to have calmer gains
     slow = inverted().bind(paper)
-    assert calmed(slow, Plant(sensors=SLOWER)) is slow
+    assert calm(slow, Plant(sensors=SLOWER)) is slow
 
 
 def test_a_law_on_a_path_is_calmed_for_hover_and_stays_on_its_path():
     law = inverted(reference=fp.laws.references.circle(0.5, 4.0)).bind(VEHICLE)
-    found = calmed(law, Plant(sensors=SLOWER))
-    assert found.calm == calmed(inverted().bind(VEHICLE), Plant(sensors=SLOWER)).calm
+    found = calm(law, Plant(sensors=SLOWER))
+    assert found.calm == calm(inverted().bind(VEHICLE), Plant(sensors=SLOWER)).calm
     assert found.path is law.path
     assert found.reference is law.reference
 

@@ -18,7 +18,7 @@ from rich.console import Console
 
 import flypend as fp
 from flypend.files import whole as files
-from flypend.files.staging import check_writable, staged
+from flypend.files.staging import check_writable, staging
 from flypend.geometry import norm
 from flypend.paper import experiment, experiment_names
 from flypend.paper.claims import SETTLED, Finding, Runs, Verdict, theorem_claims
@@ -55,7 +55,7 @@ FILLED = {"report.md": b"new", "runs": None, "runs/deep": None, "runs/deep/1.nc"
 
 @pytest.mark.parametrize("form", [str, Path])
 def test_a_folder_that_is_new_appears_with_its_files(tmp_path, form):
-    with staged(form(tmp_path / "out")) as folder:
+    with staging(form(tmp_path / "out")) as folder:
         fill(folder)
         assert not (tmp_path / "out").exists()
         assert folder.parent == tmp_path  # on the file system where it has to go
@@ -69,7 +69,7 @@ def test_a_folder_that_exists_keeps_its_other_files(tmp_path):
     (out / "report.md").write_text("old")
     (out / "runs" / "2.nc").write_text("other")
     (out / "runs" / "deep" / "notes").write_text("mine")
-    with staged(out) as folder:
+    with staging(out) as folder:
         fill(folder)
         assert (out / "report.md").read_text() == "old"
     assert content(out) == FILLED | {"runs/2.nc": b"other", "runs/deep/notes": b"mine"}
@@ -77,7 +77,7 @@ def test_a_folder_that_exists_keeps_its_other_files(tmp_path):
 
 def test_a_folder_may_be_the_one_where_one_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with staged(".") as folder:
+    with staging(".") as folder:
         fill(folder)
     assert content(tmp_path) == FILLED
 
@@ -85,7 +85,7 @@ def test_a_folder_may_be_the_one_where_one_stands(tmp_path, monkeypatch):
 def test_a_link_to_a_folder_is_a_folder(tmp_path):
     (tmp_path / "real").mkdir()
     (tmp_path / "out").symlink_to(tmp_path / "real")
-    with staged(tmp_path / "out") as folder:
+    with staging(tmp_path / "out") as folder:
         fill(folder)
     assert content(tmp_path / "real") == FILLED
     assert (tmp_path / "out").is_symlink()
@@ -101,7 +101,7 @@ def test_what_fails_leaves_nothing(tmp_path, error, exists):
     before = content(tmp_path)
 
     def half():
-        with staged(out) as folder:
+        with staging(out) as folder:
             fill(folder)
             raise error
 
@@ -112,7 +112,7 @@ def test_what_fails_leaves_nothing(tmp_path, error, exists):
 
 def test_a_failing_write_is_told_in_one_line(tmp_path):
     def write():
-        with staged(tmp_path / "out") as folder:
+        with staging(tmp_path / "out") as folder:
             fill(folder)
             (folder / "report.md" / "below").write_text("impossible")
 
@@ -128,7 +128,7 @@ def test_a_full_disk_is_told_in_one_line(tmp_path, monkeypatch, out):
     before = content(tmp_path)
 
     def write(*error):
-        with staged(out) as folder:
+        with staging(out) as folder:
             fill(folder)
             raise OSError(*(str(folder / "report.md") if part == "file" else part for part in error))
 
@@ -141,7 +141,7 @@ def test_a_full_disk_is_told_in_one_line(tmp_path, monkeypatch, out):
 
 def test_a_missing_program_is_not_blamed_on_the_folder(tmp_path):
     def film():
-        with staged(tmp_path / "out") as folder:
+        with staging(tmp_path / "out") as folder:
             fill(folder)
             subprocess.run([tmp_path / "ffmpeg"], check=True)
 
@@ -166,7 +166,7 @@ def test_what_stands_in_the_way_stops_all_files(tmp_path, blocked, line):
     before = content(tmp_path)
 
     def write():
-        with staged(tmp_path / "out") as folder:
+        with staging(tmp_path / "out") as folder:
             fill(folder)
             (folder / "a-first").write_text("new")
             (folder / "z-last").write_text("new")
@@ -192,7 +192,7 @@ def test_what_cannot_be_a_folder_is_refused_before_the_work(tmp_path, out, line)
     before = content(tmp_path)
 
     def work():
-        with staged(tmp_path / out):
+        with staging(tmp_path / out):
             pytest.fail("worked")
 
     for refused in (work, partial(check_writable, tmp_path / out), partial(reproduce, tmp_path / out)):
@@ -213,7 +213,7 @@ def test_checking_leaves_nothing(tmp_path, exists):
 
 def test_a_folder_is_as_readable_as_any_other(tmp_path):
     (tmp_path / "usual").mkdir()
-    with staged(tmp_path / "out") as folder:
+    with staging(tmp_path / "out") as folder:
         fill(folder)
     for name in ("out", "out/runs"):
         mode = stat.S_IMODE((tmp_path / name).stat().st_mode)

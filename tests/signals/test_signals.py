@@ -52,7 +52,7 @@ def test_casadi_still_swallows():
 def test_an_interrupt_that_would_be_swallowed_comes_at_the_next_poll():
     swallow()  # lost
     ran = []
-    with pytest.raises(KeyboardInterrupt), signals.deferred():  # noqa: PT012
+    with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         swallow()
         ran.append("the block goes on")
         signals.poll()
@@ -65,16 +65,16 @@ def test_an_interrupt_that_would_be_swallowed_comes_at_the_next_poll():
 
 @pytest.mark.usefixtures("handlers")
 def test_an_interrupt_that_nothing_polls_comes_at_the_end_of_the_block_whatever_else_is_raised():
-    with pytest.raises(KeyboardInterrupt), signals.deferred():
+    with pytest.raises(KeyboardInterrupt), signals.defer():
         strike()
-    with pytest.raises(KeyboardInterrupt), signals.deferred():  # noqa: PT012
+    with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         strike()
         raise fp.InputError("pipe", "whole", "broken by the same signal")
 
 
 @pytest.mark.usefixtures("handlers")
 def test_a_second_interrupt_is_not_deferred():
-    with pytest.raises(KeyboardInterrupt), signals.deferred():  # noqa: PT012
+    with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         strike()
         with pytest.raises(KeyboardInterrupt):
             strike()
@@ -88,12 +88,12 @@ def test_a_handler_of_a_script_keeps_its_meaning():
         raise OwnError(number)
 
     signal.signal(signal.SIGTERM, raises)
-    with pytest.raises(OwnError), signals.deferred():  # noqa: PT012
+    with pytest.raises(OwnError), signals.defer():  # noqa: PT012
         strike(signal.SIGTERM)
         signals.poll()
     signal.signal(signal.SIGTERM, lambda number, _: heard.append(number))
-    with signals.deferred():
-        with signals.deferred():
+    with signals.defer():
+        with signals.defer():
             strike(signal.SIGTERM)
         signals.poll()  # it wants nothing to stop
     assert heard == [signal.SIGTERM]
@@ -121,7 +121,7 @@ def test_other_threads_leave_handlers_alone():
     found = []
 
     def look():
-        with signals.deferred():
+        with signals.defer():
             found.append(signal.getsignal(signal.SIGINT))
 
     thread = threading.Thread(target=look)
@@ -132,11 +132,11 @@ def test_other_threads_leave_handlers_alone():
 
 @pytest.mark.usefixtures("handlers")
 def test_waiting_for_a_call_and_for_a_program_polls():
-    with pytest.raises(KeyboardInterrupt), signals.deferred():  # noqa: PT012
+    with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         strike()
         waiting.result_of(Future())  # never done
     begin = time.monotonic()
-    with pytest.raises(KeyboardInterrupt), signals.deferred():  # noqa: PT012
+    with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         threading.Timer(0.3, strike).start()
         waiting.run([sys.executable, "-c", "import time; time.sleep(60)"])
     assert time.monotonic() - begin < 30

@@ -9,7 +9,7 @@ from flypend.flight.request import Flight
 from flypend.plants import Sampled
 from flypend.settings.runfile import plant_of
 from flypend.studies.bands import fly_within, worlds_within
-from flypend.studies.failed import failed_runs
+from flypend.studies.failed import files_of_failures
 
 MINE = fp.Vehicle.estimate(
     mass=0.62, arm=0.17, propeller="8x4.5", motor="920 KV", battery="3S", rod_length=0.9, rod_mass=0.03, bob_mass=0.04
@@ -81,7 +81,7 @@ def test_a_failed_flight_names_the_world_in_which_it_failed():
     plant = {"base": "rotors", "seed": 5}
     worlds = list(worlds_within(NEAR, plant_of(plant), 1, draws=2).values())
     compared = fp.compare(NEAR, fp.laws.corrected(), fp.random_starts(6, 3), 1.0, plant=worlds)
-    failed = failed_runs(compared, ["corrected"], plant, 1.0, worlds)
+    failed = files_of_failures(compared, ["corrected"], plant, 1.0, worlds)
     assert len(failed) == 6  # it hangs the rod
     for run, place in ((0, 0), (3, 1), (5, 2)):
         assert plant_of(failed[f"corrected-{run}"]["plant"]) == worlds[place].replace(seed=5 + run)

@@ -10,7 +10,7 @@ from flypend.flight.tasks import LEANS, task_starts
 from flypend.report.check import check_tables, margin_cells, task_cells, verdicts, write_check
 from flypend.studies.check import caught
 from flypend.studies.check import check as examine
-from flypend.studies.possible import told
+from flypend.studies.possible import describe
 
 HEHN = fp.vehicle("hehn2011")
 FEW = {"runs": 32, "duration": 8.0, "margins": False}
@@ -70,7 +70,7 @@ def test_what_a_law_cannot_do_is_planned_to_tell_law_from_vehicle():
 def test_where_there_is_no_plan_no_law_is_blamed():
     short = fp.plan_ensemble(HEHN, fp.random_starts(2, 1), duration=0.2)
     limit = "the limit may be the vehicle's, not the lqr law's"
-    assert told(short, "lqr") == f"plans reach inverted hover from 0 of 2 random starts: {limit}"
+    assert describe(short, "lqr") == f"plans reach inverted hover from 0 of 2 random starts: {limit}"
 
 
 def test_rotors_without_limits_lift_anything_and_the_lag_of_the_plant_counts():

@@ -14,7 +14,7 @@ from short_study import SHORT, content
 import flypend as fp
 from flypend.files.toml import toml_text
 from flypend.studies.sweep.bins import Runs
-from flypend.studies.sweep.claim import alone, lock_of
+from flypend.studies.sweep.claim import lock_name, lock_of
 from flypend.studies.sweep.store import existing
 
 
@@ -36,14 +36,14 @@ def again(path):
 
 def test_force_does_not_take_the_store_of_a_sweep_that_writes_it(store):
     sound = content(store)
-    with alone(store), pytest.raises(fp.InputError, match="a store that no other sweep is writing"):
+    with lock_name(store), pytest.raises(fp.InputError, match="a store that no other sweep is writing"):
         fp.sweep(SHORT | {"seed": 2}, store, workers=1, force=True)
     assert content(store) == sound
 
 
 def test_nobody_creates_a_store_beside_a_sweep_that_begins_it(tmp_path):
     path = tmp_path / "a.zarr"
-    with alone(path), pytest.raises(fp.InputError, match="a store that no other sweep is writing"):
+    with lock_name(path), pytest.raises(fp.InputError, match="a store that no other sweep is writing"):
         fp.sweep(SHORT, path, workers=1)
     assert not path.exists()
 
@@ -51,7 +51,7 @@ def test_nobody_creates_a_store_beside_a_sweep_that_begins_it(tmp_path):
 def test_the_lock_stays_and_is_not_followed(tmp_path):
     """Unlinking a lock splits those who wait for it from those who come later: they lock two files of one name."""
     path = tmp_path / "a.zarr"
-    with alone(path):
+    with lock_name(path):
         inode = lock_of(path).stat().st_ino
     assert lock_of(path).stat().st_ino == inode
     lock_of(path).unlink()

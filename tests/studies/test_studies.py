@@ -716,7 +716,7 @@ def test_the_setup_is_theirs():
     assert circles.PLANT.noise.x > 0
     time = np.linspace(0, 2 * np.pi / circles.RATE, 50)
     for case, radius in (("circle R = 0.1 m", 0.1), ("circle R = 0.5 m", 0.5), ("hover", 0.0)):
-        path = fp.laws.references.sampled(circles.CASES[case], time)
+        path = fp.laws.references.sample(circles.CASES[case], time)
         np.testing.assert_allclose(np.hypot(path[:, 0], path[:, 1]), radius, atol=1e-12)
 
 

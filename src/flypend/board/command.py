@@ -72,7 +72,7 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     wrench = steer(t, packed, forces, path, gains, believed.vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
     wrench = ca.substitute(wrench, t, t + horizon)
-    command = finished(loop, believed, wrench, packed, rotors)
+    command = to_command(loop, believed, wrench, packed, rotors)
     inputs = [t, horizon, packed, rotors, forces, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
 
@@ -80,11 +80,11 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
 def finish(loop: Loop, believed: Believed) -> ca.Function:
     """Return (wrench (4,) with e₃ up, state (24,), rotors (n,), params) → command, for a callable law."""
     wrench, packed, rotors = ca.SX.sym("W", 4), ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors)
-    command = finished(loop, believed, wrench, packed, rotors)
+    command = to_command(loop, believed, wrench, packed, rotors)
     return ca.Function("finish", [wrench, packed, rotors, believed.symbols], [ca.densify(command)])
 
 
-def finished(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers, rotors: Numbers) -> Numbers:
+def to_command(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers, rotors: Numbers) -> Numbers:
     """Return the command for a wrench (4,), e₃ up, in CasADi; NaN for an invalid wrench, which limits would hide."""
     thrust, moment = wrench[0], wrench[1:]
     vehicle, plant = believed.vehicle, loop.sampled
@@ -93,13 +93,13 @@ def finished(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers, r
         free = moment - gyroscopic_moment(vehicle.I, omega)
         return ca.vertcat(thrust, omega + apply(vehicle.I_inv, free) / plant.rate_loop_gain)
     lead = usable_lead(loop.law, loop.vehicle, plant)
-    command = led(rotor_forces(thrust, moment, vehicle, plant.limits), rotors, lead)
+    command = lead_rotors(rotor_forces(thrust, moment, vehicle, plant.limits), rotors, lead)
     if plant.limits:
         command = ca.fmin(ca.fmax(command, vehicle.rotor_limits[0]), vehicle.rotor_limits[1])
     return ca.if_else(ca.norm_1(wrench) < np.inf, command, np.nan)
 
 
-def led(wanted: Numbers, rotors: Numbers, lead: Scalar) -> Numbers:
+def lead_rotors(wanted: Numbers, rotors: Numbers, lead: Scalar) -> Numbers:
     """Return commands (n,), N, that drive `rotors`, modelled forces (n,), to `wanted`; `lead` as in `Computer`."""
     return rotors + lead * (wanted - rotors)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
-from flypend.board.program import Parts, filters, initial_memory, known, parts, predicting, remembering
+from flypend.board.program import Parts, filters, initial_memory, known_to_computer, parts, predicting, remembering
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import Numbers
 from flypend.laws import Controller
@@ -50,7 +50,7 @@ class SteppedBoard:
     """
 
     def __init__(self, loop: Loop, rotors: Numbers, estimate: Numbers = None, steer: Steer | None = None) -> None:
-        self._stages = _stages(replace(loop, plant=known(loop.sampled)))
+        self._stages = _stages(replace(loop, plant=known_to_computer(loop.sampled)))
         self.law: Steer = self._stages.steer
         self._steer = steer or self.law
         memory = initial_memory(loop, np.asarray(rotors, dtype=float), estimate)
@@ -111,7 +111,7 @@ class _Stages(NamedTuple):
 @lru_cache(maxsize=64)
 def _stages(loop: Loop) -> _Stages:
     made, estimating = parts(loop), None
-    steer = _called(loop, loop.law) if isinstance(loop.law, Controller) else _compiled(loop, made.believed)
+    steer = _call(loop, loop.law) if isinstance(loop.law, Controller) else _compile(loop, made.believed)
     if made.estimator is not None:
         carry, first = made.estimator.carry(), made.memory.place("commands").start
         correct = as_numpy(made.estimator.correct())
@@ -119,12 +119,12 @@ def _stages(loop: Loop) -> _Stages:
     return _Stages(made, as_numpy(predicting(made)), steer, as_numpy(remembering(made)), estimating)
 
 
-def _compiled(loop: Loop, believed: Believed) -> Callable[..., Any]:
+def _compile(loop: Loop, believed: Believed) -> Callable[..., Any]:
     law = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
     return lambda t, state, rotors, forces: law(t, 0.0, state, rotors, forces, NONE, NONE, NONE)
 
 
-def _called(loop: Loop, law: Controller) -> Callable[..., Any]:
-    """Like `_compiled`, for a callable `law`."""
+def _call(loop: Loop, law: Controller) -> Callable[..., Any]:
+    """Like `_compile`, for a callable `law`."""
     end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
     return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)

@@ -27,7 +27,7 @@ from flypend.laws.inverted_gains import angular_authority
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
 from flypend.plants.cascade import cascade_step
-from flypend.plants.lag import Ramp, held, step_timing
+from flypend.plants.lag import Ramp, hold, step_timing
 
 # Time over which the past is forgotten, s.
 FORGETTING = 0.5
@@ -138,7 +138,7 @@ class DelayEstimator:
         e = self._lag_left
         if e == 0:
             return Ramp(impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever))
-        forces, _ = held(rotors, command, step_timing(self._believed.lag, e))
+        forces, _ = hold(rotors, command, step_timing(self._believed.lag, e))
         last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
         first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
         return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)

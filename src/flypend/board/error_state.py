@@ -75,7 +75,7 @@ def frame(b: Vector, y: Vector) -> Numbers:
     return ca.horzcat(b, cross(y, b))
 
 
-def carried_frame(b: Vector, y: Vector, y_after: Vector) -> Vector:
+def carry_frame(b: Vector, y: Vector, y_after: Vector) -> Vector:
     """Return the tangent vector `b` (3,) at `y` carried to `y_after` by the shortest rotation."""
     return b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)
 
@@ -86,7 +86,7 @@ def any_tangent(y: Vector) -> Vector:
     return unit(tangent_part(y, ca.vertcat(level, 1 - level, 0)))
 
 
-def unpacked(numbers: Numbers) -> Numbers:
+def unpack(numbers: Numbers) -> Numbers:
     """Return the covariance (n, n) of its `numbers` (n (n + 1)/2,), the lower triangle by rows."""
     size = int(np.sqrt(2 * numbers.numel()))
     P = ca.SX(size, size)
@@ -95,7 +95,7 @@ def unpacked(numbers: Numbers) -> Numbers:
     return P
 
 
-def packed(P: Numbers) -> Numbers:
+def pack(P: Numbers) -> Numbers:
     """Return the numbers (n (n + 1)/2,) of a covariance (n, n)."""
     return ca.vertcat(*(P[int(i), int(j)] for i, j in zip(*np.tril_indices(P.shape[0]), strict=True)))
 
@@ -112,7 +112,7 @@ def first_covariance(start: Noise, s: State, B: Numbers, vehicle: Vehicle) -> Nu
     return J @ ca.diag(ca.SX(variances)) @ J.T
 
 
-def updated(
+def update(
     P: Numbers, streams: Sequence[Sequence[Reading]], rejections: Numbers, calm: Scalar = 1.0
 ) -> tuple[Numbers, Numbers, Numbers]:
     """Return the error (n,) that the readings of `streams` tell, one by one, its covariance, and the `rejections`.
@@ -138,12 +138,12 @@ def updated(
             if P.shape[0] > ERRORS:
                 error[biases] -= (1 - calm) * gain[biases] * left
                 learnt[biases, biases] *= calm * (2 - calm)
-            P = unpacked(packed(P - learnt))
+            P = unpack(pack(P - learnt))
         after.append(ca.fmin(ca.fmax(rejected + arrived * (2 * far - 1), 0), 2 * PATIENCE))
     return error, P, ca.vertcat(*after)
 
 
-def corrected(s: State, b: Vector, error: Numbers, vehicle: Vehicle) -> tuple[State, Vector, Matrix]:
+def correct(s: State, b: Vector, error: Numbers, vehicle: Vehicle) -> tuple[State, Vector, Matrix]:
     """Return the estimate `s` and the tangent vector `b`, corrected by an `error` (n,), and the turn (3, 3)."""
     B, a = frame(b, s.y), lever(vehicle)
     turn = rotation_by(error[TURN])
@@ -168,7 +168,9 @@ class Densities(NamedTuple):
     turning: float
 
 
-def spread(P: Numbers, s: State, b: Vector, force: Vector, vehicle: Vehicle, h: float, densities: Densities) -> Numbers:
+def propagate(
+    P: Numbers, s: State, b: Vector, force: Vector, vehicle: Vehicle, h: float, densities: Densities
+) -> Numbers:
     """Return the covariance (n, n) a time `h` (s) after `P` at the state `s`, under the vehicle's `force` (3,), N."""
     B, M, m, size = frame(b, s.y), vehicle.M, vehicle.m, P.shape[0]
     u, w = force / (M * vehicle.l), B.T @ s.y_dot
@@ -242,6 +244,6 @@ def rod_rate_rows(B: Numbers, y: Vector, y_dot: Vector) -> Numbers:
     return H
 
 
-def turned_by(R: Matrix) -> Vector:
+def rotation_vector(R: Matrix) -> Vector:
     """Return the rotation vector (3,) of a small turn `R` (3, 3), to second order."""
     return ca.vertcat(R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]) / 2

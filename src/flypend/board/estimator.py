@@ -108,8 +108,8 @@ class Filter:
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
             "bandwidth": UNSEEN_BANDWIDTH if self.sensors.attitude is None else FIRST_BANDWIDTH,
             "bias": np.zeros(3), "rejections": np.zeros(len(self.gated)),
-            "felt": felt.begun(vehicle), "late": 0, "late_doubt": LATE**2,
-            "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.packed(P),
+            "felt": felt.begin(vehicle), "late": 0, "late_doubt": LATE**2,
+            "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.pack(P),
             "past": self.history.begun(rows, weight),
         })  # fmt: skip
         return ca.Function("estimate_begun", [rotors, packed, self._believed.symbols], [ca.densify(memory)])
@@ -131,10 +131,10 @@ class Filter:
         thrust = ca.sum1(parts["rotors"])
         departure = _departure(thrust * before.z + parts["force"] + self._felt(parts, before.R), vehicle)
         calm = 1 / (1 + departure / HOVERING**2)
-        error, P, rejections = error_state.updated(
-            error_state.unpacked(parts["covariance"]), expected.readings(vehicle), parts["rejections"], calm
+        error, P, rejections = error_state.update(
+            error_state.unpack(parts["covariance"]), expected.readings(vehicle), parts["rejections"], calm
         )
-        s, b, turn = error_state.corrected(before, frame, error, vehicle)
+        s, b, turn = error_state.correct(before, frame, error, vehicle)
         limit = self._loop.law.computer.force_limit * vehicle.weight
         bias = parts["bias"]
         if self.sensors.attitude is None:
@@ -151,16 +151,16 @@ class Filter:
             if self.sensors.attitude is None:
                 correction = error[error_state.FELT_BIAS]
                 taken = felt.force_of(correction, s.R.T @ s.y, vehicle)
-                parts["felt"] = felt.unbiased(parts["felt"], correction, taken)
+                parts["felt"] = felt.correct_bias(parts["felt"], correction, taken)
             else:
-                parts["felt"] = felt.unbiased(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
+                parts["felt"] = felt.correct_bias(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
             fresh, told = expected.felt(felt.RECORD.split(parts["felt"])["bias"], vehicle)
             given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
-            parts["felt"] = felt.corrected(parts["felt"], *given)
+            parts["felt"] = felt.correct(parts["felt"], *given)
             outside = outside + ca.vertcat(self._felt(parts, s.R), np.zeros(3))
         parts |= {
             "state": s.packed(), "frame": b, "force": force, "difference": difference, "bias": bias,
-            "rejections": rejections, "turned": ca.vec((turn @ known).T), "covariance": error_state.packed(P),
+            "rejections": rejections, "turned": ca.vec((turn @ known).T), "covariance": error_state.pack(P),
         }  # fmt: skip
         outputs = ca.cse([ca.densify(v) for v in (self.record.join(parts), s.packed(), outside)])
         return ca.Function("correct", [memory, readings, self._believed.symbols], outputs)
@@ -175,7 +175,7 @@ class Filter:
         if attitude is None:
             return ca.SX(1)
         assert gyro is not None
-        P = error_state.unpacked(covariance)[error_state.TURN, error_state.TURN]
+        P = error_state.unpack(covariance)[error_state.TURN, error_state.TURN]
         steady = np.sqrt(gyro.density(self.period) * attitude.density(self.period))
         return ca.fmin(3 * steady / ca.trace(P), 1)
 
@@ -183,7 +183,7 @@ class Filter:
         """Correct in `parts` how much older poses are than told, by how far the attitude read lags behind its rate."""
         assert self.sensors.attitude is not None
         turn, rate = expected.lateness()
-        P = error_state.unpacked(parts["covariance"])[error_state.TURN, error_state.TURN]
+        P = error_state.unpack(parts["covariance"])[error_state.TURN, error_state.TURN]
         doubt = parts["late_doubt"] + self.period * LATE_WALK**2
         variance = doubt * dot(rate, rate) + self.sensors.attitude.variance + ca.trace(P) / 3
         near = dot(turn, turn) < error_state.GATE**2 * variance  # another body tells nothing
@@ -199,7 +199,7 @@ class Filter:
 
     def carry(self) -> ca.Function:
         """Return (memory, outside, commands by age, params) → memory a control period later."""
-        segments = assumed_segments(self._loop.sampled)
+        segments = segments_of(self._loop.sampled)
         count = 1 + max(segment.age for segment in segments)
         width = 4 if self._loop.sampled.interface == "rates" else self._believed.rotors
         memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", 6)
@@ -220,11 +220,11 @@ class Filter:
         parts, vehicle, h = self.record.split(memory), self._believed.vehicle, self.period
         s, s_after = State.symbolic(parts["state"]), State.symbolic(after)
         force = ca.sum1(parts["rotors"]) * s.z + outside[:3]
-        P = error_state.unpacked(parts["covariance"])
-        P = error_state.spread(P, s, parts["frame"], force, vehicle, h, self._densities(force + outside[3:]))
+        P = error_state.unpack(parts["covariance"])
+        P = error_state.propagate(P, s, parts["frame"], force, vehicle, h, self._densities(force + outside[3:]))
         parts |= {
-            "frame": error_state.carried_frame(parts["frame"], s.y, s_after.y),
-            "covariance": error_state.packed(P),
+            "frame": error_state.carry_frame(parts["frame"], s.y, s_after.y),
+            "covariance": error_state.pack(P),
             "past": self._remembered(parts, s, s_after),
         }
         rest = self.record.join(parts)[self.record.place("frame").start :]
@@ -300,15 +300,15 @@ def _lasting(
     return total, difference, ca.vertcat(total - on_bob, on_bob)
 
 
-def assumed_delay(plant: Plant) -> float:
+def delay_of(plant: Plant) -> float:
     """Return the delay (s) from measurement to command that the estimator in a `plant` with sensors assumes."""
     given = plant.sensors.command_delay
     return float(plant.delay if given is None else given)
 
 
-def assumed_segments(plant: Plant) -> tuple[Segment, ...]:
+def segments_of(plant: Plant) -> tuple[Segment, ...]:
     """Return the intervals of a control period by the age of the command that acts, as the estimator assumes them."""
-    return within_period(assumed_delay(plant), 1 / plant.rate)
+    return within_period(delay_of(plant), 1 / plant.rate)
 
 
 def steady_gain(wander: float, noise: float) -> float:

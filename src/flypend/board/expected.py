@@ -75,7 +75,7 @@ class Expected:
         Both in the world; one that is older than believed is turned back at that rate.
         """
         age = self._read["attitude_age"]
-        rate = errors.turned_by(self._s.R @ self._attitude_at(age).T) / ca.fmax(age, self._history.period)
+        rate = errors.rotation_vector(self._s.R @ self._attitude_at(age).T) / ca.fmax(age, self._history.period)
         return self._attitude()[0], rate
 
     def readings(self, vehicle: Vehicle) -> list[list[Reading]]:
@@ -116,7 +116,7 @@ class Expected:
 
     def _attitude(self) -> tuple[Vector, Numbers]:
         read = ca.reshape(self._read["attitude"], 3, 3).T
-        return errors.turned_by(read @ self._attitude_at(self._read["attitude_age"]).T), errors.attitude_rows()
+        return errors.rotation_vector(read @ self._attitude_at(self._read["attitude_age"]).T), errors.attitude_rows()
 
     def _rod(self) -> tuple[Numbers, Numbers]:
         age = self._read["rod_age"]
@@ -139,7 +139,7 @@ class Expected:
         """Return the rod `age` seconds ago, and the frame there that its errors now are carried to."""
         s = self._s
         y = unit(s.y - age * s.y_dot + self._history.at(self._past["y"], 0.0, age))
-        return y, errors.frame(errors.carried_frame(self._b, s.y, y), y)
+        return y, errors.frame(errors.carry_frame(self._b, s.y, y), y)
 
     def _attitude_at(self, age: Scalar) -> Matrix:
         entries = self._past["attitude"]

@@ -46,7 +46,7 @@ SCALE_WALK = 0.01
 MOST_SCALE, MOST_BIAS = 0.35, 1.0
 
 
-def begun(vehicle: Vehicle) -> Numbers:
+def begin(vehicle: Vehicle) -> Numbers:
     """Return the memory (11,) before the first reading, for a `vehicle` of numbers or symbols."""
     force = (FORCE * vehicle.g * vehicle.M) ** 2
     return RECORD.join({
@@ -70,7 +70,7 @@ def force_of(acceleration: Vector, along: Vector, vehicle: Vehicle) -> Vector:
     return vehicle.M * acceleration + vehicle.m * scale(dot(along, acceleration), along)
 
 
-def unbiased(memory: Numbers, correction: Vector, taken: Vector | float = 0.0) -> Numbers:
+def correct_bias(memory: Numbers, correction: Vector, taken: Vector | float = 0.0) -> Numbers:
     """Return the memory with the accelerometer's bias corrected by `correction` (3,), m/s², and limited.
 
     `taken` (3,), body, N, is the force that it had been taken for, which goes.
@@ -80,7 +80,7 @@ def unbiased(memory: Numbers, correction: Vector, taken: Vector | float = 0.0) -
     return RECORD.join(felt | {"bias": bias, "force": felt["force"] - taken})
 
 
-def corrected(
+def correct(
     memory: Numbers,
     fresh: Scalar,
     difference: Vector,

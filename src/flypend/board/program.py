@@ -20,15 +20,15 @@ from flypend.board.believed import Believed
 from flypend.board.command import command_width, idle_command, law_command, steering, usable_lead
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
-from flypend.board.estimator import Filter, assumed_delay, assumed_segments
+from flypend.board.estimator import Filter, delay_of, segments_of
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers
 from flypend.model.state import SIZE
-from flypend.plants.lag import held, step_timing
+from flypend.plants.lag import hold, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import Segment, ahead, within_period
+from flypend.plants.schedule import Segment, segments_ahead, within_period
 from flypend.plants.sensing import readings_record
 
 
@@ -125,14 +125,14 @@ def initial_memory(loop: Loop, rotors: Numbers, estimate: Numbers = None, believ
     return memory if isinstance(rotors, ca.SX) else memory.full().ravel()
 
 
-def known(plant: Plant) -> Plant:
+def known_to_computer(plant: Plant) -> Plant:
     """Return what a flight computer knows of its `plant`: rate, limits, interface, rate loop; nothing of the world.
 
     With sensors it knows these, and the delay that its estimator assumes.
     """
     sensors = plant.sensors
     if sensors is not None:
-        sensors = sensors.replace(command_delay=assumed_delay(plant))
+        sensors = sensors.replace(command_delay=delay_of(plant))
     return Plant(
         rate=plant.rate, limits=plant.limits, interface=plant.interface, rate_loop_rate=plant.rate_loop_rate,
         rate_loop_gain=plant.rate_loop_gain, sensors=sensors,
@@ -168,8 +168,8 @@ def filters(plant: Plant) -> bool:
 
 def _under_way(loop: Loop) -> int:
     """Return the number of commands to remember: all that are applied from now until the next one takes effect."""
-    assumed = () if loop.sampled.sensors is None else assumed_segments(loop.sampled)
-    return max(1, *(segment.age for segment in (*_ahead(loop), *_within(loop), *assumed)))
+    assumed = () if loop.sampled.sensors is None else segments_of(loop.sampled)
+    return max(1, *(segment.age for segment in (*_predictor(loop), *_within(loop), *assumed)))
 
 
 def board(
@@ -222,8 +222,8 @@ def board(
     return ca.Function("board", [whole, measurement, path, gains, params], [after, given], *names)
 
 
-def _ahead(loop: Loop) -> tuple[Segment, ...]:
-    return ahead(_in_transit(loop), 1 / loop.sampled.rate)
+def _predictor(loop: Loop) -> tuple[Segment, ...]:
+    return segments_ahead(_in_transit(loop), 1 / loop.sampled.rate)
 
 
 def _within(loop: Loop) -> tuple[Segment, ...]:
@@ -260,7 +260,7 @@ def predicting(made: Parts) -> ca.Function:
     if finding is not None:
         state = finding.carry()(state, horizon, wrenches, forces, params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
-    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _ahead(loop), forces)
+    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _predictor(loop), forces)
     outputs = [made.kept.join(kept), forces, state, rotors, horizon]
     return ca.Function("predict", [memory, measurement, params, *given], outputs)
 
@@ -280,12 +280,12 @@ def remembering(made: Parts) -> ca.Function:
         twin = _twin(loop, believed, params)
         _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), forces)
     else:
-        rotors = _lagged(loop, believed, rotors, under_way)
+        rotors = _advance_rotors(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[:-1])
     return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])
 
 
-def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
+def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     """Return (memory, command) → memory after a period without measurement, under an external `command`.
 
     The observer restarts from its current estimates. Only for commands that are rotor forces: under a rate loop, the
@@ -299,12 +299,12 @@ def unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     if made.finding is not None:
         after["delay"] = made.finding.skipped()(after["delay"], after["rotors"])
     after |= {
-        "rotors": _lagged(loop, believed, after["rotors"], under_way), "commands": ca.vertcat(*under_way[:-1])
+        "rotors": _advance_rotors(loop, believed, after["rotors"], under_way), "commands": ca.vertcat(*under_way[:-1])
     }  # fmt: skip
     return ca.Function("unmeasured", [memory, command], [made.own.join(after)])
 
 
-def _lagged(loop: Loop, believed: Believed, rotors: Numbers, under_way: Sequence[Any]) -> Numbers:
+def _advance_rotors(loop: Loop, believed: Believed, rotors: Numbers, under_way: Sequence[Any]) -> Numbers:
     """Return the modelled `rotors` one period later, under the rotor forces in transit."""
     for age, duration in _within(loop):
         rotors = _lag(believed, round(1e9 * duration))(rotors, under_way[age])
@@ -314,5 +314,5 @@ def _lagged(loop: Loop, believed: Believed, rotors: Numbers, under_way: Sequence
 def _lag(believed: Believed, nanoseconds: int) -> ca.Function:
     """Return (rotors, command) → rotors after a time under the command."""
     rotors, command = ca.SX.sym("r", believed.rotors), ca.SX.sym("u", believed.rotors)
-    _, after = held(rotors, command, step_timing(believed.lag, nanoseconds / 1e9))
+    _, after = hold(rotors, command, step_timing(believed.lag, nanoseconds / 1e9))
     return ca.Function(f"rotor_lag_{nanoseconds}", [rotors, command], [after])

@@ -14,7 +14,7 @@ from flypend.laws.inverted_gains import angular_authority
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop
 from flypend.plants.cascade import cascade_step
-from flypend.plants.lag import held_in_turn
+from flypend.plants.lag import hold_in_turn
 from flypend.plants.loop import Loop
 from flypend.plants.schedule import Segment, in_steps, steps_in
 
@@ -74,7 +74,7 @@ class Twin:
         packed, rotors, forces = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("F", 6)
         commands = ca.SX.sym("u", n * len(durations))
         held = ca.vertsplit(commands, n)[::-1]
-        ramp, after = held_in_turn(rotors, held, durations, believed.lag)
+        ramp, after = hold_in_turn(rotors, held, durations, believed.lag)
         wrench, outside = ramp.mixed(believed.vehicle.mixing()), forces if self._forces else None
         moved = cascade_step(packed, wrench, outside, sum(durations), believed.vehicle)
         outputs = ca.cse([ca.densify(moved), ca.densify(after)])

@@ -42,7 +42,17 @@ from flypend.cli.options import (
     style_option,
     within_bands,
 )
-from flypend.cli.terminal import ahead, bold, console, counter, draw, lacking, pictures_of_studies, say, tell_how
+from flypend.cli.terminal import (
+    bold,
+    console,
+    counter,
+    draw,
+    import_in_background,
+    lacking,
+    pictures_of_studies,
+    say,
+    tell_how,
+)
 from flypend.errors import InputError, require
 
 if TYPE_CHECKING:
@@ -143,14 +153,14 @@ def run(
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
-    from flypend.flight.feasibility import forewarned
+    from flypend.flight.feasibility import forewarn
     from flypend.flight.simulate import fly
-    from flypend.model.shipped import told as vehicle_told
+    from flypend.model.shipped import name_with_changes
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
     from flypend.report.flight import THEOREMS, check_movies, write_flight
     from flypend.report.text import judgement, summary_table
-    from flypend.settings.laws import told
+    from flypend.settings.laws import describe_law
     from flypend.settings.runfile import run_file
 
     if not shown.figures:
@@ -158,7 +168,7 @@ def run(
     chosen = run_file(what, _changes(override, law, controller), law)
     flight = chosen.flight
     tell_how(flight.law)
-    for doubt in forewarned(flight):
+    for doubt in forewarn(flight):
         say(f"flypend: warning: {doubt}")
     style_named(style)
     check_writable(out)
@@ -184,7 +194,8 @@ def run(
     if shown.html is not None:
         trajectory.to_html(shown.html, live=shown.live)
     console.print(
-        f"{told(flight.law, flight.vehicle)} on {vehicle_told(flight.vehicle)}: {trajectory.outcome}", markup=False
+        f"{describe_law(flight.law, flight.vehicle)} on {name_with_changes(flight.vehicle)}: {trajectory.outcome}",
+        markup=False,
     )
     console.print(f"Goal: {judgement(trajectory)}.")
     if verdicts:
@@ -271,11 +282,11 @@ def compare(
     A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the pivot stays within 0.2 m of
     its reference.
     """
-    from flypend.files.staging import check_writable, staged
+    from flypend.files.staging import check_writable, staging
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.settings.runfile import plant_of
     from flypend.studies import compare as fly
-    from flypend.studies.failed import failed_runs, flown_again
+    from flypend.studies.failed import files_of_failures, fly_again
 
     asked, duration = plant_asked(plant, sensors, floor), chosen.duration
     world = plant_of(asked)
@@ -285,15 +296,15 @@ def compare(
     drawn = list(within_bands(machine, asked, chosen.seed).values()) if bands else []
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
-    ahead(pictures_of_studies)
+    import_in_background(pictures_of_studies)
     with counter() as tell:
         flying = lambda name, done, total: tell(f"flying {name}", done, total)  # noqa: E731
         result = fly(machine, laws, batch, duration, plant=drawn or world, progress=flying)
-    failed = failed_runs(result, names, asked, duration, drawn)
+    failed = files_of_failures(result, names, asked, duration, drawn)
     write_comparison(result, settings, out, failed)
     if keep is not None:
-        with staged(keep) as folder, counter() as tell:
-            flown_again(failed, folder, tell)
+        with staging(keep) as folder, counter() as tell:
+            fly_again(failed, folder, tell)
     console.print(comparison_table(result))
     again = f", {len(failed)} failed flights in {bold(out / 'failed')}" if failed else ""
     console.print(f"Report and figure are in {bold(out)}{again}.")
@@ -334,7 +345,7 @@ def ladder(
         if rung or not lacking(f"the rung {name}", partial(plant, rungs[name]))
     }
     check_writable(out)
-    ahead(pictures_of_studies)
+    import_in_background(pictures_of_studies)
     with counter() as tell:
         result = climb(machine, laws, batch, chosen.duration, rungs=flown, progress=tell)
     write_ladder(result, settings, out)
@@ -404,10 +415,10 @@ for _command in (
 
 def main() -> None:
     """Call the command of the arguments and exit; bad input prints one line and exits with code 2."""
-    sys.exit(_called())
+    sys.exit(_call())
 
 
-def _called() -> int:
+def _call() -> int:
     """Call the command of the arguments, and return its exit code."""
     try:
         return app(prog_name="flypend", standalone_mode=False) or 0

@@ -11,7 +11,7 @@ import click
 from flypend.cli.options import out_option
 from flypend.cli.terminal import bold, console
 from flypend.errors import InputError
-from flypend.files.staging import check_writable, staged
+from flypend.files.staging import check_writable, staging
 
 SUFFIXES = (".toml", ".py")
 
@@ -21,11 +21,11 @@ SUFFIXES = (".toml", ".py")
 @click.option("--force", is_flag=True, help="Overwrite files that differ from the examples.")
 def examples(out: Path, force: bool) -> None:
     """Write the examples: a run file, a study, a custom law. Files that you changed are kept, unless --force."""
-    contents = {name: source.read_bytes() for name, source in shipped().items()}
+    contents = {name: source.read_bytes() for name, source in read_shipped().items()}
     check_writable(out)
     if not force:
         _check_free(out, contents)
-    with staged(out) as folder:
+    with staging(out) as folder:
         for name, content in contents.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes(content)
@@ -34,7 +34,7 @@ def examples(out: Path, force: bool) -> None:
     console.print(f"Try: flypend run {bold(out / 'swing-up.toml')}", soft_wrap=True)
 
 
-def shipped() -> dict[PurePosixPath, Traversable]:
+def read_shipped() -> dict[PurePosixPath, Traversable]:
     """Return the examples shipped with the package, by path relative to the output folder."""
 
     def walk(folder: Traversable, name: PurePosixPath) -> dict[PurePosixPath, Traversable]:

@@ -69,11 +69,11 @@ def refuse_idle(*names: str, why: str) -> None:
 
 def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
     """Return the worlds of --bands by name; `plant` as in a run file. Raises InputError without bands."""
-    from flypend.plants import sampled_plant
+    from flypend.plants import as_sampled
     from flypend.settings.runfile import plant_of
     from flypend.studies.bands import worlds_within
 
-    return dict(worlds_within(machine, sampled_plant(plant_of(plant)), seed))
+    return dict(worlds_within(machine, as_sampled(plant_of(plant)), seed))
 
 
 def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:

@@ -22,7 +22,17 @@ from flypend.cli.options import (
     plant_asked,
     refuse_idle,
 )
-from flypend.cli.terminal import ahead, bold, complaints, console, lines, maps, resumable, stepped, tell_how
+from flypend.cli.terminal import (
+    bold,
+    complaints,
+    console,
+    import_in_background,
+    is_stepped,
+    lines,
+    maps,
+    resumable,
+    tell_how,
+)
 
 REPORTED = 2000  # starts of the report where no study names them
 workers_option = click.option("--workers", type=click.IntRange(min=1), help="Number of cores to use; default all.")
@@ -58,10 +68,10 @@ def sweep(
 
     made = study_from(study, law)
     tell_how(made.law)
-    processes = processes or (scheduler is None and stepped(made.law))
+    processes = processes or (scheduler is None and is_stepped(made.law))
     with resumable(), run_counter(f"flying {made.law.name}") as tell:
         flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
-    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
+    console.print(f"{format_rate(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
 
 
 @dataclass(frozen=True)
@@ -129,7 +139,7 @@ def draw_map(
     store = what
     if content is not None:
         store = out.with_suffix(".zarr")
-        ahead(maps)
+        import_in_background(maps)
         sweep_into(store, content, workers, force)
     assert store is not None
     from flypend.pictures.maps import map_figure
@@ -156,8 +166,7 @@ def tune(
     """
     from flypend.errors import InputError
     from flypend.files.staging import check_writable
-    from flypend.report.tuning import told as told_of
-    from flypend.report.tuning import write_tuned
+    from flypend.report.tuning import summarise, write_tuned
     from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
     from flypend.studies.tune import DRAWN
@@ -177,8 +186,8 @@ def tune(
     with resumable(), run_counter("generations") as tell:
         result = search(made, workers=workers, costs=out / "costs.jsonl", progress=tell)
     write_tuned(result, out)
-    console.print(f"before: {told_of(result.before)}", markup=False)
-    console.print(f"after:  {told_of(result.after)}", markup=False)
+    console.print(f"before: {summarise(result.before)}", markup=False)
+    console.print(f"after:  {summarise(result.after)}", markup=False)
     console.print(", ".join(f"{name} = {value:g}" for name, value in result.gains.items()), markup=False)
     console.print(f"Results are in {bold(out)}.")
 
@@ -191,11 +200,11 @@ def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force:
     made = study_from(content)
     tell_how(made.law)
     with resumable(), run_counter(f"flying {made.law.name}") as tell:
-        flown = fly(made, store, workers=workers, processes=stepped(made.law), force=force, progress=tell)
-    console.print(f"{told(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
+        flown = fly(made, store, workers=workers, processes=is_stepped(made.law), force=force, progress=tell)
+    console.print(f"{format_rate(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 
 
-def told(successes: int, runs: int) -> str:
+def format_rate(successes: int, runs: int) -> str:
     """Format a success rate with its 95 % confidence interval."""
     from flypend.flight.metrics import wilson
 

@@ -114,7 +114,7 @@ def bold(path: Path) -> str:
     return f"[bold]{escape(str(path))}[/bold]"
 
 
-def stepped(law: Any) -> bool:
+def is_stepped(law: Any) -> bool:
     """Whether `law` flies step by step in Python, so that only processes can use more than one core."""
     from flypend.laws import Controller
 
@@ -129,7 +129,7 @@ def tell_how(law: Any) -> None:
         say(said)
 
 
-def ahead(imports: Callable[[], None]) -> None:
+def import_in_background(imports: Callable[[], None]) -> None:
     """Call `imports` in a thread. What fails there fails again, and is told, where the module is used."""
 
     def bring() -> None:

@@ -53,10 +53,10 @@ def theorem(
 
 def _basin(out: Path, runs: int, seed: int, vehicle: str, lag: bool) -> None:
     from flypend import model
-    from flypend.files.staging import staged
+    from flypend.files.staging import staging
     from flypend.studies.basin import measure_basin
 
-    with staged(out) as folder, counter() as tell:
+    with staging(out) as folder, counter() as tell:
         found = measure_basin(model.vehicle(vehicle), runs, seed, lag=lag, progress=tell)
         found.save(folder / "basin.json")
     delayed = "lag" if lag else "no lag"

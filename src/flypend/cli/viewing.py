@@ -63,7 +63,7 @@ def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tup
 @click.option("--title/--no-title", "titles", default=True, help="Draw titles; a figure with a caption needs none.")
 def figures(run: Path, out: Path, style: str, font: str, titles: bool) -> None:
     """Draw the figures of RUN, a file saved by flypend (.nc), each as .pdf and .png."""
-    from flypend.files.staging import check_writable, staged
+    from flypend.files.staging import check_writable, staging
     from flypend.flight.trajectory import load
     from flypend.pictures.style import style_named
     from flypend.report.flight import figure_tasks
@@ -71,7 +71,7 @@ def figures(run: Path, out: Path, style: str, font: str, titles: bool) -> None:
     form = style_named(style, font=font, titled=titles)
     flight = load(run)
     check_writable(out)
-    with staged(out) as folder:
+    with staging(out) as folder:
         draw(figure_tasks(flight, folder, style=form))
     console.print(f"Figures are in {bold(out)}.")
 

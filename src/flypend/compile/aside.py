@@ -12,7 +12,7 @@ from flypend.signals.waiting import result_of
 T = TypeVar("T")
 
 
-def aside(call: Callable[[], T]) -> T:
+def call_in_thread(call: Callable[[], T]) -> T:
     """Return `call()`, made in a thread of its own.
 
     A signal is raised in the main thread within a tenth of a second; what the call returns later is dropped. Other

@@ -162,7 +162,7 @@ def _layer(matrix: Matrix, name: str, precision: Precision) -> str:
         "    out[i] = sum;",
         "}",
     ]  # fmt: skip
-    return _defined(name, [f"const volatile {REAL} *in", f"volatile {REAL} *out"], body)
+    return _define(name, [f"const volatile {REAL} *in", f"volatile {REAL} *out"], body)
 
 
 def _form(operation: Operation) -> str:
@@ -198,7 +198,7 @@ def function(program: Program, precision: Precision) -> str:
     given = [f"volatile {REAL} *{SCRATCH}"] * bool(scratch(program).size)
     given += [f"const volatile {REAL} *in{i}" for i in taken]
     wanted = [f"volatile {REAL} *out{i}" for i, numbers in enumerate(program.outputs) if numbers]
-    whole = _defined(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
+    whole = _define(program.name, [*given, *wanted], statements(program, inputs, outputs, precision))
     return "\n\n".join([*layers(program, precision), f"{_APART}{whole}"])
 
 
@@ -209,7 +209,7 @@ def call(program: Program, inputs: Sequence[str], outputs: Sequence[str], memory
     return f"{program.name}({', '.join([*[memory] * bool(scratch(program).size), *taken, *given])});"
 
 
-def used_inputs(routine: Routine) -> list[int]:
+def inputs_used_by(routine: Routine) -> list[int]:
     """The input vectors of `routine` that it reads."""
     cells = [cell for vector in routine.outputs for cell in vector]
     for step in routine.calls:
@@ -220,7 +220,7 @@ def used_inputs(routine: Routine) -> list[int]:
 
 def routine_scratch(routine: Routine) -> int:
     """How many numbers of scratch memory the function of `routine` takes."""
-    gathered = [sum(len(cells) for cells in _gathered(routine, step).values()) for step in routine.calls]
+    gathered = [sum(len(cells) for cells in _inputs_to_gather(routine, step).values()) for step in routine.calls]
     return (
         sum(routine.memories)
         + max(gathered, default=0)
@@ -233,15 +233,15 @@ def routine_function(routine: Routine, precision: Precision) -> str:
 
     The functions of its programs must stand before it. Inputs, outputs and scratch memory must not overlap.
     """
-    given = [f"volatile {REAL} *{SCRATCH}", *(f"const volatile {REAL} *in{i}" for i in used_inputs(routine))]
+    given = [f"volatile {REAL} *{SCRATCH}", *(f"const volatile {REAL} *in{i}" for i in inputs_used_by(routine))]
     wanted = [f"volatile {REAL} *out{i}" for i, cells in enumerate(routine.outputs) if cells]
-    lines = [line for step in routine.calls for line in _called(routine, step, precision)]
+    lines = [line for step in routine.calls for line in _call_lines(routine, step, precision)]
     for i, cells in enumerate(routine.outputs):
         lines += [f"out{i}[{k}] = {_cell(routine, cell, precision)};" for k, cell in enumerate(cells)]
-    return _defined(routine.name, [*given, *wanted], lines)
+    return _define(routine.name, [*given, *wanted], lines)
 
 
-def _gathered(routine: Routine, step: Call) -> dict[int, Sequence[Cell]]:
+def _inputs_to_gather(routine: Routine, step: Call) -> dict[int, Sequence[Cell]]:
     """The input vectors of one call that do not lie in one piece: they are put together in scratch memory."""
     program = routine.programs[step.program]
     pieces = {vector: stretches(cells) for vector, cells in enumerate(step.inputs) if reads(program, vector)}
@@ -252,11 +252,11 @@ def _gathered(routine: Routine, step: Call) -> dict[int, Sequence[Cell]]:
     }
 
 
-def _called(routine: Routine, step: Call, precision: Precision) -> list[str]:
+def _call_lines(routine: Routine, step: Call, precision: Precision) -> list[str]:
     """The lines of one call. Scratch memory: buffers, what is put together for the call, and the program's own."""
     program, place, lines = routine.programs[step.program], sum(routine.memories), []
     inputs = ["" if not cells else _place(routine, cells[0]) for cells in step.inputs]
-    for vector, cells in _gathered(routine, step).items():
+    for vector, cells in _inputs_to_gather(routine, step).items():
         lines += [f"{SCRATCH}[{place + k}] = {_cell(routine, cell, precision)};" for k, cell in enumerate(cells)]
         inputs[vector] = f"{SCRATCH} + {place}"
         place += len(cells)
@@ -283,5 +283,5 @@ def _cell(routine: Routine, cell: Cell, precision: Precision) -> str:
     return f"in{cell.number}[{cell.place}]"
 
 
-def _defined(name: str, parameters: Sequence[str], body: Sequence[str]) -> str:
+def _define(name: str, parameters: Sequence[str], body: Sequence[str]) -> str:
     return "\n".join([f"static void {name}({', '.join(parameters)})", "{", *(f"    {line}" for line in body), "}"])

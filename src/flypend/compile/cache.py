@@ -78,7 +78,7 @@ def load(entry: str) -> bytes | None:
     Raises InputError as `location`, and for a folder that is another user's, or that others may write to.
     """
     try:
-        with _opened(location()) as folder:
+        with _open_folder(location()) as folder:
             return _code(entry, folder.read(f"{entry}.o"))
     except OSError:
         return None
@@ -93,7 +93,7 @@ def store(entry: str, code: bytes) -> None:
     place, content = location(), _digest(entry, code) + code
     if len(content) > place.limit:
         return
-    with suppress(OSError), _opened(place, create=True) as folder:
+    with suppress(OSError), _open_folder(place, create=True) as folder:
         folder.write(f"{entry}.o", content)
         _unseen += len(content)
         if _unseen > LOOK * place.limit:
@@ -143,7 +143,7 @@ def location() -> Place:
     if given := os.environ.get(VARIABLE):
         return Place(Path(given), VARIABLE, limit)
     settings = _settings()
-    if settings is not None and (folder := _moved(settings)) is not None:
+    if settings is not None and (folder := _read_place(settings)) is not None:
         return Place(folder, str(settings), limit)
     try:
         found = user_cache_path("flypend", appauthor=False) / "machine-code"
@@ -200,7 +200,7 @@ class Folder:
             raise
         with os.fdopen(file, "rb") as content:
             status = os.fstat(file)
-            if wrong := _foreign(status) or _shared(status):
+            if wrong := _foreign(status) or _why_shared(status):
                 _warn(self._path, wrong)
                 return None
             if time.time() - status.st_mtime > RECENT:
@@ -232,7 +232,7 @@ class Folder:
 
 
 @contextmanager
-def _opened(place: Place, *, create: bool = False) -> Iterator[Folder]:
+def _open_folder(place: Place, *, create: bool = False) -> Iterator[Folder]:
     """Open the folder of the cache. Raises OSError, or InputError unless it is private."""
     path = place.folder
     if create:
@@ -270,7 +270,7 @@ def _foreign(status: os.stat_result) -> str:
     return "others may write to" if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH) else ""
 
 
-def _shared(status: os.stat_result) -> str:
+def _why_shared(status: os.stat_result) -> str:
     """Why it is no file, or one that another user may have put here under a second name; "" if neither."""
     if not stat.S_ISREG(status.st_mode):
         return "is no file"
@@ -292,7 +292,7 @@ def summarise(*, clear: bool = False) -> Summary:
     """
     place, entries = location(), []
     try:
-        with _opened(place) as folder:
+        with _open_folder(place) as folder:
             for file in folder.files():
                 if clear:
                     folder.remove(file.name)
@@ -323,10 +323,10 @@ def move(path: Path) -> None:
     check_writable(new.folder)
     try:
         settings.parent.mkdir(parents=True, exist_ok=True)
-        with whole_file(settings, (".toml",)) as partial, _opened(new, create=True) as target:
+        with whole_file(settings, (".toml",)) as partial, _open_folder(new, create=True) as target:
             partial.write_text(toml_text({"cache": str(new.folder)}), encoding="utf-8")
             partial.chmod(0o600)
-            with suppress(OSError, InputError), _opened(old) as source:
+            with suppress(OSError, InputError), _open_folder(old) as source:
                 if not new.folder.samefile(old.folder):
                     _carry(source, target)
     except OSError as error:
@@ -349,7 +349,7 @@ def _settings() -> Path | None:
     return folder / "config.toml" if folder.is_absolute() else None
 
 
-def _moved(settings: Path) -> Path | None:
+def _read_place(settings: Path) -> Path | None:
     """The folder that the file `settings` names; None if there is no such file."""
     try:
         with settings.open("rb") as file:

@@ -45,18 +45,18 @@ def matrices(program: Program) -> list[Matrix]:
         if operation.name != "add":
             continue
         for before, last in (operation.arguments, operation.arguments[::-1]):
-            if not (uses[last] == 1 and _weighed(program, last)):
+            if not (uses[last] == 1 and _weight_of(program, last)):
                 continue
             if before in sums and uses[before] == 1:
                 sums[number] = [*sums.pop(before), last]
-            elif uses[before] == 1 and _weighed(program, before):
+            elif uses[before] == 1 and _weight_of(program, before):
                 sums[number] = [before, last]
             else:
                 continue
             break
     groups: dict[tuple[int, ...], list[int]] = {}
     for root, products in sums.items():
-        groups.setdefault(tuple(_weighed(program, product)[1] for product in products), []).append(root)  # type: ignore[index]
+        groups.setdefault(tuple(_weight_of(program, product)[1] for product in products), []).append(root)  # type: ignore[index]
     found = [
         _matrix(program, sorted(roots), columns, [sums[root] for root in sorted(roots)])
         for columns, roots in groups.items()
@@ -65,7 +65,7 @@ def matrices(program: Program) -> list[Matrix]:
     return sorted(found, key=lambda matrix: matrix.rows)
 
 
-def _weighed(program: Program, number: int) -> tuple[float, int] | None:
+def _weight_of(program: Program, number: int) -> tuple[float, int] | None:
     """Return weight and variable if the operation is the product of a constant and a variable."""
     operation = program.operations[number]
     if operation.name != "mul":
@@ -85,5 +85,5 @@ def _matrix(program: Program, rows: list[int], columns: tuple[int, ...], product
         for _ in row[2:]:  # back along the partial sums
             last = next(place for place in program.operations[last].arguments if place not in row)
             inner.add(last)
-    weights = tuple(tuple(_weighed(program, product)[0] for product in row) for row in products)  # type: ignore[index]
+    weights = tuple(tuple(_weight_of(program, product)[0] for product in row) for row in products)  # type: ignore[index]
     return Matrix(tuple(rows), columns, weights, frozenset(inner))

@@ -28,13 +28,13 @@ def as_numpy(function: ca.Function) -> Callable[..., Any]:
     def call(*values: Any) -> Any:
         if not hasattr(own, "call"):
             with _lock:
-                own.call = _buffered(function)
+                own.call = _buffer(function)
         return own.call(*values)
 
     return call
 
 
-def _buffered(function: ca.Function) -> Callable[..., Any]:
+def _buffer(function: ca.Function) -> Callable[..., Any]:
     """The same with one set of buffers, for one thread."""
     buffer, trigger = function.buffer()
     inputs = [np.zeros(function.nnz_in(i)) for i in range(function.n_in())]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from flypend.compile.program import Program, needed
+from flypend.compile.program import Program, drop_dead
 from flypend.compile.touch import Touch
 
 # Operations with kinks or jumps.
@@ -36,7 +36,7 @@ class Judging:
     @property
     def values(self) -> Program:
         """(t, s, ṡ) → the gauges alone, which do not depend on ṡ."""
-        return needed(Program("values", self.gauges.inputs, self.gauges.operations, self.gauges.outputs[:1]))
+        return drop_dead(Program("values", self.gauges.inputs, self.gauges.operations, self.gauges.outputs[:1]))
 
     @property
     def smooth(self) -> bool:

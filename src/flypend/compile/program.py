@@ -119,7 +119,7 @@ def lower(function: ca.Function) -> Program:
     build = _Builder()
     outputs = _walk(expanded, build)
     inputs = tuple(expanded.nnz_in(i) for i in range(expanded.n_in()))
-    return _divided(needed(Program(function.name(), inputs, tuple(build.operations), outputs)))
+    return _restore_divisions(drop_dead(Program(function.name(), inputs, tuple(build.operations), outputs)))
 
 
 def _walk(function: ca.Function, build: _Builder) -> tuple[tuple[int, ...], ...]:
@@ -185,7 +185,7 @@ class _Builder:
         """Add the operation `name`, simplified; return its index."""
         values = [self._value(number) for number in arguments]
         if all(value is not None for value in values):
-            folded = _folded(name, values)
+            folded = _fold(name, values)
             if folded is not None:
                 return self.constant(folded)
         simple = self._simplified(name, arguments, values)
@@ -196,7 +196,7 @@ class _Builder:
         return self._put(Operation(name, tuple(sorted(arguments)) if name in _COMMUTATIVE else arguments))
 
     def _quotient(self, a: int, b: int) -> int:
-        """a/b as a product with a reciprocal that can be shared (see `_divided`), without dividing where possible.
+        """a/b as a product with a reciprocal that can be shared (`_restore_divisions`), without dividing if possible.
 
         CasADi differentiates √u to u̇/(√u + √u), and min and max to shares (p ≤ q)/((p ≤ q) + (q ≤ p)).
         """
@@ -289,7 +289,7 @@ class _Builder:
         return self._known[known]
 
 
-def _folded(name: str, values: Sequence[float | None]) -> float | None:
+def _fold(name: str, values: Sequence[float | None]) -> float | None:
     """The value of operation `name` on constants; None if undefined, such as division by zero."""
     try:
         return float(FOLD[name](*values))
@@ -297,7 +297,7 @@ def _folded(name: str, values: Sequence[float | None]) -> float | None:
         return None
 
 
-def needed(program: Program) -> Program:
+def drop_dead(program: Program) -> Program:
     """Remove the operations of `program` that no output depends on (dead code)."""
     used = {number for vector in program.outputs for number in vector}
     for number in range(len(program.operations) - 1, -1, -1):
@@ -316,7 +316,7 @@ def needed(program: Program) -> Program:
     return Program(program.name, program.inputs, operations, outputs)
 
 
-def _divided(program: Program) -> Program:
+def _restore_divisions(program: Program) -> Program:
     """Turn products with a reciprocal that has no other use back into divisions."""
     operations = list(program.operations)
     uses = [0] * len(operations)
@@ -333,7 +333,7 @@ def _divided(program: Program) -> Program:
                 if inverse.name == "div" and uses[reciprocal] == 1 and _is_one(operations[inverse.arguments[0]]):
                     operations[place] = Operation("div", (numerator, inverse.arguments[1]))
                     break
-    return needed(Program(program.name, program.inputs, tuple(operations), program.outputs))
+    return drop_dead(Program(program.name, program.inputs, tuple(operations), program.outputs))
 
 
 def _is_one(operation: Operation) -> bool:

@@ -41,11 +41,11 @@ def module(code: bytes, exports: Sequence[str]) -> bytes:
     for name in exports:
         if name not in places:
             raise ValueError(f"one of the functions {', '.join(places)} is needed, not {name!r}")
-    listed = b"".join(_text(name) + bytes([_FUNCTION]) + _unsigned(places[name]) for name in exports)
+    listed = b"".join(_text(name) + bytes([_FUNCTION]) + _encode_unsigned(places[name]) for name in exports)
     kept = [section for section in sections if section.number != CUSTOM]
-    kept.append(Section(EXPORT, _unsigned(len(exports)) + listed))
+    kept.append(Section(EXPORT, _encode_unsigned(len(exports)) + listed))
     kept.sort(key=lambda section: _ORDER[section.number])
-    return HEAD + b"".join(bytes([number]) + _unsigned(len(content)) + content for number, content in kept)
+    return HEAD + b"".join(bytes([number]) + _encode_unsigned(len(content)) + content for number, content in kept)
 
 
 def _sections(code: bytes) -> list[Section]:
@@ -116,7 +116,7 @@ class _Reader:
         return self.taken(self.unsigned()).decode()
 
 
-def _unsigned(number: int) -> bytes:
+def _encode_unsigned(number: int) -> bytes:
     written = bytearray()
     while True:
         number, low = number >> 7, number & 0x7F
@@ -126,4 +126,4 @@ def _unsigned(number: int) -> bytes:
 
 
 def _text(name: str) -> bytes:
-    return _unsigned(len(name.encode())) + name.encode()
+    return _encode_unsigned(len(name.encode())) + name.encode()

@@ -211,18 +211,18 @@ def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
     memory, action = ca.MX.sym("memory", sum(lengths)), ca.MX.sym("action", env.actions)
     before = ca.vertsplit(memory, [0, *np.cumsum(lengths).tolist()])
     clock, state, rotors, acted, queue, wind, timing, numbers, delay, goal = before
-    command, step, joined = parts.command(), parts.step(), _joined("joined", SIZE, env.rotors)
-    asked = chain.call(_limited(env.actions, 1.0, "asked"), action)
+    command, step, joined = parts.command(), parts.step(), _join("joined", SIZE, env.rotors)
+    asked = chain.call(_limit(env.actions, 1.0, "asked"), action)
     inner = env.action == "rates"
     forces = None if inner else chain.call(command, chain.call(joined, state, rotors), asked, numbers)
     for i in range(env.steps):
         if inner:
             forces = chain.call(command, chain.call(joined, state, rotors), asked, numbers)
-        held = chain.call(_held(env, parts.queued), ca.MX(i), forces, queue, delay) if parts.queued else forces
+        held = chain.call(_hold(env, parts.queued), ca.MX(i), forces, queue, delay) if parts.queued else forces
         state, rotors = chain.call(step, state, rotors, held, wind, timing, numbers)
     if parts.queued:
-        queue = chain.call(_queued(env.rotors, parts.queued), forces, queue)
-    clock = chain.call(_ticked(), clock)
+        queue = chain.call(_queue(env.rotors, parts.queued), forces, queue)
+    clock = chain.call(_tick(), clock)
     rest = [queue, wind, timing, numbers, delay, goal]
     observe, judge = _observe(parts, lengths), _judge(parts, lengths)
     seen = chain.call(observe, clock, state, rotors, asked, *rest)
@@ -245,22 +245,22 @@ def _symbols(lengths: Sequence[int]) -> list[ca.SX]:
     return [ca.SX.sym(f"v{i}", length) for i, length in enumerate(lengths)]
 
 
-def _joined(name: str, *lengths: int) -> ca.Function:
+def _join(name: str, *lengths: int) -> ca.Function:
     vectors = _symbols(lengths)
     return ca.Function(name, vectors, [ca.vertcat(*vectors)])
 
 
-def _limited(length: int, most: float, name: str) -> ca.Function:
+def _limit(length: int, most: float, name: str) -> ca.Function:
     value = ca.SX.sym("value", length)
     return ca.Function(name, [value], [ca.fmax(ca.fmin(value, most), -most)])
 
 
-def _ticked() -> ca.Function:
+def _tick() -> ca.Function:
     clock = ca.SX.sym("clock")
     return ca.Function("ticked", [clock], [clock + 1])
 
 
-def _held(env: Environment, queued: int) -> ca.Function:
+def _hold(env: Environment, queued: int) -> ca.Function:
     """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
     step, forces, queue, delay = _symbols([1, env.rotors, queued * env.rotors, 1])
     acting = forces
@@ -270,7 +270,7 @@ def _held(env: Environment, queued: int) -> ca.Function:
     return ca.Function("held", [step, forces, queue, delay], [ca.densify(acting)])
 
 
-def _queued(rotors: int, queued: int) -> ca.Function:
+def _queue(rotors: int, queued: int) -> ca.Function:
     forces, queue = _symbols([rotors, queued * rotors])
     return ca.Function("queued", [forces, queue], [ca.vertcat(forces, queue[: (queued - 1) * rotors])])
 
@@ -279,7 +279,7 @@ def _observe(parts: Parts, lengths: Sequence[int]) -> ca.Function:
     """(parts of the memory) → observation, limited as in compile/loops/worlds.cpp."""
     clock, *memory = vectors = _symbols(lengths)
     seen = parts.observe()(clock / parts.env.rate, ca.vertcat(*memory))
-    return ca.Function("observe", vectors, [_limited(seen.numel(), BOUND, "bounded")(seen)])
+    return ca.Function("observe", vectors, [_limit(seen.numel(), BOUND, "bounded")(seen)])
 
 
 def _judge(parts: Parts, lengths: Sequence[int]) -> ca.Function:

@@ -22,7 +22,7 @@ from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
 from flypend.compile.worlds_problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
-from flypend.flight.kernels.flown import aligned
+from flypend.flight.kernels.flown import allocate
 
 WIDTH = 8
 # Fewest groups of worlds worth a thread: a hundred microseconds of work.
@@ -33,7 +33,7 @@ KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARG
 
 
 @lru_cache(maxsize=32)
-def compiled(made: WorldsProblem) -> jit.Native:
+def compile_worlds(made: WorldsProblem) -> jit.Native:
     """Return the kernel of `made`, compiled or from the cache."""
     return jit.build(f"worlds, {WIDTH} lanes: {made!r}", lambda: kernel_module(made, WIDTH), "kernel", KINDS)
 
@@ -65,7 +65,7 @@ if hasattr(os, "register_at_fork"):  # a forked process has none of the threads
 
 def _own(array: NDArray[Any]) -> NDArray[Any]:
     """Return a copy of `array` at the start of a cache line: JAX copies any other."""
-    own: NDArray[Any] = aligned(array.shape, array.dtype)
+    own: NDArray[Any] = allocate(array.shape, array.dtype)
     own[...] = array
     return own
 
@@ -93,7 +93,7 @@ class Worlds:
     def __init__(self, env: Environment, count: int, workers: int | None = None, history: int = 0) -> None:
         made = problem(env)
         self.env, self.count, self.workers, self.history = env, count, workers, history
-        self._step, self._places = compiled(made), made.places
+        self._step, self._places = compile_worlds(made), made.places
         groups = -(-count // WIDTH)
         padded, seen = groups * WIDTH, len(made.observe.outputs[0])
         shapes: dict[str, tuple[Any, ...]] = {
@@ -123,7 +123,7 @@ class Worlds:
 
     def __reduce__(self) -> tuple[Any, ...]:
         made = self.env, self.count, self.workers, self.history
-        return _unpickled, (self.about, self.save(), *made)
+        return _unpickle, (self.about, self.save(), *made)
 
     def save(self) -> bytes:
         """Return the contents of `arrays`, one after the other."""
@@ -222,7 +222,7 @@ def goal_at(env: Environment, time: float, numbers: NDArray[np.float64]) -> NDAr
     return np.array(ca.evalf(ca.SX(env.task.goal(ca.SX(time), ca.SX(numbers))[0]))).ravel()
 
 
-def _unpickled(about: Mapping[str, str], saved: bytes, *made: Any) -> Worlds:
+def _unpickle(about: Mapping[str, str], saved: bytes, *made: Any) -> Worlds:
     worlds = Worlds(*made)
     worlds.restore(about, saved)
     return worlds

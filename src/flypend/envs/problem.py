@@ -17,11 +17,11 @@ from flypend.envs.sensing import Estimates
 from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
 from flypend.flight.kernels.touching import touch_of
-from flypend.laws.seen import moment_action, observed, rotor_action, thrust_action
+from flypend.laws.seen import moment_action, observe_state, rotor_action, thrust_action
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop, rotor_forces
-from flypend.plants.equations import stepped
+from flypend.plants.equations import step_state
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.motors import motor_timing, moving, timing_size
 from flypend.plants.plant import LONGEST_DELAY, Sampled
@@ -231,7 +231,7 @@ class Parts:
         )
         commanded = p[3:] * u if self.numbers else u
         wind = w if env.randomise.wind[1] > 0 else None
-        return ca.Function("step", [s, r, u, w, h, p], stepped(s, r, commanded, wind, h, vehicle, moving(env.plant)))
+        return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, commanded, wind, h, vehicle, moving(env.plant)))
 
     def _moment(self, change: Any, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
         """Symbols of time and memory, what they say, and the parts of the memory, with the `change` of the action.
@@ -264,7 +264,7 @@ class Parts:
         low, high = env.vehicle.rotor_limits
         here = env.task.goal(t, parts[-1])[0]
         coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
-        seen = observed(now.error, 3 if env.attitude == "matrix" else 2)
+        seen = observe_state(now.error, 3 if env.attitude == "matrix" else 2)
         if env.observe == "all":
             rotors = 2 * (parts[1] - low) / (high - low) - 1
             seen = ca.vertcat(seen, rotors, parts[2], *coming, env.task.shown(now))

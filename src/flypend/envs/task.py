@@ -115,7 +115,7 @@ def upright(now: Moment) -> Any:
     return (1 + state.y[2]) / 2 * kept - 0.02 * ca.sumsqr(now.change)
 
 
-def hovered(t: Any, numbers: Any) -> tuple[Any, Any]:
+def hover_reference(t: Any, numbers: Any) -> tuple[Any, Any]:
     """Stay at the origin."""
     return ca.SX(3, 1), ca.SX(3, 1)
 
@@ -141,7 +141,7 @@ def _begin_almost_upright(draws: Draws, vehicle: Vehicle, lean: float = 0.2) -> 
 
 def balance() -> Task:
     """Balance the rod, which leans by at most 0.2 rad at first; lost once it leans by 60° or the vehicle is 3 m off."""
-    return Task("Balance", _begin_almost_upright, hovered, upright, partial(fallen_or_beyond, radius=3.0), 5.0)
+    return Task("Balance", _begin_almost_upright, hover_reference, upright, partial(fallen_or_beyond, radius=3.0), 5.0)
 
 
 def _begin_hanging(draws: Draws, vehicle: Vehicle) -> Begin:
@@ -175,7 +175,7 @@ def swing_up(*, shaped: bool = False) -> Task:
         Whether worlds begin with the rod anywhere, and a part of the reward is for the energy that takes it up.
     """
     begin, reward = (_begin_anywhere, upright_or_swinging) if shaped else (_begin_hanging, upright)
-    return Task("SwingUp", begin, hovered, reward, partial(beyond, radius=5.0), 10.0)
+    return Task("SwingUp", begin, hover_reference, reward, partial(beyond, radius=5.0), 10.0)
 
 
 @dataclass(frozen=True)
@@ -241,4 +241,4 @@ def _begin_in_cup(draws: Draws, vehicle: Vehicle) -> Begin:
 
 def catch_in_cup() -> Task:
     """Catch a rod that is toppling in a cup, without losing it; for a vehicle with a cup."""
-    return Task("CatchInCup", _begin_in_cup, hovered, upright, partial(beyond, radius=5.0), 6.0)
+    return Task("CatchInCup", _begin_in_cup, hover_reference, upright, partial(beyond, radius=5.0), 6.0)

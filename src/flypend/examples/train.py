@@ -17,7 +17,7 @@ from flypend.envs import VectorWorlds
 from flypend.envs.sb3 import VecWorlds
 
 
-def kept_up(model: PPO, task: Any, count: int, seed: int) -> float:
+def share_kept_up(model: PPO, task: Any, count: int, seed: int) -> float:
     """Share of `count` starts from which the rod stays up until the world is cut off."""
     worlds = VectorWorlds(task, count)
     seen, _ = worlds.reset(seed=seed)
@@ -43,9 +43,9 @@ def train(task: Any = "balance", most: int = 18_000_000, wanted: float = 0.97) -
         if model.num_timesteps > 0.75 * most:
             model.lr_schedule = lambda _: 2e-4
         model.learn(100_000, reset_num_timesteps=False)
-        share = kept_up(model, task, 500, seed=10**6)
+        share = share_kept_up(model, task, 500, seed=10**6)
         print(f"{model.num_timesteps} steps: {100 * share:.1f} % stay up", flush=True)
-    return model, kept_up(model, task, 1000, seed=2 * 10**6)
+    return model, share_kept_up(model, task, 1000, seed=2 * 10**6)
 
 
 if __name__ == "__main__":

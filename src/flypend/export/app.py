@@ -18,8 +18,8 @@ from flypend.errors import InputError
 from flypend.export.fits import check_fits
 from flypend.export.interface import interface
 from flypend.export.room import Room, swing_up_room
-from flypend.export.write import core, filled, values_of
-from flypend.files.staging import staged
+from flypend.export.write import core, fill, values_of
+from flypend.files.staging import staging
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 
@@ -58,7 +58,7 @@ MOTORS = ((1, -1, -1), (-1, -1, 1), (-1, 1, -1), (1, 1, 1))
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def export_app(
     target: str,
     law: Law | BoundLaw,
@@ -112,7 +112,7 @@ def export_app(
     name = airframe or min(AIRFRAMES, key=lambda known: abs(AIRFRAMES[known].arm - arm))
     frame = AIRFRAMES[errors.one_of("airframe", name, tuple(AIRFRAMES))]
     _check_motors(vehicle, name, frame)
-    flown = limited(vehicle, frame)
+    flown = limit_rotors(vehicle, frame)
     made = interface(law, flown, rate, None)
     texts = core(made, "float")
     check_fits(made, texts)
@@ -149,18 +149,18 @@ def export_app(
         "pose_attitude": str(pose.RECORD.place("R").start),
         "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
-    texts |= {f"flypend_frames.{end}": filled(f"adapters/flypend_frames.{end}", values) for end in "hc"}
+    texts |= {f"flypend_frames.{end}": fill(f"adapters/flypend_frames.{end}", values) for end in "hc"}
     texts |= {
-        file: filled(f"crazyflie/{file}", values)
+        file: fill(f"crazyflie/{file}", values)
         for file in ("Makefile", "Kbuild", "app-config", "flypend_app.c", "README.md", "flypend_host.py")
     }
-    with staged(out) as folder:
+    with staging(out) as folder:
         for file, text in texts.items():
             (folder / file).write_text(text, encoding="utf-8", newline="\n")
     return flown
 
 
-def limited(vehicle: Vehicle, frame: Airframe) -> Vehicle:
+def limit_rotors(vehicle: Vehicle, frame: Airframe) -> Vehicle:
     """Return `vehicle` with rotor limits that the firmware of `frame` can give. Raises InputError if none are left."""
     least, largest = vehicle.rotor_limits
     least, largest = max(least, frame.least), min(largest, frame.largest)

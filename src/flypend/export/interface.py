@@ -10,8 +10,8 @@ from typing import Any
 import casadi as ca
 
 from flypend.board.believed import Believed
-from flypend.board.command import finish, led
-from flypend.board.program import board, initial_memory, parts, unmeasured
+from flypend.board.command import finish, lead_rotors
+from flypend.board.program import advance_unmeasured, board, initial_memory, parts
 from flypend.compile.c99 import reads
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.compile.record import Record
@@ -160,7 +160,7 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
         constant=constant,
         programs=programs,
         board=replace(lower_calls(board(loop, believed, command, records.PATH.length)), name="fly"),
-        unmeasured=lower_calls(unmeasured(loop, believed)),
+        unmeasured=lower_calls(advance_unmeasured(loop, believed)),
         memory=parts(loop, believed).memory,
         sensing=None if sensors is None else _sensing(loop, believed, command, sensors),
     )
@@ -205,7 +205,7 @@ def _law(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str
     reference = ca.SX.sym("reference", records.REFERENCE.length)
     gains = {name: ca.SX.sym(name) for name in law.numbers if name not in law.fixed}
     try:
-        wrench = streamed_wrench(law, vehicle, ca.vertcat(state, forces), reference, gains)
+        wrench = wrench_from_stream(law, vehicle, ca.vertcat(state, forces), reference, gains)
     except InputError:
         raise
     except Exception as error:  # whatever a law of one's own does with numbers that are symbols
@@ -240,13 +240,13 @@ def _in_functions(program: Program, names: list[str]) -> tuple[str, ...]:
     return tuple(names[entry] for entry in sorted(found))
 
 
-def streamed_wrench(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
+def wrench_from_stream(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gains: Any = None) -> Any:
     """The wrench (4, 1), e₃ up, of a bound `law` for the numbers of `records.STATE` and `records.REFERENCE`.
 
     `vehicle` has numbers or symbols, as have the `gains`. Raises InputError for a law that needs the time itself.
     """
     t = ca.SX.sym("t")
-    flown = law.along(_streamed(reference)) if law.along is not None else law
+    flown = law.along(_path_from_stream(reference)) if law.along is not None else law
     wrench = flown.upright(t, state[:SIZE], state[SIZE:], gains, vehicle)
     if law.along is None and ca.depends_on(wrench, t):
         raise InputError("law", "one that does not depend on time, or a Law with a `path`", law.name)
@@ -256,7 +256,7 @@ def streamed_wrench(law: BoundLaw, vehicle: Any, state: Any, reference: Any, gai
 # What it follows --------------------------------------------------------------------------------------------------
 
 
-def _streamed(reference: Any) -> Any:
+def _path_from_stream(reference: Any) -> Any:
     """The path whose derivatives at t = 0 are the numbers of a `reference` record, as Taylor polynomials."""
     place = {field.name: reference[where] for field, where in records.REFERENCE.places()}
     pivot, bob = ([place[f"{name}{order}"] for order in records.ORDERS] for name in ("x", "p"))
@@ -272,7 +272,7 @@ def _polynomial(values: Sequence[Any], t: Any) -> Any:
     return sum(value * t**i / math.factorial(i) for i, value in enumerate(values))
 
 
-def followed(vehicle: Any, path: Any, on_bob: Any) -> Any:
+def reference_numbers(vehicle: Any, path: Any, on_bob: Any) -> Any:
     """The numbers of `records.REFERENCE` on a `path` of the pivot, the bob carried as the laws have it.
 
     `vehicle` has numbers or symbols; `path` are the numbers of its record, `on_bob` (3,) is the force on the bob, N.
@@ -286,10 +286,10 @@ def followed(vehicle: Any, path: Any, on_bob: Any) -> Any:
 
 def _carry(params: Any, vehicle: Any) -> ca.Function:
     path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", FORCES)
-    return ca.Function("carry", [path, forces, params], [ca.cse(followed(vehicle, path, forces[3:]))])
+    return ca.Function("carry", [path, forces, params], [ca.cse(reference_numbers(vehicle, path, forces[3:]))])
 
 
-def shifted(path: Any, time: Any) -> Any:
+def shift_path(path: Any, time: Any) -> Any:
     """The numbers of `records.PATH` on a `path` `time` seconds later, as far as its derivatives tell."""
     orders = ca.vertsplit(path, 3)
     return ca.densify(ca.vertcat(*(_polynomial(orders[i:], time) for i in range(len(orders)))))
@@ -317,7 +317,7 @@ def _command(
 def _shift() -> ca.Function:
     """The path a time later, s, for the path now."""
     path, time = ca.SX.sym("path", records.PATH.length), ca.SX.sym("time")
-    return ca.Function("shift", [path, time], [shifted(path, time)])
+    return ca.Function("shift", [path, time], [shift_path(path, time)])
 
 
 def _begin(loop: Loop, count: int) -> ca.Function:
@@ -336,7 +336,7 @@ def _share(params: Any, vehicle: Any) -> ca.Function:
 def _quicken(params: Any, vehicle: Any, count: int) -> ca.Function:
     wanted, modelled, lead = ca.SX.sym("wanted", count), ca.SX.sym("modelled", count), ca.SX.sym("lead")
     low, high = vehicle.rotor_limits
-    command = ca.fmin(ca.fmax(led(wanted, modelled, lead), low), high)
+    command = ca.fmin(ca.fmax(lead_rotors(wanted, modelled, lead), low), high)
     return ca.Function("quicken", [wanted, modelled, lead, params], [ca.densify(command)])
 
 

@@ -15,13 +15,13 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.board.program import known
+from flypend.board.program import known_to_computer
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.interface import interface
-from flypend.export.write import core, filled
+from flypend.export.write import core, fill
 from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.references import Reference
 from flypend.laws.throw import derivatives
@@ -59,7 +59,7 @@ class Library:
         self.made = interface(law, vehicle, rate, sensors)
         self.real = np.dtype(np.float64 if precision == "double" else np.float32)
         including = "flypend_sensors.h" if sensors is not None else "flypend_law.h"
-        texts = core(self.made, precision) | {"many.c": filled("many.c", {"include": including})}
+        texts = core(self.made, precision) | {"many.c": fill("many.c", {"include": including})}
         with tempfile.TemporaryDirectory(prefix="flypend-c-") as folder:
             for name, text in texts.items():
                 (Path(folder) / name).write_text(text, encoding="utf-8")
@@ -301,7 +301,7 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
         if loop.vehicle != vehicle:
             raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
         check_plant(loop.sampled)
-        sensors = known(loop.sampled).sensors
+        sensors = known_to_computer(loop.sampled).sensors
         sensors = None if sensors is None else sensors.told  # the same code, whatever is wrong with them
         code = library(bound, vehicle, precision, loop.sampled.rate, sensors)
         return CompiledBoard(code, path, rotors) if sensors is None else CompiledSensors(code, path, rotors)

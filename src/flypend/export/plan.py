@@ -14,7 +14,7 @@ from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.source import ascii_of
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Units
 from flypend.planning.feedback import deviation, hovering, regulator
@@ -138,7 +138,7 @@ def export_plan(plan: Plan, folder: str | Path, *, precision: Precision = "float
     if not isinstance(plan, Plan) or not plan:
         raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
     values = _values(plan, precision)
-    with staged(folder) as into:
+    with staging(folder) as into:
         (into / f"{NAME}.h").write_text(_HEADER.format(**values), encoding="ascii")
         (into / f"{NAME}.c").write_text(_SOURCE.format(**values), encoding="ascii")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from flypend.compile.c99 import Precision, call, function, routine_function, routine_scratch, used_inputs
+from flypend.compile.c99 import Precision, call, function, inputs_used_by, routine_function, routine_scratch
 from flypend.compile.program import Program
 from flypend.compile.scratch import scratch
 from flypend.export import records
@@ -25,7 +25,7 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
     inputs = [readings, records.STATE, made.params]
     inputs += [records.PATH] * made.follows
     given = ("computer->memory", "in->readings", "path", "gains_numbers(&computer->gains)", "p")
-    fly = ["in->rest", *(given[i] for i in used_inputs(sensing.board)), "in->memory", "in->command"]
+    fly = ["in->rest", *(given[i] for i in inputs_used_by(sensing.board)), "in->memory", "in->command"]
     sizes = [scratch(program).size for program in (sensing.begin, sensing.sound)]
     locals_, fill = "    (void)reference;\n", ""
     if made.follows:

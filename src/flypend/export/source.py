@@ -5,7 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable, Sequence
 
-from flypend.compile.c99 import Precision, call, function, literal, routine_function, routine_scratch, used_inputs
+from flypend.compile.c99 import Precision, call, function, inputs_used_by, literal, routine_function, routine_scratch
 from flypend.compile.record import Record
 from flypend.compile.scratch import scratch
 from flypend.export import records
@@ -93,7 +93,7 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     inertia = next(place for field, place in made.params.places() if field.name == "inertia")
     places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
     board_inputs = ("board->memory", "in->measurement", "path", "gains_numbers(&board->gains)", "p")
-    fly = ["in->rest", *(board_inputs[i] for i in used_inputs(made.board)), "in->memory", "in->command"]
+    fly = ["in->rest", *(board_inputs[i] for i in inputs_used_by(made.board)), "in->memory", "in->command"]
     law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
     sizes = {name: scratch(program).size for name, program in programs.items()}
     largest = max(

@@ -41,7 +41,7 @@ class Tested:
         return f"/* Flown before it was exported, in flypend's own model:\n{body}\n */\n"
 
 
-def tested(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Tested:
+def fly_tests(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Tested:
     """Fly `vehicle` under `law` at a control `rate` (Hz): hover, hanging and 200 random starts, 30 s each."""
     plant = ROTORS.replace(rate=rate)
     found = feasibility(vehicle)

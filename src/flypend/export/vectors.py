@@ -14,7 +14,7 @@ from flypend.board.command import law_command
 from flypend.board.program import board, initial_memory
 from flypend.compile.c99 import Precision
 from flypend.export import records
-from flypend.export.interface import followed, shifted, streamed_wrench
+from flypend.export.interface import reference_numbers, shift_path, wrench_from_stream
 from flypend.laws import BoundLaw
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
@@ -58,10 +58,10 @@ def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision)
     state = records.state_numbers(packed, forces)
     path = PATH_SPREAD * rng.uniform(-1, 1, (count, records.PATH.length))
     reference = np.array(path_reference(vehicle)(path.T, forces.T)).T
-    return rounded(state, precision), rounded(reference, precision)
+    return round_to(state, precision), round_to(reference, precision)
 
 
-def rounded(values: Any, precision: Precision) -> Any:
+def round_to(values: Any, precision: Precision) -> Any:
     """`values` as a number of `precision` holds them, in double precision."""
     return values.astype(np.float32).astype(float) if precision == "float" else values
 
@@ -70,7 +70,7 @@ def rounded(values: Any, precision: Precision) -> Any:
 def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
     """The CasADi function (state (30), reference (30)) → wrench (4), rotor forces (n) of the bound `law`."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
-    wrench = streamed_wrench(law, vehicle, state, reference)
+    wrench = wrench_from_stream(law, vehicle, state, reference)
     rotors = ca.densify(allocate(wrench[0], wrench[1:], vehicle))
     return ca.Function("answers", [state, reference], ca.cse([wrench, rotors]))
 
@@ -79,7 +79,7 @@ def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
 def path_reference(vehicle: Vehicle) -> Any:
     """The CasADi function (path (27), forces (6)) → numbers of `records.REFERENCE`."""
     path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", 6)
-    return ca.Function("path_reference", [path, forces], [ca.cse(followed(vehicle, path, forces[3:]))])
+    return ca.Function("path_reference", [path, forces], [ca.cse(reference_numbers(vehicle, path, forces[3:]))])
 
 
 @dataclass(frozen=True)
@@ -104,9 +104,9 @@ def flights(loop: Loop, count: int, steps: int, seed: int, precision: Precision)
         memory, engine = initial_memory(loop, least), EquationsEngine(loop.vehicle)
         engine.reset(State.random(rng).packed(), least)
         wind = FORCE_SPREAD * weight * rng.uniform(-1, 1, 6)
-        path = rounded(PATH_SPREAD * rng.uniform(-1, 1, records.PATH.length), precision)
+        path = round_to(PATH_SPREAD * rng.uniform(-1, 1, records.PATH.length), precision)
         for _ in range(steps):
-            measurement = rounded(engine.packed, precision)
+            measurement = round_to(engine.packed, precision)
             memory, command = (np.array(v).ravel() for v in step(memory, np.append(0.0, measurement), path, [], []))
             for values, value in zip(columns, (measurement, path, command), strict=True):
                 values.append(value)
@@ -121,8 +121,8 @@ def board_step(loop: Loop) -> ca.Function:
     believed = Believed.numbers(loop.vehicle)
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
-        reference = followed(vehicle, shifted(path, t), forces[3:])  # the measurement is at t = 0
-        return streamed_wrench(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
+        reference = reference_numbers(vehicle, shift_path(path, t), forces[3:])  # the measurement is at t = 0
+        return wrench_from_stream(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 
     length = records.PATH.length
     return board(loop, believed, law_command(loop, believed, steer, length), length)

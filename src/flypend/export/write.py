@@ -20,8 +20,8 @@ from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
 from flypend.export.sensors import FILES, sensor_values
 from flypend.export.source import ascii_of, functions, initializer, offsets, struct, unread
-from flypend.export.tested import tested
-from flypend.files.staging import staged
+from flypend.export.tested import fly_tests
+from flypend.files.staging import staging
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
@@ -38,7 +38,7 @@ TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def export_c(
     law: Law | BoundLaw,
     vehicle: Vehicle,
@@ -94,11 +94,11 @@ def export_c(
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     texts = files(interface(law, vehicle, rate, sensors_called(sensors, "sensors")), precision)
     if check:
-        found = tested(law, vehicle, rate)
+        found = fly_tests(law, vehicle, rate)
         texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)
         if found.poor:
             warnings.warn(f"the exported law flies {vehicle.name} poorly: {found.poor}", stacklevel=2)
-    with staged(out) as folder:
+    with staging(out) as folder:
         for name, text in texts.items():
             path = folder / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -109,7 +109,7 @@ def export_c(
 def files(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of every file."""
     values = values_of(made, precision)
-    texts = {name: filled(name, values) for name in (*CORE, *BESIDE, *ADAPTERS)}
+    texts = {name: fill(name, values) for name in (*CORE, *BESIDE, *ADAPTERS)}
     return texts | {"flypend_vectors.h": _vectors(made, precision)} | _with_sensors(made, precision)
 
 
@@ -117,17 +117,17 @@ def _with_sensors(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of the files of a flight computer with sensors, if there are any."""
     if made.sensing is None:
         return {}
-    values = _marked(values_of(made, precision) | sensor_values(made, made.sensing, precision))
-    return {name: filled(name, values) for name in FILES}
+    values = _add_mark(values_of(made, precision) | sensor_values(made, made.sensing, precision))
+    return {name: fill(name, values) for name in FILES}
 
 
 def core(made: Interface, precision: Precision) -> dict[str, str]:
     """Name and text of the two files that make the library."""
     values = values_of(made, precision)
-    return {name: filled(name, values) for name in CORE} | _with_sensors(made, precision)
+    return {name: fill(name, values) for name in CORE} | _with_sensors(made, precision)
 
 
-def filled(name: str, values: dict[str, Any]) -> str:
+def fill(name: str, values: dict[str, Any]) -> str:
     """The template called `name` with `values` put in."""
     text = (resources.files("flypend.export") / "templates" / name).read_text(encoding="utf-8")
     return Template(text).substitute(values)
@@ -169,18 +169,18 @@ def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
         "radians": literal(math.pi / 180, precision),
         "sqrt": "sqrt" if precision == "double" else "sqrtf",
         "order": ", ".join(str(i) for i in range(made.rotors.length)),
-        "baked": _baked(made),
+        "baked": _constants_in_words(made),
         "latency": f"{computer.latency:.3g}",
         "rotor_table": _rotor_table(vehicle),
         "period_us": str(round(1e6 / made.loop.sampled.rate)),
         "thrust_scale": repr(thrust_scale),
         "moment_scale": repr(moment_scale),
     }
-    values["checks"] = filled("checks.c", values)
-    return _marked(values)
+    values["checks"] = fill("checks.c", values)
+    return _add_mark(values)
 
 
-def _marked(values: dict[str, Any]) -> dict[str, Any]:
+def _add_mark(values: dict[str, Any]) -> dict[str, Any]:
     """`values` with the mark of a memory begun by this code: what differs between two codes is in their texts."""
     return values | {"mark": f"0x{zlib.crc32(repr(sorted(values.items())).encode()) | 1:08x}U"}
 
@@ -205,7 +205,7 @@ def _optional(made: Interface) -> dict[str, str]:
     return found
 
 
-def _baked(made: Interface) -> str:
+def _constants_in_words(made: Interface) -> str:
     """What the code holds as constants, in words."""
     inertia = next(field for field in made.params.fields if field.name == "inertia")
     diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"

@@ -59,12 +59,12 @@ def read_arrays(field: str, path: Path, expected: str, fields: Mapping[str, Fiel
     """
     try:
         with ZipFile(BytesIO(read_bytes(path, MOST_BYTES))) as archive:
-            return check_arrays(fields, _unpacked(archive, fields))
+            return check_arrays(fields, _unpack(archive, fields))
     except (*_UNREADABLE, InputError) as error:
         raise InputError(field, expected, f"{path}: {error}") from None
 
 
-def _unpacked(archive: ZipFile, fields: Mapping[str, Field]) -> dict[str, NDArray[Any]]:
+def _unpack(archive: ZipFile, fields: Mapping[str, Field]) -> dict[str, NDArray[Any]]:
     """Return the arrays in `archive` that are among `fields`. Raises ValueError, and what unpacking raises."""
     names = archive.namelist()
     if len(set(names)) != len(names):

@@ -37,15 +37,15 @@ class Variable(NamedTuple):
 
 def write_netcdf(path: Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
     """Write `variables` and the global `attributes` (strings and numbers) to `path`. Raises OSError."""
-    stored = {name: _stored(name, variable) for name, variable in variables.items()}
+    stored = {name: _to_stored(name, variable) for name, variable in variables.items()}
     sizes = {dim: size for v in stored.values() for dim, size in zip(v.dims, v.values.shape, strict=True)}
-    blocks = [_padded(variable.values.tobytes()) for variable in stored.values()]
+    blocks = [_pad(variable.values.tobytes()) for variable in stored.values()]
     begin = len(_header(stored, sizes, attributes, [0] * len(blocks)))
     begins = [begin + sum(map(len, blocks[:place])) for place in range(len(blocks))]
     path.write_bytes(_header(stored, sizes, attributes, begins) + b"".join(blocks))
 
 
-def _stored(name: str, variable: Variable) -> Variable:
+def _to_stored(name: str, variable: Variable) -> Variable:
     """Convert `variable` to a NetCDF type: big-endian floats; strings as characters along an extra dimension."""
     dims, values, about = variable.dims, np.asarray(variable.values), variable.attributes
     if values.dtype.kind == "U":
@@ -78,7 +78,7 @@ def _attributes(attributes: Mapping[str, Any]) -> bytes:
     for name, value in attributes.items():
         content = value.encode() if isinstance(value, str) else np.array(value, ">f8").tobytes()
         kind, count = (CHARACTERS, len(content)) if isinstance(value, str) else (DOUBLES, len(content) // 8)
-        entries.append(_text(name) + _int(kind) + _int(count) + _padded(content))
+        entries.append(_text(name) + _int(kind) + _int(count) + _pad(content))
     return _list_of(ATTRIBUTES, entries)
 
 
@@ -87,14 +87,14 @@ def _list_of(tag: int, entries: list[bytes]) -> bytes:
 
 
 def _text(text: str) -> bytes:
-    return _int(len(text.encode())) + _padded(text.encode())
+    return _int(len(text.encode())) + _pad(text.encode())
 
 
 def _int(value: int) -> bytes:
     return value.to_bytes(4)
 
 
-def _padded(content: bytes) -> bytes:
+def _pad(content: bytes) -> bytes:
     return content + bytes(-len(content) % 4)
 
 

@@ -58,11 +58,11 @@ def check_arrays(
     for name, field in fields.items():
         if name not in given:
             raise InputError(name, "an array", "nothing")
-        found[name] = _checked(name, field, np.asarray(given[name]), known)
+        found[name] = _check(name, field, np.asarray(given[name]), known)
     return found
 
 
-def _checked(name: str, field: Field, values: NDArray[Any], known: dict[str | int, int]) -> NDArray[Any]:
+def _check(name: str, field: Field, values: NDArray[Any], known: dict[str | int, int]) -> NDArray[Any]:
     """Return `values` as its `field` has them; lengths of axes that are not `known` become so."""
     wanted = np.dtype(field.dtype)
     fits = values.dtype.kind == "U" if wanted.kind == "U" else np.can_cast(values.dtype, wanted, "safe")

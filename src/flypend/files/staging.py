@@ -19,7 +19,7 @@ def check_writable(out: str | Path) -> None:
 
 
 @contextmanager
-def staged(out: str | Path) -> Iterator[Path]:
+def staging(out: str | Path) -> Iterator[Path]:
     """Yield a staging folder. If the block succeeds, move its files into `out`; otherwise discard them.
 
     Raises InputError on entry unless `out` is, or can be created as, a writable folder.

@@ -95,7 +95,7 @@ def lean(acceleration: Vector, g: float) -> Scalar:
     return (2 * level / (length * (length + up))) ** 0.5
 
 
-def observed(
+def observe(
     t: Scalar,
     state: State,
     rotors: Numbers,
@@ -115,13 +115,13 @@ def observed(
     return ca.vertcat(worst, *excess, distance, ca.sumsqr(rotors) / rotors.numel(), ca.mmax(rotors))
 
 
-def gauged(
+def gauge(
     t: Scalar, state: State, vehicle: Vehicle, reference: Reference | None, criterion: Criterion, e3: E3Direction
 ) -> tuple[Numbers, Numbers]:
     """Return CasADi gauges (3, 1) of `PARTS`, smooth in time, and the tolerances (3, 1) that they are about.
 
     The gauges are |y − e₃|² and |z − e₃|² less their squared tolerances, and the squared distance. A part is within
-    tolerance while its gauge is at most its entry of `gauge_bounds`. Arguments as in `observed`.
+    tolerance while its gauge is at most its entry of `gauge_bounds`. Arguments as in `observe`.
     """
     x_ref, moving = _target(t, vehicle, reference, e3)
     gauges = ca.vertcat(*criterion.squares(state.y, state.z, moving, e3), ca.sumsqr(state.x - x_ref))
@@ -130,7 +130,7 @@ def gauged(
 
 
 def gauge_bounds(criterion: Criterion) -> tuple[float, float, float]:
-    """Largest value within tolerance of each gauge of `gauged`."""
+    """Largest value within tolerance of each gauge of `gauge`."""
     return 0.0, 0.0, criterion.position**2
 
 

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from flypend import errors, plants, signals
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import Flown, fly_all, has_kernel
-from flypend.flight.labelled import dataset, described, state_variables, variable
+from flypend.flight.labelled import dataset, describe, state_variables, variable
 from flypend.flight.members import fly_members
-from flypend.flight.metrics import Metrics, judged, wilson
+from flypend.flight.metrics import Metrics, judge, wilson
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, check_batch, some_times
 from flypend.flight.sampled import nearest_ticks
 from flypend.laws import AnyLaw, Controller
@@ -122,11 +122,11 @@ class Ensemble:
         differing = {name: value for name, value in self.gains.items() if isinstance(value, np.ndarray)}
         variables |= {f"gains.{name}": variable(name, runs, value) for name, value in differing.items()}
         own = {name: value for name, value in self.gains.items() if name not in differing}
-        return dataset(variables, described(self.vehicle, self.law, own, self.e3))
+        return dataset(variables, describe(self.vehicle, self.law, own, self.e3))
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def simulate_ensemble(
     vehicle: Vehicle,
     law: AnyLaw,
@@ -210,17 +210,15 @@ def fly_many(
             if value:
                 raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")
         return _one_by_one(flight, engine, workers, progress)
-    return _gathered(flight, fly_all(flight, workers=workers, progress=progress))
+    return _gather(flight, fly_all(flight, workers=workers, progress=progress))
 
 
 def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
     """Return the fields of `Metrics` as arrays (n,), for a `flight` that a kernel has `flown`."""
-    return judged(
-        flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance
-    )
+    return judge(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance)
 
 
-def _gathered(flight: Flight, flown: Flown) -> Ensemble:
+def _gather(flight: Flight, flown: Flown) -> Ensemble:
     samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
     return Ensemble(
         starts=flight.starts, final=State.trusted(flown.final), **_columns_of(flight, flown), **_about(flight),

@@ -86,7 +86,7 @@ def feasibility(vehicle: Vehicle, delay: float = 0.0) -> Feasibility:
     return found if impossible else Feasibility(**{**vars(found), "doubtful": _doubts(found, vehicle, delay)})
 
 
-def forewarned(flight: Flight) -> tuple[str, ...]:
+def forewarn(flight: Flight) -> tuple[str, ...]:
     """Return what is impossible or doubtful of `flight` before it is flown: if it is to stand the rod, by rotors."""
     if not isinstance(flight.plant, Sampled) or not flight.plant.limits or flight.law.e3 == "down":
         return ()

@@ -40,7 +40,7 @@ def state_variables(states: State, over: tuple[str, ...], prefix: str = "") -> d
     return {prefix + name: variable(name, over, getattr(states, name)) for name in SHAPES}
 
 
-def described(vehicle: Vehicle, law: str, gains: Mapping[str, Any], e3: E3Direction) -> dict[str, Any]:
+def describe(vehicle: Vehicle, law: str, gains: Mapping[str, Any], e3: E3Direction) -> dict[str, Any]:
     """Return attributes that specify vehicle, law, gains and frame."""
     return {
         "e3": e3,

@@ -33,7 +33,7 @@ def live_data(flight: Flight | None) -> dict[str, Any]:
     """
     loop = live_loop(flight)
     assert flight is not None
-    return {"offer": offered(flight), "engine": engine_facts(loop, flight.tolerances)}
+    return {"offer": choices(flight), "engine": engine_facts(loop, flight.tolerances)}
 
 
 def live_loop(flight: Flight | None) -> Loop:
@@ -57,7 +57,7 @@ def tunable(law: BoundLaw) -> tuple[str, ...]:
     return tuple(name for name, symbol in gains.items() if ca.depends_on(wrench, symbol))
 
 
-def offered(flight: Flight) -> dict[str, Any]:
+def choices(flight: Flight) -> dict[str, Any]:
     """Return the choices of the page: sliders, starts, and the setting to begin with."""
     law, vehicle, plant = flight.law, flight.vehicle, flight.plant
     assert isinstance(law, BoundLaw)
@@ -72,12 +72,12 @@ def offered(flight: Flight) -> dict[str, Any]:
     return {
         "first": first, "sliders": [*gains, *turned, *_places(law, plant), lasting],
         "starts": {"as flown": first["start"], **starts()},
-        **drawn_starts(),
+        **draw_starts(),
         "seed": flight.seed or 0,
     }  # fmt: skip
 
 
-def drawn_starts() -> dict[str, Any]:
+def draw_starts() -> dict[str, Any]:
     """Return the starts that a page draws from: `randoms`, and the `directions` of a map, in base64."""
     drawn = [State.random(np.random.default_rng(seed)) for seed in range(RANDOM)]
     return {"randoms": [plain(state) for state in drawn], "directions": in_base64(directions(MAPPED))}

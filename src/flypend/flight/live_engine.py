@@ -15,10 +15,10 @@ from flypend.flight.kernels.flown import STATUS
 from flypend.flight.kernels.pieces import pieces_problem
 from flypend.flight.kernels.sampled import JUDGED
 from flypend.flight.kernels.single import REASONS
-from flypend.flight.kernels.web import LANES, WebModule, flown_vehicle, web_module
+from flypend.flight.kernels.web import LANES, WebModule, true_vehicle, web_module
 from flypend.flight.request import SAMPLE_PERIOD, Tolerances
 from flypend.flight.sampled import LEFT, NOT_FINITE
-from flypend.flight.touch import touchable, touched
+from flypend.flight.touch import reason_of, touchable
 from flypend.flight.verdict import HANGS, MISSED, POSE, goal
 from flypend.laws.closed_loop import lyapunov_function
 from flypend.model.state import SIZE
@@ -35,25 +35,25 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
 
     The ideal plant is flown with the tolerances `exact`.
     """
-    return compiled(*engine(loop, exact, lanes))
+    return with_machine_code(*engine(loop, exact, lanes))
 
 
-def compiled(module: WebModule, facts: dict[str, Any]) -> dict[str, Any]:
+def with_machine_code(module: WebModule, facts: dict[str, Any]) -> dict[str, Any]:
     """Return the `facts` of an `engine` with the machine code of its `module`: deflated, in base64."""
     deflated = zlib.compress(module.code(), 9, wbits=RAW)
     return {"code": base64.b64encode(deflated).decode("ascii"), **facts}
 
 
-def inflated(code: str) -> bytes:
-    """Return the module of WebAssembly that `compiled` has put into `code`."""
+def inflate(code: str) -> bytes:
+    """Return the module of WebAssembly that `with_machine_code` has put into `code`."""
     return zlib.decompress(base64.b64decode(code), wbits=RAW)
 
 
 def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule, dict[str, Any]]:
     """Return what `engine_facts` compiles, and the rest of what it returns."""
-    law, true = loop.symbolic, flown_vehicle(loop)
+    law, true = loop.symbolic, true_vehicle(loop)
     criterion = goal(law.e3)
-    facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
+    facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled_engine(loop)
     return web_module(loop, criterion, exact, lanes), {
         **facts,
         "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins),
@@ -65,12 +65,12 @@ def engine(loop: Loop, exact: Tolerances, lanes: int = LANES) -> tuple[WebModule
         "words": {
             "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSE, "hangs": HANGS,
             "status": np.asarray(STATUS).tolist(), "reasons": _reasons(loop),
-            "touched": [[name, touched(loop.vehicle, i)] for i, name in enumerate(touchable(loop.vehicle))],
+            "touched": [[name, reason_of(loop.vehicle, i)] for i, name in enumerate(touchable(loop.vehicle))],
         },
     }  # fmt: skip
 
 
-def _sampled(loop: Loop) -> dict[str, Any]:
+def _sampled_engine(loop: Loop) -> dict[str, Any]:
     vehicle, plant = loop.vehicle, loop.sampled
     return {
         "kind": "sampled", "arguments": list(sampled.ARGUMENTS),

@@ -65,7 +65,7 @@ def _member(flight: Flight, engine: str) -> Member:
     judge, keep = (_rows(flight, run, wanted) for wanted in (flight.grid, flight.times))
     ends = judge[judge >= 0] if run.outcome.status == "completed" else np.append(judge[judge >= 0], len(run.t) - 1)
     samples = np.where(keep[:, None] >= 0, run.packed[keep], np.nan)
-    return Member(metrics(_taken(run, np.unique(ends)), flight.criterion), run.packed[-1], samples)
+    return Member(metrics(_take(run, np.unique(ends)), flight.criterion), run.packed[-1], samples)
 
 
 def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -77,7 +77,7 @@ def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArr
     return np.where(t[place] == wanted, place, -1)
 
 
-def _taken(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
+def _take(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
     """Return `run` restricted to some of its rows."""
     names = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
     return replace(run, **{name: getattr(run, name)[rows] for name in names}, signals={})  # metrics need no signals

@@ -13,7 +13,7 @@ from flypend.flight.criterion import PARTS, Criterion, lean
 from flypend.geometry import Numbers, norm
 from flypend.model import State, Vehicle
 from flypend.model.outline import extent
-from flypend.model.state import seen_packed
+from flypend.model.state import convert_packed
 
 Trajectory = Any  # flypend.Trajectory, not imported: its module judges runs for the replay
 
@@ -82,12 +82,12 @@ def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
     out = [~(part <= 0) for part in excess]
     reductions = [_since(run.t, np.any(out, axis=0)), *(_last(run.t, bad) for bad in out)]
     forces = run.rotor_forces
-    low, high = extent(State.trusted(seen_packed(run.packed, run.e3)), run.vehicle)
+    low, high = extent(State.trusted(convert_packed(run.packed, run.e3)), run.vehicle)
     values = [
         *reductions, np.max(distance), _mean(run.t, np.mean(forces**2, axis=1)), np.max(forces),
         *np.max(high, axis=0), *np.max(-low, axis=0),
     ]  # fmt: skip
-    columns = judged(
+    columns = judge(
         np.array([values]), [run.outcome.status], np.array([run.outcome.time]), run.vehicle, criterion,
         clearance=np.array([np.min(run.clearance)]),
     )  # fmt: skip
@@ -103,7 +103,7 @@ def _excess(run: Trajectory, criterion: Criterion) -> Any:
     return criterion.excess(run.y, run.z, norm(run.x - run.x_ref), _lean(run), run.e3)
 
 
-def judged(
+def judge(
     reductions: Numbers,
     status: Numbers,
     end: Numbers,

@@ -14,7 +14,7 @@ def distinct(values: ArrayLike) -> NDArray[Any]:
     return found[np.append(True, found[1:] != found[:-1])] if len(found) else found
 
 
-def merged(judge_at: ArrayLike, keep_at: ArrayLike | None, kind: type[Any]) -> tuple[Any, Any, NDArray[np.int64]]:
+def merge(judge_at: ArrayLike, keep_at: ArrayLike | None, kind: type[Any]) -> tuple[Any, Any, NDArray[np.int64]]:
     """Merge the points, numbers of `kind`, at which the criterion is evaluated and those at which states are kept.
 
     Returns the points in increasing order, 1 or 0 for those that are judged, and the number of samples kept before each

@@ -26,7 +26,7 @@ from flypend.flight.touch import watcher
 from flypend.geometry import Numbers
 from flypend.laws import Controller
 from flypend.model import Vehicle
-from flypend.model.state import MAX_STATE, seen_packed
+from flypend.model.state import MAX_STATE, convert_packed
 from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUST_MEMORY, GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
@@ -63,7 +63,7 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     start, duration = flight.starts, flight.duration
     true = plant.true_vehicle(vehicle)
     engine = make_engine(true, plant)
-    packed = seen_packed(start.packed(), law.e3)
+    packed = convert_packed(start.packed(), law.e3)
     begin = np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0]) if rotors is None else np.asarray(rotors)
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)
@@ -162,13 +162,13 @@ def _chance(
     drawn = normals(plant.seed, ticks, count) if is_random(plant) else None
     measure: Callable[[int, Any], Any] = lambda _, packed: packed  # noqa: E731
     if plant.noise is not None and drawn is not None:
-        noisy, sigma = _compiled(measurement), noise_numbers(plant.noise)
+        noisy, sigma = _compile(measurement), noise_numbers(plant.noise)
         measure = lambda k, packed: noisy(packed, drawn[k, MEASUREMENT], sigma)  # noqa: E731
     if plant.sensors is not None and drawn is not None:
-        measure = _sensed(vehicle, plant, start, drawn)
+        measure = _sense(vehicle, plant, start, drawn)
     if plant.wind is None:
         return measure, lambda _: np.zeros(6)
-    blow, numbers, gust = _compiled(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(GUST_MEMORY)
+    blow, numbers, gust = _compile(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(GUST_MEMORY)
     nothing = np.zeros(6)
 
     def next_wind(k: int) -> Numbers:
@@ -178,7 +178,7 @@ def _chance(
     return measure, next_wind
 
 
-def _sensed(vehicle: Vehicle, plant: Plant, start: Numbers, drawn: Numbers) -> Callable[[int, Numbers], Numbers]:
+def _sense(vehicle: Vehicle, plant: Plant, start: Numbers, drawn: Numbers) -> Callable[[int, Numbers], Numbers]:
     """Return (tick, state) → readings, for the true `start` (24,) and the random numbers `drawn` (ticks, n)."""
     period, count = 1 / plant.rate, draws_size(plant.sensors)
     sense = as_numpy(sensing(plant.sensors, vehicle, period))
@@ -193,7 +193,7 @@ def _sensed(vehicle: Vehicle, plant: Plant, start: Numbers, drawn: Numbers) -> C
 
 
 @cache
-def _compiled(make: Callable[[], ca.Function]) -> Any:
+def _compile(make: Callable[[], ca.Function]) -> Any:
     return as_numpy(make())
 
 

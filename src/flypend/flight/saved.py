@@ -50,7 +50,7 @@ def content(
     if len(drift):
         whole["drift_of"] = Variable(("drift_of",), np.array(DRIFT_OF))
         whole["drift"] = Variable(("step", "drift_of"), np.asarray(drift), {"long_name": "before projection, per step"})
-    return whole, {**attributes, "digest": checked(whole, attributes)[1]}
+    return whole, {**attributes, "digest": check(whole, attributes)[1]}
 
 
 def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
@@ -80,7 +80,7 @@ def run_from(variables: Mapping[str, Variable], attributes: Mapping[str, Any], p
     if missing := [name for name in ATTRIBUTES if name not in attributes]:
         raise InputError(path, KIND, f"NetCDF that flypend has not written: no {', '.join(missing)}")
     try:
-        run, found = checked(variables, attributes)
+        run, found = check(variables, attributes)
     except InputError as error:
         raise InputError(path, KIND, f"a damaged one ({error})") from None
     check_digest(path, KIND, attributes, "digest", found)
@@ -94,7 +94,7 @@ def check_digest(path: str, kind: str, attributes: Mapping[str, Any], name: str,
         raise InputError(path, kind, told)
 
 
-def checked(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
+def check(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
     """Return the fields of the run that `variables` and `attributes` specify, and their digest. Raises InputError."""
     about = check_attributes(ATTRIBUTES, attributes)
     errors.one_of("e3", about["e3"], ("up", "down"))

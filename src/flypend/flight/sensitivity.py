@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from flypend import errors, signals
 from flypend.errors import InputError
 from flypend.flight.kernels.tangent import fly_tangents
-from flypend.flight.labelled import dataset, described, state_variables, variable
+from flypend.flight.labelled import dataset, describe, state_variables, variable
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import BoundLaw, Law
@@ -79,11 +79,11 @@ class Sensitivity:
         if self.gains:
             variables["gain"] = variable("gain", names, list(self.gains))
             variables["by_gains"] = variable("by_gains", ends + names, by_gains)
-        return dataset(variables, described(self.vehicle, self.law, self.gains, self.e3) | vars(self.outcome))
+        return dataset(variables, describe(self.vehicle, self.law, self.gains, self.e3) | vars(self.outcome))
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def sensitivity(
     vehicle: Vehicle,
     law: Law | BoundLaw,

@@ -23,9 +23,9 @@ from flypend.flight.trajectory import Trajectory
 from flypend.geometry import Numbers
 from flypend.laws import AnyLaw, BoundLaw, Controller
 from flypend.laws.closed_loop import ClosedLoop, close_loop
-from flypend.laws.references import sampled
+from flypend.laws.references import sample
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE, project, seen_packed, split
+from flypend.model.state import SIZE, convert_packed, project, split
 from flypend.plants import AnyPlant, Ideal, Sampled
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ ENGINES = ("kernel", "scipy")
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def simulate(
     vehicle: Vehicle,
     law: AnyLaw,
@@ -100,7 +100,7 @@ def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
     """Fly a request with a single start by `engine`, "kernel" or "scipy", as in `simulate`."""
     errors.one_of("engine", engine, ENGINES)
     plant = flight.plant
-    run = _ideal(flight, engine) if isinstance(plant, Ideal) else _sampled(flight, plant, engine)
+    run = _ideal(flight, engine) if isinstance(plant, Ideal) else _fly_sampled(flight, plant, engine)
     return replace(run, flight=flight)
 
 
@@ -182,12 +182,12 @@ def _touch(flight: Flight, loop: ClosedLoop) -> Callable[[Any], tuple[float, str
     return look
 
 
-def _sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
+def _fly_sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     """Fly a sampled flight; it is recorded at the control ticks nearest to the sample times."""
     samples = _samples(flight, plant, engine)
     law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
-    packed = seen_packed(samples.packed, law.e3)
+    packed = convert_packed(samples.packed, law.e3)
     return Trajectory(
         t=samples.t,
         **split(packed),
@@ -214,4 +214,4 @@ def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
 
 
 def _reference(law: BoundLaw | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    return None if law.reference is None else sampled(law.reference, times)
+    return None if law.reference is None else sample(law.reference, times)

@@ -14,7 +14,7 @@ from flypend.geometry import Numbers, dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, part_names, rod_in_body
 from flypend.model.outline import outline, outline_parts
-from flypend.model.state import SIZE, E3Direction, seen_packed
+from flypend.model.state import SIZE, E3Direction, convert_packed
 
 _End = tuple[Any, Any, Any]  # rod in the body frame, its rate, its push on the vehicle
 # Points within a control period at which the rod is looked at. At 500 Hz they are 0.5 ms apart: the tip of a rod of
@@ -54,7 +54,7 @@ def touching(
 
 def _heights(packed: Numbers, vehicle: Vehicle, e3: E3Direction, floor: float) -> Numbers:
     """Heights (k, 1) of the lowest points of the parts of the outline above the `floor`, m."""
-    low, _ = outline(State.symbolic(seen_packed(packed[:SIZE], e3)), vehicle)
+    low, _ = outline(State.symbolic(convert_packed(packed[:SIZE], e3)), vehicle)
     return low[:, 2] - floor
 
 
@@ -105,7 +105,7 @@ def touchable(vehicle: Vehicle) -> list[str]:
     return part_names(vehicle) + [f"{LANDED}{part}" for part in outline_parts(vehicle)]
 
 
-def touched(vehicle: Vehicle, part: int) -> str:
+def reason_of(vehicle: Vehicle, part: int) -> str:
     """Return the reason of an outcome, for the `part` of `touching`."""
     name = touchable(vehicle)[part]
     if name.startswith(LANDED):
@@ -115,10 +115,10 @@ def touched(vehicle: Vehicle, part: int) -> str:
     return "the rod left the cone of its cup" if name == "cone" else "the cup would have had to pull the rod"
 
 
-def touched_part(vehicle: Vehicle, reason: str) -> str | None:
+def part_of(vehicle: Vehicle, reason: str) -> str | None:
     """Return the name in `touchable` of the part that an outcome's `reason` is about; None if it is about none."""
     names = touchable(vehicle)
-    return next((name for part, name in enumerate(names) if touched(vehicle, part) == reason), None)
+    return next((name for part, name in enumerate(names) if reason_of(vehicle, part) == reason), None)
 
 
 class Touch(NamedTuple):
@@ -140,7 +140,7 @@ def watcher(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True,
 
     def watch(before: Numbers, after: Numbers, period: float) -> Touch | None:
         _, share, part = look(before, after, period)
-        return Touch(float(share), touched(vehicle, int(part))) if share <= 1 else None
+        return Touch(float(share), reason_of(vehicle, int(part))) if share <= 1 else None
 
     return watch
 

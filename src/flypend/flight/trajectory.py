@@ -14,7 +14,7 @@ from flypend import errors
 from flypend.files.netcdf import Variable
 from flypend.files.whole import whole_file
 from flypend.flight import saved
-from flypend.flight.labelled import dataframe, dataset, described, variable
+from flypend.flight.labelled import dataframe, dataset, describe, variable
 from flypend.flight.outcome import Outcome
 from flypend.geometry import Matrix, Numbers, Vector, cross, dot, norm
 from flypend.model import State, Vehicle, Wrench, rod_tension
@@ -220,7 +220,7 @@ class Trajectory:
     def _attributes(self) -> dict[str, Any]:
         """Return attributes that specify what was flown and how it ended."""
         return {
-            **described(self.vehicle, self.law, self.gains, self.e3),
+            **describe(self.vehicle, self.law, self.gains, self.e3),
             "outcome": self.outcome.status,
             "outcome_time": self.outcome.time,
             "outcome_reason": self.outcome.reason,

@@ -8,7 +8,7 @@ import numpy as np
 
 from flypend.flight.criterion import Criterion
 from flypend.flight.metrics import metrics, worst_excess
-from flypend.flight.touch import touched_part
+from flypend.flight.touch import part_of
 from flypend.model.state import E3Direction
 
 POSE = "upright"
@@ -38,8 +38,8 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
     """
     criterion = criterion or goal(run.e3)
     judged = metrics(run, criterion)
-    part = touched_part(run.vehicle, run.outcome.reason)
-    distance = f"excursion {_rounded(judged.excursion)} m"
+    part = part_of(run.vehicle, run.outcome.reason)
+    distance = f"excursion {_round(judged.excursion)} m"
     if run.outcome.status != "completed":
         words = f"{run.outcome.status} {_moment(run.outcome.time)}"
         if part is not None:
@@ -70,8 +70,8 @@ def _moment(time: float) -> str:
 def fall(run: Run) -> str:
     """Return in words how far the vehicle of `run`, in a frame with e₃ along gravity, fell or rose."""
     metres = float(run.x[-1, 2] - run.x[0, 2])
-    return f"vehicle {'fell' if metres >= 0 else 'rose'} {_rounded(abs(metres))} m"
+    return f"vehicle {'fell' if metres >= 0 else 'rose'} {_round(abs(metres))} m"
 
 
-def _rounded(metres: float) -> str:
+def _round(metres: float) -> str:
     return f"{round(metres, 2):.3g}"

@@ -14,7 +14,7 @@ from flypend import errors
 from flypend.geometry import Vector
 from flypend.identification.fit import fit
 from flypend.identification.log import Log, read_log
-from flypend.identification.result import Identified, identified
+from flypend.identification.result import Identified, conclude
 from flypend.model import Vehicle
 
 __all__ = ["Identified", "Log", "identify", "read_log"]
@@ -73,4 +73,4 @@ def identify(
         if progress is not None:
             progress("pass", done, PASSES)
 
-    return identified(fit(flown, vehicle, place, pwm, tell), vehicle, mass_error)
+    return conclude(fit(flown, vehicle, place, pwm, tell), vehicle, mass_error)

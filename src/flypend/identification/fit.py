@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Vector, vee
 from flypend.identification.filtering import GUST_TIME, Noises, Pass, Programs, run_filter
-from flypend.identification.grid import grid_step, gridded
+from flypend.identification.grid import grid_step, to_grid
 from flypend.identification.log import Log
 from flypend.identification.model import CHANNELS, MOVING, READING, moves, reads, sizes
 from flypend.identification.numbers import Search, places, search_from
@@ -92,7 +92,7 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[i
             break
         theta = after
         if k >= ROUGH:
-            noises = _mixed(noises, found.noises, first)
+            noises = _mix(noises, found.noises, first)
     sandwich = bread @ (scores.T @ scores + np.diag(prior[free])) @ bread
     covariance = np.zeros((len(theta),) * 2)
     covariance[np.ix_(free, free)] = _wider(sandwich, bread)
@@ -105,7 +105,7 @@ def one_pass(
     """Run the filter with the numbers at θ; its scores are by the numbers themselves."""
     plain, where = search.plain(theta), places(search.table)
     latency = float(plain[where["latency"]][0])
-    grid = gridded(log, latency)
+    grid = to_grid(log, latency)
     reading = plain[-sizes(READING) :].copy()
     reading[0] = 0.0  # poses of the grid are that much older
     n = log.command.shape[1]
@@ -152,7 +152,7 @@ def _reading_variances(log: Log) -> Any:
     return np.array(found)
 
 
-def _mixed(before: Noises, told: Noises, first: Noises) -> Noises:
+def _mix(before: Noises, told: Noises, first: Noises) -> Noises:
     driving = np.clip(told.driving, QUIETEST * first.driving, 1e6 * first.driving)
     return replace(before, driving=driving)
 

@@ -31,7 +31,7 @@ def grid_step(log: Log) -> float:
     return apart * max(1, int(STEP / apart + 0.2))
 
 
-def gridded(log: Log, latency: float) -> Grid:
+def to_grid(log: Log, latency: float) -> Grid:
     """Return `log` on the grid, with poses as old as `latency` (s) when they are written."""
     step, apart = grid_step(log), float(np.median(np.diff(log.t)))
     t = np.arange(log.t[0] + (step - apart) / 2, log.t[-1] + step / 2, step)  # in the middle of the rows of a step

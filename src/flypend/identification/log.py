@@ -90,7 +90,7 @@ def read_log(path: str | Path) -> Log:
     try:
         content = read_bytes(path, MOST_BYTES, copies=COPIES)
         if is_ulog(content):
-            return _checked(*parse_ulog(content, str(path)), str(path), fractions=True)
+            return _check(*parse_ulog(content, str(path)), str(path), fractions=True)
         text = content.decode("utf-8")
     except InputError:
         raise
@@ -118,7 +118,7 @@ def parse_log(text: str, field: str = "log") -> Log:
         raise InputError(field, f"CSV (line {rows.line_num})", error) from None
     values = np.array(table, dtype=float).reshape(len(table), len(names)) * units
     columns = dict(zip(names, values.T, strict=True))
-    return _checked(columns, rotors, field, fractions=theirs)
+    return _check(columns, rotors, field, fractions=theirs)
 
 
 def _of_crazyflie(names: list[str], field: str) -> tuple[list[str], Any]:
@@ -167,16 +167,18 @@ def _check_times(t: Any, field: str) -> None:
     if np.any(missing := np.isnan(t)):
         raise InputError(f"{field}, row {_row(missing)}, column t", "a time, s", "an empty cell")
     if np.any(back := np.diff(t) <= 0):
-        raise InputError(f"{field}, row {_row(back) + 1}, column t", "a later time than before", _told(t, back))
+        raise InputError(f"{field}, row {_row(back) + 1}, column t", "a later time than before", _row_of(t, back))
     if len(t) < 2 or t[-1] - t[0] < SHORTEST:
         raise InputError(field, f"at least {SHORTEST:g} s of flight", f"{t[-1] - t[0] if len(t) else 0:.3g} s")
     if (rate := (len(t) - 1) / (t[-1] - t[0])) < SLOWEST:
         raise InputError(f"{field}, column t", f"at least {SLOWEST:g} rows a second (s, not ms?)", f"{rate:.3g}")
     if np.any(gap := np.diff(t) > LONGEST_GAP):
-        raise InputError(f"{field}, row {_row(gap) + 1}, column t", f"gaps of at most {LONGEST_GAP:g} s", _told(t, gap))
+        raise InputError(
+            f"{field}, row {_row(gap) + 1}, column t", f"gaps of at most {LONGEST_GAP:g} s", _row_of(t, gap)
+        )
 
 
-def _checked(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool) -> Log:
+def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool) -> Log:
     t = columns["t"]
     _check_times(t, field)
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)
@@ -191,7 +193,7 @@ def _checked(columns: dict[str, Any], rotors: int, field: str, *, fractions: boo
             told = f"length {length[np.argmax(wrong)]:.3g}"
             raise InputError(f"{field}, row {_row(wrong)}, column {first}", "a vector of length 1", told)
         groups[name] = groups[name] / length[:, None]
-    command = np.stack([_held(columns[f"u{i + 1}"], f"{field}, column u{i + 1}") for i in range(rotors)], axis=-1)
+    command = np.stack([_hold_last(columns[f"u{i + 1}"], f"{field}, column u{i + 1}") for i in range(rotors)], axis=-1)
     if np.any(low := (command < 0).any(axis=1)):
         raise InputError(
             f"{field}, row {_row(low)}, columns u1…", "commands >= 0", f"{command[np.argmax(low)].min():g}"
@@ -203,7 +205,7 @@ def _checked(columns: dict[str, Any], rotors: int, field: str, *, fractions: boo
     return Log(t, groups["position"], rotation, groups["gyro"], groups["force"], groups["rod"], command, fractions)
 
 
-def _held(values: Any, field: str) -> Any:
+def _hold_last(values: Any, field: str) -> Any:
     """Return commands with empty cells filled by the one before. Raises InputError if there is none at all."""
     known = np.flatnonzero(np.isfinite(values))
     if not len(known):
@@ -217,6 +219,6 @@ def _row(wrong: Any) -> int:
     return int(np.argmax(wrong)) + 2
 
 
-def _told(t: Any, wrong: Any) -> str:
+def _row_of(t: Any, wrong: Any) -> str:
     i = int(np.argmax(wrong))
     return f"{t[i + 1]:.6g} after {t[i]:.6g}"

@@ -77,15 +77,15 @@ def moves(vehicle: Vehicle) -> Callable[..., Any]:
     before, gusts, mean, change = (ca.SX.sym(a, k) for a, k in (("s", SIZE), ("g", GUST), ("f", n), ("c", n)))
     h, decay, moving, error = ca.SX.sym("h"), ca.SX.sym("d"), ca.SX.sym("m", sizes(MOVING)), ca.SX.sym("e", LOCAL)
     correction, made = ca.SX.sym("k", LOCAL), machine(vehicle, moving)
-    packed, felt = corrected(before, correction[:ERROR]), gusts + correction[ERROR:]
+    packed, felt = correct(before, correction[:ERROR]), gusts + correction[ERROR:]
     steady = felt + ca.vertcat(made.wind, ca.SX(4, 1))
     after = runge_kutta_step(packed, Ramp(mean, change), steady, h, made, plant)
 
     # Where an error goes in a short time h: to first order in h, by d/dh.
     start, origin = ca.SX.sym("p", SIZE), ca.SX.sym("o", SIZE)
-    at = shifted(start, error[:ERROR])
+    at = shift(start, error[:ERROR])
     later = at + h * rates_under(at, mean, ca.mtimes(made.mixing(), mean), steady + error[ERROR:], made, plant)
-    by = ca.substitute(ca.jacobian(shifted_back(origin, later), ca.vertcat(error, moving, mean)), error, ZERO)
+    by = ca.substitute(ca.jacobian(local_error(origin, later), ca.vertcat(error, moving, mean)), error, ZERO)
     columns = ca.vec(ca.densify(ca.substitute(by, origin, ca.substitute(later, error, ZERO))))
     rate = ca.substitute(ca.substitute(ca.jacobian(columns, h), h, 0), start, packed)
     outputs = ca.cse(list(map(ca.densify, (after, decay * felt, rate))))
@@ -104,7 +104,7 @@ def reads(vehicle: Vehicle, marker: Vector) -> Callable[..., Any]:
     packed, gusts, forces, age = ca.SX.sym("s", SIZE), ca.SX.sym("g", GUST), ca.SX.sym("f", n), ca.SX.sym("a")
     moving, reading, error = ca.SX.sym("m", sizes(MOVING)), ca.SX.sym("r", sizes(READING)), ca.SX.sym("e", LOCAL)
     made, told = machine(vehicle, moving), split(READING, reading)
-    s = State.symbolic(shifted(packed, error[:ERROR]))
+    s = State.symbolic(shift(packed, error[:ERROR]))
     wind = gusts + error[ERROR:] + ca.vertcat(made.wind, ca.SX(4, 1))
     wrench = ca.mtimes(made.mixing(), forces)
     rates = State.symbolic(rates_under(s.packed(), forces, wrench, wind, made, Plant(air=("rotor_drag",))))
@@ -124,7 +124,7 @@ def reads(vehicle: Vehicle, marker: Vector) -> Callable[..., Any]:
     return as_numpy(ca.Function("reads", inputs, ca.cse(list(map(ca.densify, (now[0], columns))))))
 
 
-def corrected(packed: Numbers, error: Numbers) -> Numbers:
+def correct(packed: Numbers, error: Numbers) -> Numbers:
     """Return the packed state (24, 1) on the manifold that a local `error` (18, 1) makes of `packed`."""
     s = State.symbolic(packed)
     y = unit(s.y + error[12:15])
@@ -134,7 +134,7 @@ def corrected(packed: Numbers, error: Numbers) -> Numbers:
     ).packed()  # fmt: skip
 
 
-def shifted(packed: Numbers, error: Numbers) -> Numbers:
+def shift(packed: Numbers, error: Numbers) -> Numbers:
     """Return the packed state (24, 1) that differs from `packed` by a local `error` (18, 1), to first order."""
     s = State.symbolic(packed)
     return State(
@@ -143,7 +143,7 @@ def shifted(packed: Numbers, error: Numbers) -> Numbers:
     ).packed()  # fmt: skip
 
 
-def shifted_back(at: Numbers, packed: Numbers) -> Numbers:
+def local_error(at: Numbers, packed: Numbers) -> Numbers:
     """Return the local error (18, 1) of `packed` from the packed state `at`, to first order."""
     a, s = State.symbolic(at), State.symbolic(packed)
     return ca.vertcat(

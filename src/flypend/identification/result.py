@@ -110,7 +110,7 @@ class Identified:
         )  # fmt: skip
 
 
-def identified(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
+def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
     """Return what `fit` says of `guess`, whose mass is known within the share `mass_error`."""
     search, n = fit.search, len(guess.rotor_spins)
     values, at = search.values(fit.theta), places(search.table)

@@ -14,7 +14,7 @@ import numpy as np
 
 from flypend.geometry import Numbers
 from flypend.plants.lag import symbolic_timing
-from flypend.plants.motors import followed, sagged
+from flypend.plants.motors import follow, sag_forces
 
 # Differences by which forces are differentiated; their own errors are a thousandth of the smallest standard error.
 DIFFERENCE = {"lag": 1e-6, "spin_up": 1e-5, "sag": 1e-5, "delay": 1e-6, "curve": 1e-5}
@@ -50,7 +50,7 @@ def _programs(rotors: int) -> tuple[ca.Function, ca.Function]:
     """Return (forces, target, duration, lag and spin-up) → forces after; and → integral and forces after."""
     f, target, h, timing = (ca.SX.sym(a, k) for a, k in (("f", rotors), ("u", rotors), ("h", 1), ("p", 2)))
     falling, rising = symbolic_timing(timing[0], h), symbolic_timing(timing[0] * timing[1], h)
-    ramp, end = followed(f, target, ca.vertcat(falling, rising))
+    ramp, end = follow(f, target, ca.vertcat(falling, rising))
     inputs = [f, ca.vertcat(target, h), timing]
     return ca.Function("after", inputs, [end]), ca.Function("within", inputs, [ramp.mean * h, end])
 
@@ -63,7 +63,7 @@ def _following(rotors: int, count: int) -> ca.Function:
 @lru_cache(maxsize=4)
 def _settling(rotors: int) -> ca.Function:
     command, most, sag = ca.SX.sym("u", rotors), ca.SX.sym("most"), ca.SX.sym("sag")
-    return ca.Function("settling", [command, most, sag], [sagged(command, most, sag)])
+    return ca.Function("settling", [command, most, sag], [sag_forces(command, most, sag)])
 
 
 def rotor_forces(

@@ -43,15 +43,15 @@ def parse_ulog(content: bytes | bytearray, field: str = "log") -> tuple[dict[str
     """
     topics = _topics(content, field)
     columns: list[tuple[Any, dict[str, Any]]] = [
-        _measured(topics, field, POSITIONS, XYZ, TURNED),
-        _measured(topics, field, ATTITUDES, QUATERNION, TURNED_QUATERNION),
-        _measured(topics, field, (("sensor_combined", "gyro_rad[{}]"),), ("gx", "gy", "gz"), TURNED),
-        _measured(topics, field, (("sensor_combined", "accelerometer_m_s2[{}]"),), ("ax", "ay", "az"), TURNED),
+        _read_first(topics, field, POSITIONS, XYZ, TURNED),
+        _read_first(topics, field, ATTITUDES, QUATERNION, TURNED_QUATERNION),
+        _read_first(topics, field, (("sensor_combined", "gyro_rad[{}]"),), ("gx", "gy", "gz"), TURNED),
+        _read_first(topics, field, (("sensor_combined", "accelerometer_m_s2[{}]"),), ("ax", "ay", "az"), TURNED),
     ]
     commands = _commands(topics, field)
     columns.append(commands)
     if "battery_status" in topics:
-        columns.append(_measured(topics, field, (("battery_status", "voltage_v"),), ("vbat",), (1.0,)))
+        columns.append(_read_first(topics, field, (("battery_status", "voltage_v"),), ("vbat",), (1.0,)))
     begin, end = _in_air(topics, field)
     times = np.unique(np.concatenate([t for t, _ in columns]))
     times = times[(times >= begin) & (times <= end)]
@@ -91,7 +91,7 @@ class _Stream(io.BytesIO):
         return content
 
 
-def _measured(
+def _read_first(
     topics: dict[str, dict[str, Any]],
     field: str,
     sources: tuple[tuple[str, str], ...],
@@ -116,7 +116,7 @@ def _commands(topics: dict[str, dict[str, Any]], field: str) -> tuple[Any, dict[
     names = tuple(f"u{i + 1}" for i in range(MOST_ROTORS))
     data = dict(topics.get("actuator_motors", {}))
     data.pop("timestamp_sample", None)  # a command acts from when it is published
-    stamps, found = _measured({"actuator_motors": data}, field, (("actuator_motors", "control[{}]"),), names,
+    stamps, found = _read_first({"actuator_motors": data}, field, (("actuator_motors", "control[{}]"),), names,
                               (1.0,) * MOST_ROTORS)  # fmt: skip
     used = next((i for i, name in enumerate(names) if np.isnan(found[name]).all()), MOST_ROTORS)
     return stamps, {name: found[name] for name in names[:used]}

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from flypend import errors, palette
-from flypend.flight.live import drawn_starts, live_loop
+from flypend.flight.live import draw_starts, live_loop
 from flypend.flight.live_engine import engine_facts
 from flypend.flight.verdict import goal
 from flypend.lab.controls import offer, sliders
@@ -63,10 +63,10 @@ def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str,
         engines[_kind(setting)] = _engine(setting_of(setting))
     data = {
         "title": title, "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], "engines": engines,
-        "offer": {**_offered(every, settings, engines), **drawn_starts()},
+        "offer": {**_available(every, settings, engines), **draw_starts()},
     }  # fmt: skip
     return replay.PAGE.format(
-        policy=html.escape(replay.LIVE_POLICY), title=title, data=replay.embedded(data), program=replay.program("lab")
+        policy=html.escape(replay.LIVE_POLICY), title=title, data=replay.embed(data), program=replay.program("lab")
     )
 
 
@@ -87,7 +87,7 @@ def _engine(setting: Setting) -> dict[str, Any]:
     told = SimpleNamespace(law=law.name, gains=setting.gains, vehicle=flight.vehicle)
     record = {
         **replay.names([told])[0], "law": law.name, "e3": law.e3, "direction": [1.0, 0.0, 0.0],
-        "vehicle": replay.drawn(flight.vehicle), "hold": goal(law.e3).hold,
+        "vehicle": replay.describe_machine(flight.vehicle), "hold": goal(law.e3).hold,
     }  # fmt: skip
     loop = live_loop(flight)
     fixed = {f"law.gains.{name}" for name in setting.gains if name not in loop.parameters} | {"vehicle.rotor_limits"}
@@ -95,7 +95,7 @@ def _engine(setting: Setting) -> dict[str, Any]:
     return {"engine": engine_facts(loop, flight.tolerances), "sliders": offered, "record": record}
 
 
-def _offered(every: dict[str, Any], settings: Sequence[dict[str, Any]], engines: dict[str, Any]) -> dict[str, Any]:
+def _available(every: dict[str, Any], settings: Sequence[dict[str, Any]], engines: dict[str, Any]) -> dict[str, Any]:
     """Return of `every` choice those that there is machine code for."""
     story = [step for step in every["story"] if _kind(step["setting"]) in engines]
     papers = {name: setting for name, setting in every["experiments"].items() if _kind(setting) in engines}

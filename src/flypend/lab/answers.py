@@ -19,7 +19,7 @@ from flypend.lab.flying import MOST_STEPS, fly
 from flypend.lab.map import region
 from flypend.lab.own import NONE, OwnLaws
 from flypend.lab.setting import Setting, setting_of
-from flypend.lab.tuning import Tell, tuned
+from flypend.lab.tuning import Tell, tune_loop
 from flypend.laws import BoundLaw
 from flypend.pages import replay
 from flypend.pages.sliders import sliders_of
@@ -58,7 +58,7 @@ def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
     begun = time.perf_counter()
     setting = setting_of(message.get("setting"), own)
     run = fly(setting, tell)
-    packed = replay.pack(run, verdict(run, tuned(setting).criterion))
+    packed = replay.pack(run, verdict(run, tune_loop(setting).criterion))
     yield {
         "kind": "flight",
         "run": packed,

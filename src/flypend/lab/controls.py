@@ -92,7 +92,7 @@ def story() -> list[dict[str, Any]]:
             "A rod on a ball joint",
             "No motor turns the rod. The thrust moves the joint: its part across the rod turns the rod, its part along "
             "the rod carries the bob. Let the rod lean further, and the vehicle has to travel further to get below it.",
-            TILT, _setting(_tilted(LEAN)),
+            TILT, _setting(_tilt(LEAN)),
         ),
         _step(
             "Why the printed law fails",
@@ -110,36 +110,36 @@ def story() -> list[dict[str, Any]]:
             "Throw",
             "The inverted law uses both parts of the thrust. To flip a hanging rod it must push down for a moment, and "
             "nothing is held up. So it throws the bob first. Throw faster, and the bob rises higher.",
-            "law.gains.throw_speed", _setting(_tilted(180.0)), phase="climbs",
+            "law.gains.throw_speed", _setting(_tilt(180.0)), phase="climbs",
         ),
         _step(
             "Flip",
             "The vehicle turns over, dives past the bob, and the rod swings up. Turning takes time, so the thrust axis "
             "aims at the force that will be needed when it arrives. Look ahead too little or too far, and it fails.",
-            "law.gains.coast_time", _setting(_tilted(180.0)), phase="flips",
+            "law.gains.coast_time", _setting(_tilt(180.0)), phase="flips",
         ),
         _step(
             "Catch",
             "Below the bob the vehicle pushes up again, and damping stops the swing. With little damping the rod takes "
             "longer to come to rest; with too much of it the catch is missed.",
-            "law.gains.rod_damping", _setting(_tilted(180.0)), phase="catches",
+            "law.gains.rod_damping", _setting(_tilt(180.0)), phase="catches",
         ),
         _step(
             "V falls",
             "Another law for the same machine comes with a proof: a Lyapunov function V falls along every solution. "
             "Start the rod elsewhere, and V still falls (second plot). The proof is for ideal rotors.",
-            TILT, _setting(_tilted(150.0), "almost_global", plant="ideal", duration=LASTING),
+            TILT, _setting(_tilt(150.0), "almost_global", plant="ideal", duration=LASTING),
         ),
         _step(
             "What the rotors forbid",
             "Rotors push one way, up to a limit, and answer late. Drag the lag to its end, and the machine turns too "
             "slowly to catch the rod.",
-            "plant.lag", _setting(_tilted(180.0)),
+            "plant.lag", _setting(_tilt(180.0)),
         ),
     ]  # fmt: skip
 
 
-def _tilted(degrees: float) -> dict[str, Any]:
+def _tilt(degrees: float) -> dict[str, Any]:
     """A start at rest with the rod so far from upright."""
     lean = np.radians(degrees)
     return plain(State(y=(np.sin(lean), 0.0, np.cos(lean))))
@@ -169,4 +169,4 @@ PAGE = """<!doctype html>
 def page(own: OwnLaws | None = None) -> str:
     """Return the page as HTML, offering the custom laws `own`."""
     data = {"title": "flypend laboratory", "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": []}
-    return PAGE.format(data=replay.embedded({**data, "offer": offer(own)}))
+    return PAGE.format(data=replay.embed({**data, "offer": offer(own)}))

@@ -21,10 +21,10 @@ from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
-from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tuned, values
-from flypend.laws.references import sampled
+from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tune_loop, values
+from flypend.laws.references import sample
 from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
-from flypend.model.state import SIZE, E3Direction, seen_packed, split
+from flypend.model.state import SIZE, E3Direction, convert_packed, split
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
@@ -54,9 +54,11 @@ def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
     A flight ends after MOST_STEPS.
     """
     flight = setting.flight
-    machine, gains = tuned(setting, tell), values(setting)
+    machine, gains = tune_loop(setting, tell), values(setting)
     if setting.pokes and isinstance(machine, Tuned) and isinstance(machine.kernel, SampledKernel):
-        return _trajectory(setting, machine, gains, [_poked_on(setting, machine, in_pieces(machine, tell), gains)])
+        return _trajectory(
+            setting, machine, gains, [_fly_through_pokes(setting, machine, in_pieces(machine, tell), gains)]
+        )
     begin, state, rotors, number = 0.0, flight.starts, None, 0
     parts: list[Part] = []
     for poke in (*setting.pokes, None):
@@ -64,17 +66,17 @@ def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
         left = MOST_STEPS - sum(part.steps for part in parts)
         request = flight.replace(tolerances=replace(flight.tolerances, max_steps=max(left, 1)))
         part = _after(machine, gains, request, state, rotors, while_, number)
-        parts.append(_moved(part, begin, first=not parts))
+        parts.append(_move(part, begin, first=not parts))
         if poke is None or part.outcome.status != "completed":
             break
         end = State(**split(part.packed[-1]))
-        state = poked(end, flight.vehicle, machine.law.e3, poke)
+        state = poke_state(end, flight.vehicle, machine.law.e3, poke)
         begin = begin + float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
         rotors, number = part.rotors[-1], number + 1
     return _trajectory(setting, machine, gains, parts)
 
 
-def _poked_on(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any) -> Part:
+def _fly_through_pokes(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any) -> Part:
     """Fly a sampled plant through all pokes: board, noise and commands in transit go on as if nothing had happened."""
     flight, plant = setting.flight, machine.kernel.loop.sampled
     ticks = [_tick(poke, 1 / plant.rate) for poke in setting.pokes]
@@ -112,7 +114,7 @@ def _tick(poke: Poke, period: float) -> int:
     return int(np.floor(poke.time / period + 0.5))
 
 
-def poked(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
+def poke_state(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
     """Return `state` (frame `e3`) after the impulse of `poke`: x_dot and y_dot jump, all else stays.
 
     The accelerations are affine in the external force, so the jump is the acceleration with the force, minus that
@@ -141,9 +143,9 @@ def _after(
 
 def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> Part:
     if isinstance(machine, Stepped):
-        return _stepped_part(flight.replace(law=machine.law), rotors)
+        return _step_part(flight.replace(law=machine.law), rotors)
     if isinstance(machine.kernel, SampledKernel):
-        return _sampled_part(machine.kernel, gains, flight, rotors)
+        return _fly_sampled_part(machine.kernel, gains, flight, rotors)
     return _ideal_part(machine, machine.kernel, gains, flight)
 
 
@@ -164,11 +166,11 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
     return Part(t, packed, rotors, wrench, outcome)
 
 
-def _sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
+def _fly_sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
     return _part_from(sampled_samples(kernel, flight, gains, rotors), flight, kernel.loop.sampled)
 
 
-def _stepped_part(flight: Flight, rotors: Any) -> Part:
+def _step_part(flight: Flight, rotors: Any) -> Part:
     """Fly a part step by step in Python."""
     plant = flight.plant
     assert isinstance(plant, Sampled)
@@ -177,11 +179,11 @@ def _stepped_part(flight: Flight, rotors: Any) -> Part:
 
 def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
     e3, true = flight.law.e3, plant.true_vehicle(flight.vehicle)
-    packed = seen_packed(samples.packed, e3)
+    packed = convert_packed(samples.packed, e3)
     return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
 
 
-def _moved(part: Part, begin: float, *, first: bool) -> Part:
+def _move(part: Part, begin: float, *, first: bool) -> Part:
     """Shift `part` to flight time; unless it is the `first`, without its first sample, which the blow has changed."""
     keep = slice(None) if first else slice(1, None)
     outcome = Outcome(part.outcome.status, begin + part.outcome.time, part.outcome.reason)
@@ -206,7 +208,7 @@ def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: l
         vehicle=machine.vehicle,
         law=law.name,
         gains=setting.gains,
-        x_ref=None if law.reference is None else sampled(law.reference, t),
+        x_ref=None if law.reference is None else sample(law.reference, t),
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from flypend.flight.ensemble import fly_many
 from flypend.lab.flying import MOST_STEPS
 from flypend.lab.setting import Setting
-from flypend.lab.tuning import Stepped, Tell, tuned, values
+from flypend.lab.tuning import Stepped, Tell, tune_loop, values
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.pages.starts import directions
@@ -30,7 +30,7 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
     `cause`. A flight of more than MOST_STEPS counts as diverged.
     """
     flight = setting.flight
-    machine, gains = tuned(setting, tell), values(setting)
+    machine, gains = tune_loop(setting, tell), values(setting)
     kind = "ideal" if isinstance(flight.plant, Ideal) else "sampled"
     kind = "stepped" if isinstance(machine, Stepped) else kind
     count, done, size = RUNS[kind], 0, FIRST[kind]

@@ -44,7 +44,7 @@ class OwnLaws:
         self._where: dict[str, str] = {}
         self._kept: dict[str, OwnLaw] = {}
         for name in names:
-            own = _loaded(str(absolute(name, Path.cwd())))
+            own = _load(str(absolute(name, Path.cwd())))
             taken = (*law_names(), *self._where)
             title = own.law.name
             while title in taken:
@@ -67,11 +67,11 @@ class OwnLaws:
         """Return the law called `name`, from its file as it is now. Raises InputError if the file has an error."""
         where, kept = self._where[name], self._kept.get(name)
         if kept is None or kept.stamp != _stamp(where):
-            kept = self._kept[name] = _loaded(where)
+            kept = self._kept[name] = _load(where)
         return kept
 
 
-def _loaded(where: str) -> OwnLaw:
+def _load(where: str) -> OwnLaw:
     law = law_named(where)
     return OwnLaw(_tunable(law) if isinstance(law, Law) else law, where, _stamp(where))
 

@@ -28,7 +28,7 @@ from flypend.lab.controls import page
 from flypend.lab.own import OwnLaws
 from flypend.lab.session import Slot, read
 from flypend.lab.shares import Shares
-from flypend.lab.worker import Workers, encoded
+from flypend.lab.worker import Workers, encode
 from flypend.pages import replay
 
 LARGEST_MESSAGE = 64 * 1024  # bytes; a setting needs one or two thousand
@@ -164,7 +164,7 @@ class Socket(WebSocketHandler):
         try:
             asked = read(message)
         except InputError as error:
-            await self._send(encoded(refusal(error)))
+            await self._send(encode(refusal(error)))
             return
         if asked["kind"] == "stop":
             self.slots["map"].drop()
@@ -187,7 +187,7 @@ class Socket(WebSocketHandler):
             await self.write_message(reply)
 
 
-@signals.deferred()
+@signals.defer()
 def serve(
     host: str = "127.0.0.1",
     port: int = 0,
@@ -244,7 +244,7 @@ async def _serve(
         threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()  # some browsers block until closed
     preparing = asyncio.create_task(laboratory.workers.prepare())
     try:
-        while not signals.accepted():
+        while not signals.is_accepted():
             await asyncio.sleep(signals.PERIOD)
     finally:
         preparing.cancel()

@@ -10,7 +10,7 @@ from typing import Any
 from flypend.errors import InputError
 from flypend.lab.answers import ANSWERS, refusal
 from flypend.lab.shares import Page, Shares
-from flypend.lab.worker import COMPILING, END, GRACE, Worker, Workers, encoded
+from flypend.lab.worker import COMPILING, END, GRACE, Worker, Workers, encode
 
 MOST_BRACKETS = 500  # a setting with many pokes has a hundred; thousands overflow the parser's stack
 KINDS = (*ANSWERS, "stop")
@@ -67,7 +67,7 @@ class Slot:
             except (OSError, EOFError) as error:  # no process, memory or socket left
                 message, self._pending = self._pending, None
                 lacking = InputError("setting", "a process that computes it", str(error))
-                await self._send(encoded(refusal(lacking, message.get("number"))))
+                await self._send(encode(refusal(lacking, message.get("number"))))
                 return
             if not await self._answer(self._worker):
                 self._worker.kill()
@@ -90,7 +90,7 @@ class Slot:
             if line == END:
                 return True
             if not line and not self._stopped:
-                line = encoded(refusal(await worker.failure(), message.get("number")))
+                line = encode(refusal(await worker.failure(), message.get("number")))
             if line and not self._dropped:
                 self._grace = self._grace if line.startswith(COMPILING) else GRACE
                 await self._send(line)

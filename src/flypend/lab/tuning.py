@@ -87,7 +87,7 @@ _made: OrderedDict[str, Tuned] = OrderedDict()
 _in_pieces: WeakSet[BoundLaw] = WeakSet()  # the laws of `_made` whose flights in pieces are compiled
 
 
-def tuned(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
+def tune_loop(setting: Setting, tell: Tell = lambda: None) -> Tuned | Stepped:
     """Return the closed loop of `setting`; `tell` is called before a compilation, which takes about a second."""
     flight, law = setting.flight, setting.law
     if isinstance(law, Controller):

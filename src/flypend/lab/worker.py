@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.flight.kernels.stopping import StoppedError, Word, joined
+from flypend.flight.kernels.stopping import StoppedError, Word, join
 from flypend.lab.answers import answer
 from flypend.lab.own import OwnLaws
 
@@ -38,7 +38,7 @@ _context: Any = get_context("forkserver")
 _context.set_forkserver_preload([__name__])
 
 
-def encoded(reply: dict[str, Any]) -> bytes:
+def encode(reply: dict[str, Any]) -> bytes:
     """Return `reply` as a line of JSON. Raises ValueError if it has NaN."""
     return json.dumps(reply, allow_nan=False, separators=(",", ":")).encode() + b"\n"
 
@@ -177,7 +177,7 @@ def _answer_all(requests: SimpleQueue[dict[str, Any]], answering: Callable[[dict
     # Python handles signals in the main thread, which waits in a read unless the signal is delivered to it.
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGVTALRM])
     try:
-        with joined(word):
+        with join(word):
             while True:
                 answering(requests.get())
     except OSError:  # the server has ended
@@ -189,12 +189,12 @@ def _answer_all(requests: SimpleQueue[dict[str, Any]], answering: Callable[[dict
 
 def _answer(message: dict[str, Any], channel: socket.socket, word: Word, own: OwnLaws, seconds: float) -> None:
     def tell() -> None:
-        channel.sendall(encoded({"kind": "compiling", "number": message.get("number")}))
+        channel.sendall(encode({"kind": "compiling", "number": message.get("number")}))
 
     with suppress(StoppedError):
         signal.setitimer(signal.ITIMER_PROF, seconds)
         for reply in answer(message, own, tell):
-            channel.sendall(encoded(reply))
+            channel.sendall(encode(reply))
             if word[0]:
                 break
             signal.setitimer(signal.ITIMER_PROF, seconds)

@@ -23,7 +23,7 @@ from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, dema
 from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
-from flypend.laws.gain import documented
+from flypend.laws.gain import document_gains
 from flypend.laws.law import Law
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.step import Push, aim, push, share
@@ -41,7 +41,7 @@ OUTSIDE = Guard(
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem B about a `reference` for the pivot. V falls along every solution.
 
@@ -76,11 +76,11 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
         path=carrying(followed),
         prepare=demand_stays_upward,
         theorem=theorem_b,
-        certify=certified,
+        certify=certify,
     )
 
 
-def certified(law: BoundLaw) -> CertifiedSet:
+def certify(law: BoundLaw) -> CertifiedSet:
     """Return the largest set that is proved for the bound `law`."""
     from flypend.laws.certified import certified_set  # it reads this law another way
 

@@ -17,7 +17,7 @@ import numpy as np
 from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
 from flypend.laws.bound import BoundLaw
 from flypend.laws.covering import outside, signals_at
-from flypend.laws.guarantee import IDEAL, LAGGED, Guarantee, least_distance, least_share, rate_bound, saturated
+from flypend.laws.guarantee import IDEAL, LAGGED, Guarantee, least_distance, least_share, rate_bound, saturate
 from flypend.laws.step import Step
 from flypend.model import State, Vehicle
 
@@ -47,7 +47,7 @@ class Slopes(NamedTuple):
 
 def theorem_b(law: BoundLaw, start: State) -> Guarantee:
     """Return what Theorem B says of `start`."""
-    return _bounded(law, start, IDEAL)
+    return _bounds_from(law, start, IDEAL)
 
 
 def theorem_d(law: BoundLaw, start: State) -> Guarantee:
@@ -55,13 +55,13 @@ def theorem_d(law: BoundLaw, start: State) -> Guarantee:
 
     V ≤ V' ≤ V'(0) bounds the motion as in Theorem B; the thrust differs from that of B by √(2 V'(0)/γ_f) at most.
     """
-    found = _bounded(law, start, LAGGED)
+    found = _bounds_from(law, start, LAGGED)
     apart = math.sqrt(2 * found.V / law.gains["thrust_weight"])
     low, high = found.thrust
     return replace(found, thrust=(max(0.0, low - apart), high + apart)) if found.covered else found
 
 
-def _bounded(law: BoundLaw, start: State, assumes: tuple[str, ...]) -> Guarantee:
+def _bounds_from(law: BoundLaw, start: State, assumes: tuple[str, ...]) -> Guarantee:
     """Return the bounds that follow from V ≤ V(0)."""
     found = signals_at(law, start)
     excluded = outside(law, found, {"rod_cosine": "y = -d", "axis_cosine": "z = -z_d"})
@@ -112,10 +112,10 @@ def bob_bounds(V: float, k: SimpleNamespace, g: float) -> Bob:
     level = _farthest(V, k.position_stiffness, k.position_reach)
     upright = _farthest(V, k.height_stiffness, k.height_reach)
     v, s = math.sqrt(2 * V), abs(k.shear)
-    pull = saturated(k.position_stiffness, k.position_reach, level)
-    lift = saturated(k.height_stiffness, k.height_reach, upright)
-    drag = saturated(k.position_damping, k.position_speed, v)
-    brake = saturated(k.height_damping, k.height_speed, v) + 2 * k.fall_damping * v
+    pull = saturate(k.position_stiffness, k.position_reach, level)
+    lift = saturate(k.height_stiffness, k.height_reach, upright)
+    drag = saturate(k.position_damping, k.position_speed, v)
+    brake = saturate(k.height_damping, k.height_speed, v) + 2 * k.fall_damping * v
     most = math.hypot(pull + drag, g + s * pull + lift + brake)
     slope, error = slopes(k), math.hypot(level + s * upright, upright)
     # The ideal bob has |v̇| ≤ g + |A|.

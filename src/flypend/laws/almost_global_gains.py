@@ -14,7 +14,7 @@ from flypend.laws.step import Step
 from flypend.model import Vehicle
 
 
-def _scaled(factor: float, length: float, time: float) -> Callable[[Vehicle], float]:
+def _scale(factor: float, length: float, time: float) -> Callable[[Vehicle], float]:
     """Return `factor` in units of l^`length` √(l/g)^`time`, as a function of the vehicle."""
 
     def value(vehicle: Vehicle) -> float:
@@ -40,56 +40,56 @@ FADE = Bounds(0.5, 1.0)
 GAINS = table(
     (
         Gain(
-            "position_stiffness", _scaled(0.23, 0, -2), "1/s²", "k_x: stiffness of the bob's horizontal position",
+            "position_stiffness", _scale(0.23, 0, -2), "1/s²", "k_x: stiffness of the bob's horizontal position",
             POSITIVE, label="position",
         ),
-        Gain("position_reach", _scaled(2.3, 1, 0), "m", "L: error beyond which the pull hardly grows", POSITIVE),
+        Gain("position_reach", _scale(2.3, 1, 0), "m", "L: error beyond which the pull hardly grows", POSITIVE),
         Gain(
-            "position_damping", _scaled(0.69, 0, -1), "1/s", "k_v: damping of the bob's horizontal velocity", POSITIVE,
+            "position_damping", _scale(0.69, 0, -1), "1/s", "k_v: damping of the bob's horizontal velocity", POSITIVE,
             label="position damping",
         ),
         Gain(
-            "position_speed", _scaled(3.7, 1, -1), "m/s", "L_v: speed beyond which it hardly grows", POSITIVE,
+            "position_speed", _scale(3.7, 1, -1), "m/s", "L_v: speed beyond which it hardly grows", POSITIVE,
         ),
         Gain(
-            "height_stiffness", _scaled(0.57, 0, -2), "1/s²", "k_z: stiffness of the bob's height", POSITIVE,
+            "height_stiffness", _scale(0.57, 0, -2), "1/s²", "k_z: stiffness of the bob's height", POSITIVE,
             label="height",
         ),
-        Gain("height_reach", _scaled(0.82, 1, 0), "m", "L_z: error beyond which the pull hardly grows", POSITIVE),
+        Gain("height_reach", _scale(0.82, 1, 0), "m", "L_z: error beyond which the pull hardly grows", POSITIVE),
         Gain(
-            "height_damping", _scaled(0.435, 0, -1), "1/s", "k_vz: damping of the bob's vertical velocity", POSITIVE,
+            "height_damping", _scale(0.435, 0, -1), "1/s", "k_vz: damping of the bob's vertical velocity", POSITIVE,
             label="height damping",
         ),
         Gain(
-            "height_speed", _scaled(0.48, 1, -1), "m/s", "L_vz: speed beyond which it hardly grows", POSITIVE,
+            "height_speed", _scale(0.48, 1, -1), "m/s", "L_vz: speed beyond which it hardly grows", POSITIVE,
         ),
         Gain(
-            "fall_damping", _scaled(0.155, 0, -1), "1/s", "k_f: damping that grows without limit in a fall only",
+            "fall_damping", _scale(0.155, 0, -1), "1/s", "k_f: damping that grows without limit in a fall only",
             NOT_NEGATIVE,
         ),
-        Gain("fall_speed", _scaled(0.425, 1, -1), "m/s", "b: speed over which k_f fades in", POSITIVE),
+        Gain("fall_speed", _scale(0.425, 1, -1), "m/s", "b: speed over which k_f fades in", POSITIVE),
         Gain(
             "shear", 0.2, "", "s: share of the height error that pulls sideways; moves -d off the rod at rest",
             Bounds(-1.0, 1.0),
         ),
-        Gain("rod_stiffness", _scaled(1.2, 0, -2), "1/s²", "k_y/ρ_y: spring of the rod", POSITIVE, label="rod"),
-        Gain("rod_alignment", _scaled(0.34, 0, -1), "1/s", "Damping of the rod's direction", POSITIVE),
-        Gain("rod_damping", _scaled(1.02, 0, -1), "1/s", "Damping of the rod's rate", POSITIVE, label="rod damping"),
-        Gain("rod_weight", _scaled(15.8, 2, 0), "m²", "ρ_y: weight of the rod's rate in V", POSITIVE),
+        Gain("rod_stiffness", _scale(1.2, 0, -2), "1/s²", "k_y/ρ_y: spring of the rod", POSITIVE, label="rod"),
+        Gain("rod_alignment", _scale(0.34, 0, -1), "1/s", "Damping of the rod's direction", POSITIVE),
+        Gain("rod_damping", _scale(1.02, 0, -1), "1/s", "Damping of the rod's rate", POSITIVE, label="rod damping"),
+        Gain("rod_weight", _scale(15.8, 2, 0), "m²", "ρ_y: weight of the rod's rate in V", POSITIVE),
         Gain("rod_barrier", 1.0, "", "Share of the potential that bars y = -d", POSITIVE_SHARE),
         Gain("rod_fade", 0.5, "", "1: the rod carries its full demand always; 0.5: none near y = -d", FADE),
         Gain(
-            "axis_stiffness", _scaled(3.4, 0, -2), "1/s²", "k/ρ: spring of the thrust axis", POSITIVE, label="axis",
+            "axis_stiffness", _scale(3.4, 0, -2), "1/s²", "k/ρ: spring of the thrust axis", POSITIVE, label="axis",
         ),
-        Gain("axis_alignment", _scaled(3.1, 0, -1), "1/s", "Damping of the thrust axis's direction", POSITIVE),
+        Gain("axis_alignment", _scale(3.1, 0, -1), "1/s", "Damping of the thrust axis's direction", POSITIVE),
         Gain(
-            "axis_damping", _scaled(5.4, 0, -1), "1/s", "Damping of the thrust axis's rate", POSITIVE,
+            "axis_damping", _scale(5.4, 0, -1), "1/s", "Damping of the thrust axis's rate", POSITIVE,
             label="axis damping",
         ),
-        Gain("axis_weight", _scaled(7.4, 2, 0), "m²", "ρ: weight of the thrust axis's rate in V", POSITIVE),
+        Gain("axis_weight", _scale(7.4, 2, 0), "m²", "ρ: weight of the thrust axis's rate in V", POSITIVE),
         Gain("axis_barrier", 0.2, "", "Share of the potential that bars z = -z_d", POSITIVE_SHARE),
         Gain("axis_fade", 0.5, "", "1: full thrust always; 0.5: thrust fades near z = -z_d", FADE),
-        Gain("yaw_damping", _scaled(1.2, 0, -1), "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
+        Gain("yaw_damping", _scale(1.2, 0, -1), "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
         # The theorem knows of no rotors. With them, these two make up for most of their lag.
         Gain("lead", _lead, "", "Rotors are commanded f̂ + lead (f − f̂), f̂ being their modelled force", Bounds(low=1.0)),
         Gain("latency", _latency, "s", "Delay that the flight computer compensates by prediction", NOT_NEGATIVE),

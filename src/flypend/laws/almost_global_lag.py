@@ -13,10 +13,10 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar
 from flypend.laws import almost_global_gains
-from flypend.laws.almost_global import OUTSIDE, almost_global_control, certified
+from flypend.laws.almost_global import OUTSIDE, almost_global_control, certify
 from flypend.laws.almost_global_bounds import theorem_d
 from flypend.laws.bound import Control
-from flypend.laws.gain import documented, table
+from flypend.laws.gain import document_gains, table
 from flypend.laws.lag import GAINS as LAG_GAINS
 from flypend.laws.lag import through_lag
 from flypend.laws.law import Law
@@ -33,7 +33,7 @@ GAINS = table(
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem D about a `reference` for the pivot: `almost_global` through rotors that lag.
 
@@ -70,7 +70,7 @@ def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law
         path=carrying(followed),
         prepare=_prepare,
         theorem=theorem_d,
-        certify=certified,
+        certify=certify,
     )
 
 

@@ -27,11 +27,11 @@ def axis_moment(
     """
     omega = state.omega
     turn = cross(E3, u) + compensated * omega[2] * cross(omega, E3)
-    alpha = ca.vertcat(spun(turn[:2], turned), yaw)
+    alpha = ca.vertcat(spin(turn[:2], turned), yaw)
     return apply(vehicle.I, alpha) + compensated * gyroscopic_moment(vehicle.I, omega)
 
 
-def spun(v: Numbers, angle: Scalar) -> Numbers:
+def spin(v: Numbers, angle: Scalar) -> Numbers:
     """Return the plane vector (2, 1) turned by 2 atan(`angle`/2): `angle`, rad, where it is small, and below π."""
     half = angle / 2
     c, s = (1 - half**2) / (1 + half**2), 2 * half / (1 + half**2)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.geometry import Numbers, Scalar, Vector
 from flypend.laws.gain import Gain, check_gain, is_number
-from flypend.laws.guarantee import Guarantee, unmodelled
+from flypend.laws.guarantee import Guarantee, list_unmodelled
 from flypend.laws.located import LawError, Located, beginning, check_finite, innermost, is_own, wrench_of
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
@@ -171,13 +171,13 @@ class BoundLaw:
     def guarantee(self, start: State) -> Guarantee:
         """Return what the law's theorem says of a single `start`, in the law's frame: see `laws.guarantee.Guarantee`.
 
-        A vehicle that the theorem does not model (`laws.guarantee.unmodelled`) is not covered, wherever it starts.
+        A vehicle that the theorem does not model (`laws.guarantee.list_unmodelled`) is not covered, wherever it starts.
 
         Raises InputError if the law has no theorem, has been moved `along` a path, or `start` is a batch.
         """
         if self.theorem is None:
             raise errors.InputError("law", "one with a theorem: repaired or almost_global, on its own path", self.name)
-        missing = unmodelled(self.vehicle)
+        missing = list_unmodelled(self.vehicle)
         if missing:
             return Guarantee(covered=False, reason=f"outside the theorem: {missing}", V=math.inf)
         return self.theorem(self, start)

@@ -147,7 +147,7 @@ def times(A: Polynomial, B: Polynomial, left: float, right: float) -> Result:
     return Polynomial(A.a * B.a, l, Q, T), rho, factors
 
 
-def composed(A: Polynomial, error: float, values: Sequence[float], fourth: float, third: float) -> Result:
+def compose(A: Polynomial, error: float, values: Sequence[float], fourth: float, third: float) -> Result:
     """φ(A + δ), |δ| ≤ `error`: `values` are φ(a), φ'(a), φ''(a)/2, φ'''(a)/6.
 
     `fourth` bounds |φ''''|/24 over the range of A, and `third` |φ'''| over that of A + δ.
@@ -176,7 +176,7 @@ def root(A: Polynomial, error: float) -> Result:
         raise NotProvedError("a root of what may not be positive")
     f = math.sqrt(a)
     values = f, 1 / (2 * f), -1 / (8 * a * f), 1 / (16 * a**2 * f)
-    return composed(A, error, values, 5 / (128 * least**3.5) * UP, 3 / (8 * sure**2.5) * UP)
+    return compose(A, error, values, 5 / (128 * least**3.5) * UP, 3 / (8 * sure**2.5) * UP)
 
 
 def inverse(A: Polynomial, error: float) -> Result:
@@ -185,7 +185,7 @@ def inverse(A: Polynomial, error: float) -> Result:
     sure = least - error * UP
     if not sure > 0:
         raise NotProvedError("a division by what may vanish")
-    return composed(A, error, (1 / a, -1 / a**2, 1 / a**3, -1 / a**4), 1 / least**5 * UP, 6 / sure**4 * UP)
+    return compose(A, error, (1 / a, -1 / a**2, 1 / a**3, -1 / a**4), 1 / least**5 * UP, 6 / sure**4 * UP)
 
 
 @dataclass(eq=False)
@@ -324,7 +324,7 @@ def radii(k: Any, c: float) -> list[float]:
     return [math.sqrt(2 * c / weight) * UP for weight in weights]
 
 
-def evaluated(certificate: Any, c: float) -> tuple[list[list[Model]], list[Model]]:
+def evaluate_wrenches(certificate: Any, c: float) -> tuple[list[list[Model]], list[Model]]:
     """Return (f, u) of each wrench of the program on {V ≤ c}, commanded and then acting, and ż (3)."""
     numbers = certificate["numbers"]
     sizes = np.diag(radii(numbers, c))
@@ -392,7 +392,7 @@ def force_ranges(certificate: Any, c: float, w: float) -> list[tuple[float, floa
 
     With h_i = (I U_i)₁₂ and U_i the row of the rotor, its force is U_i0 f + |h_i| k·u + spin, k a unit vector.
     """
-    wrenches, z_dot = evaluated(certificate, c)
+    wrenches, z_dot = evaluate_wrenches(certificate, c)
     spins = _spins(certificate, c, w, wrenches, _norm([_far(model) for model in z_dot]))
     unmixing, I = np.array(certificate["unmixing"]), np.array(certificate["inertia"])
     shares, arms = np.abs(unmixing), _above(unmixing[:, 1:], I.T)

@@ -25,7 +25,7 @@ from flypend.laws.bound import BoundLaw
 from flypend.laws.certificate import NotProvedError, force_ranges, outside
 from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.laws.closed_loop import COMMANDS, WRENCH, symbolic_loop, wrench_in
-from flypend.laws.guarantee import unmodelled
+from flypend.laws.guarantee import list_unmodelled
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.state import SIZE as PACKED
@@ -142,7 +142,7 @@ def certified_set(law: BoundLaw) -> CertifiedSet:
     Takes seconds, and half a minute through a lag. Raises InputError if the theorem does not cover the law's vehicle
     or reference, or nothing can be proved.
     """
-    missing = unmodelled(law.vehicle)
+    missing = list_unmodelled(law.vehicle)
     if missing:
         raise InputError("law.vehicle", "one that the theorem models", missing)
     if law.reference is None or not stands(law.reference):

@@ -82,7 +82,7 @@ def law_at(
     fall = a_d * y - g * E3
     ideal = _Known((p, v), (v, fall), (y, y_dot), *_pointing(d, y, y_dot, c_y, e_y, _Known((p, v), (v, fall))))
     d_dot = _Known((p, v), (v, fall)).rate(d)
-    r_y = cross(cross(d, d_dot), y) + _wanted(y, c_y, e_y, size, v, rod)  # (S1)
+    r_y = cross(cross(d, d_dot), y) + _desired_velocity(y, c_y, e_y, size, v, rod)  # (S1)
     u_d = _force(y, ideal.rate(r_y), c_y, e_y, zeta_y, rod)  # (S3)
 
     # ∂V_3/∂v at fixed p, y and ẏ, by c_y = y·d(v) and e_y = d − c_y y.
@@ -118,7 +118,7 @@ def law_at(
         return moving(forth - M * l * spin / (M + m) * y - g * E3, round_ - spin * y)
 
     true, whole = flown(f)
-    r = cross(cross(z_d, true.rate(z_d)), z) + _wanted(z, c, e, N, G, axis)
+    r = cross(cross(z_d, true.rate(z_d)), z) + _desired_velocity(z, c, e, N, G, axis)
     u = _force(z, whole.rate(r), c, e, zeta, axis)
     wrenches, off_f, off_u = [ca.vertcat(f, u)], ca.SX.sym("eta_f"), ca.SX.sym("eta_u", 3)
     if lag is not None:
@@ -150,12 +150,12 @@ def law_at(
     ):
         aim, tilt = at(target), xi[first : first + 2]
         near = ca.sqrt(1 - ca.sumsqr(tilt))
-        own = _turned(aim, ca.vertcat(tilt, near))
-        slack = _turned(own, ca.vertcat(xi[first + 2 : first + 4], 0))
-        known += [(phi, own), (cosine, near), (error, _turned(aim, ca.vertcat(-near * tilt, ca.sumsqr(tilt))))]
+        own = _turn(aim, ca.vertcat(tilt, near))
+        slack = _turn(own, ca.vertcat(xi[first + 2 : first + 4], 0))
+        known += [(phi, own), (cosine, near), (error, _turn(aim, ca.vertcat(-near * tilt, ca.sumsqr(tilt))))]
         known += [(off, slack), (phi_dot, at(rate) + slack)]
     if lag is not None:
-        own = ca.vertcat(xi[SIZE], _turned(at(z), ca.vertcat(xi[SIZE + 1 :], 0)))
+        own = ca.vertcat(xi[SIZE], _turn(at(z), ca.vertcat(xi[SIZE + 1 :], 0)))
         known += [(ca.vertcat(off_f, off_u), own), (ca.vertcat(f_a, u_a), at(ca.vertcat(f, u)) + own)]
     return Chart(tuple(map(at, wrenches)), at(z_dot), at(p), at(v), at(y), at(y_dot), at(z))
 
@@ -169,7 +169,7 @@ def _pointing(
     return (c, c_dot), (e, moving - c_dot * phi - c * phi_dot)
 
 
-def _wanted(phi: Vector, c: Scalar, e: Vector, force: Scalar, gradient: Vector, step: Step) -> Vector:
+def _desired_velocity(phi: Vector, c: Scalar, e: Vector, force: Scalar, gradient: Vector, step: Step) -> Vector:
     """Return v_*, (S1)."""
     weak = step.weight * step.stiffness * ((1 - step.barrier) * (1 + c) + 2 * step.barrier)
     return step.alignment * e + force / weak * (
@@ -187,7 +187,7 @@ def _force(phi: Vector, feedforward: Vector, c: Scalar, e: Vector, zeta: Vector,
     return tangent_part(phi, feedforward) + step.stiffness * _slope(c, step) * e - step.damping * zeta
 
 
-def _turned(n: Vector, w: Vector) -> Vector:
+def _turn(n: Vector, w: Vector) -> Vector:
     """Return R(n) `w`, R(n) being the shortest rotation from e₃ to the unit vector `n`."""
     across = cross(E3, n)
     return w + cross(across, w) + cross(across, cross(across, w)) / (1 + n[2])

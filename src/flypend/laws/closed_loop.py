@@ -73,7 +73,7 @@ def symbolic_loop(
     a weight from which a gain matrix was computed in advance); and for a law that takes the wrench that acts, without
     `lag`.
     """
-    return _symbolic_loop(vehicle, *_checked(vehicle, law, parameters), lag)
+    return _symbolic_loop(vehicle, *_check(vehicle, law, parameters), lag)
 
 
 @lru_cache(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
@@ -82,10 +82,10 @@ def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...
     state, acting, extra = State.symbolic(s), control.wrench, {}
     if lag:
         acting, command = wrench_in(s), control.wrench
-        extra = dict(zip(COMMANDS, _stacked(command), strict=True))
+        extra = dict(zip(COMMANDS, _stack(command), strict=True))
     rates = equations_of_motion(state, acting, vehicle, bound.e3).packed()
     if lag:
-        behind = (ca.vertcat(*_stacked(command)) - s[SIZE:]) / vehicle.rotor_lag
+        behind = (ca.vertcat(*_stack(command)) - s[SIZE:]) / vehicle.rotor_lag
         rates = ca.vertcat(rates, behind)
     lyapunov, flow = _lyapunov(control), (ca.vertcat(s, t), ca.vertcat(rates, 1))
     derived = {_rate(name): ca.jtimes(value, *flow) for name, value in lyapunov.items()}
@@ -98,7 +98,7 @@ def wrench_in(s: Numbers) -> Wrench:
     return Wrench(s[SIZE], s[SIZE + 1 :])
 
 
-def _stacked(wrench: Wrench) -> list[Scalar]:
+def _stack(wrench: Wrench) -> list[Scalar]:
     return ca.vertsplit(ca.densify(ca.vertcat(wrench.thrust, wrench.moment)))  # type: ignore[no-any-return]
 
 
@@ -130,7 +130,7 @@ def lyapunov_function(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequenc
     The gains are those named in `parameters`; raises InputError as `symbolic_loop`. For a law that takes the wrench
     that acts, the state is (28,). The rates, which take most of the time of a closed loop, are not derived.
     """
-    bound, names = _checked(vehicle, law, parameters)
+    bound, names = _check(vehicle, law, parameters)
     t, s, p, control = _output(vehicle, bound, names, bound.uses_wrench)
     if not control.lyapunov:
         return None
@@ -139,12 +139,12 @@ def lyapunov_function(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequenc
 
 def signal_names(vehicle: Vehicle, law: Law | BoundLaw) -> tuple[str, ...]:
     """Return the names of the signals of `law`, as in `SymbolicLoop.signals`, without deriving a rate."""
-    *_, control = _output(vehicle, *_checked(vehicle, law, ()))
+    *_, control = _output(vehicle, *_check(vehicle, law, ()))
     lyapunov = _lyapunov(control)
     return tuple(dict.fromkeys((*lyapunov, *map(_rate, lyapunov), *control.signals)))
 
 
-def _checked(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str]) -> tuple[BoundLaw, tuple[str, ...]]:
+def _check(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str]) -> tuple[BoundLaw, tuple[str, ...]]:
     """Return `law` bound to `vehicle`, and its gains `parameters`. Raises InputError for one that is no number."""
     bound = law.bind(vehicle)
     errors.only_known("law.gains", dict.fromkeys(parameters), bound.numbers)

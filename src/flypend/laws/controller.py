@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.geometry import Numbers
 from flypend.laws.bound import Computer
-from flypend.laws.gain import Gain, check_gain, checked, is_number, table
+from flypend.laws.gain import Gain, check_gain, check_gains, is_number, table
 from flypend.laws.located import Located, is_own, wrench_of
 from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import E3Direction, seen_packed
+from flypend.model.state import E3Direction, convert_packed
 
 Steering = Callable[[float, State], Wrench]
 
@@ -110,11 +110,11 @@ class Controller:
 
     def with_gains(self, given: Mapping[str, Any], prefix: str = "") -> Controller:
         """Return a copy with the gains `given`, checked like `Law.with_gains`; messages begin with `prefix`."""
-        return replace(self, gains={**self.gains, **checked(self.table, given, prefix)})
+        return replace(self, gains={**self.gains, **check_gains(self.table, given, prefix)})
 
     def upright(self, t: float, packed: Numbers) -> NDArray[Any]:
         """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
-        answer = self._answer(t, State.trusted(seen_packed(packed, self.e3)))
+        answer = self._answer(t, State.trusted(convert_packed(packed, self.e3)))
         wrench = wrench_of(answer, self.function, self.name).seen(self.e3)
         return np.append(wrench.thrust, wrench.moment)
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import casadi as ca
 
 from flypend.geometry import E3, Numbers, Scalar, Vector, dot, norm, scale, unit
-from flypend.laws.throw import Bob, Rod, coasted
+from flypend.laws.throw import Bob, Rod, coast
 from flypend.model import Vehicle
 
 # Derivatives of p, beside itself, that are used: up to its snap, as exported code is told.
@@ -60,7 +60,7 @@ class Motion(NamedTuple):
 
         Pivot and force are those of now. So the loops see no error along this motion, although its rod does not coast.
         """
-        rod, l = coasted(Rod(self.y, self.y_dot), time), vehicle.l
+        rod, l = coast(Rod(self.y, self.y_dot), time), vehicle.l
         bob = self.p + l * (rod.y - self.y), self.v + l * (rod.y_dot - self.y_dot)
         jerk = scale(dot(self.y, self.jerk), rod.y) + scale(self.size, rod.y_dot)
         # What the loops ask for: the force along a rod that coasts.

@@ -137,7 +137,7 @@ def table(gains: Mapping[str, Any] | Iterable[Gain]) -> Mapping[str, Gain]:
     return MappingProxyType({gain.name: gain for gain in listed})
 
 
-def checked(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str = "") -> dict[str, Any]:
+def check_gains(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str = "") -> dict[str, Any]:
     """Return the values `given`, checked against the table `gains`.
 
     Messages begin with `name` and a dot. Raises InputError if a gain is unknown or out of bounds.
@@ -172,7 +172,7 @@ ONLY_GAINS = """
     """
 
 
-def documented(gains: Mapping[str, Gain]) -> Callable[[F], F]:
+def document_gains(gains: Mapping[str, Gain]) -> Callable[[F], F]:
     """Return a decorator that replaces the line {gains} of a docstring by the table `gains`.
 
     A docstring without this line gets all of `ONLY_GAINS`.

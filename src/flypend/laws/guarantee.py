@@ -49,7 +49,7 @@ class Guarantee:
     assumes: tuple[str, ...] = ()
 
 
-def unmodelled(vehicle: Vehicle) -> str:
+def list_unmodelled(vehicle: Vehicle) -> str:
     """Return what `vehicle` has that the theorems' equations lack, in words; empty for a vehicle that they model.
 
     They know a free ball joint at the centre of mass, a rod that touches nothing and does not spin, and no air.
@@ -106,6 +106,6 @@ def rate_bound(V: float, turn: float, force: float, gradient: float, step: Step)
     return float(turn + step.alignment + kappa * force * gradient / k + math.sqrt(2 * V / step.weight))
 
 
-def saturated(k: Scalar, reach: Scalar, size: float) -> float:
+def saturate(k: Scalar, reach: Scalar, size: float) -> float:
     """Return k r/√(1 + r²/L²) at r = `size`, for the stiffness `k` and the reach L."""
     return float(k * size / math.sqrt(1 + (size / reach) ** 2))

@@ -25,10 +25,10 @@ from flypend.geometry import E1, E3, Scalar, Vector, apply, cross, dot, norm, sc
 from flypend.laws.axis import axis_moment
 from flypend.laws.bound import Control
 from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
-from flypend.laws.gain import documented
+from flypend.laws.gain import document_gains
 from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer_of, go_together, scales
 from flypend.laws.law import Law
-from flypend.laws.passage import FREE, Passage, heading, passage_of, steered
+from flypend.laws.passage import FREE, Passage, heading, passage_of, steer
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.smooth import soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
@@ -39,12 +39,12 @@ from flypend.laws.throw import (
     Pose,
     Rod,
     carrying,
-    coasted,
+    coast,
     demand,
     derivatives,
     largest_thrust,
-    lifted,
-    limited_force,
+    lift,
+    limit_force,
     low_rod,
     rod_force,
     steering_force,
@@ -69,7 +69,7 @@ SPIN_LAG = 1.3
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
     """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle.
 
@@ -99,7 +99,7 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
         reference=followed,
         path=carrying(followed),
         check=go_together,
-        prepare=_prepared,
+        prepare=_prepare,
         calm=calm,
     )
 
@@ -129,7 +129,7 @@ class Mounting(NamedTuple):
     shift: float
 
 
-def _prepared(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]:
+def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]:
     hub = vehicle.mount == "hub"
     cones = {"gimbal": None, "hub": HUB_CONE}
     numbers = scales(vehicle).numbers
@@ -171,13 +171,13 @@ def inverted_control(
     # of a vehicle that flips its rod; that of one that pumps serves the rod as it is.
     rod = Rod(state.y, state.y_dot)
     times = k.coast_time, (1 - k.pump_share) * k.coast_time
-    ahead, nearer = (coasted(rod, time) for time in times)
+    ahead, nearer = (coast(rod, time) for time in times)
     path_ahead, path_nearer = (HELD.compared(time, vehicle) if ideal else resting(p) for time in times)
     low, steering, height = low_rod(ahead, state.z, path_ahead.up, k), FREE, state.x[2] - x_ref[2]
     if k.mounting.passage is not None:
         caught = force(ahead, path_ahead, Pose(0, height, E1, 1))
         caught = scale(1 / smooth_norm(caught, AXIS_FLOOR * vehicle.weight), caught)
-        steering = steered(state, heading(state, ahead.y, caught, k.coast_time), k.mounting.passage)
+        steering = steer(state, heading(state, ahead.y, caught, k.coast_time), k.mounting.passage)
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
     clear = ca.SX.sym("clear")
     authority = angular_authority(vehicle)
@@ -190,7 +190,7 @@ def inverted_control(
     rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(*forces))
 
     def axis(turned: Vector) -> Vector:
-        return lifted(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)
+        return lift(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)
 
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
@@ -226,7 +226,7 @@ def inverted_control(
     bandwidth = k.attitude_bandwidth * (1 + k.mounting.haste * low)
     stiffness, damping = bandwidth**2, 2 * k.attitude_damping * bandwidth
     # Turn no faster than the vehicle can stop; the bare spring would turn it at stiffness / damping per radian.
-    pull = stiffness * limited_force(spring, spin.rate * damping / stiffness)
+    pull = stiffness * limit_force(spring, spin.rate * damping / stiffness)
     u_z = pull - damping * v_e
     u_z = calm * u_z + (1 - calm) * soft(u_z, DAMPING * spin.acceleration)
 

@@ -108,14 +108,14 @@ LEAD = Gain("lead", _lead, "", "A law that does not know the lag commands w + le
 
 
 def leading(law: Law) -> Law:
-    """Return `law`, which does not know the lag, with a lead in continuous time: see `led`. `lead` is its only gain."""
+    """Return `law`, which does not know the lag, with a lead in continuous time (`lead_wrench`), its only gain."""
     return Law(
         name=law.name, e3=law.e3, control=_leading, gains=(LEAD,), uses_forces=law.uses_forces, uses_wrench=True,
         reference=law.reference, prepare=lambda vehicle, _: {"law": law.bind(vehicle)},
     )  # fmt: skip
 
 
-def led(wanted: Wrench, acting: Wrench, lead: Scalar) -> Wrench:
+def lead_wrench(wanted: Wrench, acting: Wrench, lead: Scalar) -> Wrench:
     """Return the command w + `lead` (w_0 − w) for the wrench w_0 `wanted` and w `acting`: a lag T acts like T/lead."""
     return Wrench(
         acting.thrust + lead * (wanted.thrust - acting.thrust), acting.moment + lead * (wanted.moment - acting.moment)
@@ -125,4 +125,4 @@ def led(wanted: Wrench, acting: Wrench, lead: Scalar) -> Wrench:
 def _leading(
     t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *forces: tuple[Vector, Vector], acting: Wrench
 ) -> Wrench:
-    return led(k.law.evaluate(t, state, vehicle, *forces).wrench, acting, k.lead)
+    return lead_wrench(k.law.evaluate(t, state, vehicle, *forces).wrench, acting, k.lead)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
-from flypend.laws.gain import Gain, check_gain, checked, table
+from flypend.laws.gain import Gain, check_gain, check_gains, table
 from flypend.laws.guarantee import Guarantee
 from flypend.laws.located import is_own
 from flypend.laws.references import Path, Reference, check_reference
@@ -97,7 +97,7 @@ class Law:
         errors.only_known("law.fixed", self.fixed, [gain.name for gain in gains.values() if gain.numeric])
         fixed = tuple(name for name, gain in gains.items() if gain.fixed or name in self.fixed)
         object.__setattr__(self, "gains", gains)
-        object.__setattr__(self, "given", MappingProxyType(checked(gains, self.given)))
+        object.__setattr__(self, "given", MappingProxyType(check_gains(gains, self.given)))
         object.__setattr__(self, "fixed", fixed)
 
     def __repr__(self) -> str:
@@ -119,7 +119,7 @@ class Law:
 
         Raises InputError if a gain is unknown (naming the closest match) or a value is out of bounds.
         """
-        return replace(self, given={**self.given, **checked(self.gains, given, prefix)})
+        return replace(self, given={**self.given, **check_gains(self.gains, given, prefix)})
 
     def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
         """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.

@@ -17,7 +17,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, Vector, norm
 from flypend.laws.bound import Control
-from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, documented, table
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.inverted_gains import computer_of
 from flypend.laws.law import Law
 from flypend.laws.policy import Policy, features, load, shares
@@ -44,7 +44,7 @@ GAINS = table(
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def learned(reference: Reference | None = None, **gains: Any) -> Law:
     """Build the learned law.
 
@@ -70,13 +70,13 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
         return learned_control(t, state, vehicle, k.network, forces, followed)
 
     return Law(
-        name="learned", e3="up", gains=GAINS, given=gains, control=control, prepare=_prepared, reference=followed,
+        name="learned", e3="up", gains=GAINS, given=gains, control=control, prepare=_prepare, reference=followed,
         computer=computer_of,
         uses_forces=True,
     )  # fmt: skip
 
 
-def _prepared(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
+def _prepare(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
     if vehicle.gravity == 0:
         raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
     usual = ON_HUB if vehicle.mount == "hub" else SHIPPED
@@ -95,11 +95,11 @@ def policy(name: str) -> Policy:
     """Return the policy `name` shipped with the package, or that of the file `name` (.npz). Raises InputError."""
     if name.endswith(".npz"):
         return load(Path(name))
-    return _shipped(errors.one_of("policy", name, policy_names()))
+    return _read_shipped(errors.one_of("policy", name, policy_names()))
 
 
 @lru_cache(maxsize=8)
-def _shipped(name: str) -> Policy:
+def _read_shipped(name: str) -> Policy:
     with resources.as_file(FOLDER / f"{name}.npz") as path:
         return load(path)
 

@@ -82,7 +82,7 @@ def law_error(error: BaseException, function: Any, name: str) -> LawError:
     file = file_of(function)
     frames = traceback.extract_tb(error.__traceback__)
     frame = next((f for f in reversed(frames) if f.filename == file), frames[-1])
-    return LawError(f"{shown(frame.filename)}:{frame.lineno}", name, _said(error))
+    return LawError(f"{relative_path(frame.filename)}:{frame.lineno}", name, _said(error))
 
 
 def _said(error: BaseException) -> str:
@@ -99,7 +99,7 @@ def _said(error: BaseException) -> str:
     return f"{type(error).__name__}: {said}".split("Possible prototypes")[0].rstrip(": \n")
 
 
-def shown(file: str) -> str:
+def relative_path(file: str) -> str:
     """Return the path of `file`, relative to the current folder if it lies below it."""
     path = Path(file)
     return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
@@ -114,7 +114,7 @@ def file_of(function: Any) -> str:
 def beginning(function: Any) -> str:
     """Return file:line where a function begins."""
     code = getattr(inspect.unwrap(function), "__code__", None)
-    return f"{shown(code.co_filename)}:{code.co_firstlineno}" if code else repr(function)
+    return f"{relative_path(code.co_filename)}:{code.co_firstlineno}" if code else repr(function)
 
 
 def check_finite(wrenches: Any, function: Any, name: str) -> None:

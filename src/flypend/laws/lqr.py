@@ -23,7 +23,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
-from flypend.laws.gain import POSITIVE, Gain, documented, table
+from flypend.laws.gain import POSITIVE, Gain, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
 from flypend.laws.references import Path, Reference, hover
@@ -62,7 +62,7 @@ GAINS = table(
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """Build the linear-quadratic regulator; its weights are the inverse squares of the largest acceptable deviations.
 
@@ -133,10 +133,10 @@ def gain_matrix(vehicle: Vehicle, deviations: Any) -> Numbers:
     P = solve_riccati(A, B, Q[np.ix_(keep, keep)], R)
     K = np.zeros((4, len(COORDINATES)))
     K[:, keep] = np.linalg.solve(R, B.T @ P)
-    return _rounded(K)
+    return _round(K)
 
 
-def _rounded(K: Matrix) -> Matrix:
+def _round(K: Matrix) -> Matrix:
     """Round each row of `K` to 2⁻³⁰ of its largest entry: roundoff differs with BLAS and with its number of threads.
 
     Otherwise the workers of a sweep, and the cache of kernels, would know as many laws.

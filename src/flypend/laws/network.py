@@ -91,7 +91,7 @@ class Network:
             raise InputError("network", "layers (W, b), one after the other", repr(self.layers)[:80])
         checked: list[Layer] = []
         for i, given in enumerate(self.layers):
-            checked.append(_checked(f"network.layers[{i}]", given, len(checked[-1].b) if checked else None))
+            checked.append(_check_layer(f"network.layers[{i}]", given, len(checked[-1].b) if checked else None))
         object.__setattr__(self, "layers", tuple(checked))
         if (size := sum(layer.W.size + layer.b.size for layer in checked)) > MOST_WEIGHTS:
             raise InputError("network", f"at most {MOST_WEIGHTS} weights", f"{size}")
@@ -113,7 +113,7 @@ class Network:
         return v
 
 
-def _checked(field: str, given: Any, before: int | None) -> Layer:
+def _check_layer(field: str, given: Any, before: int | None) -> Layer:
     """Return the layer `given`, which takes what the one before returns; messages begin with `field`."""
     if not isinstance(given, tuple | list) or not 2 <= len(given) <= 4:
         raise InputError(field, "(W, b) or (W, b, activation)", repr(given)[:80])

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend.geometry import E1, Numbers, Scalar, Vector, apply
-from flypend.laws.axis import spun
+from flypend.laws.axis import spin
 from flypend.laws.smooth import smooth_step
 from flypend.model import State, Vehicle
 
@@ -93,7 +93,7 @@ def heading(state: State, rod: Vector, axis: Vector, time: Scalar) -> Numbers:
     seen, turned = apply(state.R.T, rod), apply(state.R.T, axis)
     way = seen[:2] - seen[2] * turned[:2]
     way = way / ca.sqrt(ca.dot(way, way) + LEVEL_FLOOR**2)
-    return spun(way, -time * state.omega[2])
+    return spin(way, -time * state.omega[2])
 
 
 def _power(value: Scalar, exponent: int) -> Scalar:
@@ -104,7 +104,7 @@ def _power(value: Scalar, exponent: int) -> Scalar:
     return half * half * value if exponent % 2 else half * half
 
 
-def steered(state: State, way: Numbers, passage: Passage) -> Steering:
+def steer(state: State, way: Numbers, passage: Passage) -> Steering:
     """Return the steering of a rod that heads along `way` (2, 1), as from `heading`."""
     crowding: Any = 0
     push: Any = 0

@@ -64,11 +64,11 @@ def check_reference(reference: Any, field: str = "reference") -> None:
     if not isinstance(answer, ca.SX | ca.DM) or answer.shape != (3, 1):
         shape = f"shape {answer.shape}" if hasattr(answer, "shape") else f"a {type(answer).__name__}"
         raise InputError(field, f"{what}, or casadi.vertcat(x, y, z)", f"one that gives {shape}")
-    if not np.all(np.isfinite(sampled(reference, [0.1, 1.0]))):  # math.sin of a symbol is NaN
+    if not np.all(np.isfinite(sample(reference, [0.1, 1.0]))):  # math.sin of a symbol is NaN
         raise InputError(field, f"{what}, of CasADi's functions", "one that gives NaN")
 
 
-def sampled(reference: Reference, t: Numbers) -> Numbers:
+def sample(reference: Reference, t: Numbers) -> Numbers:
     """Return the positions (n, 3), m, of `reference` at times `t` (n,), s."""
     time = ca.SX.sym("t")
     function = ca.Function("reference", [time], [ca.densify(reference(time))])

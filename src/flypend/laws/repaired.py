@@ -21,8 +21,8 @@ from flypend.geometry import E3, Scalar, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
 from flypend.laws.covering import outside, signals_at
-from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, documented, table
-from flypend.laws.guarantee import IDEAL, Guarantee, saturated
+from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, document_gains, table
+from flypend.laws.guarantee import IDEAL, Guarantee, saturate
 from flypend.laws.law import Law
 from flypend.laws.step import Step, aim, push
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
@@ -64,7 +64,7 @@ GAINS = table(
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def repaired(**gains: float) -> Law:
     """Build Theorem 1 repaired, in the paper's frame, where y = e₃ hangs along gravity. V falls along every solution.
 
@@ -85,11 +85,11 @@ def repaired(**gains: float) -> Law:
         If a gain is unknown or out of bounds.
     """
     return Law(
-        name="repaired", e3="down", gains=GAINS, given=gains, control=repaired_control, guard=OUTSIDE, theorem=theorem_a
+        name="repaired", e3="down", gains=GAINS, given=gains, control=control_repaired, guard=OUTSIDE, theorem=theorem_a
     )
 
 
-def repaired_control(
+def control_repaired(
     t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, cancelled: float = 1.0
 ) -> Control:
     """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `repaired`.
@@ -143,7 +143,7 @@ def theorem_a(law: BoundLaw, start: State) -> Guarantee:
         return excluded
     k_p, force_per_stiffness = float(stiffness(law.vehicle)), law.vehicle.M * law.vehicle.l
     rate = math.sqrt(2 * found["V"])
-    sigma = saturated(law.gains["k_d"], law.gains["damping_share"] * k_p / law.gains["k_d"], rate)
+    sigma = saturate(law.gains["k_d"], law.gains["damping_share"] * k_p / law.gains["k_d"], rate)
     saddle = "the stable manifold of the saddle y = -e3, z = e3, at rest: a set of codimension 2"
     return Guarantee(
         covered=True,

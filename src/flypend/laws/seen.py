@@ -9,7 +9,7 @@ from flypend.geometry import Numbers, Scalar, Vector
 from flypend.model import State, Vehicle
 
 
-def observed(state: State, columns: int) -> Numbers:
+def observe_state(state: State, columns: int) -> Numbers:
     """Return x, ẋ, the first `columns` of R, ω, y and ẏ (15 + 3 columns, 1) of a `state` with e₃ up, in CasADi.
 
     Position and velocity of the pivot are relative to the goal.

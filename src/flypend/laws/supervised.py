@@ -23,16 +23,16 @@ from flypend.laws.almost_global_bounds import stands
 from flypend.laws.almost_global_lag import almost_global_lag
 from flypend.laws.bound import Control
 from flypend.laws.certified import ratios
-from flypend.laws.gain import POSITIVE, Gain, documented, table
+from flypend.laws.gain import POSITIVE, Gain, document_gains, table
 from flypend.laws.inverted import inverted
-from flypend.laws.lag import LEAD, led
+from flypend.laws.lag import LEAD, lead_wrench
 from flypend.laws.law import Law
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
 
 
 @lru_cache(maxsize=64)
-def _certified(vehicle: Vehicle, lag: bool) -> tuple[float, float]:
+def _certified_numbers(vehicle: Vehicle, lag: bool) -> tuple[float, float]:
     """Return c and w of the certified set of the default almost global law on `vehicle`, through its `lag` or not."""
     found = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
     return found.c, found.yaw_rate
@@ -40,7 +40,7 @@ def _certified(vehicle: Vehicle, lag: bool) -> tuple[float, float]:
 
 def _gains(lag: bool) -> Mapping[str, Gain]:
     def of_certificate(place: int) -> Callable[[Vehicle], float]:
-        return lambda vehicle: _certified(vehicle, lag)[place]
+        return lambda vehicle: _certified_numbers(vehicle, lag)[place]
 
     return table(
         (
@@ -58,7 +58,7 @@ GAINS, LAGGED_GAINS = _gains(lag=False), _gains(lag=True)
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def supervised(
     reference: Reference | None = None, *, first: Law | None = None, lag: bool = False, **gains: float
 ) -> Law:
@@ -77,7 +77,7 @@ def supervised(
         A law with e₃ up; default `inverted` about the reference. Its flight computer flies both.
     lag : bool
         Whether rotors lag. The second law is then `almost_global_lag`, its set one of states and rotor forces, and the
-        first commands with a `lead`, another gain: see `laws.lag.led`.
+        first commands with a `lead`, another gain: see `laws.lag.lead_wrench`.
     **gains : float
         Any of the gains below, in the stated unit. Their defaults are the `certified_set` of the second law on the
         vehicle, which takes seconds, and through a lag half a minute.
@@ -128,7 +128,7 @@ def _control(
     """Evaluate both laws for symbols `t` (s) and `state`; `forces` (3, 1), N, on vehicle and bob go to the first."""
     first = k.first.evaluate(t, state, vehicle, *forces).wrench
     if acting is not None:
-        first = led(first, acting, k.lead)
+        first = lead_wrench(first, acting, k.lead)
     second = k.second.evaluate(t, state, vehicle, acting=acting)
     V = sum(second.lyapunov.values())
     found = ratios(V, state, acting, vehicle, k.second.gains["yaw_damping"], k.level, k.yaw_rate)

@@ -16,7 +16,7 @@ import casadi as ca
 from flypend import errors
 from flypend.geometry import E3, Scalar, apply, cross, dot, hat_squared, norm, scale, smooth_norm, transport_derivative
 from flypend.laws.bound import Control, Guard
-from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, Gain, documented, table
+from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, Gain, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.sphere import velocity_error
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
@@ -115,17 +115,17 @@ PRINTED = table(
 
 
 @errors.named_arguments
-@documented(PRINTED)
+@document_gains(PRINTED)
 def printed(**gains: float | str) -> Law:
     """Build Theorem 1 as printed: damping sign and minimum-norm beta are its own, e₃ points along gravity."""
-    return Law(name="printed", e3="down", gains=PRINTED, given=gains, control=_as_printed, guard=_printed_guard)
+    return Law(name="printed", e3="down", gains=PRINTED, given=gains, control=_as_printed, guard=_guard_printed)
 
 
 def _as_printed(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
     return theorem_1(t, state, vehicle, k, Version(+1, 0.0 if k.beta == "minimum-norm" else None))
 
 
-def _printed_guard(gains: Mapping[str, Any]) -> Guard | None:
+def _guard_printed(gains: Mapping[str, Any]) -> Guard | None:
     return BETA_GUARD if gains["beta"] == "minimum-norm" else None
 
 
@@ -149,14 +149,14 @@ CORRECTED = table(
 
 
 @errors.named_arguments
-@documented(CORRECTED)
+@document_gains(CORRECTED)
 def corrected(**gains: float | str) -> Law:
     """Build Theorem 1 with f_p = k_p e₃ − k_d ẏ, in the paper's frame, where y = e₃ hangs along gravity.
 
     The paper's five experiments converge, and so do most random starts. Some run away: the rod spins ever faster
     (docs/paper/errata.md, defect 9).
     """
-    return Law(name="corrected", e3="down", gains=CORRECTED, given=gains, control=_as_corrected, guard=_corrected_guard)
+    return Law(name="corrected", e3="down", gains=CORRECTED, given=gains, control=_as_corrected, guard=_guard_corrected)
 
 
 def _as_corrected(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
@@ -164,5 +164,5 @@ def _as_corrected(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace)
     return theorem_1(t, state, vehicle, k, Version(-1, beta_floor, k.yaw_damping))
 
 
-def _corrected_guard(gains: Mapping[str, Any]) -> Guard | None:
+def _guard_corrected(gains: Mapping[str, Any]) -> Guard | None:
     return BETA_GUARD if gains["beta"] == "regularized" and gains["beta_floor"] == 0 else None

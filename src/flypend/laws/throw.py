@@ -130,7 +130,7 @@ def low_rod(rod: Rod, z: Vector, up: Vector, k: SimpleNamespace) -> Scalar:
     half way to catching it. With `mounting.side`, also on which side of the rotor plane the rod is.
     """
     y = rod.y
-    ahead = coasted(rod, k.catch_time).y
+    ahead = coast(rod, k.catch_time).y
     along, high = dot(y, z), dot(y, up)
     lean = 1 - dot(ahead, up) + k.catch_by_axis * (dot(z, up) - high * along) - k.mounting.side * along * (1 - high)
     return smooth_step((lean - k.catch_within) / k.catch_width)
@@ -196,7 +196,7 @@ def steering_force(
         F = F + scale((1 - pose.low) * missing_along(F, y, k.mounting.cone), y)
     swing = k.pump_share * pose.low
     F = (1 - swing) * F + swing * pumping_force(A, rod, pose.aside, vehicle, k)
-    return limited_force(F, THRUST_SHARE * largest_thrust(vehicle))
+    return limit_force(F, THRUST_SHARE * largest_thrust(vehicle))
 
 
 def missing_along(F: Vector, y: Vector, cone: Scalar) -> Scalar:
@@ -229,19 +229,19 @@ def largest_thrust(vehicle: Vehicle) -> Scalar:
     return vehicle.rotor_limits[1] * len(vehicle.rotor_spins)
 
 
-def limited_force(F: Vector, limit: Scalar) -> Vector:
+def limit_force(F: Vector, limit: Scalar) -> Vector:
     """Return F/(1 + (|F|/limit)⁸)^(1/8): a high-order saturation, since a softer one would shift hover."""
     ratio = dot(F, F) / limit**2
     return F / ca.sqrt(ca.sqrt(ca.sqrt(1 + ratio**4)))
 
 
-def lifted(F: Vector, tilt: Scalar) -> Vector:
+def lift(F: Vector, tilt: Scalar) -> Vector:
     """Return F with its vertical part raised until F is at most `tilt` (rad, below π) from e₃; 0 stays 0."""
     level = ca.sqrt(F[0] ** 2 + F[1] ** 2 + 1e-12)
     return ca.vertcat(F[:2], ca.fmax(F[2], level * ca.cos(tilt) / ca.sin(tilt)))
 
 
-def coasted(rod: Rod, time: Scalar) -> Rod:
+def coast(rod: Rod, time: Scalar) -> Rod:
     """Return the `rod` after coasting for `time` s: y + time ẏ projected onto S², and its velocity."""
     y, y_dot = rod
     factor = 1 / norm_of_sum(y_dot, time)

@@ -14,12 +14,12 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, norm
 from flypend.laws.bound import Computer, Control
-from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, documented, table
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.network import Network
 from flypend.laws.onnx_file import read_onnx
 from flypend.laws.references import Reference, hover
-from flypend.laws.seen import moment_action, observed, rotor_action, thrust_action
+from flypend.laws.seen import moment_action, observe_state, rotor_action, thrust_action
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 
@@ -41,7 +41,7 @@ GAINS = table(
 
 
 @errors.named_arguments
-@documented(GAINS)
+@document_gains(GAINS)
 def trained(network: str | Path | Sequence[Any], reference: Reference | None = None, **gains: Any) -> Law:
     """Build a law from a policy that was trained in `flypend.envs`, or in worlds of the same convention.
 
@@ -79,13 +79,13 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
     def control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
         x_ref = followed(t)
         x, x_dot = state.x - x_ref, state.x_dot - ca.densify(derivatives(x_ref, t, 1)[0])
-        seen = observed(State(**(vars(state) | {"x": x, "x_dot": x_dot})), COLUMNS[known.inputs])
+        seen = observe_state(State(**(vars(state) | {"x": x, "x_dot": x_dot})), COLUMNS[known.inputs])
         action = ca.fmax(ca.fmin(known(seen), 1), -1)
         return Control(wrench=_wrench(action, vehicle, k.action), signals={"position_error": norm(x)})
 
     return Law(
         name=Path(str(network)).stem if from_file else "trained", e3="up", gains=GAINS, given=gains, control=control,
-        prepare=partial(_checked, known.outputs), reference=followed, computer=_computer,
+        prepare=partial(_check_outputs, known.outputs), reference=followed, computer=_computer,
     )  # fmt: skip
 
 
@@ -96,7 +96,7 @@ def _wrench(action: Any, vehicle: Vehicle, kind: str) -> Wrench:
     return Wrench(wrench[0], wrench[1:])
 
 
-def _checked(outputs: int, vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Any]:
+def _check_outputs(outputs: int, vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Any]:
     wanted = len(vehicle.rotor_spins) if gains["action"] == "rotors" else 4
     if outputs != wanted:
         raise InputError("network", f"{wanted} actions, for {vehicle.name}", f"{outputs}")

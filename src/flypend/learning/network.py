@@ -31,7 +31,7 @@ def with_hover(phi: Any) -> Any:
     return np.column_stack([phi, HOVER]).astype(phi.dtype)
 
 
-def activated(z: Any) -> tuple[Any, Any]:
+def activate(z: Any) -> tuple[Any, Any]:
     """Return a(z) = z/√(1 + z²) and its derivative."""
     root = 1 / np.sqrt(1 + z * z)
     return z * root, root * root * root
@@ -39,8 +39,8 @@ def activated(z: Any) -> tuple[Any, Any]:
 
 def forward(w: Weights, phi: Any) -> tuple[Any, Any]:
     """Return N(φ) − N(φ₀) (n, count) for `phi` (18, count + 1), whose last column is φ₀, and what `backward` needs."""
-    a, a_slope = activated(w["W_1"] @ phi + w["b_1"][:, None])
-    b, b_slope = activated(w["W_2"] @ a + w["b_2"][:, None])
+    a, a_slope = activate(w["W_1"] @ phi + w["b_1"][:, None])
+    b, b_slope = activate(w["W_2"] @ a + w["b_2"][:, None])
     v = w["D"] @ phi + w["W_3"] @ b
     return v[:, :-1] - v[:, -1:], (a, a_slope, b, b_slope)
 

@@ -14,10 +14,10 @@ from flypend.laws import inverted
 from flypend.laws.lqr import GAINS, gain_matrix
 from flypend.laws.policy import FEATURES, activation
 from flypend.learning.flights import Flights, flat
-from flypend.learning.network import Adam, Weights, activated, backward, forward, with_hover
+from flypend.learning.network import Adam, Weights, activate, backward, forward, with_hover
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Scaled, Units, stepped
+from flypend.planning.dynamics import Scaled, Units, step_once
 from flypend.plants.actuation import rotor_forces
 from flypend.plants.lag import step_timing
 
@@ -33,7 +33,7 @@ class Teacher:
 
     def __init__(self, flights: Flights) -> None:
         self._flights = flights
-        self._ask = stagewise(_asked(flights.course.vehicle, AHEAD * flights.course.period))
+        self._ask = stagewise(_ask_law(flights.course.vehicle, AHEAD * flights.course.period))
         self._labels = lanes(flights.groups, flights.rotors)
 
     def fly(self, starts: Any) -> None:
@@ -79,7 +79,7 @@ class Imitation:
     def _step(self, weights: Weights, phi: Any, wanted: Any, rate: float) -> float:
         """Move `weights` by `rate` towards the commands `wanted` (n, k) for features `phi`; return the mean error²."""
         v, kept = forward(weights, phi)
-        error = (activated(v + self._hover)[0] - activated(wanted + self._hover)[0]) / 2
+        error = (activate(v + self._hover)[0] - activate(wanted + self._hover)[0]) / 2
         gradient = {name: np.zeros_like(array) for name, array in weights.items()}
         backward(weights, phi, kept, error / error.shape[1], gradient)  # as for a logistic output: none is stuck
         self._adam.move(weights, gradient, rate)
@@ -92,7 +92,7 @@ def _hover(vehicle: Vehicle) -> Any:
     return np.float32(level / np.sqrt(1 - level**2))
 
 
-def _asked(vehicle: Vehicle, ahead: float) -> ca.Function:
+def _ask_law(vehicle: Vehicle, ahead: float) -> ca.Function:
     """Return (state (24 + n), own units) → v (n) of the tuned law, for the state `ahead` seconds later."""
     units, n = Units.of(vehicle), len(vehicle.rotor_spins)
     state, packed = ca.SX.sym("state", SIZE + n), ca.SX.sym("packed", SIZE)
@@ -103,7 +103,7 @@ def _asked(vehicle: Vehicle, ahead: float) -> ca.Function:
     asked = ca.Function("asked", [packed], [level / ca.sqrt(1 - level**2) - float(_hover(vehicle))])
     timing = ca.DM(step_timing(vehicle.rotor_lag / units.time, ahead / units.time))
     machine = Scaled(ca.SX(ca.DM(units.numbers(vehicle))), n)
-    coming = stepped(state, state[SIZE:], timing, machine)[:SIZE] * ca.DM(units.of_state)
+    coming = step_once(state, state[SIZE:], timing, machine)[:SIZE] * ca.DM(units.of_state)
     return ca.Function("teacher", [state], ca.cse([ca.densify(asked(coming))]))
 
 

@@ -209,7 +209,7 @@ class Learner:
             "count": self.adam.count,
             "curve": np.reshape(self.curve, (-1, len(Entry._fields))),
         }
-        told = {"told": _told(self.training)}
+        told = {"told": _report(self.training)}
         save_arrays(path, self._fields(), {**told, **counts, **self.weights, **self.adam.moments})
 
     def resume(self, path: Path) -> bool:
@@ -218,7 +218,7 @@ class Learner:
             return False
         expected = "one of the same training (or another folder)"
         stored = read_arrays("checkpoint", path, expected, self._fields())
-        if str(stored["told"]) != _told(self.training):
+        if str(stored["told"]) != _report(self.training):
             raise InputError("checkpoint", expected, str(path))
         for known in (self.weights, self.adam.moments):
             for name, array in known.items():
@@ -242,7 +242,7 @@ class Learner:
         }
 
 
-def _told(training: Training) -> str:
+def _report(training: Training) -> str:
     return json.dumps(training.told, default=list, sort_keys=True)
 
 

@@ -17,7 +17,7 @@ from flypend.compile.llvm.stagewise import Stagewise, stagewise
 from flypend.laws.policy import features, shares
 from flypend.model import State
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Scaled, stepped
+from flypend.planning.dynamics import Scaled, step_once
 from flypend.plants.lag import TIMING_SIZE
 
 COSTS = 3
@@ -63,18 +63,18 @@ def programs(rotors: int) -> tuple[ca.Function, ca.Function, ca.Function]:
     timing, (lead, low, high) = shared[:TIMING_SIZE], ca.vertsplit(shared[TIMING_SIZE:])
     asked = low + (high - low) * shares(v, (1 - low) / (high - low))
     command = ca.fmin(ca.fmax(state[SIZE:] + lead * (asked - state[SIZE:]), low), high)
-    after = stepped(state, command, timing, machine)
-    outputs, inputs = [after, seen(after), costs(after, machine)], [state, v, machine.numbers, shared]
+    after = step_once(state, command, timing, machine)
+    outputs, inputs = [after, observe(after), costs(after, machine)], [state, v, machine.numbers, shared]
     gradients = [ca.SX.sym(f"g{i}", output.numel()) for i, output in enumerate(outputs)]
     total = sum(ca.dot(g, output) for g, output in zip(gradients, outputs, strict=True))
     to_state, to_v = ca.gradient(total, state), ca.gradient(total, v)
     to_state *= ca.fmin(1, STEEPEST / ca.sqrt(ca.sumsqr(to_state) + 1e-30))
     forward = ca.Function("forward", inputs, ca.cse([ca.densify(output) for output in outputs]))
     backward = ca.Function("backward", [*inputs, *gradients], ca.cse([ca.densify(to_state), ca.densify(to_v)]))
-    return forward, backward, ca.Function("see", [state], [seen(state)])
+    return forward, backward, ca.Function("see", [state], [observe(state)])
 
 
-def seen(state: Any) -> Any:
+def observe(state: Any) -> Any:
     """Return what the policy sees of `state` (24 + n, 1), own units, about hover at the origin."""
     s = State.symbolic(state[:SIZE])
     return features(s, s.x, s.x_dot, 1.0, 1.0)

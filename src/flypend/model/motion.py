@@ -12,7 +12,7 @@ import numpy as np
 from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale
 from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment
 from flypend.model.joint import on_rod
-from flypend.model.rod import is_point, shared_out
+from flypend.model.rod import is_point, share_out
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
 
@@ -106,10 +106,10 @@ def disturbed_motion(
     if disturbance.joint_torque is not None or disturbance.spin:
         torque = 0 * state.y if disturbance.joint_torque is None else disturbance.joint_torque
         P = on_rod(state, torque, disturbance.spin, l)
-        back = _transposed(R)
+        back = _transpose(R)
         F_v, F_b, moment = F_v - P, F_b + P, moment - apply(back, torque) - cross(o, apply(back, P))
 
-    arm = cross(o, apply(_transposed(R), y))  # moment per unit tension, body frame
+    arm = cross(o, apply(_transpose(R), y))  # moment per unit tension, body frame
     a = apply(I_inv, arm)  # (3)
     alpha = apply(I_inv, moment - gyroscopic_moment(I, omega))
     s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
@@ -135,13 +135,13 @@ def _of_rigid_body(
     own, M, o = vehicle.mass, vehicle.M, np.asarray(offset, dtype=float)
     share = 1 - own / M
     I = vehicle.I + own * share * (o @ o * np.eye(3) - np.outer(o, o))  # parallel axes, reduced mass
-    at_pivot, on_bob = shared_out(on_rod, vehicle)
-    back = _transposed(state.R)
+    at_pivot, on_bob = share_out(on_rod, vehicle)
+    back = _transpose(state.R)
     pushed = apply(back, on_vehicle) + scale(wrench.thrust, E3)
     moment = wrench.moment - cross(share * o, pushed) + cross((1 - share) * o, apply(back, at_pivot))
     return (1 - share) * o, I, np.linalg.inv(I), moment, on_vehicle + at_pivot, on_bob
 
 
-def _transposed(R: Matrix) -> Matrix:
+def _transpose(R: Matrix) -> Matrix:
     """Rᵀ, with leading batch axes."""
     return R.T if is_symbolic(R) else np.swapaxes(R, -1, -2)

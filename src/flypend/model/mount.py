@@ -144,14 +144,14 @@ def _to_disc(rod: Vector, centre: Vector, length: float, body: Body) -> Scalar:
     after = (leaving * u[2] - c[2]) * u[2] <= 0
     low = _where(meets, _where(before, first, _where(after, leaving, entry)), first)
     high = _where(meets, _where(before, entry, _where(after, last, leaving)), last)
-    low, high = _clipped(low, first, last), _clipped(high, first, last)
+    low, high = _clip(low, first, last), _clip(high, first, last)
     flat = _both(u[2] < 1e-12, u[2] > -1e-12)
-    crossing = _clipped(_where(flat, entry, c[2] / _where(flat, 1.0, u[2])), first, last)
-    s = _where(meets, _where(before, high, _where(after, low, crossing)), _clipped(_inner(rod, c), first, last))
+    crossing = _clip(_where(flat, entry, c[2] / _where(flat, 1.0, u[2])), first, last)
+    s = _where(meets, _where(before, high, _where(after, low, crossing)), _clip(_inner(rod, c), first, last))
     for _ in range(ITERATIONS):
         slope, curvature = _slope(s, u, c, body.disc_radius)
         low, high = _where(slope < 0, s, low), _where(slope < 0, high, s)
-        s = _clipped(s - slope / _most(curvature, 1e-12), low, high)
+        s = _clip(s - slope / _most(curvature, 1e-12), low, high)
     from_axis = _sqrt((s * u[0] - c[0]) ** 2 + (s * u[1] - c[1]) ** 2)
     beyond, above = from_axis - body.disc_radius, s * u[2] - c[2]
     distance = _sqrt(_most(beyond, 0.0) ** 2 + above**2)
@@ -182,7 +182,7 @@ def _inner(rod: Vector, fixed: Vector) -> Scalar:
     return sum((rod[i] if is_symbolic(rod) else rod[..., i]) * fixed[i] for i in range(3))
 
 
-def _clipped(value: Scalar, low: Numbers, high: Scalar) -> Scalar:
+def _clip(value: Scalar, low: Numbers, high: Scalar) -> Scalar:
     return _least(_most(value, low), high)
 
 

@@ -40,7 +40,7 @@ def is_point(vehicle: Any) -> bool:
     return vehicle.M is vehicle.mass or vehicle.rod_inertia == 0
 
 
-def shared_out(on_rod: Vector, vehicle: Any) -> tuple[Vector, Vector]:
+def share_out(on_rod: Vector, vehicle: Any) -> tuple[Vector, Vector]:
     """Return the parts of a force `on_rod` (..., 3), at its centre of mass, that act at the pivot and at the bob."""
     if is_point(vehicle):
         return 0 * on_rod, on_rod

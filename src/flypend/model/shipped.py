@@ -38,7 +38,7 @@ def vehicle_text(name: str | Path) -> str:
         return path.read_text(encoding="utf-8")
 
 
-def told(machine: Vehicle) -> str:
+def name_with_changes(machine: Vehicle) -> str:
     """Return the name of a vehicle with what differs from the shipped vehicle of that name: "hehn2011, mass 0.6"."""
     if machine.name not in vehicle_names():
         return machine.name

@@ -266,7 +266,7 @@ def _part(field: str, value: Any) -> Any:
     raise errors.InputError(field, "real numbers, or CasADi expressions", repr(value)[:80])
 
 
-def seen_packed(packed: Numbers, e3: E3Direction) -> Numbers:
+def convert_packed(packed: Numbers, e3: E3Direction) -> Numbers:
     """As `State.seen` for packed states (..., 24), or (24, 1) in CasADi, `e3` being "up" or "down"."""
     return packed if e3 == "up" else packed * FLIP_PACKED
 

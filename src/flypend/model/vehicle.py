@@ -327,7 +327,7 @@ class Vehicle:
         errors.only_known(field, values, _FIELDS)
         for name in _REQUIRED:
             if name not in values:
-                raise InputError(f"{field}.{name}", errors.documented_as(cls, name), "nothing")
+                raise InputError(f"{field}.{name}", errors.documentation_of(cls, name), "nothing")
         try:
             return cls(**values)
         except InputError as error:

@@ -107,7 +107,7 @@ def page(
         data["runs"][0]["windows"] = [_opening(window) for window in several]
     policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "lab")
     return PAGE.format(
-        policy=html.escape(policy), title=html.escape(str(data["title"])), data=embedded(data | (live or {})),
+        policy=html.escape(policy), title=html.escape(str(data["title"])), data=embed(data | (live or {})),
         program=program(name),
     )  # fmt: skip
 
@@ -128,7 +128,7 @@ def frame(text: str, height: int = 640) -> str:
 
 def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
     """Pack `run` for the page: metadata with its `verdict`, and base64 columns of at most `most` samples."""
-    t, states = _sampled(run, most)
+    t, states = _sample(run, most)
     told = dict(verdict)
     excess, hold = told.pop("excess"), told.pop("hold")
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
@@ -157,13 +157,13 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "verdict": told,
         "hold": hold,
         "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
-        "vehicle": drawn(vehicle),
+        "vehicle": describe_machine(vehicle),
         "floor": run.flight.plant.floor if run.flight else None,
         "columns": {name: in_base64(values) for name, values in columns.items()},
     }
 
 
-def drawn(vehicle: Vehicle) -> dict[str, Any]:
+def describe_machine(vehicle: Vehicle) -> dict[str, Any]:
     """Return what a page draws of `vehicle`."""
     return {
         "name": vehicle.name,
@@ -232,7 +232,7 @@ def _upright(states: State, e3: E3Direction) -> State:
     return states.seen(e3)
 
 
-def _sampled(run: Run, most: int) -> tuple[Any, State]:
+def _sample(run: Run, most: int) -> tuple[Any, State]:
     """Times and states to show: from dense output if available, otherwise a subset of the samples."""
     times, states = np.asarray(run.t, dtype=float), run.states
     if len(times) < 2:
@@ -259,7 +259,7 @@ def in_base64(values: Any) -> str:
     return base64.b64encode(finite.astype("<f4").tobytes()).decode("ascii")
 
 
-def embedded(data: Any) -> str:
+def embed(data: Any) -> str:
     """JSON that is safe inside a script element, whatever strings it contains."""
     text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

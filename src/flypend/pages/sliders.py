@@ -37,11 +37,11 @@ def gain_sliders(law: Law | BoundLaw | Controller, vehicle: Vehicle, given: Mapp
         low, high, log = _reach(gain.value(vehicle))
         reach = Reach(max(low, gain.bounds.low), min(high, gain.bounds.high), log)
         found = slider(f"law.gains.{name}", "gains", gain.label, gain.unit, given[name], reach)
-        out.append(found | {"allowed": _allowed(law, given, name, found["low"], found["high"])})
+        out.append(found | {"allowed": _allowed_range(law, given, name, found["low"], found["high"])})
     return out
 
 
-def _allowed(
+def _allowed_range(
     law: Law | BoundLaw | Controller, given: Mapping[str, Any], name: str, low: float, high: float
 ) -> list[float]:
     """Between `low` and `high`, how far the gain `name` may go while the others stay as `given`."""

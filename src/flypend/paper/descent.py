@@ -15,7 +15,7 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.ensemble import simulate_ensemble
 from flypend.laws import Law, almost_global, almost_global_lag, corrected, printed, repaired
 from flypend.laws.closed_loop import symbolic_loop
-from flypend.laws.repaired import repaired_control
+from flypend.laws.repaired import control_repaired
 from flypend.model import State, Vehicle, vehicle
 from flypend.plants import Ideal
 
@@ -63,7 +63,7 @@ PROVED = ("repaired", "almost_global", "almost_global_lag")
 
 def laws() -> Mapping[str, Case]:
     """Return the rows of the table by name. Only those in `PROVED` have a proof."""
-    uncancelled = replace(repaired(), control=partial(repaired_control, cancelled=0.0))
+    uncancelled = replace(repaired(), control=partial(control_repaired, cancelled=0.0))
     return {
         "repaired": Case(repaired(), "nayak2018", 20.0),
         "almost_global": Case(almost_global(), "hehn2011", 30.0),

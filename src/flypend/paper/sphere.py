@@ -35,12 +35,12 @@ def fly(force: Callable[[float, Any, Any], Any], start: Any, start_rate: Any, ti
     now, states = 0.0, [np.concatenate([start, start_rate])]
     for time in times:
         steps = max(1, int(np.ceil((time - now) / STEP)))
-        states.append(_stepped(rates, now, states[-1], (time - now) / steps, steps))
+        states.append(_steps(rates, now, states[-1], (time - now) / steps, steps))
         now = time
     return np.array(states[1:])[:, :3]
 
 
-def _stepped(rates: Callable[[float, Any], Any], t: float, s: Any, h: float, steps: int) -> Any:
+def _steps(rates: Callable[[float, Any], Any], t: float, s: Any, h: float, steps: int) -> Any:
     """The state after `steps` fixed DOP853 steps of length `h` (s) from `s` at time `t`."""
     scheme = method("dop853")
     for number in range(steps):

@@ -53,7 +53,7 @@ def cascade_runs_away(_: Runs) -> Finding:
             f"|ẏ| |v_e| at 12 s, start {member}, 1/s²": product[-1],
         }
         shown = shown and bool(speed[-1] > 20 * speed[0] and c[-1] < 0 and abs(growth - predicted) < 0.01 * predicted)
-    errors = [_followed(rate) for rate in CIRCLES]
+    errors = [_distance_followed(rate) for rate in CIRCLES]
     evidence |= {
         f"Lemma 2: error after {FOLLOWED:g} s on a great circle at {rate:g} rad/s": error
         for rate, error in zip(CIRCLES, errors, strict=True)
@@ -68,7 +68,7 @@ def cascade_runs_away(_: Runs) -> Finding:
     )
 
 
-def _followed(rate: float) -> float:
+def _distance_followed(rate: float) -> float:
     """|φ − φ_d| after `FOLLOWED` s of Lemma 2, corrected: φ_d on the equator at `rate` (rad/s), φ(0) about 70° off it.
 
     φ starts with the angular velocity of the reference.
@@ -84,7 +84,7 @@ def target_vanishes(runs: Runs) -> Finding:
     run = runs.corrected["4"]
     full = run.vehicle.weight / (run.vehicle.M * run.vehicle.l)
     speed = (np.sqrt(1 + 4 * full) - 1) / 2  # k_d s (1 + s) = (M+m)g/(Ml), k_d = 1/s
-    near = {ahead: _begun(speed + ahead) for ahead in (-1e-4, 1e-4, 1e-2)}
+    near = {ahead: _begin(speed + ahead) for ahead in (-1e-4, 1e-4, 1e-2)}
     turn = np.degrees(np.arccos(np.clip(dot(*(_target(full, speed + ahead) for ahead in (-1e-4, 1e-4))), -1, 1)))
     weight = run.vehicle.weight
     least = min(float(np.min(np.abs(flown.thrust))) for flown in runs.corrected.values())
@@ -115,7 +115,7 @@ def _target(full: float, speed: float) -> NDArray[np.float64]:
     return np.asarray(f_p / norm(f_p))
 
 
-def _begun(speed: float) -> Trajectory:
+def _begin(speed: float) -> Trajectory:
     """Fly the corrected law for 1 µs from y = e₁, ẏ = `speed` e₃; its speed floor is small against |f_p|."""
     law, tilted = corrected(speed_floor=1e-6), np.array([[0, 0, 1], [0, 1, 0], [-1, 0, 0]])
     return simulate(vehicle("nayak2018"), law, State(y=E1, y_dot=speed * E3, R=tilted), 1e-6, plant="ideal")

@@ -24,7 +24,7 @@ LARGEST = 4096  # pixels: what H.264 encodes on any machine
 HOLD = 1.5  # s of playback for which the last frame is held, with the verdict
 
 
-@signals.deferred()
+@signals.defer()
 def movie(
     run: Trajectory,
     path: str | Path,

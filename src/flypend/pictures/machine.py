@@ -53,7 +53,7 @@ def gaps(vehicle: Vehicle) -> list[tuple[float, float]]:
 def _from_above(axes: Any, vehicle: Vehicle) -> None:
     """The plan view: the body's front is up and its left is left, so (x, y) is drawn at (−y, x)."""
     body, centres = vehicle.body, vehicle.rotors_from_pivot
-    span, free = 1.15 * _spread(vehicle), gaps(vehicle)
+    span, free = 1.15 * _reach(vehicle), gaps(vehicle)
     for low, high in free:
         axes.add_patch(Wedge((0, 0), span, np.degrees(low) + 90, np.degrees(high) + 90, color=GREEN, alpha=0.18, lw=0))
     for i, (x, y, _) in enumerate(centres):
@@ -71,7 +71,7 @@ def _from_above(axes: Any, vehicle: Vehicle) -> None:
     axes.set(xticks=[], yticks=[])
 
 
-def _spread(vehicle: Vehicle) -> float:
+def _reach(vehicle: Vehicle) -> float:
     """How far the discs reach from the pivot, m."""
     assert vehicle.body is not None
     return float(np.max(np.linalg.norm(vehicle.rotors_from_pivot[:, :2], axis=1)) + vehicle.body.disc_radius)
@@ -90,7 +90,7 @@ def _sizes(vehicle: Vehicle, free: list[tuple[float, float]]) -> str:
 def _from_the_side(axes: Any, vehicle: Vehicle, mount: str) -> None:
     """The elevation from the left: front to the left, so (x, z) is drawn at (−x, z); the rod leans backwards."""
     body, centres, reach = vehicle.body, vehicle.rotors_from_pivot, vehicle.reach
-    machine = _spread(vehicle)
+    machine = _reach(vehicle)
     rod = np.array([np.sin(LEAN), np.cos(LEAN)])
     for x, _, z in centres:
         axes.plot([0, -x], [0, z], color=INK, lw=1.6)

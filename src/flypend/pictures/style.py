@@ -69,7 +69,7 @@ def style_named(name: str, *, font: str = "", titled: bool = True) -> Style:
     Raises InputError for any other name, and for a font that is not installed.
     """
     chosen = STYLES[errors.one_of("--style", name, STYLES)]
-    return replace(chosen, font=_installed(font), titled=titled)
+    return replace(chosen, font=_find_font(font), titled=titled)
 
 
 def style_of(style: str | Style) -> Style:
@@ -92,7 +92,7 @@ def letter(figure: Figure, style: Style) -> Figure:
     return figure
 
 
-def _installed(font: str) -> str:
+def _find_font(font: str) -> str:
     """Return `font` if it is "" or a family that matplotlib finds. Raises InputError."""
     if not font:
         return font

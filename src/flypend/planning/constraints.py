@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.flight.touch import touched
+from flypend.flight.touch import reason_of
 from flypend.geometry import norm
 from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
@@ -197,7 +197,7 @@ def _several(window: Any) -> tuple[Window, ...]:
     return tuple(several)
 
 
-def gathered(function: str, constraints: Constraints | None, keywords: Mapping[str, Any]) -> Constraints:
+def gather(function: str, constraints: Constraints | None, keywords: Mapping[str, Any]) -> Constraints:
     """Return the `constraints` of a call of `function` with the fields that were given one by one, `keywords`.
 
     Raises InputError if a field is unknown or given in both ways.
@@ -238,7 +238,7 @@ def broken(packed: Array, rotor_forces: Array, vehicle: Vehicle, kept: Constrain
     for point in kept.points:
         if (off := float(np.min(norm(state.x - point)))) > NEAR * vehicle.l:
             return f"a waypoint is missed by {off:.3g} m"
-    return _own_broken(packed, rotor_forces, kept) or _touched(state, rotor_forces, vehicle)
+    return _own_broken(packed, rotor_forces, kept) or _touching(state, rotor_forces, vehicle)
 
 
 def _own_broken(packed: Array, rotor_forces: Array, kept: Constraints) -> str:
@@ -252,15 +252,15 @@ def _own_broken(packed: Array, rotor_forces: Array, kept: Constraints) -> str:
 
 def begins_touching(packed: Array, rotor_forces: Array, vehicle: Vehicle) -> str:
     """Return what the rod touches at the first of the states `packed` (n, 24), from where no plan leads; or ""."""
-    found = _touched(State.trusted(packed[:1]), rotor_forces[:1], vehicle)
+    found = _touching(State.trusted(packed[:1]), rotor_forces[:1], vehicle)
     return found and f"{found} at the start"
 
 
-def _touched(state: State, rotor_forces: Array, vehicle: Vehicle) -> str:
+def _touching(state: State, rotor_forces: Array, vehicle: Vehicle) -> str:
     """Return what the rod of `vehicle` touches most in a batch of states with `rotor_forces` (n, k); or ""."""
     if vehicle.mount == "gimbal":
         return ""
     wrench = rotor_forces @ vehicle.mixing().T
     found = margins(state, Wrench(wrench[:, 0], wrench[:, 1:]), vehicle, "up")
     least = np.min(found, axis=0)
-    return touched(vehicle, int(np.argmin(least))) if np.min(least) < 0 else ""
+    return reason_of(vehicle, int(np.argmin(least))) if np.min(least) < 0 else ""

@@ -28,8 +28,8 @@ def retract(state: ca.SX, delta: ca.SX) -> ca.SX:
     s = State.symbolic(state[:SIZE])
     b = plane(s.y)
     turn = ca.mtimes(b, delta[ROD])
-    y = turned(turn, s.y)
-    H = turned(turn, cross(s.y, s.y_dot) + ca.mtimes(b, delta[SWING]))
+    y = turn_by(turn, s.y)
+    H = turn_by(turn, cross(s.y, s.y_dot) + ca.mtimes(b, delta[SWING]))
     moved = State.symbolic(
         ca.vertcat(
             s.x + delta[POSITION],
@@ -50,7 +50,7 @@ def local(state: ca.SX, other: ca.SX) -> ca.SX:
     M = ca.mtimes(s.R.T, o.R)
     attitude = scale(4 / (1 + M[0, 0] + M[1, 1] + M[2, 2]), vee(M))
     turn = between(s.y, o.y)
-    swing = turned(-turn, cross(o.y, o.y_dot)) - cross(s.y, s.y_dot)
+    swing = turn_by(-turn, cross(o.y, o.y_dot)) - cross(s.y, s.y_dot)
     along = ca.mtimes(b.T, ca.horzcat(turn, swing))
     return ca.vertcat(
         o.x - s.x, o.x_dot - s.x_dot, attitude, o.omega - s.omega, along[:, 0], along[:, 1], other[SIZE:] - state[SIZE:]
@@ -62,7 +62,7 @@ def between(a: ca.SX, b: ca.SX) -> ca.SX:
     return scale(2 / (1 + dot(a, b)), cross(a, b))
 
 
-def turned(v: ca.SX, w: ca.SX) -> ca.SX:
+def turn_by(v: ca.SX, w: ca.SX) -> ca.SX:
     """Return c(v) w: `w` (3, 1) turned by 2 atan(|v|/2) about `v` (3, 1)."""
     across = cross(v, w)
     return w + scale(1 / (1 + dot(v, v) / 4), across + cross(v, across) / 2)
@@ -70,7 +70,7 @@ def turned(v: ca.SX, w: ca.SX) -> ca.SX:
 
 def cayley(v: ca.SX) -> ca.SX:
     """Return the rotation matrix c(v) (3, 3)."""
-    return ca.horzcat(*(turned(v, ca.SX(column)) for column in ca.horzsplit(ca.DM.eye(3))))
+    return ca.horzcat(*(turn_by(v, ca.SX(column)) for column in ca.horzsplit(ca.DM.eye(3))))
 
 
 def plane(y: ca.SX) -> ca.SX:

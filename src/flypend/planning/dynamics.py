@@ -17,9 +17,9 @@ from flypend.errors import InputError
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.coordinates import MOTION, local, retract
-from flypend.planning.riccati import unpacked_gains
+from flypend.planning.riccati import unpack_gains
 from flypend.plants.cascade import cascade_step
-from flypend.plants.lag import TIMING_SIZE, held
+from flypend.plants.lag import TIMING_SIZE, hold
 
 LEAST_ROOM = 1e-9  # own units: less would be lost in the rounding of a command
 
@@ -117,9 +117,9 @@ class Units:
 assert len(Units(1.0, 1.0, 1.0).of_state) == SIZE
 
 
-def stepped(state: ca.SX, command: ca.SX, timing: ca.SX, machine: Scaled) -> ca.SX:
+def step_once(state: ca.SX, command: ca.SX, timing: ca.SX, machine: Scaled) -> ca.SX:
     """Return the state (24 + n, 1) after a step of `timing` (see `plants.lag.step_timing`) under `command` (n, 1)."""
-    forces, rotors = held(state[SIZE:], command, timing)
+    forces, rotors = hold(state[SIZE:], command, timing)
     moved = cascade_step(state[:SIZE], forces.mixed(machine.mixing()), machine.outside, timing[0], machine.vehicle)
     return ca.vertcat(moved, rotors)
 
@@ -139,12 +139,12 @@ class Stage:
 
     def gap_at(self, delta: ca.SX) -> ca.SX:
         """Return the gap (16 + n, 1) if the stage begins with coordinates `delta` about `before`."""
-        led = stepped(retract(self.before, delta), self.command, self.timing, self.machine)
+        led = step_once(retract(self.before, delta), self.command, self.timing, self.machine)
         return local(self.after, led)
 
     def step(self) -> ca.Function:
         """Return (before, command, timing, vehicle) → state after the stage."""
-        led = stepped(self.before, self.command, self.timing, self.machine)
+        led = step_once(self.before, self.command, self.timing, self.machine)
         return ca.Function("step", [self.before, self.command, self.timing, self.machine.numbers], [ca.cse(led)])
 
     def derivatives(self) -> tuple[ca.SX, ca.SX, ca.SX]:
@@ -171,13 +171,13 @@ class Stage:
         n, state, length = self.coordinates, ca.SX.sym("state", SIZE + self.rotors), ca.SX.sym("length")
         gap, epsilon, limits = ca.SX.sym("gap", n), ca.SX.sym("epsilon"), ca.SX.sym("limits", 3)
         gains = ca.SX.sym("gains", self.rotors * (n + 2))
-        K, k, k_e = unpacked_gains(gains, n, self.rotors)
+        K, k, k_e = unpack_gains(gains, n, self.rotors)
         wanted = self.command + length * (k + epsilon * k_e) + ca.mtimes(K, local(self.before, state))
         low, high = limits[0] + LEAST_ROOM, limits[1] - LEAST_ROOM
         least = ca.fmin(ca.fmax(self.command + limits[2] * (limits[0] - self.command), low), self.command)
         most = ca.fmax(ca.fmin(self.command + limits[2] * (limits[1] - self.command), high), self.command)
         command = ca.fmin(ca.fmax(wanted, least), most)
-        led = retract(stepped(state, command, self.timing, self.machine), (length - 1) * gap)
+        led = retract(step_once(state, command, self.timing, self.machine), (length - 1) * gap)
         inputs = [self.before, self.command, gap, gains, state, length, epsilon, limits]
         inputs += [self.timing, self.machine.numbers]
         return ca.Function("rollout", inputs, ca.cse([ca.densify(led), ca.densify(command)]))

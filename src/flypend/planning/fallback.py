@@ -65,7 +65,7 @@ def evasion(vehicle: Vehicle, state: Array, rotors: Array, wait: float) -> tuple
     command, room, end : (n,), float, (24 + n,)
         The command, N, its `room`, and state and rotor forces after the wait.
     """
-    paths = [(command, *_flown(vehicle, state, rotors, command, wait)) for command in commands(vehicle)]
+    paths = [(command, *_fly_command(vehicle, state, rotors, command, wait)) for command in commands(vehicle)]
     command, path, end = max(paths, key=lambda flown: room(flown[1], vehicle))
     return command, room(path, vehicle), end
 
@@ -80,7 +80,7 @@ def commands(vehicle: Vehicle) -> list[Array]:
     return [*even, *((low + high) / 2 + (high - low) / 2 * sides)]
 
 
-def _flown(vehicle: Vehicle, state: Array, rotors: Array, command: Array, wait: float) -> tuple[Array, Array]:
+def _fly_command(vehicle: Vehicle, state: Array, rotors: Array, command: Array, wait: float) -> tuple[Array, Array]:
     """Return the path under a `command` through the `wait` and `BEYOND`, and where it is after the wait."""
     step, h = stepping(vehicle), wait / STEPS
     path = [np.append(state, rotors)]
@@ -149,7 +149,7 @@ class Fallback:
         """
         path, begun = self._under_law(t, begin, first), time.process_time()
         try:
-            found = sketched(ask(t + first, path[-1]), horizon, t + first, t + wait)
+            found = make_sketch(ask(t + first, path[-1]), horizon, t + first, t + wait)
         except InputError:
             return self.until(t, begin, wait)
         late = measured and time.process_time() - begun > first
@@ -177,7 +177,7 @@ class Fallback:
         return np.array(path)
 
 
-def sketched(asked: Request, horizon: float, begin: float, end: float) -> Schedule:
+def make_sketch(asked: Request, horizon: float, begin: float, end: float) -> Schedule:
     """Return what a few iterations from all guesses make of what is `asked`, to fly from `begin` to `end` (s)."""
     rounds, _, iterations = SKETCH
     found = together(asked, horizon, math.inf, iterations, rounds, SOFT)

@@ -19,7 +19,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turned
+from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turn_by
 from flypend.planning.dynamics import Units
 from flypend.planning.inequalities import Structure
 from flypend.planning.programs import programs
@@ -134,7 +134,7 @@ def deviation(rotors: int) -> ca.Function:
     skew = ca.vertcat(M[2, 1] - M[1, 2], M[0, 2] - M[2, 0], M[1, 0] - M[0, 1])
     attitude = 2 / ca.fmax(1 + ca.trace(M), 0.1) * skew
     turn = between(s.y, o.y)
-    swing = turned(-turn, cross(o.y, o.y_dot)) - cross(s.y, s.y_dot)
+    swing = turn_by(-turn, cross(o.y, o.y_dot)) - cross(s.y, s.y_dot)
     parts = [o.x - s.x, o.x_dot - s.x_dot, attitude, o.omega - s.omega, turn, swing, state[SIZE:] - nominal[SIZE:]]
     return ca.Function("deviation", [nominal, state], [ca.densify(ca.vertcat(*parts))])
 
@@ -199,7 +199,7 @@ def stepping(vehicle: Vehicle) -> Any:
     scales = ca.SX.sym("scales", 2)
     scaled: Any = _Scaled(vehicle, scales)
     s, r, u, w, h = equations.rotor_step(vehicle).sx_in()
-    outputs = equations.stepped(s, r, u, w, h, scaled, ROTORS)
+    outputs = equations.step_state(s, r, u, w, h, scaled, ROTORS)
     step, lag = as_numpy(ca.Function("step", [s, r, u, w, h, scales], outputs)), vehicle.rotor_lag
 
     def stepped(

@@ -55,7 +55,7 @@ def content(plan: Any) -> tuple[dict[str, Variable], dict[str, Any]]:
     attributes |= {name: getattr(plan, name) for name in ATTRIBUTES if name not in ("objective", "windows")}
     attributes["objective"] = json.dumps(dict(plan.objective))
     attributes["windows"] = json.dumps([_plain(window) for window in plan.windows])
-    return variables, attributes | {SEAL: checked(vars(run), attributes["digest"], variables, attributes)[1]}
+    return variables, attributes | {SEAL: check(vars(run), attributes["digest"], variables, attributes)[1]}
 
 
 def _lengths(vehicle: Vehicle) -> dict[str, int]:
@@ -73,14 +73,14 @@ def fields_of(path: str | Path) -> dict[str, Any]:
     if missing := [name for name in ATTRIBUTES if name not in attributes]:
         raise InputError(str(path), KIND, f"a run: no {', '.join(missing)}")
     try:
-        plan, found = checked(run, seal, variables, attributes)
+        plan, found = check(run, seal, variables, attributes)
     except InputError as error:
         raise InputError(str(path), KIND, f"a damaged one ({error})") from None
     saved.check_digest(str(path), KIND, attributes, SEAL, found)
     return plan
 
 
-def checked(
+def check(
     run: Mapping[str, Any], seal: str, variables: Mapping[str, Variable], attributes: Mapping[str, Any]
 ) -> tuple[dict[str, Any], str]:
     """Return the fields of the plan of the flight `run`, which has the digest `seal`, and the digest of both.

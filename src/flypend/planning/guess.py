@@ -27,11 +27,11 @@ from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.geometry import E3, cross, dot, norm, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.coordinates import cayley, turned
+from flypend.planning.coordinates import cayley, turn_by
 from flypend.planning.dynamics import Stage, Units
 from flypend.planning.problem import Request
-from flypend.planning.riccati import solved
-from flypend.plants.lag import held
+from flypend.planning.riccati import solve
+from flypend.plants.lag import hold
 
 Array = NDArray[np.float64]
 
@@ -127,13 +127,13 @@ def _pump(stage: Stage) -> ca.Function:
         x_dot, omega = x_dot + h * a, omega + h * turning
         x, R = x + h * x_dot, ca.mtimes(R, cayley(h * omega))
         H = H + h * H_dot
-        y = turned(h * H, y)
+        y = turn_by(h * H, y)
         H = H - dot(H, y) * y
     wrench = ca.vertcat(ca.fmax(dot(F, R[:, 2]), 0), ca.mtimes(machine.I, turning))
     mixing = machine.mixing()
-    wanted = ca.mtimes(mixing.T, solved(ca.mtimes(mixing, mixing.T), wrench))
+    wanted = ca.mtimes(mixing.T, solve(ca.mtimes(mixing, mixing.T), wrench))
     command = ca.fmin(ca.fmax(wanted, limits[0]), limits[1])
-    _, rotors = held(stage.before[SIZE:], command, stage.timing)
+    _, rotors = hold(stage.before[SIZE:], command, stage.timing)
     moved = State.symbolic(ca.vertcat(x, x_dot, ca.vec(R.T), omega, y, cross(H, y))).packed()
     inputs = [stage.before, style, limits, stage.timing, machine.numbers]
     return ca.Function("pump", inputs, ca.cse([ca.densify(ca.vertcat(moved, rotors)), ca.densify(command)]))
@@ -173,7 +173,7 @@ def _smooth_step(value: ca.SX) -> ca.SX:
 
 
 def arcs(asked: Request, stages: int, h: float) -> list[tuple[Array, Array]]:
-    """Return guesses as `leaned` does, in which the rod turns to its end on one smooth arc: the quickest ways.
+    """Return guesses as `lean_guess` does, in which the rod turns to its end on one smooth arc: the quickest ways.
 
     The rod is y = w/|w| with w a quintic step from the start to the end, its first rate that of the start, and a bump
     sideways that says which way it turns. What it does needs the force −ÿ across the rod. That along the rod is free:
@@ -210,7 +210,7 @@ def _way(asked: Request, style: int) -> Array:
     return way
 
 
-def leaned(asked: Request, style: int, stages: int, h: float) -> tuple[Array, Array]:
+def lean_guess(asked: Request, style: int, stages: int, h: float) -> tuple[Array, Array]:
     """Return states (stages + 1, 24 + n) and commands (stages, n) of a guess that leans, in stages of `h`, own units.
 
     The first state is the start, from which it may jump.

@@ -144,16 +144,16 @@ def nearness(state: ca.SX, about: ca.SX, numbers: ca.SX, structure: Structure, m
     gates = [numbers[first + NUMBERS * i : first + NUMBERS * (i + 1)] for i in range(structure.gates)]
     near = [-passing(state, about, gate) for gate in gates]
     if structure.mounted is not None:
-        near.append(numbers[-1] - _kept(state, about, structure.mounted, machine))
+        near.append(numbers[-1] - _least_margin(state, about, structure.mounted, machine))
     return ca.fmax(0, ca.vertcat(ca.SX(0, 1), *near) / SOFT)
 
 
-def _kept(state: ca.SX, about: ca.SX, mounted: Vehicle, machine: Scaled) -> ca.SX:
+def _least_margin(state: ca.SX, about: ca.SX, mounted: Vehicle, machine: Scaled) -> ca.SX:
     """Return the least of `model.mount.margins`, in rod lengths or weights, linear in `state` about `about`.
 
     Its own derivatives do not exist everywhere, differences do.
     """
-    here, there = (_held_by(place, machine) for place in (state, about))
+    here, there = (_rod_push(place, machine) for place in (state, about))
 
     def margin(held: ca.SX) -> ca.SX:
         return least_margin(held[:3], held[3] * mounted.l, mounted)[0] / mounted.l
@@ -165,7 +165,7 @@ def _kept(state: ca.SX, about: ca.SX, mounted: Vehicle, machine: Scaled) -> ca.S
     return margin(there) + ca.dot(ca.vertcat(*slopes), here - there)
 
 
-def _held_by(state: ca.SX, machine: Scaled) -> ca.SX:
+def _rod_push(state: ca.SX, machine: Scaled) -> ca.SX:
     """Return the rod in the body frame (3,) and its push on the vehicle, in weights."""
     s = State.symbolic(state[:SIZE])
     thrust = ca.mtimes(machine.mixing()[0, :], state[SIZE:])

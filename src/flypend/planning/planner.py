@@ -17,11 +17,11 @@ from flypend.compile.llvm.stagewise import WIDTH
 from flypend.errors import InputError
 from flypend.flight.request import check_batch
 from flypend.model import State, Vehicle
-from flypend.planning.constraints import Constraints, Keywords, gathered
+from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.durations import HORIZONS, Search, in_time, ladder, shortest
 from flypend.planning.problem import Request, end_of, request
 from flypend.planning.result import Plan, PlanEnsemble
-from flypend.planning.search import Job, agreeing, one_by_one, prepared, together
+from flypend.planning.search import Job, agreeing, one_by_one, prepare, together
 from flypend.planning.verdict import plans_of
 from flypend.signals.waiting import result_of, threads
 
@@ -35,7 +35,7 @@ Progress = Callable[[int, int], Any]
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def plan(
     vehicle: Vehicle,
     start: State,
@@ -89,7 +89,7 @@ def plan(
     InputError
         If an argument is out of range, or the start breaks a constraint.
     """
-    kept = gathered("plan", constraints, keywords)
+    kept = gather("plan", constraints, keywords)
     asked = request(vehicle, start, objective, end_of(kept.path, duration, target), rotors, kept)
     limit = math.inf if time_limit is None else errors.number("time_limit", time_limit, above=0, unit="s")
     longest = horizon_of(asked, duration)
@@ -100,7 +100,7 @@ def plan(
     if asked.leaning:
         attempts.append(replace(asked, again=True))
     for attempt in attempts:
-        prepared(attempt)  # compiling takes seconds, once
+        prepare(attempt)  # compiling takes seconds, once
     if asked.begins_touching:
         return plan_within(asked, longest or HORIZONS[0], 0, {})
     search = Search(attempts, time.thread_time() + limit)
@@ -128,7 +128,7 @@ def plan_within(asked: Request, horizon: float, iterations: int, rounds: Mapping
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def plan_ensemble(
     vehicle: Vehicle,
     starts: State,
@@ -173,34 +173,34 @@ def plan_ensemble(
         raise InputError("objective", "one that a single solve finds: excursion, effort or weights", "'time'")
     first = errors.integer("guesses", guesses, 1, WIDTH)
     cores = errors.integer("workers", os.cpu_count() or 1 if workers is None else workers, 1)
-    kept = gathered("plan_ensemble", constraints, keywords)
+    kept = gather("plan_ensemble", constraints, keywords)
     goal = end_of(kept.path, duration, target)
     asked = [request(vehicle, starts[i], objective, goal, rotors, kept) for i in range(len(starts))]
     longest = horizon_of(asked[0], duration)
     horizons = HORIZONS if longest is None else (longest,)
-    prepared(asked[0])  # compiling takes seconds, once
+    prepare(asked[0])  # compiling takes seconds, once
     share = min(CHUNK, WIDTH * -(-len(asked) // (WIDTH * cores)))
     parts = [asked[i : i + share] for i in range(0, len(asked), share)]
     plans: list[Plan] = []
     with threads(cores) as pool:
-        for call in [pool.submit(_planned, part, horizons, first) for part in parts]:
+        for call in [pool.submit(_plan_each, part, horizons, first) for part in parts]:
             some = result_of(call)
             plans += some
             progress(len(plans), len(asked))
     return PlanEnsemble(tuple(plans))
 
 
-def _planned(asked: Sequence[Request], horizons: Sequence[float], guesses: int) -> list[Plan]:
+def _plan_each(asked: Sequence[Request], horizons: Sequence[float], guesses: int) -> list[Plan]:
     """Return a plan for each request: with the first of `horizons` and the first styles that find one."""
     best: list[tuple[bool, float, Plan] | None] = [None] * len(asked)  # whether it failed, its cost, and the plan
     spent = np.zeros(len(asked))
     costs: list[list[float]] = [[] for _ in asked]  # of the guesses with the last horizon, infinite for those that fail
     for horizon in horizons:
-        left = [i for i, each in enumerate(best) if _failed(each)]
+        left = [i for i, each in enumerate(best) if _is_missing(each)]
         for i in left:
             costs[i] = []
         for tried, style in enumerate(ORDER[: guesses + MORE]):
-            open_ = [i for i in left if tried < guesses or _failed(best[i])]
+            open_ = [i for i in left if tried < guesses or _is_missing(best[i])]
             if not open_:
                 break
             found = one_by_one([Job(asked[i], style) for i in open_], horizon)
@@ -218,6 +218,6 @@ def _planned(asked: Sequence[Request], horizons: Sequence[float], guesses: int) 
     ]
 
 
-def _failed(kept: tuple[bool, float, Plan] | None) -> bool:
+def _is_missing(kept: tuple[bool, float, Plan] | None) -> bool:
     """Whether there is no plan yet that can be flown."""
     return kept is None or kept[0]

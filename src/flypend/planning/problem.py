@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, norm
-from flypend.laws.references import check_reference, sampled
+from flypend.laws.references import check_reference, sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, angle, begins_touching, own_function
@@ -53,7 +53,7 @@ class Request:
     def places(self, t: Array) -> Array:
         """Return where the pivot is to be at times `t` (n,), (n, 3), own units."""
         assert self.kept.path is not None
-        places: Array = (sampled(self.kept.path, t * self.units.time) - self.target) / self.units.length
+        places: Array = (sample(self.kept.path, t * self.units.time) - self.target) / self.units.length
         return places
 
     @property
@@ -180,7 +180,7 @@ def end_of(path: Any, duration: Any, target: Any) -> Any:
         raise InputError("duration", "the time that the path takes, s", "nothing")
     if target is not None:
         raise InputError("target", "nothing beside a path, at whose end the pivot hovers", repr(target)[:80])
-    return sampled(path, np.array([errors.number("duration", duration, above=0, unit="s")]))[0]
+    return sample(path, np.array([errors.number("duration", duration, above=0, unit="s")]))[0]
 
 
 def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> None:

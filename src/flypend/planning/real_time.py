@@ -48,7 +48,7 @@ ATTITUDE, ROD, AXIS = slice(6, 15), slice(18, 21), [8, 11, 14]  # of a packed st
 Array = NDArray[np.float64]
 
 
-def weighed(forces: Array, acceleration: Array, vehicle: Vehicle) -> Array:
+def in_weights(forces: Array, acceleration: Array, vehicle: Vehicle) -> Array:
     """Return `forces` (6,) on vehicle and bob, N, in weights, in a frame with an `acceleration` (3,), m/s²."""
     found: Array = np.concatenate([forces[:3] - vehicle.M * acceleration, forces[3:] - vehicle.m * acceleration])
     return found / vehicle.weight

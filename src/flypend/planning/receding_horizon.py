@@ -27,13 +27,13 @@ from flypend.laws import Computer, Controller, Law
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.constraints import Constraints, Keywords, gathered
+from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.dynamics import Units
 from flypend.planning.fallback import LONGEST, SKETCH, Fallback, Schedule
 from flypend.planning.model_error import ModelError
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import STAGES_PER_UNIT, Request, request
-from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, upright, weighed
+from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, in_weights, upright
 from flypend.planning.result import Plan
 from flypend.planning.search import SOFT_LAST, work
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
@@ -109,7 +109,7 @@ def nmpc(
         errors.one_of("computing", computing, ("measured", "a number of seconds"))
     else:
         errors.number("computing", computing, above=0, unit="s")
-    kept = gathered("nmpc", constraints, keywords)
+    kept = gather("nmpc", constraints, keywords)
     for name, value in kept.given.items():
         if name != "clearance":
             raise InputError(name, "nothing: nmpc keeps the clearance alone", repr(value)[:80])
@@ -198,7 +198,7 @@ class Pilot(Boards):
     def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
         """See `Boards`."""
         self._error.update(state, rotors)
-        here, outside = self._relative(t, state), weighed(self._error.forces, self._where(t)[6:], self._vehicle)
+        here, outside = self._relative(t, state), in_weights(self._error.forces, self._where(t)[6:], self._vehicle)
         level = upright(outside, self._m)[:2]
         if self._coming is not None and t + 1e-9 >= self._coming.due:
             self._arrive(t, self._coming)

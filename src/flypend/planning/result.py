@@ -21,14 +21,14 @@ from flypend.flight.outcome import Outcome
 from flypend.flight.saved import write
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import E3, norm
-from flypend.laws.references import Reference, hover, sampled
+from flypend.laws.references import Reference, hover, sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, split
 from flypend.planning import files
 from flypend.planning.files import Status
 from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
-from flypend.plants.lag import TIMING_SIZE, held, step_timing
+from flypend.plants.lag import TIMING_SIZE, hold, step_timing
 
 Array = NDArray[np.float64]
 
@@ -146,7 +146,7 @@ class Plan:
     @property
     def x_ref(self) -> Array:
         """Where the pivot is to be (n, 3), m."""
-        places: Array = np.tile(self.target, (len(self.t), 1)) if self.path is None else sampled(self.path, self.t)
+        places: Array = np.tile(self.target, (len(self.t), 1)) if self.path is None else sample(self.path, self.t)
         return places
 
     @property
@@ -298,7 +298,7 @@ def _independent_step(vehicle: Vehicle) -> Any:
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
     timing = ca.SX.sym("h", TIMING_SIZE)
-    forces, after = held(rotors, command, timing)
+    forces, after = hold(rotors, command, timing)
     moved = runge_kutta_step(packed, forces, None, timing[0], vehicle)
     outputs = [ca.densify(moved), ca.densify(after)]
     return as_numpy(ca.Function("independent", [packed, rotors, command, timing], outputs))

@@ -176,7 +176,7 @@ def forward(layout: Layout) -> ca.Function:
     memory, gains, V = (ca.SX.sym(*named) for named in (
         ("F", layout.of_slopes), ("gains", layout.of_gains), ("V", layout.of_to_go)
     ))  # fmt: skip
-    F, (P, p, p_e), (K, k, k_e) = layout.slopes_in(memory), layout.to_go_in(V), unpacked_gains(gains, n, m)
+    F, (P, p, p_e), (K, k, k_e) = layout.slopes_in(memory), layout.to_go_in(V), unpack_gains(gains, n, m)
     upsilon = ca.mtimes(K, delta) + k + k_e * epsilon
     after = ca.mtimes(F[:, :n], delta) + ca.mtimes(F[:, n:], upsilon) + d
     costate = ca.mmax(ca.fabs(ca.mtimes(P, after) + p + p_e * epsilon))
@@ -184,11 +184,11 @@ def forward(layout: Layout) -> ca.Function:
     return ca.Function("forward", [delta, epsilon, memory, d, gains, V], outputs)
 
 
-def unpacked_gains(gains: ca.SX, n: int, m: int) -> tuple[ca.SX, ca.SX, ca.SX]:
+def unpack_gains(gains: ca.SX, n: int, m: int) -> tuple[ca.SX, ca.SX, ca.SX]:
     """Return K (m, n), k and k_e (m, 1) of packed `gains`, in CasADi."""
     return ca.reshape(gains[: n * m], n, m).T, gains[n * m : (n + 1) * m], gains[(n + 1) * m :]
 
 
-def solved(S: ca.SX, right: ca.SX) -> ca.SX:
+def solve(S: ca.SX, right: ca.SX) -> ca.SX:
     """Return S⁻¹ `right` for a symmetric positive definite `S` (m, m), in CasADi."""
     return ca.ldl_solve(right, *ca.ldl(S))

@@ -15,7 +15,7 @@ from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.model.state import SIZE
 from flypend.planning.constraints import TOLERANCE
-from flypend.planning.guess import arcs, leaned, leans, pumping, styles
+from flypend.planning.guess import arcs, lean_guess, leans, pumping, styles
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.programs import Programs, programs
 from flypend.planning.solver import Measures, Problem, Scratch, Solver, one_lane
@@ -223,7 +223,7 @@ def stages_of(horizon: float) -> tuple[int, float]:
     return stages, horizon / stages
 
 
-def prepared(asked: Request) -> None:
+def prepare(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
     programs(asked.rotors, asked.structure, lanes=False), pumping(asked.rotors)
 
@@ -244,7 +244,7 @@ def together(
     """
     jobs = [Job(asked, style) for style in range(WIDTH)]
     given_up = ({} if asked.structure.soft else ROUNDS) if rounds is None else rounds
-    return _raced(jobs, guessed(jobs, horizon), given_up, Watch(jobs, range(WIDTH), most, first), deadline)
+    return _raced(jobs, make_guesses(jobs, horizon), given_up, Watch(jobs, range(WIDTH), most, first), deadline)
 
 
 def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Watch | None = None) -> Found:
@@ -305,7 +305,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
                 ahead = (following - WIDTH) % WIDTH
                 if ahead == 0:
                     some = jobs[following : following + WIDTH]
-                    guesses = [guessed([*some, *[some[0]] * (WIDTH - len(some))], horizon)]
+                    guesses = [make_guesses([*some, *[some[0]] * (WIDTH - len(some))], horizon)]
                 solver.take(lane, *guesses[0], ahead)
                 watches[lane] = following, Watch([jobs[following]], [lane])
                 following += 1
@@ -314,17 +314,17 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
 
 def _solver(jobs: Sequence[Job], horizon: float) -> Solver:
     asked = jobs[0].asked
-    return Solver(programs(asked.rotors, asked.structure, lanes=True), *guessed(jobs, horizon))
+    return Solver(programs(asked.rotors, asked.structure, lanes=True), *make_guesses(jobs, horizon))
 
 
 def guesses_of(asked: Request, horizon: float, stages: int) -> list[Guess]:
     """Return all guesses there are for what is `asked`, in so many `stages`: of all styles, and arcs of the rod."""
-    _, states, commands = guessed([Job(asked, style) for style in range(WIDTH)], horizon, stages)
+    _, states, commands = make_guesses([Job(asked, style) for style in range(WIDTH)], horizon, stages)
     found = [(states[..., lane], commands[..., lane]) for lane in range(WIDTH)]
     return [*found, *arcs(asked, stages, horizon / stages)] if asked.falls else found
 
 
-def guessed(jobs: Sequence[Job], horizon: float, stages: int | None = None) -> tuple[Problem, Array, Array]:
+def make_guesses(jobs: Sequence[Job], horizon: float, stages: int | None = None) -> tuple[Problem, Array, Array]:
     """Return the problem of as many `jobs` as lanes, and their guessed states and commands."""
     stages = stages or stages_of(horizon)[0]
     h = horizon / stages
@@ -336,7 +336,7 @@ def guessed(jobs: Sequence[Job], horizon: float, stages: int | None = None) -> t
     pumping(n)(stages, states, style, limits, timing, vehicle, states[1:], commands)
     for lane, job in enumerate(jobs):
         if leans(job.asked, job.style):
-            states[..., lane], commands[..., lane] = leaned(job.asked, job.style, stages, h)
+            states[..., lane], commands[..., lane] = lean_guess(job.asked, job.style, stages, h)
     return Problem(stages, timing, vehicle, numbers, _places(jobs, stages, h)), states, commands
 
 

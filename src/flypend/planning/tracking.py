@@ -17,7 +17,7 @@ from flypend.errors import InputError
 from flypend.laws import BoundLaw, Computer, Controller, Law, inverted
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
-from flypend.planning.constraints import Constraints, Keywords, gathered
+from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.dynamics import Units
 from flypend.planning.feedback import Feedback, Follower, regulator
 from flypend.planning.planner import plan
@@ -224,7 +224,7 @@ def plan_and_track(
         If objective, constraints or `otherwise` are none; other errors of `plan` come when a flight begins.
     """
     weights_of(objective)
-    kept = gathered("plan_and_track", constraints, keywords)
+    kept = gather("plan_and_track", constraints, keywords)
     if kept.path is not None:
         raise InputError("path", "nothing: flights begin where they are thrown", repr(kept.path)[:80])
     goal = errors.array("target", target, (3,))

@@ -277,7 +277,7 @@ def _numbers(
     for state in route:
         packed = state.packed()
         packed[:3] -= target
-        for axis, *point in np.array(_located()(packed / units.of_state, own)):
+        for axis, *point in np.array(_locate()(packed / units.of_state, own)):
             out, beyond = point[int(axis)] ** 2 - own[12 + int(axis)] ** 2, point[2] ** 2 - own[16] ** 2
             if out > 0 >= beyond and not np.allclose(state.x, gate.centre):
                 raise InputError(name, "walls that start, target and waypoints are clear of", gate.centre.tolist())
@@ -288,7 +288,7 @@ def _numbers(
 
 
 @lru_cache(maxsize=1)
-def _located() -> ca.Function:
+def _locate() -> ca.Function:
     """Return (state, numbers) → the points that count, as rows (axis, u, v, s)."""
     state, numbers = ca.SX.sym("state", SIZE), ca.SX.sym("numbers", NUMBERS)
     rows = [ca.horzcat(axis, point.T) for axis, point in _points(state, state, numbers)]

@@ -9,8 +9,8 @@ from flypend.plants.plant import (
     Plant,
     Sampled,
     Wind,
+    as_sampled,
     plant,
-    sampled_plant,
 )
 from flypend.plants.sensors import SUITES, Sensor, Sensors
 
@@ -27,6 +27,6 @@ __all__ = [
     "Sensor",
     "Sensors",
     "Wind",
+    "as_sampled",
     "plant",
-    "sampled_plant",
 ]

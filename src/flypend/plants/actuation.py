@@ -56,7 +56,7 @@ class Mujoco:
 
         self._vehicle, self._plant, self._lag = vehicle, plant, filter_lag(vehicle)
         self._engine = MujocoEngine(vehicle, lag=self._lag)
-        self._motors, self._surroundings = _compiled_world(vehicle, moving(plant))
+        self._motors, self._surroundings = _compile_world(vehicle, moving(plant))
         self._lost = False
 
     @property
@@ -104,7 +104,7 @@ class Mujoco:
 
 
 @lru_cache(maxsize=64)
-def _compiled_world(vehicle: Vehicle, plant: Plant) -> tuple[Any, Any]:
+def _compile_world(vehicle: Vehicle, plant: Plant) -> tuple[Any, Any]:
     from flypend.plants.mujoco_world import motors, surroundings
 
     made = (motors(vehicle, plant), surroundings(vehicle, plant))
@@ -142,7 +142,7 @@ class Actuation:
         self._longest = step
         self._plant = plant
         if self._rates:
-            self._loop = _compiled_rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
+            self._loop = _compile_rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
 
     def advance(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Hold `command` for `duration` (s) under `wind` (6,), N."""
@@ -153,7 +153,7 @@ class Actuation:
 
 
 @lru_cache(maxsize=32)
-def _compiled_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
+def _compile_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
     return as_numpy(rate_loop(vehicle, limits, gain))
 
 

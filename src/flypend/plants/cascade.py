@@ -38,7 +38,7 @@ def cascade_step(packed: Numbers, wrench: Ramp, outside: Numbers, h: Scalar, veh
         Vehicle parameters; they may be symbolic.
     """
     s = State.symbolic(packed)
-    turned = _turned(s, Ramp(wrench.mean[1:], wrench.change[1:]), h, vehicle)
+    turned = _turn(s, Ramp(wrench.mean[1:], wrench.change[1:]), h, vehicle)
     axes = (s.z, turned.z_middle, turned.R[:, 2])
     thrusts = (wrench.start[0], wrench.mean[0], wrench.end[0])
     pulls = [pull_on_rod(f, z, vehicle) for f, z in zip(thrusts, axes, strict=True)]
@@ -46,7 +46,7 @@ def cascade_step(packed: Numbers, wrench: Ramp, outside: Numbers, h: Scalar, veh
     steady = outside_on_rod(on_vehicle, on_bob, vehicle)
     y, y_dot = _swung(s, [pull + steady for pull in pulls], h)
     acceleration = (on_vehicle + on_bob) / (vehicle.M + vehicle.m) - vehicle.g * E3
-    x, x_dot = _carried(s, y, y_dot, pulls, acceleration, h, vehicle)
+    x, x_dot = _carry(s, y, y_dot, pulls, acceleration, h, vehicle)
     after = State.symbolic(ca.vertcat(x, x_dot, ca.vec(turned.R.T), turned.omega, y, y_dot))
     return after.packed()
 
@@ -59,7 +59,7 @@ class _Turned(NamedTuple):
     z_middle: Vector
 
 
-def _turned(s: State, moment: Ramp, h: Scalar, vehicle: Vehicle) -> _Turned:
+def _turn(s: State, moment: Ramp, h: Scalar, vehicle: Vehicle) -> _Turned:
     """ω by the classical Runge-Kutta method, at the middle by Hermite interpolation, and R by the Magnus series.
 
     The rotation vector of R(0)ᵀ R(t) is ∫ω + (t²/12) ω(0) × ω(t) + O(t⁵), since ω(t) is linear up to O(t²).
@@ -112,7 +112,7 @@ def _swung(s: State, pulls: list[Any], h: Scalar) -> tuple[Vector, Vector]:
     return y, cross(H + h / 6 * (H_1 + 2 * (H_2 + H_3) + H_4), y)
 
 
-def _carried(
+def _carry(
     s: State, y: Vector, y_dot: Vector, pulls: list[Any], acceleration: Vector, h: Scalar, vehicle: Vehicle
 ) -> tuple[Vector, Vector]:
     """Pivot and its velocity after a step that ends with the rod at `y`, `y_dot`.

@@ -25,7 +25,7 @@ import numpy as np
 from flypend.compile.record import Field, Record
 from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, rotation_from_vector, tangent_part, unit
 from flypend.plants.cascade import rotation_by
-from flypend.plants.defects import CONSTANT, POSES, drawn
+from flypend.plants.defects import CONSTANT, POSES, names_drawn
 from flypend.plants.measurement import direction, uniform
 from flypend.plants.sensors import Sensors
 
@@ -34,7 +34,7 @@ ONE_FRAME = 1e-9  # keeps the probability of a burst per tick below 1, whatever 
 
 def record(sensors: Sensors) -> Record:
     """Return the memory of the defects."""
-    of_flight = sum(CONSTANT[name][0] for name in drawn(sensors))
+    of_flight = sum(CONSTANT[name][0] for name in names_drawn(sensors))
     return Record(
         "defects",
         "What is wrong with the sensors in this flight.",
@@ -52,7 +52,7 @@ def record(sensors: Sensors) -> Record:
 
 def first(sensors: Sensors, y: Vector, draws: Numbers) -> Numbers:
     """Return the memory of the defects at the start, for a rod `y` (3,) and standard normal `draws`."""
-    sizes = [np.full(CONSTANT[name][0], getattr(sensors, name)) for name in drawn(sensors)]
+    sizes = [np.full(CONSTANT[name][0], getattr(sensors, name)) for name in names_drawn(sensors)]
     scales = np.concatenate([*sizes, np.zeros(0)])
     axis = ca.if_else(y[0] ** 2 < 0.5, ca.DM([1, 0, 0]), ca.DM([0, 1, 0]))
     values = {
@@ -65,7 +65,7 @@ def first(sensors: Sensors, y: Vector, draws: Numbers) -> Numbers:
     return record(sensors).join(values)
 
 
-def _carried(b: Vector, y: Vector, y_after: Vector) -> Vector:
+def _carry(b: Vector, y: Vector, y_after: Vector) -> Vector:
     """Return the unit vector `b` ⊥ `y` carried to `y_after` by the smallest rotation between the two."""
     return unit(tangent_part(y_after, b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)))
 
@@ -112,14 +112,14 @@ class Defects:
             if size := getattr(sensors, f"{name}_bias_walk"):
                 self.memory[f"{name}_walk"] += size * np.sqrt(period) * draws[f"{name}_bias_walk"]
         if sensors.rod_markers_off:
-            self.memory["rod_frame"] = _carried(self.memory["rod_frame"], y_before, y)
+            self.memory["rod_frame"] = _carry(self.memory["rod_frame"], y_before, y)
         if sensors.bursts:
             begins = self._happens("bursts", sensors.bursts * period, 0)
             self.memory["burst"] = ca.if_else(begins, sensors.burst_time, ca.fmax(self.memory["burst"] - period, 0))
 
     def _lasting(self) -> Iterator[tuple[str, Any]]:
         """Yield name and value of every error that lasts and is not 0."""
-        place, of_flight = 0, drawn(self._sensors)
+        place, of_flight = 0, names_drawn(self._sensors)
         for name, (length, *_) in CONSTANT.items():
             if name in of_flight:
                 yield name, self.memory["errors"][place : place + length]
@@ -138,7 +138,7 @@ class Defects:
     def _turn(self, name: str) -> Matrix | None:
         if name not in self._errors:
             return None
-        if name in drawn(self._sensors):
+        if name in names_drawn(self._sensors):
             return rotation_by(self._errors[name])
         return ca.DM(rotation_from_vector(getattr(self._sensors, name)))
 
@@ -165,7 +165,7 @@ class Defects:
     def rod(self, y: Vector) -> Vector:
         """Return the direction in which cameras see a rod along `y`."""
         if "rod_markers_off" in self._errors:
-            off, b = self._errors["rod_markers_off"], _carried(self.memory["rod_frame"], self._y, y)
+            off, b = self._errors["rod_markers_off"], _carry(self.memory["rod_frame"], self._y, y)
             y = unit(y + off[0] * b + off[1] * cross(y, b))
         Q = self._turn("frame_turned")
         return y if Q is None else Q @ y

@@ -62,7 +62,7 @@ NEEDS: Mapping[str, str] = MappingProxyType(
 )
 
 
-def checked(sensors: Any) -> None:
+def check_defects(sensors: Any) -> None:
     """Check the defects of `sensors`, and replace vectors by tuples of floats. Raises InputError."""
     for name, (length, largest, unit_) in CONSTANT.items():
         value = getattr(sensors, name)
@@ -79,7 +79,7 @@ def checked(sensors: Any) -> None:
             raise InputError(f"sensors.{name}", f"0 without sensors.{stream}", repr(getattr(sensors, name)))
 
 
-def drawn(sensors: Any) -> list[str]:
+def names_drawn(sensors: Any) -> list[str]:
     """Return the names of errors that are drawn anew for each flight."""
     return [name for name in CONSTANT if np.ndim(value := getattr(sensors, name)) == 0 and value]
 

@@ -9,17 +9,17 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.llvm.stagewise import alone
+from flypend.compile.llvm.stagewise import single
 from flypend.geometry import Numbers, Scalar
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench
 from flypend.model.joint import friction
 from flypend.model.motion import Disturbance, disturbed_motion
-from flypend.model.rod import shared_out
+from flypend.model.rod import share_out
 from flypend.model.state import SIZE, project_symbolic
 from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import Ramp
-from flypend.plants.motors import delivered, followed, motor_timing, moving, timing_size
+from flypend.plants.motors import follow, motor_timing, moving, settle_forces, timing_size
 from flypend.plants.plant import ROTORS, Plant
 
 
@@ -47,13 +47,13 @@ class EquationsEngine:
     def step(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Advance by `duration` (s) under commanded rotor forces (n,) and `wind` (6,): forces on vehicle and bob, N."""
         timing = motor_timing(self._lag, self._plant, duration)
-        step = _compiled_step(self._vehicle, self._moving, bool(np.any(wind)))
+        step = _compile_step(self._vehicle, self._moving, bool(np.any(wind)))
         self.packed, self.rotors = step(self.packed, self.rotors, command, wind, timing)
 
 
 @lru_cache(maxsize=64)
-def _compiled_step(vehicle: Vehicle, plant: Plant, windy: bool) -> Callable[..., Any]:
-    return alone(rotor_step(vehicle, plant, windy=windy))
+def _compile_step(vehicle: Vehicle, plant: Plant, windy: bool) -> Callable[..., Any]:
+    return single(rotor_step(vehicle, plant, windy=windy))
 
 
 def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, name: str = "rotor_step") -> ca.Function:
@@ -74,24 +74,24 @@ def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, n
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
     wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", timing_size(plant))
-    outputs = stepped(packed, rotors, command, wind if windy else None, timing, vehicle, plant)
+    outputs = step_state(packed, rotors, command, wind if windy else None, timing, vehicle, plant)
     return ca.Function(name, [packed, rotors, command, wind, timing], outputs)
 
 
-def stepped(
+def step_state(
     packed: Numbers, rotors: Numbers, command: Numbers, wind: Numbers, timing: Numbers, vehicle: Vehicle, plant: Plant
 ) -> list[Numbers]:
     """Return state and rotor forces after the step of `rotor_step`; without wind, `wind` is None.
 
     The numbers of `vehicle` may be symbolic.
     """
-    forces, after = followed(rotors, delivered(command, vehicle, plant), timing)
+    forces, after = follow(rotors, settle_forces(command, vehicle, plant), timing)
     outside = wind
     if plant.in_air(vehicle) or not vehicle.free_joint:
         moved = runge_kutta_step(packed, forces, outside, timing[0], vehicle, plant)
     else:
         if wind is not None:
-            at_pivot, on_bob = shared_out(wind[3:], vehicle)
+            at_pivot, on_bob = share_out(wind[3:], vehicle)
             outside = ca.vertcat(wind[:3] + at_pivot, on_bob)
         moved = cascade_step(packed, forces.mixed(vehicle.mixing()), outside, timing[0], vehicle)
     return ca.cse([ca.densify(moved), ca.densify(after)])  # type: ignore[no-any-return]

@@ -46,7 +46,7 @@ def knob_values(vehicle: Vehicle, plant: Sampled) -> dict[str, list[float]]:
     }
 
 
-def turned(plant: Sampled) -> ca.Function:
+def turn_knobs(plant: Sampled) -> ca.Function:
     """Return the CasADi function (knobs) → the inputs of a flight in pieces through `plant`.
 
     They are age and steps of each interval, its timing, noise and origin unless there are sensors, wind, rotor limits:
@@ -91,11 +91,11 @@ def _count(duration: Scalar, longest: float) -> Scalar:
 
 def _timing(lag: Scalar, plant: Sampled, duration: Scalar) -> Numbers:
     """As `motor_timing`, of symbols."""
-    falling = _held(lag, duration)
-    return falling if plant.spin_up == 1.0 else ca.vertcat(falling, _held(plant.spin_up * lag, duration))
+    falling = _hold(lag, duration)
+    return falling if plant.spin_up == 1.0 else ca.vertcat(falling, _hold(plant.spin_up * lag, duration))
 
 
-def _held(lag: Scalar, duration: Scalar) -> Numbers:
+def _hold(lag: Scalar, duration: Scalar) -> Numbers:
     while_ = ca.fmax(duration, SAME)  # of an interval that is empty nothing is used
     numbers = symbolic_timing(ca.fmax(lag, LEAST_LAG), while_)
     return ca.vertcat(while_, ca.if_else(lag > LEAST_LAG, numbers[1:], ca.DM.zeros(3)))

@@ -62,7 +62,7 @@ def symbolic_timing(lag: Scalar, duration: Scalar, exp: Callable[[Any], Any] = c
     return ca.vertcat(duration, end, mean, _change(1.0, end, mean, lag / duration))
 
 
-def held(rotors: Numbers, command: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:
+def hold(rotors: Numbers, command: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:
     """Return the ramp of the forces `rotors` (n,) over a step under one `command` (n,), N, and their end.
 
     `timing` is the result of `step_timing`.
@@ -72,7 +72,7 @@ def held(rotors: Numbers, command: Numbers, timing: Numbers) -> tuple[Ramp, Numb
     return ramp, command + timing[1] * deviation
 
 
-def held_in_turn(
+def hold_in_turn(
     rotors: Numbers, commands: Sequence[Any], durations: Sequence[float], lag: float
 ) -> tuple[Ramp, Numbers]:
     """Return the ramp of the forces `rotors` (n,) over a step under several `commands`, oldest first, and their end.

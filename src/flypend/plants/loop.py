@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
 from flypend.model import Vehicle
-from flypend.plants.plant import AnyPlant, Ideal, Sampled, sampled_plant
-from flypend.plants.tremor import calmed
+from flypend.plants.plant import AnyPlant, Ideal, Sampled, as_sampled
+from flypend.plants.tremor import calm
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Loop:
         object.__setattr__(self, "vehicle", self.vehicle.commanded())
         if isinstance(self.law, BoundLaw):
             limited = isinstance(self.plant, Ideal) and self.plant.limits
-            object.__setattr__(self, "law", self.law.limited if limited else calmed(self.law, self.plant))
+            object.__setattr__(self, "law", self.law.limited if limited else calm(self.law, self.plant))
 
     @property
     def symbolic(self) -> BoundLaw:
@@ -60,4 +60,4 @@ class Loop:
     @property
     def sampled(self) -> Sampled:
         """The plant, which must be sampled. Raises InputError for the ideal plant."""
-        return sampled_plant(self.plant)
+        return as_sampled(self.plant)

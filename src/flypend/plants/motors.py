@@ -9,7 +9,7 @@ import numpy as np
 
 from flypend.geometry import Numbers, Scalar
 from flypend.model import Vehicle
-from flypend.plants.lag import TIMING_SIZE, Ramp, held, step_timing
+from flypend.plants.lag import TIMING_SIZE, Ramp, hold, step_timing
 from flypend.plants.plant import Plant
 
 # Fields of a plant on which a step of its motion does not depend: they act before it, after it or on the vehicle.
@@ -24,7 +24,7 @@ def moving(plant: Plant) -> Plant:
     return Plant(**{each.name: getattr(plant, each.name) for each in fields(plant) if each.name not in BESIDE})
 
 
-def delivered(command: Numbers, vehicle: Vehicle, plant: Plant) -> Numbers:
+def settle_forces(command: Numbers, vehicle: Vehicle, plant: Plant) -> Numbers:
     """Return the forces (n,), N, at which rotors settle under a `command` (n,), N, in CasADi; itself if unchanged.
 
     At a given throttle the speed of a rotor is proportional to the voltage V, its force to V², and the current of all
@@ -33,14 +33,14 @@ def delivered(command: Numbers, vehicle: Vehicle, plant: Plant) -> Numbers:
         (V/V₀)² u_i,   V/V₀ = 1 − sag · mean of (u_i/u_max)^(3/2)
     """
     if plant.sag > 0:
-        command = sagged(command, vehicle.rotor_limits[1], plant.sag)
+        command = sag_forces(command, vehicle.rotor_limits[1], plant.sag)
     if plant.strength != 1.0:
         command = ca.DM(np.broadcast_to(plant.strength, (command.numel(),))) * command
     return command
 
 
-def sagged(command: Numbers, most: Scalar, sag: Scalar) -> Numbers:
-    """Return (V/V₀)² u_i of `delivered` for commands (n,) and their largest, `most`, N; all may be symbols."""
+def sag_forces(command: Numbers, most: Scalar, sag: Scalar) -> Numbers:
+    """Return (V/V₀)² u_i of `settle_forces` for commands (n,) and their largest, `most`, N; all may be symbols."""
     share = ca.fmin(ca.fmax(command / most, 0), 1)
     load = ca.sum1(share * ca.sqrt(share)) / command.numel()
     return (1 - sag * load) ** 2 * command
@@ -59,15 +59,15 @@ def motor_timing(lag: float, plant: Plant, duration: float) -> Numbers:
     return np.concatenate([falling, step_timing(plant.spin_up * lag, duration)])
 
 
-def followed(rotors: Numbers, target: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:
+def follow(rotors: Numbers, target: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:
     """Return the ramp of the forces `rotors` (n,) over a step towards `target` (n,), N, and their end, in CasADi.
 
     `timing` is the result of `motor_timing`. A force rises or falls throughout a step, so this is exact too.
     """
-    falling, end = held(rotors, target, timing[:TIMING_SIZE])
+    falling, end = hold(rotors, target, timing[:TIMING_SIZE])
     if timing.numel() == TIMING_SIZE:
         return falling, end
-    rising, end_above = held(rotors, target, timing[TIMING_SIZE:])
+    rising, end_above = hold(rotors, target, timing[TIMING_SIZE:])
     below = rotors < target
     mean, change = (ca.if_else(below, *pair) for pair in zip(rising, falling, strict=True))
     return Ramp(mean, change), ca.if_else(below, end_above, end)

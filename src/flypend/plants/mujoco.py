@@ -75,7 +75,7 @@ class MujocoEngine:
     def __init__(self, vehicle: Vehicle, *, timestep: float = 0.5e-3, lag: float = 0.0) -> None:
         mujoco = _import_mujoco()
         self._mujoco = mujoco
-        self._see, self._rod_spin = _compiled_view(len(vehicle.rotor_spins)), vehicle.rod_spin
+        self._see, self._rod_spin = _compile_view(len(vehicle.rotor_spins)), vehicle.rod_spin
         xml = model_xml(vehicle, timestep=timestep, lag=lag)
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = data = mujoco.MjData(self.model)
@@ -198,7 +198,7 @@ def mujoco_coordinates(packed: Numbers, rod_spin: float = 0.0) -> NDArray[np.flo
     return np.concatenate([state.x, quat_wxyz, relative, state.x_dot, state.omega, rod_rates])
 
 
-def seen_by_mujoco(rotors: int) -> ca.Function:
+def from_mujoco(rotors: int) -> ca.Function:
     """CasADi function (qpos (11,), qvel (9,), forces (n,)) → (packed state (24,), forces (n,)), n `rotors`, e₃ up."""
     qpos, qvel = ca.SX.sym("qpos", POSITIONS), ca.SX.sym("qvel", VELOCITIES)
     forces = ca.SX.sym("r", rotors)
@@ -222,8 +222,8 @@ def rotation_of(quat_wxyz: Numbers) -> Matrix:
 
 
 @lru_cache(maxsize=8)
-def _compiled_view(rotors: int) -> Any:
-    return as_numpy(seen_by_mujoco(rotors))
+def _compile_view(rotors: int) -> Any:
+    return as_numpy(from_mujoco(rotors))
 
 
 def filter_lag(vehicle: Vehicle) -> float:

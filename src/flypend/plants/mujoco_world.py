@@ -14,7 +14,7 @@ from flypend.model import Vehicle
 from flypend.model.air import air_wrench
 from flypend.model.joint import friction
 from flypend.plants.cascade import rotation_by
-from flypend.plants.motors import delivered
+from flypend.plants.motors import settle_forces
 from flypend.plants.mujoco import POSITIONS, VELOCITIES, filter_lag, rotation_of, state_of
 from flypend.plants.plant import Plant
 
@@ -38,7 +38,7 @@ def motors(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
     """
     n = len(vehicle.rotor_spins)
     command, rotors, numbers = ca.SX.sym("u", n), ca.SX.sym("r", n), ca.SX.sym("h", STEP_NUMBERS)
-    target = delivered(command, vehicle, plant)
+    target = settle_forces(command, vehicle, plant)
     if target is command and plant.spin_up == 1.0:
         return None
     return ca.Function(

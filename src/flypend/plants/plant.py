@@ -399,7 +399,7 @@ def plant(name: str | AnyPlant) -> AnyPlant:
     return found
 
 
-def sampled_plant(name: str | AnyPlant) -> Sampled:
+def as_sampled(name: str | AnyPlant) -> Sampled:
     """Like `plant`, but `name` must be a sampled plant. Raises InputError for the ideal plant."""
     found = plant(name)
     if isinstance(found, Ideal):

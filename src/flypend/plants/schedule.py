@@ -34,7 +34,7 @@ def within_period(latency: float, period: float) -> tuple[Segment, ...]:
     return (Segment(whole, period),)
 
 
-def ahead(latency: float, period: float) -> tuple[Segment, ...]:
+def segments_ahead(latency: float, period: float) -> tuple[Segment, ...]:
     """Segments from a measurement until its own command is applied, `latency` (s) later; `period` in s."""
     whole, rest = _split(latency, period)
     before = (Segment(whole + 1, rest),) if rest > 0 else ()

@@ -127,7 +127,7 @@ def draws_size(sensors: Sensors) -> int:
 
 def start_draws(sensors: Sensors) -> int:
     """Return how many random numbers the start draws: those of the estimate, then those of errors that last."""
-    return ESTIMATE_DRAWS + sum(defects.CONSTANT[name][0] for name in defects.drawn(sensors))
+    return ESTIMATE_DRAWS + sum(defects.CONSTANT[name][0] for name in defects.names_drawn(sensors))
 
 
 def first_estimate(sensors: Sensors) -> ca.Function:
@@ -142,8 +142,8 @@ def first_memory(sensors: Sensors, period: float, state: Numbers, draws: Numbers
 
     `draws` are those of the start, see `start_draws`; errors that last need them.
     """
-    if draws is None and defects.drawn(sensors):
-        raise ValueError(f"draws of the start for {defects.drawn(sensors)}")
+    if draws is None and defects.names_drawn(sensors):
+        raise ValueError(f"draws of the start for {defects.names_drawn(sensors)}")
     of_flight = ca.DM(0, 1) if draws is None else draws[ESTIMATE_DRAWS:]
     queues = [
         np.tile(np.append(np.zeros(WIDTH[name]), [NOTHING, 0.0][: _entry(sensors, name) - WIDTH[name]]), waiting)
@@ -194,13 +194,13 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float) -> ca.Function:
         queue = ca.vertcat(entry, past.get(name, ca.SX(0, 1)))
         kept.append(queue[: -entry.numel()])
         entries = ca.vertsplit(queue, entry.numel())
-        found = _delivered(entries, when, period) if own is None else _jittered(entries, sensor.latency, period)
-        readings.append(_told(found, sensor.latency - sensors.streams[name].latency))
+        found = _deliver(entries, when, period) if own is None else _jitter(entries, sensor.latency, period)
+        readings.append(_report_age(found, sensor.latency - sensors.streams[name].latency))
     outputs = ca.cse([ca.densify(ca.vertcat(*kept)), ca.densify(ca.vertcat(*readings))])
     return ca.Function("sense", [memory, t, packed, draws], outputs)
 
 
-def _told(reading: Numbers, untold: float) -> Numbers:
+def _report_age(reading: Numbers, untold: float) -> Numbers:
     """Return a `reading` whose age is less by what is `untold` of it, s."""
     if not untold:
         return reading
@@ -208,7 +208,7 @@ def _told(reading: Numbers, untold: float) -> Numbers:
     return ca.vertcat(reading[:-1], ca.if_else(age >= 0, ca.fmax(age - untold, 0), NOTHING))
 
 
-def _jittered(entries: list[Any], latency: float, period: float) -> Numbers:
+def _jitter(entries: list[Any], latency: float, period: float) -> Numbers:
     """Return numbers and age, less its own part of the latency, of the newest of `entries` that arrives at this tick.
 
     An entry is numbers, age at its tick, and its own part; it arrives at the first tick at which it is old enough.
@@ -231,7 +231,7 @@ def _since(sensor: Sensor, when: Timing, t: Scalar, period: float) -> Scalar:
     return ca.if_else(since < (1 - SAME) * period, since, NOTHING)
 
 
-def _delivered(entries: list[Any], when: Timing, period: float) -> Numbers:
+def _deliver(entries: list[Any], when: Timing, period: float) -> Numbers:
     """Return numbers and age of the reading that arrives at this tick; `entries` are those of the ticks, newest first.
 
     The reading of a tick was taken up to a period before it, so it arrives after `whole` periods if it was taken early
@@ -292,7 +292,7 @@ def mean_force(v: Vector, v_after: Vector, R: Matrix, R_after: Matrix, g: Scalar
 
 
 def _position(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    return _stepped(wrong.position(moment.state.x, moment.state.R) + sensor.noise * draw, sensor)
+    return _quantise(wrong.position(moment.state.x, moment.state.R) + sensor.noise * draw, sensor)
 
 
 def _attitude(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Numbers:
@@ -300,40 +300,40 @@ def _attitude(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> 
 
 
 def _rod(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    return _pointed(wrong.rod(moment.state.y), sensor, draw)
+    return _point(wrong.rod(moment.state.y), sensor, draw)
 
 
 def _gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    return _stepped(wrong.gyro(moment.state.omega) + sensor.noise * draw, sensor)
+    return _quantise(wrong.gyro(moment.state.omega) + sensor.noise * draw, sensor)
 
 
 def _accelerometer(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    return _stepped(wrong.accelerometer(moment.force) + sensor.noise * draw, sensor)
+    return _quantise(wrong.accelerometer(moment.force) + sensor.noise * draw, sensor)
 
 
 def _joints(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
     """The rod's direction in the body frame, as the angles of a universal joint tell it: about x, then about y."""
     seen = moment.state.R.T @ moment.state.y
     if not sensor.quantisation and not wrong.turns_joints:
-        return _pointed(seen, sensor, draw)
+        return _point(seen, sensor, draw)
     roll, pitch = ca.atan2(-seen[1], seen[2]), ca.asin(ca.fmin(ca.fmax(seen[0], -1), 1))
     roll, pitch = wrong.joints(roll + sensor.noise * draw[0], pitch + sensor.noise * draw[1])
-    roll, pitch = (_stepped(angle, sensor) for angle in (roll, pitch))
+    roll, pitch = (_quantise(angle, sensor) for angle in (roll, pitch))
     return ca.vertcat(ca.sin(pitch), -ca.cos(pitch) * ca.sin(roll), ca.cos(pitch) * ca.cos(roll))
 
 
 def _rod_gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
     del wrong
-    return _stepped(moment.state.R.T @ cross(moment.state.y, moment.state.y_dot) + sensor.noise * draw, sensor)
+    return _quantise(moment.state.R.T @ cross(moment.state.y, moment.state.y_dot) + sensor.noise * draw, sensor)
 
 
-def _stepped(values: Numbers, sensor: Sensor) -> Numbers:
+def _quantise(values: Numbers, sensor: Sensor) -> Numbers:
     """Return `values` in steps of the sensor's quantisation."""
     step = sensor.quantisation
     return step * ca.floor(values / step + 0.5) if step else values
 
 
-def _pointed(direction: Vector, sensor: Sensor, draw: Numbers) -> Vector:
+def _point(direction: Vector, sensor: Sensor, draw: Numbers) -> Vector:
     return unit(direction + sensor.noise * tangent_part(direction, draw))
 
 

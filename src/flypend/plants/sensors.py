@@ -214,7 +214,7 @@ class Sensors:
         if self.command_delay is not None:
             errors.number("sensors.command_delay", self.command_delay, at_least=0, at_most=0.5, unit="s")
         self._check_complete()
-        defects.checked(self)
+        defects.check_defects(self)
 
     def _check_complete(self) -> None:
         needed = ["position", "gyro"]

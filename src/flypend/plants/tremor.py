@@ -48,7 +48,7 @@ class Tremor(NamedTuple):
     axis: float
 
 
-def calmed(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
+def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
     """Return `law` with its default gains calmed until hover on the sensors of `plant` trembles little enough.
 
     The law is unchanged if it has no such gains, or `plant` no estimator.
@@ -57,11 +57,11 @@ def calmed(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
         return law
     if not isinstance(plant, Sampled) or plant.sensors is None or plant.sensors.rates != "estimated":
         return law.calmed(0.0)
-    return _calmed(law.calmed(0.0), plant.sensors, 1 / plant.rate)
+    return _calm(law.calmed(0.0), plant.sensors, 1 / plant.rate)
 
 
 @lru_cache(maxsize=64)
-def _calmed(law: BoundLaw, sensors: Sensors, period: float) -> BoundLaw:
+def _calm(law: BoundLaw, sensors: Sensors, period: float) -> BoundLaw:
     """Return `law` with the least share of calm with which it trembles by no more than `MOST_TREMOR`; else with all."""
 
     def trembles(step: int) -> bool:

@@ -12,7 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from flypend import __version__
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
 from flypend.report.text import markdown_table, number, write_json
@@ -102,7 +102,7 @@ def write_check(
     """
     from flypend.files.whole import save_both
 
-    with staged(out) as folder:
+    with staging(out) as folder:
         (folder / "report.md").write_text(_markdown(checks, trials, joints or {}, settings, advice), encoding="utf-8")
         content = {
             "flypend": __version__,

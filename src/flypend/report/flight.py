@@ -9,10 +9,10 @@ from typing import Any
 
 from flypend import __version__, errors
 from flypend.files import whole
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
-from flypend.model.shipped import told
+from flypend.model.shipped import name_with_changes
 from flypend.paper.claims import Verdict
 from flypend.paper.proved import claims_of
 from flypend.pictures.style import Style
@@ -108,7 +108,7 @@ def write_flight(
         check_movies()
     ideal = run.interpolant is not None  # the theorem knows of no rotors
     verdicts = claims_of(run, settled or run) if ideal and "V" in run.signals else []
-    with staged(out) as folder:
+    with staging(out) as folder:
         run.save(folder / "run.nc")
         tasks = figure_tasks(run, folder, style=style) if with_figures else []
         tasks += movie_tasks(run, folder) if with_movies else []
@@ -118,7 +118,7 @@ def write_flight(
             for _, task in tasks:
                 task()
         key = (run.law, str(settings.get("experiment", "own start")))
-        lines = [f"# A run of {run.law} on {told(run.vehicle)}", "", f"Outcome: {run.outcome}.", ""]
+        lines = [f"# A run of {run.law} on {name_with_changes(run.vehicle)}", "", f"Outcome: {run.outcome}.", ""]
         if verdicts:
             lines += [
                 f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}",

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend import __version__
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.files.whole import save_figure
 from flypend.laws.policy import save
 from flypend.learning.training import Entry, Learner
@@ -23,7 +23,7 @@ def write_learned(learner: Learner, out: str | Path) -> Path:
 
     Raises InputError if `out` is not writable.
     """
-    with staged(out) as folder:
+    with staging(out) as folder:
         save(learner.policy, folder / "policy.npz")
         curve = [entry._asdict() for entry in learner.curve]
         write_json(folder / "curve.json", {"flypend": __version__, "training": learner.training.told, "curve": curve})

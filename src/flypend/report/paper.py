@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from flypend import __version__
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.flight.metrics import metrics
 from flypend.flight.simulate import simulate
 from flypend.flight.trajectory import Trajectory
@@ -76,7 +76,7 @@ def reproduce(
     style_named(style)
     if not quick:
         check_movies()
-    with staged(out) as folder:
+    with staging(out) as folder:
         for name in ("runs", "figures", "movies"):
             if not (quick and name == "movies"):
                 (folder / name).mkdir()

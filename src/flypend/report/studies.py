@@ -12,7 +12,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from flypend import __version__
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.report.text import markdown_table, write_json
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
@@ -68,8 +68,8 @@ def write_comparison(
     from flypend.files.whole import save_both
     from flypend.pictures.studies import comparison_figure
 
-    with staged(out) as folder:
-        text = f"# Laws compared\n\n{_told(settings)}\n\n{comparison_markdown(comparison)}\n"
+    with staging(out) as folder:
+        text = f"# Laws compared\n\n{_describe(settings)}\n\n{comparison_markdown(comparison)}\n"
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {"flypend": __version__, "settings": settings, "laws": comparison.rows()}
         write_json(folder / "report.json", content)
@@ -114,8 +114,8 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     table = markdown_table([["rung", *laws], *ladder_rows(ladder)])
     broken = "\n".join(f"- {law}: {_broken(ladder, law)}" for law in laws)
     failures = "\n".join(_failures(ladder)) or "none"
-    with staged(out) as folder:
-        text = f"# Reality ladder\n\n{_told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
+    with staging(out) as folder:
+        text = f"# Reality ladder\n\n{_describe(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
         text += f"\nFailures by cause (the quantity out of tolerance during the last second):\n\n{failures}\n"
         (folder / "report.md").write_text(text, encoding="utf-8")
         content = {
@@ -147,5 +147,5 @@ def short(value: float) -> str:
     return "-" if math.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
-def _told(settings: dict[str, Any]) -> str:
+def _describe(settings: dict[str, Any]) -> str:
     return "; ".join(f"{name}: {value}" for name, value in settings.items()) + "."

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from flypend import __version__
 from flypend.files import whole
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.flight.metrics import wilson
 from flypend.flight.simulate import simulate
 from flypend.flight.trajectory import Trajectory
@@ -41,7 +41,7 @@ class Proof:
     descents: list[Descent]
 
 
-def judged(
+def judge(
     runs: Mapping[str, Trajectory], theorem: str, claims: Callable[[Trajectory], list[Verdict]]
 ) -> dict[Column, list[Verdict]]:
     """Return the verdicts of `claims` on `runs` by (`theorem`, name of the start)."""
@@ -71,11 +71,11 @@ def check_theorems(
     """
     style_named(style)
     check_starts(runs, seed)
-    with staged(out) as folder:
+    with staging(out) as folder:
         progress("flying the experiments", 0, 1)
         hanging, inverted = fly_repaired(), fly_swing_ups()
         descents = [descend(name, runs, seed, progress=partial(progress, f"flying {name}")) for name in laws()]
-        result = Proof(judged(hanging, "A", theorem_a_claims), judged(inverted, "B", theorem_b_claims), descents)
+        result = Proof(judge(hanging, "A", theorem_a_claims), judge(inverted, "B", theorem_b_claims), descents)
         progress("drawing", 0, 1)
         _draw(hanging, inverted, folder, style)
         _write(result, folder, runs, seed)

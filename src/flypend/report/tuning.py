@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend import __version__
-from flypend.files.staging import staged
+from flypend.files.staging import staging
 from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
 from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule, symbol
@@ -26,8 +26,8 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
 
     Raises InputError if `out` is not writable.
     """
-    with staged(out) as folder:
-        words = f"# {told(result.before)} before,\n# {told(result.after)} with these gains.\n"
+    with staging(out) as folder:
+        words = f"# {summarise(result.before)} before,\n# {summarise(result.after)} with these gains.\n"
         (folder / "tuned.toml").write_text(words + run_text(result.settings(), out), encoding="utf-8")
         content = {
             "flypend": __version__,
@@ -41,7 +41,7 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
         save_figure(history_figure(result), folder / "history.png")
 
 
-def told(report: dict[str, Any]) -> str:
+def summarise(report: dict[str, Any]) -> str:
     """Return one line on `report` (`Tuned.before` or `Tuned.after`): success rate, settling time and cost."""
     settling = "-" if report["settling_p50"] is None else f"{report['settling_p50']:.3g} s"
     return (

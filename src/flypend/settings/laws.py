@@ -15,7 +15,7 @@ from typing import Any
 
 from flypend.errors import InputError, one_of, only_known
 from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_names
-from flypend.laws.located import LawError, Located, shown
+from flypend.laws.located import LawError, Located, relative_path
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
 from flypend.laws.trained import trained
@@ -106,7 +106,7 @@ def absolute(value: Any, folder: Path) -> Any:
     """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
     if isinstance(value, Mapping):
         return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
-    file, attribute = _parted(value) if isinstance(value, str) else ("", "")
+    file, attribute = _split(value) if isinstance(value, str) else ("", "")
     return f"{(folder / file).resolve()}{attribute}" if file else value
 
 
@@ -117,7 +117,7 @@ def relative(value: Any, folder: Path) -> Any:
     """
     if isinstance(value, Mapping):
         return {**value, "function": relative(value["function"], folder)} if "function" in value else value
-    file, attribute = _parted(value)
+    file, attribute = _split(value)
     if not file:
         return value
     try:
@@ -131,7 +131,7 @@ def _is_place(name: str) -> bool:
     return ":" in name or name.endswith(ONNX)
 
 
-def _parted(name: str) -> tuple[str, str]:
+def _split(name: str) -> tuple[str, str]:
     """Return the file in `name`, "" if there is none, and what follows it."""
     if name.endswith(ONNX):
         return name, ""
@@ -147,7 +147,7 @@ def note(law: AnyLaw) -> str:
     return f"{law.name} is not written in symbols{why}. It flies step by step in Python, about a thousand times slower."
 
 
-def told(law: BoundLaw | Controller, vehicle: Vehicle) -> str:
+def describe_law(law: BoundLaw | Controller, vehicle: Vehicle) -> str:
     """Return the name of `law` with the gains that differ from their defaults for `vehicle`, at most four."""
     given = {name: value for name, value in law.gains.items() if value != law.table[name].value(vehicle)}
     shown = [f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in given.items()]
@@ -249,8 +249,8 @@ def _load_error(error: BaseException, name: str) -> LawError:
     """The one-line error for a file or module `name` that fails to load."""
     if isinstance(error, SyntaxError):
         line = f":{error.lineno}" if error.lineno else ""
-        return LawError(f"{shown(error.filename or name)}{line}", "", f"{type(error).__name__}: {error.msg}")
+        return LawError(f"{relative_path(error.filename or name)}{line}", "", f"{type(error).__name__}: {error.msg}")
     frames = [f for f in traceback.extract_tb(error.__traceback__) if "importlib" not in f.filename]
     own = [f for f in frames if f.filename != __file__]
-    where = f"{shown(own[-1].filename)}:{own[-1].lineno}" if own else name
+    where = f"{relative_path(own[-1].filename)}:{own[-1].lineno}" if own else name
     return LawError(where, "", f"{type(error).__name__}: {error}")

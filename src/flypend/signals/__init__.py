@@ -4,7 +4,7 @@ An exception raised by a handler comes up in whatever runs at that moment. CasAD
 `except: pass` in vertcat and a dozen more, in which it vanishes.
 
 The command line takes both signals over for good (`install`). Scripts and notebooks keep their own handlers: while a
-long call runs (`deferred`), what a handler raises is kept for the next `poll`.
+long call runs (`defer`), what a handler raises is kept for the next `poll`.
 
 Kernels read the word by its address. Nothing here imports NumPy: the command line comes here first.
 """
@@ -57,7 +57,7 @@ def poll() -> None:
     raise _raised[0] if _raised else SystemExit(128 + word[0])
 
 
-def accepted() -> bool:
+def is_accepted() -> bool:
     """Whether a signal has asked for an end, which is the way that what runs ends: it is no interruption any more."""
     global _polled
     if not word[0] or _raised:
@@ -67,7 +67,7 @@ def accepted() -> bool:
     return True
 
 
-def commanded() -> bool:
+def is_ending() -> bool:
     """Whether a signal is about to end a command."""
     return bool(word[0]) and not _raised
 
@@ -154,7 +154,7 @@ def end(number: int) -> None:
 
 
 @contextmanager
-def deferred() -> Iterator[None]:
+def defer() -> Iterator[None]:
     """Keep what the handlers of SIGINT and SIGTERM raise in the block until `poll`, or until the block ends.
 
     A second signal is handled as outside the block. Handlers that raise nothing, signals without a Python handler, and

@@ -9,7 +9,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from flypend.signals import PERIOD, commanded, poll
+from flypend.signals import PERIOD, is_ending, poll
 
 if TYPE_CHECKING:
     from subprocess import CompletedProcess
@@ -50,11 +50,11 @@ def threads(number: int, *, last: bool = True) -> Iterator[ThreadPoolExecutor]:
     try:
         yield pool
     finally:
-        pool.shutdown(wait=last and not commanded(), cancel_futures=True)
+        pool.shutdown(wait=last and not is_ending(), cancel_futures=True)
 
 
 @contextmanager
-def _masked() -> Iterator[None]:
+def _mask() -> Iterator[None]:
     """Block SIGINT for what is started here, threads that start others included; this process hears by others."""
     if os.name != "posix":
         yield
@@ -78,11 +78,11 @@ def processes(number: int) -> Iterator[Submit]:
 
     if os.name == "posix":
         resource_tracker.ensure_running()  # it would lift the mask
-    with _masked():  # a pool of another size starts workers here
+    with _mask():  # a pool of another size starts workers here
         pool = get_reusable_executor(number, timeout=IDLE, env=ENVIRONMENT)
 
     def submit(function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        with _masked():
+        with _mask():
             call: Future[Any] = pool.submit(function, *arguments)
         return call
 

@@ -157,7 +157,7 @@ def changes_of(
 
     If no kind works alone, the last is all of them at once. `plant`, `seed` and `progress` as in `advise`.
     """
-    world, found = plants.sampled_plant(plant), []
+    world, found = plants.as_sampled(plant), []
     for done, (name, (factors, _)) in enumerate(CHANGES.items()):
         progress("changes", done, len(CHANGES) + 1)
         if not np.any(getattr(vehicle, name)):

@@ -11,8 +11,8 @@ from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble
 from flypend.flight.request import Flight
 from flypend.model import Vehicle
-from flypend.plants import Sampled, sampled_plant
-from flypend.studies.compare import flown, joined, shared
+from flypend.plants import Sampled, as_sampled
+from flypend.studies.compare import fly_each, joined, shared
 
 DRAWS = 8  # each is compiled
 LEAST = 1e-3  # factor of a number whose band begins at zero
@@ -27,7 +27,7 @@ def worlds_within(vehicle: Vehicle, plant: Sampled, seed: int, draws: int = DRAW
     """
     check_bands(vehicle)
     rng = np.random.default_rng(seed)
-    worlds = [_drawn(vehicle, plant, rng) for _ in range(draws)]
+    worlds = [_draw(vehicle, plant, rng) for _ in range(draws)]
     return {"as written": plant, **{f"drawn {i + 1}": world for i, world in enumerate(worlds)}}
 
 
@@ -38,7 +38,7 @@ def fly_within(
 
     `workers` as in `simulate_ensemble`; `progress` is called with (runs begun, all). Raises InputError without bands.
     """
-    worlds = list(worlds_within(flight.vehicle, sampled_plant(flight.plant), seed).values())
+    worlds = list(worlds_within(flight.vehicle, as_sampled(flight.plant), seed).values())
     parts = {str(place): part for place, part in enumerate(shared(flight, worlds))}
     begun = dict.fromkeys(parts, 0)
 
@@ -46,7 +46,7 @@ def fly_within(
         begun[name] = done
         progress(sum(begun.values()), flight.runs)
 
-    return joined(list(flown(parts, workers, tell).values()))
+    return joined(list(fly_each(parts, workers, tell).values()))
 
 
 def check_bands(vehicle: Vehicle) -> None:
@@ -55,7 +55,7 @@ def check_bands(vehicle: Vehicle) -> None:
         raise InputError("vehicle.bands", "bands, as flypend vehicle new and flypend identify write them", "none")
 
 
-def _drawn(vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> Sampled:
+def _draw(vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> Sampled:
     bands = dict(vehicle.bands or {})
     found: dict[str, Any] = {name: rng.uniform(*map(np.array, band)) for name, band in bands.items()}
     written = {name: getattr(vehicle, name) for name in ("mass", "bob_mass", "rod_length", "drag_ratio", "rotor_lag")}

@@ -24,7 +24,7 @@ from flypend.plants import AnyPlant, Sampled
 from flypend.studies.bands import check_bands, fly_within
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
-from flypend.studies.possible import STARTS, possible, told
+from flypend.studies.possible import STARTS, describe, possible
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -98,7 +98,7 @@ class Check:
     @property
     def possible(self) -> str:
         """What the plans say, in a sentence; empty without plans."""
-        return "" if self.plans is None else told(self.plans, self.law)
+        return "" if self.plans is None else describe(self.plans, self.law)
 
     @property
     def ok(self) -> bool:
@@ -154,7 +154,7 @@ class Check:
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def check(
     vehicle: Vehicle,
     law: AnyLaw | None = None,
@@ -203,7 +203,7 @@ def check(
         For the ideal plant, which has no margins, a law that does not fly any vehicle, numbers out of range, and
         `bands` of a vehicle without any. A vehicle that cannot be flown is a result.
     """
-    world = plants.sampled_plant(plant)
+    world = plants.as_sampled(plant)
     if bands:
         check_bands(vehicle)
     chosen = law if law is not None else inverted()

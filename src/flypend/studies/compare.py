@@ -58,7 +58,7 @@ class Comparison:
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def compare(
     vehicle: Vehicle,
     laws: Law | Controller | Sequence[Law | Controller],
@@ -93,7 +93,7 @@ def compare(
         for name, flight in flights_of(vehicle, laws, starts, duration).items()
         for place, part in enumerate(shared(flight, worlds))
     }
-    ensembles = flown(flights, workers, lambda key, done, total: progress(key[0], done, total))
+    ensembles = fly_each(flights, workers, lambda key, done, total: progress(key[0], done, total))
     parts: dict[str, list[Ensemble]] = {}
     for (name, _), ensemble in ensembles.items():
         parts.setdefault(name, []).append(ensemble)
@@ -144,7 +144,7 @@ def flights_of(
     return flights
 
 
-def flown(
+def fly_each(
     flights: Mapping[Name, Flight], workers: int | None, progress: Callable[[Name, int, int], Any]
 ) -> dict[Name, Ensemble]:
     """Fly `flights` one after the other; another thread compiles the kernels of those to come.

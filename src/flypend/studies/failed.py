@@ -19,7 +19,7 @@ from flypend.studies.compare import Comparison, share_ends
 MOST = 100
 
 
-def failed_runs(
+def files_of_failures(
     comparison: Comparison, laws: Sequence[str], plant: Any, duration: float, drawn: Sequence[AnyPlant] = ()
 ) -> dict[str, Any]:
     """Return the content of a run file for each failed flight of `comparison`, by name "law-run".
@@ -54,8 +54,8 @@ def failed_runs(
     return found
 
 
-def flown_again(runs: Mapping[str, Any], folder: Path, progress: Any = lambda *_: None) -> None:
-    """Fly the run files `runs` of `failed_runs` one by one, and save each in `folder` as name.nc."""
+def fly_again(runs: Mapping[str, Any], folder: Path, progress: Any = lambda *_: None) -> None:
+    """Fly the run files `runs` of `files_of_failures` one by one, and save each in `folder` as name.nc."""
     from flypend.flight.simulate import fly
     from flypend.settings.runfile import run_of
 

@@ -59,10 +59,10 @@ class Wrong:
     def told(self) -> str:
         """Return factors, successes and their Wilson interval, 95 %, in a line."""
         what = ", ".join(f"{name} × {factor:.3g}" for name, factor in self.factors.items())
-        return f"{self.kind} {what}: {counted(self.successes, self.runs)}"
+        return f"{self.kind} {what}: {format_count(self.successes, self.runs)}"
 
 
-def counted(successes: int, runs: int) -> str:
+def format_count(successes: int, runs: int) -> str:
     """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
     low, high = wilson(successes, runs)
     return f"{successes} of {runs} ({100 * low:.1f} to {100 * high:.1f} %)"
@@ -120,7 +120,7 @@ class Joint:
 
 
 def _sum(some: list[Wrong]) -> str:
-    return counted(sum(one.successes for one in some), sum(one.runs for one in some))
+    return format_count(sum(one.successes for one in some), sum(one.runs for one in some))
 
 
 def world_with(plant: Sampled, factors: Mapping[str, float]) -> Sampled:
@@ -131,7 +131,7 @@ def world_with(plant: Sampled, factors: Mapping[str, float]) -> Sampled:
     return plant.replace(mismatch=mismatch, strength=strength.tolist() if strength.ndim else float(strength))
 
 
-@signals.deferred()
+@signals.defer()
 def joint(
     vehicle: Vehicle,
     law: AnyLaw | None = None,
@@ -154,7 +154,7 @@ def joint(
     progress : callable
         Called with `(task, done, total)`.
     """
-    world = plants.sampled_plant(plant)
+    world = plants.as_sampled(plant)
     bound = bound_to(vehicle, inverted() if law is None else law)
     starts = task_starts(vehicle, RUNS if runs is None else errors.integer("runs", runs, 1), seed)["random"]
     flight = Flight(vehicle=vehicle, law=bound, starts=starts.seen(bound.e3), duration=DURATION, plant=world)
@@ -162,24 +162,24 @@ def joint(
         flight = flight.replace(starts=flight.starts[:SLOW_RUNS])
     rng = np.random.default_rng(seed)
     drawn = [{name: float(1 + band * rng.uniform(-1, 1)) for name, band in BANDS.items()} for _ in range(DRAWS)]
-    flown = _flown(flight, [("nominal", 0.0, dict.fromkeys(BANDS, 1.0))], progress)
+    flown = _fly(flight, [("nominal", 0.0, dict.fromkeys(BANDS, 1.0))], progress)
     for share in SHARES:
         signs = product((1, -1), repeat=len(BANDS))
         corners = [{n: 1 + s * share * b for s, (n, b) in zip(sign, BANDS.items(), strict=True)} for sign in signs]
-        found = _flown(flight, [("corner", share, factors) for factors in corners], progress)
+        found = _fly(flight, [("corner", share, factors) for factors in corners], progress)
         flown += found
         if all(one.rate >= LEAST_RATE for one in found):
             break
-    flown += _flown(flight, [("draw", 1.0, factors) for factors in drawn], progress)
+    flown += _fly(flight, [("draw", 1.0, factors) for factors in drawn], progress)
     return Joint(dict(BANDS), tuple(flown))
 
 
-def _flown(
+def _fly(
     flight: Flight, worlds: list[tuple[str, float, dict[str, float]]], progress: Callable[[str, int, int], Any]
 ) -> list[Wrong]:
     """Fly every start of `flight` in each of `worlds`: kind, share, factors."""
     kind, out = worlds[0][0], []
-    workers, plant = 1 if has_kernel(flight) else None, plants.sampled_plant(flight.plant)
+    workers, plant = 1 if has_kernel(flight) else None, plants.as_sampled(flight.plant)
 
     def fly(factors: Mapping[str, float]) -> int:
         return int(fly_many(flight.through(world_with(plant, factors)), workers=workers).success.sum())

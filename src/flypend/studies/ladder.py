@@ -15,7 +15,7 @@ from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
 from flypend.plants.defects import NEEDS
 from flypend.plants.sensors import sensors_called
-from flypend.studies.compare import Comparison, flights_of, flown
+from flypend.studies.compare import Comparison, flights_of, fly_each
 
 if TYPE_CHECKING:
     import xarray
@@ -178,7 +178,7 @@ class Ladder:
         return xarray.concat(found, dim=xarray.Variable("rung", list(self.rungs)), combine_attrs="override")
 
 
-@signals.deferred()
+@signals.defer()
 def ladder(
     vehicle: Vehicle,
     laws: Law | Controller | Sequence[Law | Controller],
@@ -205,5 +205,7 @@ def ladder(
     }  # raises if an extra is not installed
     of_laws = flights_of(vehicle, laws, starts, duration)
     flights = {(rung, law): flight.through(world) for rung, world in worlds.items() for law, flight in of_laws.items()}
-    ensembles = flown(flights, workers, lambda key, done, total: progress(f"flying {key[1]} on {key[0]}", done, total))
+    ensembles = fly_each(
+        flights, workers, lambda key, done, total: progress(f"flying {key[1]} on {key[0]}", done, total)
+    )
     return Ladder({rung: Comparison({law: ensembles[rung, law] for law in of_laws}) for rung in worlds})

@@ -116,9 +116,9 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
             lambda d: 1e3 * (plant.delay + d), 0.1 * time, longest - plant.delay, both=False,
         ),
         _rotor_lag(plant, plant.true_vehicle(vehicle).rotor_lag, time),
-        Quantity("rod length", "times the believed", 1.0, mismatched(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
+        Quantity("rod length", "times the believed", 1.0, mismatch(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
         Quantity(
-            "mass", "times the believed", 1.0, mismatched(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0
+            "mass", "times the believed", 1.0, mismatch(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0
         ),
         Quantity(
             "noise", "of the plant's" if noisy else "of motion capture's", least,
@@ -206,7 +206,7 @@ def _factor(distance: float) -> float:
     return 1 + distance if distance >= 0 else 1 / (1 - distance)
 
 
-def mismatched(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
+def mismatch(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
     """Return factor → `plant` whose mismatch of each name in `powers` is multiplied by factor to that power."""
 
     def changed(factor: float) -> Sampled:
@@ -221,8 +221,8 @@ def _noisier(plant: Sampled, factor: float) -> Sampled:
     """`plant` with its noise, or that of motion capture, times `factor`."""
     if plant.sensors is not None:
         return plant.replace(sensors=plant.sensors.noisier(factor))
-    return plant.replace(noise=_scaled(plant.noise or MOTION_CAPTURE, factor))
+    return plant.replace(noise=_scale(plant.noise or MOTION_CAPTURE, factor))
 
 
-def _scaled(noise: Noise, factor: float) -> Noise:
+def _scale(noise: Noise, factor: float) -> Noise:
     return Noise(**{name: factor * value for name, value in vars(noise).items()})

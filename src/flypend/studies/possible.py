@@ -26,7 +26,7 @@ def possible(
         return None
 
 
-def told(plans: PlanEnsemble, law: str) -> str:
+def describe(plans: PlanEnsemble, law: str) -> str:
     """Return in a sentence what the `plans` say about a vehicle on which the `law` fails."""
     count, share = int(plans.success.sum()), float(plans.success.mean())
     found = f"plans reach inverted hover from {count} of {len(plans)} random starts"

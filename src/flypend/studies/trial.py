@@ -23,7 +23,7 @@ from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
 from flypend.signals.waiting import result_of, threads
-from flypend.studies.margins import SEARCHES, mismatched
+from flypend.studies.margins import SEARCHES, mismatch
 
 DURATION, KNOCKS = 60.0, 15  # s
 UP = 0.95  # the rod counts as up while its bob is higher than this share of its length
@@ -96,7 +96,7 @@ class Trial:
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def trial(
     vehicle: Vehicle,
     law: AnyLaw | None = None,
@@ -129,7 +129,7 @@ def trial(
     InputError
         For the ideal plant, a vehicle that the law refuses or that cannot be lifted, and numbers out of range.
     """
-    world, bound = plants.sampled_plant(plant), bound_to(vehicle, law if law is not None else inverted())
+    world, bound = plants.as_sampled(plant), bound_to(vehicle, law if law is not None else inverted())
     speed = 0.3 * float(np.sqrt(vehicle.g * vehicle.l)) if knock is None else errors.number("knock", knock, at_least=0)
     starts = task_starts(vehicle, RUNS if runs is None else errors.integer("runs", runs, 1), seed)
     random = starts["random"]
@@ -140,7 +140,7 @@ def trial(
         flight = flight.replace(duration=30.0)
     again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
     from_rest = starts.get("hanging", random)[again].seen(bound.e3)
-    knocked = _knocked(flight.replace(starts=from_rest), speed, workers)
+    knocked = _knock(flight.replace(starts=from_rest), speed, workers)
     progress("knocks", 1, 1)
     up = 1.0 if bound.e3 == "up" else -1.0
     assert knocked.samples is not None
@@ -159,19 +159,19 @@ def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampl
         "inertia": ("inertia",), "arm": ("rotor_positions",), "drag_ratio": ("drag_ratio",),
     }  # fmt: skip
     found = {
-        name: mismatched(plant, dict.fromkeys(fields, 1.0))
+        name: mismatch(plant, dict.fromkeys(fields, 1.0))
         for name, fields in names.items()
         if name != "rod_inertia" or vehicle.rod_inertia > 0
     }
     found["thrust"] = lambda factor: plant.replace(strength=factor * np.asarray(plant.strength))
     if plant.true_vehicle(vehicle).rotor_lag > 0:
-        found["rotor_lag"] = mismatched(plant, {"rotor_lag": 1.0})
+        found["rotor_lag"] = mismatch(plant, {"rotor_lag": 1.0})
     if plant.delay > 0:
         found["delay"] = lambda factor: plant.replace(delay=plant.delay * factor)
     return found
 
 
-def _knocked(flight: Flight, speed: float, workers: int | None) -> Ensemble:
+def _knock(flight: Flight, speed: float, workers: int | None) -> Ensemble:
     """Fly `flight` for a minute, with a knock of `speed` on top of the wind of its plant in each interval."""
     plant, vehicle = flight.plant, flight.vehicle
     assert isinstance(plant, Sampled)

@@ -107,7 +107,7 @@ class Tuned:
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def tune(
     study: Study | str | Path | Mapping[str, Any],
     *,

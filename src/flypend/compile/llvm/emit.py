@@ -9,7 +9,7 @@ from functools import partial
 from llvmlite import ir
 
 from flypend.compile.llvm.vector import Code, Lanes, Value
-from flypend.compile.program import LIBRARY, LIBRARY_2, Operation, Program, interpret, needed
+from flypend.compile.program import LIBRARY, LIBRARY_2, Operation, Program, drop_dead, interpret
 from flypend.compile.routine import Cell, Routine, stretches
 
 ELEMENTARY = ("logarithm", "sine", "cosine", "inverse_root")  # functions of compile/loops/elementary.cpp
@@ -49,14 +49,14 @@ def with_inverse_roots(program: Program) -> Program:
             one = operations[taken[0]] == Operation("constant", (), 1.0)
             places.append(root if one else put(Operation("mul", (taken[0], root))))
     outputs = tuple(tuple(places[number] for number in vector) for vector in program.outputs)
-    return needed(Program(program.name, program.inputs, tuple(operations), outputs))
+    return drop_dead(Program(program.name, program.inputs, tuple(operations), outputs))
 
 
 def _true(value: Value) -> Value:
     return value.compare("!=", 0.0)
 
 
-def _compared(sign: str) -> Callable[[Code, Value, Value], Value]:
+def _compare(sign: str) -> Callable[[Code, Value, Value], Value]:
     return lambda code, a, b: code.select(a.compare(sign, b), 1.0, 0.0)
 
 
@@ -84,7 +84,7 @@ _OPERATIONS: dict[str, Callable[..., Value]] = {
     "not": lambda code, a: code.select(a.compare("==", 0.0), 1.0, 0.0),
     "and": lambda code, a, b: code.select(_true(a) & _true(b), 1.0, 0.0),
     "or": lambda code, a, b: code.select(_true(a) | _true(b), 1.0, 0.0),
-    **{name: _compared(sign) for name, sign in (("lt", "<"), ("le", "<="), ("eq", "=="), ("ne", "!="))},
+    **{name: _compare(sign) for name, sign in (("lt", "<"), ("le", "<="), ("eq", "=="), ("ne", "!="))},
     **{name: _of_library(name) for name in (*LIBRARY, *LIBRARY_2)},
     "floor": Code.floor,
     "log": _elementary("logarithm"),

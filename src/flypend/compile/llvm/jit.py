@@ -17,8 +17,8 @@ import llvmlite.binding as llvm
 import numpy
 
 from flypend.compile import cache
-from flypend.compile.aside import aside
-from flypend.compile.llvm.loops import linked
+from flypend.compile.aside import call_in_thread
+from flypend.compile.llvm.loops import link
 from flypend.compile.llvm.target import Target, native
 
 # Rooms that stand after those that write machine code, and can change it by no more than what is in its key.
@@ -111,20 +111,20 @@ def build_object(key: str, module: Callable[[], Any], target: Target) -> bytes:
     entry = hashlib.sha256("\n".join([key, target.name, versions, _source]).encode()).hexdigest()
     code = cache.load(entry) if may_cache() else None
     if code is None:
-        code = aside(partial(compiled, module(), target))
+        code = call_in_thread(partial(compile_module, module(), target))
         if may_cache():
             cache.store(entry, code)
     return code
 
 
-def compiled(module: Any, target: Target | None = None) -> bytes:
+def compile_module(module: Any, target: Target | None = None) -> bytes:
     """Compile an LLVM `module` to an object file optimised for the `target`; default this processor."""
     target = target or native()
     machine = target.machine
     parsed = llvm.parse_assembly(str(module))
     if not target.jit:
         parsed.triple, parsed.data_layout = target.triple, str(machine.target_data)
-    parsed = linked(module, parsed, target)
+    parsed = link(module, parsed, target)
     parsed.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=1)
     llvm.create_pass_builder(machine, options).getModulePassManager().run(

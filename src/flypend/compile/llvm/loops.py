@@ -87,7 +87,7 @@ def _constant(value: int | float | ArrayLike) -> ir.Constant:
     return ir.Constant(ir.ArrayType(I64 if whole else ir.DoubleType(), len(numbers)), numbers)
 
 
-def linked(module: ir.Module, given: Any, target: Target) -> Any:
+def link(module: ir.Module, given: Any, target: Target) -> Any:
     """Return `given`, which is `module` parsed, linked to its loop, if any, and the elementary functions it calls."""
     kinds = {found.groups() for part in given.functions if (found := _ELEMENTARY.fullmatch(part.name))}
     files = [file_of("elementary", int(width), int(bits), target.pointer_bits) for width, bits in sorted(kinds)]

@@ -24,12 +24,12 @@ def normals(seed: int, ticks: int, count: int = PER_TICK, *, first: int = 0) -> 
     """Normal numbers (ticks, count) of the flight with `seed`; row k holds the draws of control tick `first` + k."""
     rows, drawn = -(-ticks // WIDTH), whole_blocks(count)
     out: Any = np.zeros((rows, drawn, WIDTH))
-    _compiled(drawn)(seed & 0xFFFFFFFFFFFFFFFF, first, rows, out.ctypes.data)
+    _compile(drawn)(seed & 0xFFFFFFFFFFFFFFFF, first, rows, out.ctypes.data)
     return np.ascontiguousarray(out.transpose(0, 2, 1).reshape(rows * WIDTH, drawn)[:ticks, :count])
 
 
 @lru_cache(maxsize=8)
-def _compiled(count: int) -> Any:
+def _compile(count: int) -> Any:
     def module() -> LoopModule:
         return LoopModule("normals", (WIDTH, "double", None), {}, {"COUNT": count})
 

@@ -11,7 +11,7 @@ from flypend.compile.llvm.loops import LoopModule, several
 from flypend.compile.llvm.target import Target
 from flypend.compile.methods import Method
 from flypend.compile.problem import Problem
-from flypend.compile.program import Program, needed
+from flypend.compile.program import Program, drop_dead
 from flypend.compile.touch import LONGEST
 from flypend.model.state import MAX_STATE
 
@@ -42,7 +42,7 @@ def _programs(problem: Problem) -> dict[str, Program]:
     rates, project, judging, touch = problem.rates, problem.project, problem.judging, problem.touch
     if len(rates.outputs) == 1:
         rates = replace(rates, outputs=(*rates.outputs, ()))  # no wrench
-    onto = needed(Program("onto", project.inputs, project.operations, project.outputs[:1]))
+    onto = drop_dead(Program("onto", project.inputs, project.operations, project.outputs[:1]))
     programs = {"rates": rates, "project": project, "onto": onto}
     if problem.margin is not None:
         programs["margin"] = problem.margin

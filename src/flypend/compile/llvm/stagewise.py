@@ -125,7 +125,7 @@ def horizon(
     return Stagewise(jit.build(f"{loop} {width} {own} {key}", module, "kernel", kinds))
 
 
-def alone(function: ca.Function) -> Callable[..., Any]:
+def single(function: ca.Function) -> Callable[..., Any]:
     """Compile `function` of dense vectors as a callable on arrays, which returns a tuple of arrays.
 
     Its arithmetic is that of the kernels of many flights, bit for bit: one lane of as many. Every thread that calls it

@@ -72,7 +72,7 @@ class Flown:
             end=np.empty(runs),
             code=np.empty(runs, dtype=np.int64),
             reductions=np.empty((runs, judged)) if judged else None,
-            samples=None if samples is None else aligned((runs, *samples)),
+            samples=None if samples is None else allocate((runs, *samples)),
             steps=np.empty(runs, dtype=np.int64) if steps else None,
             clearance=np.empty(runs) if touching else None,
             part=np.empty(runs, dtype=np.int64) if touching else None,
@@ -96,7 +96,7 @@ class Flown:
 LINE = 64  # bytes of a cache line
 
 
-def aligned(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
+def allocate(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
     """Allocate an array at the start of a cache line, so that rows of eight doubles share no line."""
     size = int(np.prod(shape)) * np.dtype(kind).itemsize
     room = np.empty(size + LINE - 1, dtype=np.uint8)
@@ -156,7 +156,7 @@ def inputs_of(loop: Loop, given: Numbers, runs: int) -> NDArray[np.float64]:
     return values
 
 
-def ordered(names: Sequence[str], given: Mapping[str, Any]) -> list[Any]:
+def in_order(names: Sequence[str], given: Mapping[str, Any]) -> list[Any]:
     """Return the arguments `given` by name in the order of a kernel's `names`: numbers, and addresses of arrays."""
     return [value if isinstance(value := given[name], Real) else address(value) for name in names]
 

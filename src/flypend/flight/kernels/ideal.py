@@ -21,8 +21,8 @@ from flypend.compile.methods import method as method_named
 from flypend.compile.problem import Judging, Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
-from flypend.flight.criterion import REDUCTIONS, Criterion, gauge_bounds, gauged
-from flypend.flight.kernels.flown import Flown, Progress, from_queue, inputs_of, ordered
+from flypend.flight.criterion import REDUCTIONS, Criterion, gauge, gauge_bounds
+from flypend.flight.kernels.flown import Flown, Progress, from_queue, in_order, inputs_of
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import distinct
@@ -204,7 +204,7 @@ def call(
         "samples": out.samples, "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
         "steps": out.steps, "knots": None, "clearance": out.clearance, "part": out.part, "stop": stop, **more,
     }  # fmt: skip
-    function(*ordered(ARGUMENTS, given))
+    function(*in_order(ARGUMENTS, given))
 
 
 @lru_cache(maxsize=64)
@@ -236,7 +236,7 @@ def ideal_kernel(
     problem = ideal_problem(loop, criterion)
     one_of("method", method, METHODS)
     key = key_of(problem, method, precision)
-    return IdealKernel(loop, criterion, compiled(key, problem, method, precision), key)
+    return IdealKernel(loop, criterion, compile_ideal(key, problem, method, precision), key)
 
 
 def key_of(problem: Problem, method: str, precision: str) -> str:
@@ -244,16 +244,16 @@ def key_of(problem: Problem, method: str, precision: str) -> str:
     return f"ideal {method} {precision} {problem!r}"
 
 
-def compiled(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
+def compile_ideal(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
     """Return the kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
     kinds = [
         ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
         for name in ARGUMENTS
     ]
-    return jit.build(*written(key, problem, lane_count(problem, precision), method, precision), "kernel", kinds)
+    return jit.build(*write_ideal(key, problem, lane_count(problem, precision), method, precision), "kernel", kinds)
 
 
-def written(
+def write_ideal(
     key: str, problem: Problem, width: int, method: str, precision: str, target: Target | None = None
 ) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` runs at a time, and what writes its module."""
@@ -285,13 +285,13 @@ def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, size: int) -
     """Return `criterion` as gauges of the state, and the rotor forces of a wrench."""
     t, s, s_dot = ca.SX.sym("t"), ca.SX.sym("s", size), ca.SX.sym("s_dot", size)
     state, rates = State.symbolic(s), State.symbolic(s_dot)
-    gauges, tolerances = gauged(t, state, vehicle, law.reference, criterion, law.e3)
+    gauges, tolerances = gauge(t, state, vehicle, law.reference, criterion, law.e3)
     # Position, attitude and rod direction, which alone enter a gauge, have rates that the state itself holds.
     along = Rates(state.x_dot, rates.x_dot, state.R @ hat(state.omega), rates.omega, state.y_dot, rates.y_dot)
     first = lie_derivative(gauges, state, along, t)
     outputs = [gauges, first, lie_derivative(first, state, along, t), tolerances]
     wrench = ca.SX.sym("w", 4)
-    forces = _shared(vehicle.unmixing(law.e3), wrench)
+    forces = _multiply(vehicle.unmixing(law.e3), wrench)
     both = ca.vertcat(ca.sumsqr(forces) / forces.numel(), ca.mmax(forces))
     return Judging(
         gauges=lower(ca.Function("gauges", [t, s, s_dot], [ca.densify(ca.SX(output)) for output in outputs])),
@@ -300,7 +300,7 @@ def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, size: int) -
     )
 
 
-def _shared(matrix: NDArray[np.float64], vector: Vector) -> Numbers:
+def _multiply(matrix: NDArray[np.float64], vector: Vector) -> Numbers:
     """Return `matrix` · `vector` with one product where a column repeats a magnitude, up to roundoff."""
     rows = [ca.SX(0) for _ in matrix]
     for column, factor in zip(matrix.T, ca.vertsplit(vector), strict=True):

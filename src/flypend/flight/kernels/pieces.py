@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.board.believed import Believed
-from flypend.board.estimator import assumed_delay
+from flypend.board.estimator import delay_of
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
@@ -29,14 +29,14 @@ from flypend.compile.program import lower
 from flypend.compile.sampled_problem import Resuming, SampledProblem
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import STATUS, aligned, inputs_of, ordered
-from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, written
+from flypend.flight.kernels.flown import STATUS, allocate, in_order, inputs_of
+from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, write_sampled
 from flypend.flight.kernels.single import sampled_outcome
 from flypend.flight.outcome import Outcome
 from flypend.model import State
-from flypend.model.state import SIZE, seen_packed
+from flypend.model.state import SIZE, convert_packed
 from flypend.plants.equations import struck
-from flypend.plants.knobs import KNOBS, LONGEST_DELAY, STRETCHES, depth, knob_values, turned
+from flypend.plants.knobs import KNOBS, LONGEST_DELAY, STRETCHES, depth, knob_values, turn_knobs
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import measurement
 from flypend.plants.noise import Noise
@@ -70,7 +70,7 @@ def pieces_structure(plant: Sampled) -> Sampled:
     if sensors is None:
         noise = noise or Noise()
     else:
-        sensors = sensors.replace(command_delay=assumed_delay(plant))
+        sensors = sensors.replace(command_delay=delay_of(plant))
     whole = plant.replace(sensors=sensors, noise=noise, wind=plant.wind or _GUSTY)
     return structure(whole).replace(delay=max(plant.delay, LONGEST_DELAY))
 
@@ -90,14 +90,14 @@ class PiecesKernel:
 
 def pieces_kernel(loop: Loop, criterion: Criterion) -> PiecesKernel:
     """Return the kernel of flights of `loop` in pieces, compiled or from the cache. Raises as `pieces_problem`."""
-    function, room = _compiled(replace(loop, plant=pieces_structure(loop.sampled)), criterion)
+    function, room = _compile(replace(loop, plant=pieces_structure(loop.sampled)), criterion)
     return PiecesKernel(loop, function, room)
 
 
 @lru_cache(maxsize=16)
-def _compiled(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
+def _compile(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
     problem = pieces_problem(loop, criterion)
-    code, room = jit.build_object(*written(problem, 1), native()), np.zeros(1, dtype=np.int64)
+    code, room = jit.build_object(*write_sampled(problem, 1), native()), np.zeros(1, dtype=np.int64)
     jit.Native(code, "context_size", (ctypes.c_void_p,))(room.ctypes.data)
     return jit.Native(code, "kernel", tuple(ARGUMENT_KINDS)), int(room[0])
 
@@ -120,14 +120,14 @@ class PiecewiseFlight:
     def __init__(self, kernel: PiecesKernel, start: State, seed: int, gains: Mapping[str, float]) -> None:
         loop = kernel.loop
         self._kernel, self._loop, self.ticks = kernel, loop, 0
-        self._knobs, self._turn = knob_values(loop.vehicle, loop.sampled), as_numpy(turned(loop.sampled))
+        self._knobs, self._turn = knob_values(loop.vehicle, loop.sampled), as_numpy(turn_knobs(loop.sampled))
         rotors = np.full(len(loop.vehicle.rotor_spins), loop.vehicle.rotor_limits[0])
-        begin = np.append(seen_packed(start.packed(), loop.law.e3), rotors)
+        begin = np.append(convert_packed(start.packed(), loop.law.e3), rotors)
         self._given: dict[str, Any] = {
             "starts": begin[None], "parameters": inputs_of(loop, None, 1).copy(), "seeds": np.array([seed]), "runs": 1,
             "reductions": np.zeros((1, len(JUDGED))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
             "status": np.zeros(1, dtype=np.int64), "clearance": np.zeros(1), "part": np.zeros(1, dtype=np.int64),
-            "stop": np.zeros(1, dtype=np.int64), "context": aligned((kernel.room // 8,)),
+            "stop": np.zeros(1, dtype=np.int64), "context": allocate((kernel.room // 8,)),
             "mujoco": None,
         }  # fmt: skip
         self._plant: NDArray[np.float64] = self._turn(np.concatenate(list(self._knobs.values())))
@@ -162,7 +162,7 @@ class PiecewiseFlight:
             "judged": np.ones_like(kept), "rows": np.arange(len(kept) + 1), "row_count": len(kept), "samples": samples,
             "impulses": errors.array("impulses", impulses, (6,))[None].copy(),
         }  # fmt: skip
-        self._kernel.function(*ordered(ARGUMENTS, given))
+        self._kernel.function(*in_order(ARGUMENTS, given))
         self.ticks = last
         flown: NDArray[np.float64] = samples[0]
         flown[kept / self._loop.sampled.rate > float(self._given["end"][0]) + 1e-9] = np.nan  # there it has ended

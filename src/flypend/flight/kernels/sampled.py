@@ -23,22 +23,22 @@ from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
 from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.errors import array
-from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observed
-from flypend.flight.kernels.flown import Flown, Progress, in_pieces, inputs_of, ordered
+from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observe
+from flypend.flight.kernels.flown import Flown, Progress, in_order, in_pieces, inputs_of
 from flypend.flight.kernels.stopping import Word
 from flypend.flight.kernels.touching import touch_of
-from flypend.flight.moments import merged
+from flypend.flight.moments import merge
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.geometry import Numbers
 from flypend.model import State, Vehicle
 from flypend.model.outline import extent
-from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, seen_packed
+from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, convert_packed
 from flypend.plants.actuation import rate_loop
 from flypend.plants.equations import rotor_step
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.motors import motor_timing, timing_size
-from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, seen_by_mujoco, substeps
+from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, from_mujoco, substeps
 from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surroundings
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Plant, Wind
@@ -62,7 +62,7 @@ class Ticks(NamedTuple):
     @classmethod
     def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
         """Merge the ticks at which the criterion is evaluated and those kept; `rows` ends with the total."""
-        return cls(*merged(judge_at, keep_at, np.int64))
+        return cls(*merge(judge_at, keep_at, np.int64))
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +130,7 @@ class SampledKernel:
         least = np.full((runs, n), vehicle.rotor_limits[0])
         rotors = starts[:, SIZE:] if starts.shape[1] > SIZE else least
         forces = array("rotors", rotors, least.shape)
-        packed = np.concatenate([seen_packed(starts[:, :SIZE], loop.law.e3), forces], axis=1)
+        packed = np.concatenate([convert_packed(starts[:, :SIZE], loop.law.e3), forces], axis=1)
         seeds = (first_seed + np.arange(runs)).astype(np.int64)
         moments = Ticks.of(judge_at, keep_at)
         count = number_of_ticks(duration, loop.sampled)
@@ -173,10 +173,10 @@ class SampledKernel:
             "context": None, "begun": 0, "impulses": None, "mujoco": None,
         }  # fmt: skip
         if self.loop.sampled.engine == "equations":
-            self.function(*ordered(ARGUMENTS, given))
+            self.function(*in_order(ARGUMENTS, given))
         else:
             with MuJoCoWorld.lent(self.loop) as world:
-                self.function(*ordered(ARGUMENTS, given | {"mujoco": world.addresses(starts)}))
+                self.function(*in_order(ARGUMENTS, given | {"mujoco": world.addresses(starts)}))
 
 
 def structure(plant: Plant) -> Plant:
@@ -201,7 +201,7 @@ def plant_numbers(loop: Loop) -> Numbers:
     plant = loop.sampled
     true = plant.true_vehicle(loop.vehicle)
     period = 1 / plant.rate
-    timings = [_timing(true, plant, while_ / steps) for _, while_, steps in _flown(plant)]
+    timings = [_timing(true, plant, while_ / steps) for _, while_, steps in _segments(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
     wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
     return np.concatenate([*timings, *noise, *wind])
@@ -215,7 +215,7 @@ def _timing(true: Vehicle, plant: Plant, duration: float) -> Numbers:
     return np.append(float(steps), step_numbers(true, plant, duration / steps))
 
 
-def _flown(plant: Plant) -> list[tuple[int, float, int]]:
+def _segments(plant: Plant) -> list[tuple[int, float, int]]:
     """Return the segments of a control period: age of the command, duration (s), steps."""
     segments = within_period(plant.delay, 1 / plant.rate)
     return [(age, while_, steps_in(while_, plant)) for age, while_ in segments]
@@ -241,7 +241,7 @@ def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
     if loop.sampled.engine == "mujoco":
         # Rotors with a lag, whatever it is, are MuJoCo's filters; those without are not.
         compiled = compiled.replace(lag=float(_is_filtered(loop)))
-    return _structured(replace(loop, plant=compiled), criterion).through(loop.sampled)
+    return _structure(replace(loop, plant=compiled), criterion).through(loop.sampled)
 
 
 def _is_filtered(loop: Loop) -> bool:
@@ -254,14 +254,16 @@ def _mujoco_filters(loop: Loop) -> bool:
 
 
 @lru_cache(maxsize=64)
-def _structured(loop: Loop, criterion: Criterion) -> SampledKernel:
+def _structure(loop: Loop, criterion: Criterion) -> SampledKernel:
     problem = sampled_problem(loop, criterion)
     width = WIDTH if isinstance(problem.world, EquationsProblem) else 1
-    key, module = written(problem, width)
+    key, module = write_sampled(problem, width)
     return SampledKernel(loop, criterion, jit.build(key, module, "kernel", ARGUMENT_KINDS), key)
 
 
-def written(problem: SampledProblem, width: int, target: Target | None = None) -> tuple[str, Callable[[], LoopModule]]:
+def write_sampled(
+    problem: SampledProblem, width: int, target: Target | None = None
+) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` flights at a time, and what writes its module."""
     key = f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}"
     return key, lambda: kernel_module(problem, width, target)
@@ -276,7 +278,7 @@ def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None 
     if plant.engine == "equations":
         world = EquationsProblem(lower(rotor_step(true, plant, windy=plant.wind is not None, name="world")))
     else:
-        seen = lower(seen_by_mujoco(len(vehicle.rotor_spins)))
+        seen = lower(from_mujoco(len(vehicle.rotor_spins)))
         effects = [None if f is None else lower(f) for f in (motors(true, plant), surroundings(true, plant))]
         world = MujocoProblem(seen, _is_filtered(loop), MAX_FORCE, *effects)
     on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
@@ -289,7 +291,7 @@ def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None 
         gusts=lower(gusts(knocks=plant.wind.knocks)) if plant.wind is not None else None,
         judge=lower(_judge(loop, criterion)),
         reductions=JUDGED,
-        flown=tuple(Stretch(age, steps) for age, _, steps in _flown(plant)),
+        flown=tuple(Stretch(age, steps) for age, _, steps in _segments(plant)),
         timing=timing_size(plant) if plant.engine == "equations" else 1 + STEP_NUMBERS,
         period=1 / plant.rate,
         random=is_random(plant),
@@ -323,7 +325,7 @@ def _judge(loop: Loop, criterion: Criterion) -> ca.Function:
     law = loop.symbolic
     n = len(loop.vehicle.rotor_spins)
     t, packed, p = ca.SX.sym("t"), ca.SX.sym("s", SIZE + n), ca.SX.sym("p", len(loop.parameters))
-    own = seen_packed(packed[:SIZE], law.e3)
+    own = convert_packed(packed[:SIZE], law.e3)
     low, high = extent(State.symbolic(packed[:SIZE]), loop.vehicle)
-    seen = observed(t, State.symbolic(own), packed[SIZE:], loop.vehicle, law.reference, criterion, law.e3)
+    seen = observe(t, State.symbolic(own), packed[SIZE:], loop.vehicle, law.reference, criterion, law.e3)
     return ca.Function("judge", [t, packed, p], [ca.cse(ca.densify(ca.vertcat(seen, high, -low)))])

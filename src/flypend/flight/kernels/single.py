@@ -15,9 +15,9 @@ from flypend.flight.moments import distinct
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import LEFT, NOT_FINITE, Samples, nearest_ticks
-from flypend.flight.touch import touched
+from flypend.flight.touch import reason_of
 from flypend.model import Vehicle
-from flypend.model.state import MAX_STATE, SIZE, seen_packed
+from flypend.model.state import MAX_STATE, SIZE, convert_packed
 
 REASONS = {
     runge_kutta.DIVERGED: f"the state left |s| < {MAX_STATE:g}",
@@ -66,7 +66,7 @@ class Solution:
 def _judge(code: int, end: float, part: int, kernel: IdealKernel) -> Outcome:
     """Return the outcome of a run that ended at `end` (s) with the status `code`, having touched `part`."""
     if code == runge_kutta.COLLIDED:
-        return Outcome("collided", end, touched(kernel.loop.vehicle, part))
+        return Outcome("collided", end, reason_of(kernel.loop.vehicle, part))
     guard = kernel.loop.symbolic.guard
     reason = guard.reason if code == runge_kutta.SINGULAR and guard is not None else REASONS.get(code, "")
     return Outcome(str(STATUS[code]), end, reason)  # type: ignore[arg-type]
@@ -98,7 +98,7 @@ def sampled_samples(
     outcome = sampled_outcome(code, end, int(flown.part[0]) if code == runge_kutta.COLLIDED else -1, flight.vehicle)
     t, samples = ticks / plant.rate, flown.samples[0]
     kept = t <= end + 1e-9
-    packed = seen_packed(samples[kept, :SIZE], law.e3)
+    packed = convert_packed(samples[kept, :SIZE], law.e3)
     return Samples(t[kept], packed, samples[kept, SIZE:], outcome)
 
 
@@ -106,5 +106,5 @@ def sampled_outcome(code: int, end: float, part: int, vehicle: Vehicle) -> Outco
     """Return how a sampled flight has ended: `code` of the kernel, time `end` (s), `part` that the rod touched."""
     reason = {runge_kutta.UNDEFINED: NOT_FINITE, runge_kutta.DIVERGED: LEFT}
     if code == runge_kutta.COLLIDED:
-        reason[code] = touched(vehicle, part)
+        reason[code] = reason_of(vehicle, part)
     return Outcome(str(STATUS[code]), end, reason.get(code, ""))  # type: ignore[arg-type]

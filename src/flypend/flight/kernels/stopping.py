@@ -37,7 +37,7 @@ def interruptible() -> Iterator[Word]:
         yield outer
         return
     word: Word = np.zeros(1, dtype=np.int64)
-    with joined(word), signals.deferred():
+    with join(word), signals.defer():
         try:
             yield word
         except BaseException:
@@ -46,7 +46,7 @@ def interruptible() -> Iterator[Word]:
 
 
 @contextmanager
-def joined(word: Word | None) -> Iterator[None]:
+def join(word: Word | None) -> Iterator[None]:
     """Make `word`, which another thread may set, the stop word of all kernel calls in the block."""
     token = _word.set(word)
     try:

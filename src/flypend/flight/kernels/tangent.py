@@ -17,7 +17,7 @@ from flypend.compile.llvm import jit
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.flight.kernels.flown import Flown, inputs_of
-from flypend.flight.kernels.ideal import Limits, Moments, call, compiled
+from flypend.flight.kernels.ideal import Limits, Moments, call, compile_ideal
 from flypend.flight.kernels.stopping import heard
 from flypend.flight.request import Flight
 from flypend.geometry import Numbers
@@ -53,7 +53,7 @@ def fly_tangents(flight: Flight, gains: tuple[str, ...], directions: Any, rates:
 @lru_cache(maxsize=16)
 def _kernel(loop: Loop) -> jit.Native:
     problem = tangent_problem(loop)
-    return compiled(f"tangent {problem!r}", problem, "dop853")
+    return compile_ideal(f"tangent {problem!r}", problem, "dop853")
 
 
 def tangent_problem(closed: Loop) -> Problem:

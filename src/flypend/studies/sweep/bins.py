@@ -104,11 +104,11 @@ class Runs:
         for number in self._numbers:
             chunk = self._store.read(number, sorted(needed))
             for grid, total in zip(grids, sums, strict=True):
-                total += _counted(chunk, grid.place(chunk), total.shape[1])
+                total += _count(chunk, grid.place(chunk), total.shape[1])
         return [_cells(total) for total in sums]
 
 
-def _counted(chunk: dict[str, Any], place: Any, cells: int) -> Any:
+def _count(chunk: dict[str, Any], place: Any, cells: int) -> Any:
     """Sums over the runs of each cell, one per row: count, settling, excursion, and the count of each cause."""
     cause = chunk["cause"]
     rows = [

@@ -20,7 +20,7 @@ _HALF_WRITTEN = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
 _OF_A_STORE = re.compile(rf"zarr\.json|\d+|{_HALF_WRITTEN.pattern}")
 
 
-def checked_path(path: str | Path) -> Path:
+def check_path(path: str | Path) -> Path:
     """Return `path` as a `Path`. Raises InputError unless it ends in .zarr and a folder can be called so."""
     path = Path(path)
     if path.suffix != ".zarr":
@@ -31,12 +31,12 @@ def checked_path(path: str | Path) -> Path:
 
 def check_place(path: str | Path) -> None:
     """Raise InputError unless a store can be at `path`: it ends in .zarr, and its folder can be written."""
-    check_writable(_real(checked_path(path)).parent)
+    check_writable(_real(check_path(path)).parent)
 
 
 def lock_of(path: str | Path) -> Path:
     """Return the path of the lock file of the store at `path`: the same through every link to the store."""
-    real = _real(checked_path(path))
+    real = _real(check_path(path))
     return real.with_name(f".{real.name}.lock")
 
 
@@ -48,7 +48,7 @@ def _real(path: Path) -> Path:
 
 
 @contextmanager
-def alone(path: str | Path) -> Iterator[None]:
+def lock_name(path: str | Path) -> Iterator[None]:
     """Lock the name `path` against every other sweep. The system releases the lock however the process ends.
 
     The lock file stays: unlinking it would let one process lock the old file while another locks a new one.
@@ -70,7 +70,7 @@ def alone(path: str | Path) -> Iterator[None]:
             lock.release()
 
 
-def aside(path: Path, why: str) -> Path:
+def unused_name(path: Path, why: str) -> Path:
     """Return an unused name beside the store at `path`; `why` is "partial" or "removed"."""
     path = _real(path)
     return path.with_name(f".{path.name}.{uuid4().hex}.{why}")
@@ -96,7 +96,7 @@ def remove(path: Path) -> None:
     """
     if (foreign := _foreign(path)) is not None:
         raise InputError(str(path), "nothing but a store", foreign.relative_to(path))
-    gone = aside(path, "removed")
+    gone = unused_name(path, "removed")
     try:
         _real(path).rename(gone)
     except OSError as error:

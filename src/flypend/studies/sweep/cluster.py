@@ -16,7 +16,7 @@ CONNECT = 10.0
 ADDRESS = re.compile(r"([a-z]+://)?([\w.-]+|\[[0-9a-fA-F:.]+\]):\d{1,5}", re.ASCII)
 
 
-def flown_chunks(
+def fly_chunks(
     text: str, program: str, numbers: Iterable[int], scheduler: str
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
     """Fly chunks `numbers` of a study on the cluster of a Dask `scheduler`, and yield each with its columns.

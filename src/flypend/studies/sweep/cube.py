@@ -119,7 +119,7 @@ def in_disc(u: Any, y: Any, radius: float) -> Any:
     return scale(length * np.cos(angle), one) + scale(length * np.sin(angle), cross(y, one))
 
 
-def tilted(tilt: Any, azimuth: Any, rate: Any, heading: Any) -> tuple[Any, Any]:
+def tilt_rods(tilt: Any, azimuth: Any, rate: Any, heading: Any) -> tuple[Any, Any]:
     """Return y and y_dot (n, 3), e₃ up, of rods at `tilt` from inverted towards `azimuth`, with |y_dot| = `rate`.
 
     Angles are in rad, rates in 1/s. The rate increases the tilt if `heading` is 0, the azimuth if it is π/2.

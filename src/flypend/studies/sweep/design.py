@@ -38,7 +38,7 @@ class Design:
 def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> Design:
     """Return runs `first` to `last` (exclusive) of `study`, from its sample `stream`."""
     index = np.arange(first, last)
-    cells, drawn = index // study.samples, _drawn(study, index % study.samples, stream)
+    cells, drawn = index // study.samples, _draw(study, index % study.samples, stream)
     numbers: dict[tuple[str, str], Any] = {}
     places = dict(zip(study.grid, np.unravel_index(cells, study.shape) if study.grid else (), strict=True))
     column = 0
@@ -54,10 +54,10 @@ def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> 
         if group != "start":
             columns[f"{group}.{name}"] = value
     gains = {name: value for (group, name), value in numbers.items() if group == "gains"}
-    return Design(_packed(study, fields, len(index)), gains, cells, columns)
+    return Design(_pack(study, fields, len(index)), gains, cells, columns)
 
 
-def _drawn(study: Study, members: Any, stream: int) -> Any:
+def _draw(study: Study, members: Any, stream: int) -> Any:
     """The points of these members in the unit cube; members are consecutive within a cell."""
     how = (study.sampling, study.seed, stream, study.samples, study.dimensions)
     ends = np.flatnonzero(np.diff(members) < 0) + 1
@@ -103,13 +103,13 @@ def _by_angles(
         value = given[name][1] if name in given else np.full(runs, default.get(name, 0.0))
         columns |= {name: value} if name in given else {}
         angles.append(value)
-    y, y_dot = cube.tilted(*angles)
+    y, y_dot = cube.tilt_rods(*angles)
     fields["y"] = y @ flip
     if {"rate", "heading"} & set(given):
         fields["y_dot"] = y_dot @ flip
 
 
-def _packed(study: Study, fields: dict[str, Any], runs: int) -> Any:
+def _pack(study: Study, fields: dict[str, Any], runs: int) -> Any:
     packed = np.empty((runs, SIZE))
     packed[:] = study.flight.starts.packed()
     place = 0

@@ -17,7 +17,7 @@ from flypend.files.reading import read_bytes
 from flypend.files.schema import Field
 from flypend.model.state import SIZE
 from flypend.studies.sweep.chunk import CAUSES, FLOATS
-from flypend.studies.sweep.claim import aside
+from flypend.studies.sweep.claim import unused_name
 from flypend.studies.sweep.design import design
 from flypend.studies.sweep.study import Study
 
@@ -70,7 +70,7 @@ def create(path: Path, study: Study, attributes: Mapping[str, Any]) -> None:
     """
     import zarr
 
-    partial = aside(path, "partial")
+    partial = unused_name(path, "partial")
     try:
         group = zarr.create_group(partial, attributes=dict(attributes))
         add_arrays(group, study)

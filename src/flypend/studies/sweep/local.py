@@ -9,7 +9,7 @@ from contextlib import closing
 from typing import Any
 
 from flypend.errors import InputError
-from flypend.flight.kernels.stopping import interruptible, joined
+from flypend.flight.kernels.stopping import interruptible, join
 from flypend.signals import waiting
 from flypend.studies.sweep.chunk import fly_chunk
 
@@ -17,7 +17,7 @@ from flypend.studies.sweep.chunk import fly_chunk
 DEATHS = 3
 
 
-def flown_chunks(
+def fly_chunks(
     text: str, program: str, numbers: Sequence[int], *, workers: int | None, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
     """Fly chunks `numbers` of a study, and yield each with its columns as it completes.
@@ -39,7 +39,7 @@ def flown_chunks(
     left, deaths = list(numbers), 0
     while left:
         try:
-            with closing(_flown(text, program, left, workers or os.cpu_count() or 1, processes)) as coming:
+            with closing(_fly_numbers(text, program, left, workers or os.cpu_count() or 1, processes)) as coming:
                 for number, columns in coming:
                     left.remove(number)
                     deaths = 0
@@ -51,7 +51,7 @@ def flown_chunks(
                 raise InputError("processes", "worker processes that survive (rerun to resume)", told) from None
 
 
-def _flown(
+def _fly_numbers(
     text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
     """Yield number and result of each chunk, in the order in which they end."""
@@ -67,5 +67,5 @@ def _flown(
 
 def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str, Any]]:
     """Return number and result of a chunk; `stop` is the word of the process that asks."""
-    with joined(stop):
+    with join(stop):
         return number, fly_chunk(text, number, program)

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from flypend import errors, signals
 from flypend.studies.sweep import cluster, local
 from flypend.studies.sweep.chunk import fly_range, program_digest
-from flypend.studies.sweep.claim import alone, check_place
-from flypend.studies.sweep.store import discard, opened
+from flypend.studies.sweep.claim import check_place, lock_name
+from flypend.studies.sweep.store import discard, open_store
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
 
@@ -23,7 +23,7 @@ Progress = Callable[[int, int], Any]
 
 
 @errors.named_arguments
-@signals.deferred()
+@signals.defer()
 def sweep(
     study: Study | str | Path | Mapping[str, Any],
     store: str | Path,
@@ -76,15 +76,15 @@ def sweep(
         cluster.check_answers(scheduler)
     fly_range(made, 0, 1)  # a law that cannot be flown leaves no store
     program = program_digest(made)
-    with alone(store):
+    with lock_name(store):
         if force:
             discard(store)
-        kept = opened(store, made, program, versions())
+        kept = open_store(store, made, program, versions())
         missing = [number for number in range(made.chunks) if not kept.whole(number)]
         done = made.runs - sum(_length(made, number) for number in missing)
         progress(done, made.runs)
         if missing:
-            with closing(_flown(made, program, missing, scheduler, workers, processes)) as flown:
+            with closing(_fly(made, program, missing, scheduler, workers, processes)) as flown:
                 for number, columns in flown:
                     kept.write(number, columns)
                     done += _length(made, number)
@@ -92,13 +92,13 @@ def sweep(
     return dataset(kept.path)
 
 
-def _flown(
+def _fly(
     made: Study, program: str, numbers: list[int], scheduler: str | None, workers: int | None, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
     """Yield the chunks `numbers` as they complete, from a Dask cluster or from this machine."""
     if scheduler is None:
-        return local.flown_chunks(made.text(), program, numbers, workers=workers, processes=processes)
-    return cluster.flown_chunks(made.text(), program, numbers, scheduler)
+        return local.fly_chunks(made.text(), program, numbers, workers=workers, processes=processes)
+    return cluster.fly_chunks(made.text(), program, numbers, scheduler)
 
 
 def _length(study: Study, number: int) -> int:

@@ -25,7 +25,7 @@ from flypend.files.reading import MOST_TEXT, parse_json, read_bytes, read_text
 from flypend.files.schema import check_arrays, check_attributes
 from flypend.files.toml import parse_toml
 from flypend.studies.sweep import layout
-from flypend.studies.sweep.claim import checked_path, clear, remove
+from flypend.studies.sweep.claim import check_path, clear, remove
 from flypend.studies.sweep.layout import MARKS
 from flypend.studies.sweep.study import Study
 from flypend.studies.sweep.study import study as study_from
@@ -200,7 +200,7 @@ def _restore(path: Path, name: str, study: Study) -> None:
         raise InputError(str(target), "a file that can be written", error.strerror or error) from None
 
 
-def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, str]) -> Store:
+def open_store(path: str | Path, study: Study, program: str, versions: Mapping[str, str]) -> Store:
     """Return the store of `study` at `path` for writing, creating it if there is none. The caller holds its lock.
 
     Parameters
@@ -217,7 +217,7 @@ def opened(path: str | Path, study: Study, program: str, versions: Mapping[str, 
     InputError
         If the path is not writable, or if the store belongs to another study (naming the first difference).
     """
-    path = checked_path(path)
+    path = check_path(path)
     attributes: dict[str, Any] = {
         "flypend": "sweep",
         "study": study.text(),
@@ -240,7 +240,7 @@ def existing(path: str | Path, *, writable: bool = False) -> Store:
 
     `writable` restores damaged metadata; the caller then holds the lock.
     """
-    path = checked_path(path)
+    path = check_path(path)
     group = _group_at(path)
     attributes = dict(group.attrs)
     if attributes.get("seal") != _seal(attributes) or not isinstance(attributes.get("id"), str):
@@ -254,7 +254,7 @@ def discard(path: str | Path) -> None:
 
     Raises InputError if something is there that no sweep has written.
     """
-    path = checked_path(path)
+    path = check_path(path)
     if path.exists():
         _group_at(path)
         remove(path)

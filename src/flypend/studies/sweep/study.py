@@ -203,7 +203,7 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
     flight = Flight(
         vehicle=vehicle,
         law=law_from(law_table(given["law"])).bind(vehicle),
-        starts=_fixed(start, vary),
+        starts=_fixed_start(start, vary),
         duration=given["duration"],
         plant=plant_of(given.get("plant", "rotors")),
         tolerances=exact,
@@ -234,7 +234,7 @@ def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     return start, vary
 
 
-def _fixed(start: dict[str, Any], vary: dict[str, Any]) -> State:
+def _fixed_start(start: dict[str, Any], vary: dict[str, Any]) -> State:
     """The start that all runs share; y is e₃ if the rod varies."""
     varied = table_at(vary, "start")
     return start_of({"y": [0.0, 0.0, 1.0], **start} if {"y", "tilt", "azimuth"} & set(varied) else start)

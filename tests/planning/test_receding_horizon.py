@@ -156,18 +156,9 @@ def test_masses_off_by_a_tenth_and_late_commands(factor):
     assert result.excursion < 1.5 * flown.plans[0].excursion
 
 
-@pytest.mark.parametrize(
-    "plant",
-    [
-        {"mismatch": {"mass": 0.8, "bob_mass": 0.8}},
-        {"mismatch": {"mass": 1.2, "bob_mass": 1.2}},
-        {"mismatch": {"mass": 1.2, "bob_mass": 0.8}},
-        {"strength": 0.85},
-    ],
-)
-def test_a_wrong_thrust_scale_is_not_taken_for_a_force(plant):
+def test_a_wrong_thrust_scale_is_not_taken_for_a_force():
     """Taken for a force, masses x 0.8 led this start 5.4 m away, and never to hover."""
-    start, plant = fp.random_starts(16, seed=7100)[1], fp.Plant(**plant)
+    start, plant = fp.random_starts(16, seed=7100)[1], fp.Plant(mismatch={"mass": 0.8, "bob_mass": 0.8})
     run, flown = flown_by(fp.nmpc(), start, 6, plant)
     law = fp.simulate(HEHN, fp.laws.inverted(), start, 6, plant=plant)
     assert fp.metrics(run).success

@@ -38,7 +38,7 @@ def no_work(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for place in (
         "flypend.flight.simulate.fly", "flypend.flight.ensemble.fly_many", "flypend.studies.compare.fly_each",
-        "flypend.planning.planner.prepared", "flypend.studies.check.fly_tasks",
+        "flypend.planning.planner.prepare", "flypend.studies.check.fly_tasks",
         "flypend.studies.sweep.run.fly_range", "flypend.studies.tune.program_digest", "flypend.studies.trial.fly_many",
     ):  # fmt: skip
         module, _, name = place.rpartition(".")

@@ -80,7 +80,7 @@ def test_nothing_but_its_memory_decides_what_it_answers():
 def test_a_control_period_takes_a_fourth_of_the_operations_of_fourteen_steps():
     """A prediction of more steps than one must be wanted."""
     made = lower_calls(board(Loop(VEHICLE, LAW, Plant())))
-    assert made.operations() < 3000
+    assert made.operations() < 14 * 900 / 4  # a step of the prediction takes some 900
     find = next(program for program in made.programs if program.name == "find_delay")
     told = (
         f"{len(made.calls)} calls of {len(made.programs)} programs and {made.operations():,} operations per control "

@@ -145,7 +145,7 @@ COMMANDS = (
 # Where the work of the last four begins: it is left out.
 WORK = (
     "flypend.studies.tune.program_digest", "flypend.studies.check.fly_tasks", "flypend.export.write.interface",
-    "flypend.planning.planner.prepared",
+    "flypend.planning.planner.prepare",
 )  # fmt: skip
 
 

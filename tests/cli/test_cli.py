@@ -59,7 +59,7 @@ def test_help_of_the_script_tells_what_there_is(tmp_path):
     done = subprocess.run([script, "--help"], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=True)
     assert done.stderr == ""
     commands = ("paper", "run", "compare", "ladder", "replay", "movie", "figures")
-    for words in ("Spherical pendulum on a quadrotor", "--version", *commands):
+    for words in ("spherical pendulum on a quadrotor", "--version", *commands):
         assert words in done.stdout
     assert "…" not in done.stdout  # nothing cut off at 80 columns
     assert content(tmp_path) == {}

@@ -50,7 +50,7 @@ NEEDED = {
 # Where work begins.
 WORK = (
     "flypend.flight.simulate.fly", "flypend.flight.ensemble.fly_many", "flypend.studies.compare.fly_each",
-    "flypend.studies.ladder.flown", "flypend.planning.planner.prepared",
+    "flypend.studies.ladder.fly_each", "flypend.planning.planner.prepare",
     "flypend.studies.check.fly_tasks", "flypend.studies.sweep.run.fly_range", "flypend.studies.tune.program_digest",
     "flypend.studies.trial.fly_many", "flypend.report.paper.fly_all", "flypend.report.theorem.fly_repaired",
     "flypend.pictures.animate.stage", "flypend.report.flight.figure_tasks",

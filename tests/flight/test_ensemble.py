@@ -66,6 +66,9 @@ def is_the_single_run(result, i, law, start, duration, plant):
         accuracy = {"excursion": 1e-6, "effort": 1e-6, "peak_force": 5e-3}
     for name in FIELDS:
         got, wanted = np.asarray(getattr(result, name))[i].item(), getattr(single, name)
+        if plant == "ideal" and name in ("lowest", "box_x", "box_y", "box_z") and not isinstance(law, Controller):
+            assert math.isnan(got), name  # the kernel of the ideal plant does not follow them
+            continue
         # A kernel judges in fused operations, `metrics` in NumPy's: the same numbers up to roundoff.
         assert same(got, wanted) or got == pytest.approx(wanted, rel=accuracy.get(name, 1e-9)), name
 

@@ -79,11 +79,11 @@ SLOW = """
 import signal, sys
 from flypend.compile.llvm import jit
 signal.signal(signal.SIGINT, signal.default_int_handler)
-compiled = jit.compiled
+compile_module = jit.compile_module
 def slowly(*given):
     print("ready", flush=True)
-    return [compiled(*given) for _ in range(3)][-1]
-jit.compiled = slowly
+    return [compile_module(*given) for _ in range(3)][-1]
+jit.compile_module = slowly
 """
 AS_COMMAND = (
     SLOW

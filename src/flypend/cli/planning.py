@@ -59,7 +59,7 @@ class Kept:
         from flypend.model import State
 
         up = errors.one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
-        return State(x=target, y=(0.0, 0.0, 1.0 if up else -1.0))
+        return State(x=errors.array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
 
     def about(self, target: tuple[float, float, float]) -> Constraints:
         """Return the constraints of a flight to the `target`, m."""

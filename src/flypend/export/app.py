@@ -108,6 +108,8 @@ def export_app(
     errors.number("rate", rate, above=0, at_most=1000, unit="Hz")
     if 1000 % rate:
         raise InputError("rate", "a divisor of 1,000 Hz, the rate of the firmware's loop", f"{rate:g} Hz")
+    if height is not None:
+        errors.number("height", height, at_least=0.5, at_most=100, unit="m")
     arm = float(np.abs(np.array(vehicle.rotor_positions)[:, :2]).mean())
     name = airframe or min(AIRFRAMES, key=lambda known: abs(AIRFRAMES[known].arm - arm))
     frame = AIRFRAMES[errors.one_of("airframe", name, tuple(AIRFRAMES))]
@@ -116,10 +118,7 @@ def export_app(
     made = interface(law, flown, rate, None)
     texts = core(made, "float")
     check_fits(made, texts)
-    if height is None:
-        room = swing_up_room(law, flown, rate)
-    else:
-        room = Room(errors.number("height", height, at_least=0.5, at_most=100, unit="m"), height)
+    room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
     values = values_of(made, "float") | {
         "airframe": name,
         "arm": literal(arm, "float"),

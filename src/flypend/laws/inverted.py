@@ -113,8 +113,8 @@ class Mounting(NamedTuple):
         Largest angle between a rod being caught and the force on the vehicle, rad; None for no limit.
     side : float
         1 if the side of the rotor plane on which the rod is decides whether it is too low, else 0.
-    lag_left : float
-        Lag left after the rotors' lead, s.
+    rotor_lag, lag_left : float
+        Lag of the rotors, and what is left of it after their lead, s.
     haste : float
         Relative rise of the attitude bandwidth while the rod is thrown.
     shift : float
@@ -124,6 +124,7 @@ class Mounting(NamedTuple):
     passage: Passage | None
     cone: float | None
     side: float
+    rotor_lag: float
     lag_left: float
     haste: float
     shift: float
@@ -137,6 +138,7 @@ def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]:
         passage=passage_of(vehicle) if hub else None,
         cone=cones[vehicle.mount] if vehicle.mount in cones else CUP_SHARE * vehicle.body.cup_angle,
         side=float(hub),
+        rotor_lag=vehicle.rotor_lag,
         lag_left=SPIN_LAG * vehicle.rotor_lag if gains["delay_reach"] else vehicle.rotor_lag / gains["lead"],
         haste=numbers["haste"],
         shift=numbers["shift"],
@@ -181,7 +183,7 @@ def inverted_control(
     # Held constant while ż_d is derived, since the rate of ω, on which it depends, is not known yet.
     clear = ca.SX.sym("clear")
     authority = angular_authority(vehicle)
-    spin = spin_of(state, vehicle, authority, TURN * ca.sqrt(authority))
+    spin = spin_of(state, vehicle, authority, TURN * ca.sqrt(authority), k.mounting.rotor_lag)
     calm, brake = spin.calm, (1 - spin.calm) * braking(state, vehicle)
     pose = Pose(low, height, steering.aside, clear)
     present = force(nearer, path_nearer, pose._replace(low=low_rod(nearer, state.z, path_nearer.up, k)))

@@ -46,11 +46,11 @@ class Spin(NamedTuple):
     rate: Scalar
 
 
-def spin_of(state: State, vehicle: Vehicle, authority: Scalar, turn_rate: Scalar) -> Spin:
+def spin_of(state: State, vehicle: Vehicle, authority: Scalar, turn_rate: Scalar, rotor_lag: float) -> Spin:
     """Return what the spin of `state` leaves.
 
     `authority` is the angular acceleration that the rotors give at most, rad/s², and `turn_rate` the rate at which a
-    vehicle without spin turns its axis, rad/s.
+    vehicle without spin turns its axis, rad/s; `rotor_lag` is in s, a number where those of the vehicle are symbols.
     """
     spin, inertia = state.omega[2], vehicle.I
     transverse = ca.fmax(inertia[0, 0], inertia[1, 1])
@@ -58,7 +58,7 @@ def spin_of(state: State, vehicle: Vehicle, authority: Scalar, turn_rate: Scalar
     over = (spin / fast) ** 2 - 1
     calm = 1 - smooth_step(over / (SPUN**2 - 1))
     thrust = 1 - (1 - THRUST_SHARE) * smooth_step(over / WIDTH)
-    acceleration = authority / ca.sqrt(1 + (vehicle.rotor_lag * spin) ** 2)
+    acceleration = authority / ca.sqrt(1 + (rotor_lag * spin) ** 2)
     # A body that tumbles is damped first: a lead that turns as fast as it does, and lags, would drive it.
     tumbling = state.omega[0] ** 2 + state.omega[1] ** 2
     led = LEADING * acceleration * transverse / (inertia[2, 2] * ca.sqrt(spin**2 + fast**2))

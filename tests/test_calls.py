@@ -93,7 +93,7 @@ def test_a_misspelt_argument_names_the_nearest(target):
     for parameter in known(target):
         if parameter.kind is parameter.POSITIONAL_ONLY:
             continue
-        name = f"{parameter.name}z"
+        name = f"{parameter.name}q"
         error = attempt(target, {**right(target), name: 1})
         assert isinstance(error, fp.InputError)
         assert f"did you mean {parameter.name!r}?" in str(error)
@@ -148,7 +148,7 @@ def test_what_users_mistake_is_told(call, message):
 
 def test_one_law_is_compared_as_a_list_of_one(monkeypatch):
     monkeypatch.setattr(
-        importlib.import_module("flypend.studies.compare"), "flown", lambda flights, *_: dict.fromkeys(flights)
+        importlib.import_module("flypend.studies.compare"), "fly_each", lambda flights, *_: dict.fromkeys(flights)
     )
     assert list(fp.compare(VEHICLE, LAW, STARTS).ensembles) == ["inverted"]
 

@@ -412,7 +412,7 @@ def test_only_what_a_law_reads_is_asked_for():
     made = {name: interface(law, VEHICLE) for name, law in LAWS.items()}
     assert {name: m.follows for name, m in made.items()} == {
         "inverted": True, "light": True, "corrected": False, "printed": False, "lqr": True, "repaired": False,
-        "almost_global": True,
+        "almost_global": True, "trained": False,
     }  # fmt: skip
     assert {"rod_damping", "coast_time"} <= {field.name for field in made["inverted"].gains.fields}
     assert not {"lead", "latency", "observer"} & {field.name for field in made["inverted"].gains.fields}

@@ -136,7 +136,7 @@ def test_kernels_are_compiled_ahead_of_the_flights_but_not_far_ahead(monkeypatch
     monkeypatch.setattr(module, "fly_many", lambda flight, **_: events.append(("fly", flight.duration)))
     (flight,) = module.flights_of(VEHICLE, [inverted()], random_starts(2, 1), 1.0).values()
     times = [float(k) for k in range(1, 11)]
-    module.flown({str(k): flight.replace(duration=k) for k in times}, 1, lambda *_: None)
+    module.fly_each({str(k): flight.replace(duration=k) for k in times}, 1, lambda *_: None)
     for kind in ("compile", "fly"):
         assert [duration for what, duration in events if what == kind] == times
     for k in times:
@@ -189,6 +189,7 @@ def test_a_row_tells_the_numbers_of_its_ensemble():
         "settling_p50": 6.0, "settling_p95": pytest.approx(np.percentile([0, 2, 4, 6, 7, 8, 9], 95)),
         "excursion_p50": 1.0, "excursion_p95": pytest.approx(np.percentile(excursion, 95)), "excursion_max": 7.0,
         "effort_p50": 5.5, "peak_force_max": 9.0, "causes": {"diverged": 1, "rod": 2},
+        "lowest_p5": 0.0, "box_x_p95": 0.0, "box_y_p95": 0.0, "box_z_p95": 0.0,
     }  # fmt: skip
     assert Comparison({"it": result}).rows() == [{"law": "it", **summary(result)}]
 

@@ -383,8 +383,8 @@ def test_two_sweeps_do_not_write_one_store(tmp_path):
 def test_a_lock_left_by_a_killed_sweep_is_no_lock(tmp_path):
     path = tmp_path / "a.zarr"
     code = (
-        "import os, signal, sys; from flypend.studies.sweep.claim import alone\n"
-        "with alone(sys.argv[1]): os.kill(os.getpid(), signal.SIGKILL)"
+        "import os, signal, sys; from flypend.studies.sweep.claim import lock_name\n"
+        "with lock_name(sys.argv[1]): os.kill(os.getpid(), signal.SIGKILL)"
     )
     done = subprocess.run([sys.executable, "-c", code, str(path)], check=False, timeout=60)
     assert done.returncode == -signal.SIGKILL

@@ -30,7 +30,8 @@ def test_from_40_rad_per_second_it_recovers(name, furthest):
 
 def spin_at(omega):
     packed = ca.DM(fp.State(y=(0, 0, 1), omega=omega).packed())
-    return [float(v) for v in spin_of(fp.State.symbolic(packed), VEHICLE, angular_authority(VEHICLE), 17.0)]
+    state, authority = fp.State.symbolic(packed), angular_authority(VEHICLE)
+    return [float(v) for v in spin_of(state, VEHICLE, authority, 17.0, VEHICLE.rotor_lag)]
 
 
 def test_without_spin_the_law_is_as_if_there_were_none():

@@ -89,7 +89,9 @@ class Result:
         """Run the command; return what it measures now. Raises RuntimeError if it fails."""
         with TemporaryDirectory() as folder:
             path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-            surroundings = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "200"}
+            # The sources beside these benchmarks, whichever package is installed.
+            sources = os.pathsep.join([str(ROOT), str(ROOT / "src")])
+            surroundings = {**os.environ, "PATH": path, "PYTHONPATH": sources, "NO_COLOR": "1", "COLUMNS": "200"}
             surroundings[REPORT] = str(Path(folder, "own", "report.json"))
             place = folder if self.command.startswith("flypend ") else ROOT  # other commands are typed in a clone
             done = subprocess.run(

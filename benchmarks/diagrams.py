@@ -412,7 +412,7 @@ def certified_set() -> Drawing:
         f"yaw rate {math.degrees(far['yaw_rate']):.1f} °/s",
     )  # fmt: skip
     for i, row in enumerate(rows):
-        draw.text(262, 88 + 22 * i, row, "small", "start")
+        draw.text(284, 88 + 22 * i, row, "small", "start")
     draw.path(((300, 340), (300 + 0.1 * scale, 340)), "curve")
     draw.path(((300, 340), (300 + 0.1 * scale, 340)), "edge")
     draw.text(300 + 0.05 * scale, 360, "10 cm", "small muted")

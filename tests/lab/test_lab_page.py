@@ -129,14 +129,11 @@ def able(page):
     until(page, "() => !document.querySelector('.go').disabled")
 
 
-def flies_here(page, control, *values):
-    """Move a slider until the page has flown a setting itself: on a busy machine the server may be first."""
-    for value in values:
-        control.fill(value)
-        shown(page)
-        if page.evaluate("flypend.timings().at(-1).here"):
-            return
-    raise AssertionError(values)
+def flies_here(page, control, value):
+    """Move a slider: the page flies it itself, and the server confirms it afterwards, however slow the machine is."""
+    control.fill(value)
+    shown(page)
+    assert page.evaluate("flypend.timings().at(-1).here")
 
 
 def test_the_page_flies_by_itself_what_the_server_then_confirms(visit):
@@ -181,7 +178,7 @@ def test_a_start_that_is_not_told_in_full_is_completed(visit):
     page = visit("#" + json.dumps(setting_for_map()))
     assert set(setting(page)["start"]) == {"x", "x_dot", "R", "omega", "y", "y_dot"}
     able(page)
-    flies_here(page, slider(page, "duration"), "5", "5.5", "6", "6.5")
+    flies_here(page, slider(page, "duration"), "5")
     expect_flight(page)
 
 
@@ -191,7 +188,7 @@ def test_the_ideal_plant_is_flown_by_the_page(visit):
     page.locator("select[data-path='plant.base']").select_option("ideal")
     shown(page)
     able(page)
-    flies_here(page, slider(page, "law.gains.rod_bandwidth"), "220", "221", "222", "223")
+    flies_here(page, slider(page, "law.gains.rod_bandwidth"), "220")
     expect_flight(page)
     page.evaluate("flypend.seek(1.2345)")
     page.locator("[data-on=bob]").click()

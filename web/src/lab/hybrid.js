@@ -8,7 +8,7 @@ import { isWhole, refused } from "../live/request.js";
 import { Link } from "./link.js";
 import { kind } from "./setting.js";
 
-const REST = 150; // ms without a change until the server is asked to confirm
+const REST = 150; // ms without a change, once the page has flown, until the server is asked to confirm
 
 export class Hybrid {
   /** `told` is called with every reply, `say` with words about the connection. */
@@ -23,9 +23,9 @@ export class Hybrid {
     const number = this.link.reserve();
     clearTimeout(this.resting);
     this.asked = structuredClone(content.setting); // which the page goes on to change
-    const confirm = () => this.link.ask("fly", content, number);
-    if (this.#preview(number, content.setting)) this.resting = setTimeout(confirm, REST);
-    else confirm();
+    this.confirm = () => this.link.ask("fly", content, number);
+    if (this.#preview(number, content.setting)) this.flying = number;
+    else this.confirm();
     return number;
   }
 
@@ -73,9 +73,12 @@ export class Hybrid {
 
   #made({ engine, key }) {
     return new Local({ engine, offer: { sliders: [], seed: 0 }, runs: [{}] }, (reply) => {
-      if (reply.kind === "flight") this.told({ ...reply, kind: "preview" });
-      else { // the server flies it
+      if (reply.kind === "flight") {
+        if (reply.number === this.flying) this.resting = setTimeout(this.confirm, REST);
+        this.told({ ...reply, kind: "preview" });
+      } else { // the server flies it
         this.engines.set(key, null);
+        this.confirm();
         this.told({ kind: "able" });
       }
     });

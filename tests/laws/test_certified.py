@@ -35,9 +35,9 @@ def found(name="hehn2011", lag=False):
 @pytest.mark.parametrize(
     ("name", "lag", "least"),
     [
-        ("hehn2011", False, 5e-2), ("crazyflie", False, 4.9e-2), ("nayak2018", False, 1.1e-2),
-        ("hehn2011", True, 4e-2),
-        # A minute or two each.
+        ("hehn2011", False, 5e-2), ("crazyflie", False, 4.9e-2), ("hehn2011", True, 4e-2),
+        # Up to two minutes each.
+        pytest.param("nayak2018", False, 1.1e-2, marks=pytest.mark.slow),
         pytest.param("crazyflie", True, 3e-2, marks=pytest.mark.slow),
         pytest.param("nayak2018", True, 1e-2, marks=pytest.mark.slow),
     ],
@@ -48,6 +48,7 @@ def test_the_set_is_as_large_as_promised_and_its_certificate_is_proved(name, lag
     assert certificate.check(certified.certificate) == ""
     assert differs(certified.certificate, certified.law) == ""
     assert certificate.check(certified.certificate | {"c": 1.1 * certified.c})  # c is the largest within 5 %
+    assert certificate.check(certified.certificate | {"w": 10.0})
 
 
 def test_in_the_chart_the_law_is_the_law_and_v_a_sum_of_blocks():
@@ -192,12 +193,10 @@ def test_wrong_certificates_are_rejected():
         {"limits": [good["limits"][0], hover + 0.05]},
         {"limits": [hover - 0.05, good["limits"][1]]},
         {"c": 1.0},
-        {"w": 10.0},
         {"c": -1.0},
         {"format": "another"},
     ):
         assert certificate.check(good | change), change
-        assert certificate.check(found(lag=True).certificate | change), change
     for name in ("axis_stiffness", "rod_damping", "height_reach", "yaw_damping"):
         wrong = copy.deepcopy(good)
         wrong["numbers"][name] *= 1.01

@@ -165,7 +165,7 @@ main.lab.tuned[data-tab="map"] { grid-template-areas: "head head head" "bar bar 
 .five button:is([aria-pressed="true"], [aria-expanded="true"]) { background: var(--ink); color: var(--paper); border-color: var(--ink); }
 .five button:disabled { color: var(--muted); cursor: default; }
 .handle .invite { position: absolute; left: calc(100% + 0.14286rem); top: 50%; transform: translateY(-50%); }
-@media (max-width: 600px) { .handle .invite { width: 9em; white-space: normal; border-radius: 1rem; line-height: 1.25; } }
+@media (max-width: 600px) { .handle .invite { top: calc(100% + 0.85714rem); transform: none; width: 7em; white-space: normal; border-radius: 1rem; line-height: 1.25; } } /* below the compass */
 .lab header { align-items: center; }
 .lab .legend { display: none; }
 .lab header .verdict { font-weight: 600; min-height: 1.45em; }

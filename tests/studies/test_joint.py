@@ -1,4 +1,4 @@
-"""Several wrong numbers at once: corners and draws of the bands, what fails first, and what to calibrate."""
+"""All errors of a laboratory at once: what is drawn, what fails first, and what to calibrate."""
 
 import json
 
@@ -6,63 +6,114 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.plants import SUITES, Plant
+from flypend.plants import ROTORS, SUITES
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.report.check import joint_lines
 from flypend.studies import joint as joints
-from flypend.studies.joint import BANDS, DRAWS, Joint, Wrong, joint, world_with
+from flypend.studies.joint import Count, Errors, Joint, joint
 from flypend.studies.ladder import DEFECTS, rung_named, sensor_rungs
 
 HEHN = fp.vehicle("hehn2011")
 
 
-def wrong(kind, share, successes, **factors):
-    return Wrong(kind, share, {"masses": 1.0, "rod length": 1.0, "thrust": 1.0} | factors, successes, 20)
+def errors_of(suite="mocap", vehicle=HEHN, **defects):
+    plant = ROTORS.replace(sensors=SUITES[suite].replace(**defects))
+    return Errors(vehicle, plant, np.random.default_rng(3))
 
 
-def test_what_fails_first_is_the_worst_corner_of_the_smallest_share_that_fails():
-    nominal, draws = wrong("nominal", 0.0, 20), [wrong("draw", 1.0, 0, thrust=0.9)]
-    whole = [wrong("corner", 1.0, k, masses=1.2) for k in (20, 3)]
-    half = [wrong("corner", 0.5, 17, masses=1.1), wrong("corner", 0.5, 20, masses=0.9)]
-    quarter = [wrong("corner", 0.25, 18), wrong("corner", 0.25, 20)]
-    found = Joint(BANDS, (nominal, *whole, *half, *quarter, *draws))
-    assert found.share == 0.25
-    assert found.worst is half[0]
-    lines = found.lines()
-    assert lines[-1] == "calibrate to masses ±5 %, rod length ±3.75 %, thrust ±3.75 %"
-    assert lines[1].endswith("23 of 40 (42.2 to 71.5 %)")  # Wilson: scipy.stats.binomtest(23, 40).proportion_ci
-    never = Joint(BANDS, (nominal, *whole, *half, *draws))
-    assert never.share == 0.0
-    assert "too much" in never.lines()[-1]
-    good = Joint(BANDS, (nominal, wrong("corner", 1.0, 19), wrong("corner", 1.0, 18, masses=0.8), *draws))
-    assert (good.share, good.worst.kind) == (1.0, "draw")
-    assert good.lines()[-1] == "every corner keeps 90 %"
+def test_all_errors_of_a_laboratory_are_in_one_world_and_each_can_be_off():
+    wrong = errors_of(gyro_bias=0.05, markers_off=(0.0, 0.01, 0.0))
+    everything = dict.fromkeys(wrong.names, 1.0)
+    world = wrong.world(everything)
+    sensors, lab = world.sensors, SUITES["laboratory"]
+    assert (sensors.gyro_bias, sensors.markers_off) == (0.05, (0.0, 0.01, 0.0))  # its own
+    for name in ("imu_turned", "markers_turned", "rod_markers_off", "frame_turned", "untold_latency"):
+        assert getattr(sensors, name) == getattr(lab, name)
+    assert (world.sag, world.centre_of_mass) == (0.08, (0.003, 0.0, 0.0))
+    assert all(0.8 <= world.mismatch[name] <= 1.2 and world.mismatch[name] != 1 for name in ("mass", "bob_mass"))
+    assert np.all(np.abs(np.array(world.strength) - 1) <= 0.15)
+    none = wrong.world({})
+    assert none.sensors == SUITES["mocap"]
+    assert (none.sag, none.centre_of_mass, set(none.strength)) == (0.0, (0.0, 0.0, 0.0), {1.0})
+    assert set(none.mismatch.values()) == {1.0}
+    without = wrong.world(everything | {"mass": 0.0, "gyro_bias": 0.0})
+    assert "mass" not in without.mismatch
+    assert without.sensors.gyro_bias == 0.0
+    assert without.mismatch["rod_length"] == world.mismatch["rod_length"]
+    assert without.sensors.imu_turned == sensors.imu_turned
 
 
-def test_a_wrong_world_is_wrong_on_top_of_what_its_plant_has():
-    plant = Plant(strength=(0.9, 1.0, 1.0, 1.0), mismatch={"mass": 1.1})
-    world = world_with(plant, {"masses": 1.2, "rod length": 0.85, "thrust": 0.9})
-    assert world.mismatch == pytest.approx({"mass": 1.32, "bob_mass": 1.2, "rod_length": 0.85})
-    assert world.strength == pytest.approx((0.81, 0.9, 0.9, 0.9))
+def test_errors_grow_in_proportion_and_end_where_a_plant_does():
+    wrong = errors_of(outliers=0.4)
+    one, four = (wrong.world(dict.fromkeys(wrong.names, scale)) for scale in (1.0, 4.0))
+    assert four.mismatch["mass"] == pytest.approx(one.mismatch["mass"] ** 4)
+    assert four.sensors.imu_turned == pytest.approx(4 * one.sensors.imu_turned)
+    assert (four.sensors.outliers, four.sag) == (0.99, 0.25)
 
 
-def test_it_flies_every_corner_and_draw(monkeypatch):
-    """With perfect states, in which the law stands all of it; one share, two of the draws."""
-    monkeypatch.setattr(joints, "DRAWS", 1)
-    monkeypatch.setattr(joints, "BANDS", {"masses": 0.2, "rod length": 0.0, "thrust": 0.0})
-    monkeypatch.setattr(joints, "SHARES", (1.0,))
-    monkeypatch.setattr(joints, "product", lambda signs, repeat: [(s,) * repeat for s in signs])
-    found = joint(HEHN, runs=6)
-    corners = [one for one in found.flown if one.kind == "corner"]
-    assert [one.factors["masses"] for one in corners] == [1.2, 0.8]
-    plant = Plant(mismatch={"mass": 1.2, "bob_mass": 1.2})
-    again = fp.simulate_ensemble(HEHN, fp.laws.inverted(), fp.random_starts(6, 1), 20.0, plant=plant)
-    assert corners[0].successes == again.success.sum()
-    drawn = found.flown[-1]
-    assert 0.8 <= drawn.factors["masses"] <= 1.2
-    assert json.loads(json.dumps(found.to_dict()))["flown"][0]["runs"] == 6
-    assert joint_lines({"inverted": found})[0] == "inverted, off together:"
-    assert DRAWS == 8
+def test_bands_of_a_vehicle_are_drawn_in_place_of_the_usual_ones():
+    mine = HEHN.replace(bands={"mass": (0.49, 0.51), "sag": (0.1, 0.12), "rotor_limits": ((0, 3), (0, 4))})
+    wrong = errors_of(vehicle=mine)
+    assert {"mass", "sag"} < set(wrong.names)
+    assert not {"rod_length", "thrust_scale", "rotor_limits"} & set(wrong.names)
+    world = wrong.world(dict.fromkeys(wrong.names, 1.0))
+    assert 0.98 <= world.mismatch["mass"] <= 1.02
+    assert 0.1 <= world.sag <= 0.12
+    assert "joints_off" in errors_of("onboard").names
+    assert "rod_markers_off" not in errors_of("onboard").names
+
+
+def flown(monkeypatch, succeed):
+    """A study whose flights succeed as the function `succeed` of the plant says: a share of them."""
+
+    def fly(flight, worlds, progress):
+        return [Count(round(succeed(world) * flight.runs), flight.runs) for world in worlds]
+
+    monkeypatch.setattr(joints, "_fly", fly)
+    monkeypatch.setattr(
+        joints, "_fly_tasks", lambda flight, starts, drawn, progress: ({"random": Count(9, 9)}, drawn[0])
+    )
+    return joint(HEHN, plant=ROTORS.replace(sensors=SUITES["mocap"]), runs=40)
+
+
+def test_what_fails_first_is_named_with_the_size_that_keeps_90_per_cent(monkeypatch):
+    """A world that falls from 0.02 rad of the rod's markers on, of which the laboratory has 0.0087."""
+    found = flown(monkeypatch, lambda world: float(world.sensors.rod_markers_off < 0.02))
+    assert list(found.scales) == [1.0, 2.0, 4.0]
+    assert (found.causes[0].name, found.calibrated, found.share) == ("rod_markers_off", ("rod_markers_off",), 0.5)
+    assert (found.causes[0].alone.rate, found.causes[0].without.rate) == (0.0, 1.0)
+    assert {one.name: one.alone.rate for one in found.causes}["mass"] == 1.0
+    assert "fails first, errors × 4: rod_markers_off 0.0349 rad" in found.lines()
+    assert found.lines()[-1].startswith("calibrate to × 0.5 of rod_markers_off 0.0349 rad: 40 of 40")
+    assert joint_lines({"inverted": found})[0] == "inverted, all at once:"
+    assert json.loads(json.dumps(found.to_dict()))["causes"][0]["without"]["wilson"][1] > 0.999
+
+
+def test_two_errors_of_which_each_is_enough_are_both_to_be_calibrated(monkeypatch):
+    found = flown(
+        monkeypatch, lambda world: float(world.sensors.rod_markers_off < 0.004 and world.sensors.gyro_bias < 0.004)
+    )
+    assert set(found.calibrated) == {"rod_markers_off", "gyro_bias"}
+    assert (found.scale, found.share) == (1.0, 0.25)
+
+
+def test_nothing_fails_first_where_nothing_fails(monkeypatch):
+    found = flown(monkeypatch, lambda world: 1.0)
+    assert found.causes == ()
+    assert found.lines()[-1] == "nothing fails first: errors × 4 keep 90 %"
+
+
+@pytest.mark.slow
+def test_a_defect_ten_times_too_large_is_what_fails_first(monkeypatch):
+    """Markers of the rod off by 10 times what the laboratory has."""
+    monkeypatch.setattr(joints, "DRAWS", 2)
+    ten = 10 * SUITES["laboratory"].rod_markers_off
+    found = joint(HEHN, plant=ROTORS.replace(sensors=SUITES["mocap"].replace(rod_markers_off=ten)), runs=48)
+    assert found.scale == 1.0
+    assert found.causes[0].name == "rod_markers_off"
+    assert "rod_markers_off" in found.calibrated
+    assert isinstance(found, Joint)
+    assert set(found.tasks) == {"hover", "lean", "hanging", "level", "random", "pokes"}
 
 
 # Rungs of the sensors -----------------------------------------------------------------------------------------------

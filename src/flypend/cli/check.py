@@ -18,7 +18,7 @@ class Flights:
 
     plant: str = option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
     sensors: str = option(
-        "--sensors", default="perfect", help="Sensor suite; also flies vehicles with wrong masses, rod and thrust."
+        "--sensors", default="perfect", help="Sensor suite; also flies all errors of a laboratory at once."
     )
     floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
     runs: int | None = option(
@@ -38,7 +38,9 @@ class Flights:
 @laws_option
 @out_option("check-out")
 @options_of(Flights, "own")
-@click.option("--margins/--no-margins", default=None, help="Search for margins; default unless the law is slow.")
+@click.option(
+    "--margins/--no-margins", default=None, help="Search for margins; default for perfect sensors and a quick law."
+)
 @click.option("--trial", is_flag=True, help="Also fly a minute with 15 knocks, and sweep every number by ±25 %.")
 @click.option("--figures/--no-figures", default=True, help="Draw the figure.")
 def check(
@@ -63,6 +65,9 @@ def check(
     machine = model.vehicle(vehicle)
     errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
     asked = plant_asked(own.plant, own.sensors, own.floor)
+    measured = own.sensors != "perfect"
+    if measured and margins is None:
+        margins = False  # what fails first, and at which size, is told of all errors together
     world, seed = plant_of(asked), own.seed
     laws = {name: law_named(name) for name in law or ("inverted", *(["learned"] if own.advise else []))}
     for each in laws.values():
@@ -76,7 +81,7 @@ def check(
             )
             if trial and checks[name].tasks:
                 trials[name] = try_(machine, each, plant=world, seed=seed, progress=tell)
-            if own.sensors != "perfect" and checks[name].tasks:
+            if measured and checks[name].tasks:
                 joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
         advice = advise(machine, checks, plant=world, seed=seed, progress=tell) if own.advise else None
     settings = {"vehicle": vehicle, "laws": list(laws), "plant": asked, "seed": seed}

@@ -81,8 +81,8 @@ def verdicts(checks: Mapping[str, Check]) -> list[str]:
 
 
 def joint_lines(joints: Mapping[str, Joint]) -> list[str]:
-    """Return lines per law: success when masses, rod length and thrust are off together, and what to calibrate."""
-    return [line for law, one in joints.items() for line in (f"{law}, off together:", *(f"  {l}" for l in one.lines()))]
+    """Return lines per law: success under all errors of a laboratory at once, what fails first, what to calibrate."""
+    return [line for law, one in joints.items() for line in (f"{law}, all at once:", *(f"  {l}" for l in one.lines()))]
 
 
 def write_check(

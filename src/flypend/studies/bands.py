@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -57,7 +57,11 @@ def check_bands(vehicle: Vehicle) -> None:
 
 def _draw(vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> Sampled:
     bands = dict(vehicle.bands or {})
-    found: dict[str, Any] = {name: rng.uniform(*map(np.array, band)) for name, band in bands.items()}
+    return world_of(vehicle, plant, {name: rng.uniform(*map(np.array, band)) for name, band in bands.items()})
+
+
+def world_of(vehicle: Vehicle, plant: Sampled, found: Mapping[str, Any]) -> Sampled:
+    """Return `plant` for `vehicle` if some of its numbers, named as its bands are, are `found` to be others."""
     written = {name: getattr(vehicle, name) for name in ("mass", "bob_mass", "rod_length", "drag_ratio", "rotor_lag")}
     factors = {name: found[name] / value for name, value in written.items() if name in found and value > 0}
     if "inertia" in found:

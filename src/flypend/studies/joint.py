@@ -1,53 +1,51 @@
-"""Success when several numbers of the vehicle are wrong together: corners of their bands, and draws from them."""
+"""Success under all errors of a laboratory at once: its vehicle's bands and its sensors' defects; which fails first."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from itertools import product
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flypend import errors, plants, signals
-from flypend.flight.ensemble import fly_many
+from flypend.errors import InputError
+from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import task_starts
 from flypend.laws import AnyLaw, inverted
-from flypend.model import Vehicle
-from flypend.plants import AnyPlant, Sampled
+from flypend.model import State, Vehicle
+from flypend.plants import PRESETS, SUITES, AnyPlant, Sampled
+from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
+from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
 from flypend.signals.waiting import result_of, threads
+from flypend.studies.bands import world_of
 from flypend.studies.margins import LEAST_RATE, SEARCHES
+from flypend.studies.trial import is_up, knock_on
 
-# How far numbers of a vehicle that was weighed and measured in haste may be off: both masses, rod length, thrust.
-BANDS = {"masses": 0.2, "rod length": 0.15, "thrust": 0.15}
-SHARES = (1.0, 0.5, 0.25)  # of the bands, flown until every corner keeps LEAST_RATE
-DRAWS = 8  # vehicles drawn from the bands; each is compiled
-RUNS, SLOW_RUNS = 50, 6
-DURATION = 20.0  # s
+# Half widths, relative, of the bands of a vehicle that has none: weighed and measured in haste.
+USUAL = {"mass": 0.2, "bob_mass": 0.2, "rod_length": 0.15, "thrust_scale": 0.15}
+NOT_FLOWN = ("rotor_limits", "rotor_drag", "latency")  # bands that `world_of` leaves out
+LIMITS = {"sag": MOST_SAG, "delay": LONGEST_DELAY}  # beyond which there is no plant
+JOINTS_OFF = float(np.radians(0.5))  # zeros of encoders, as the angles of the suite "laboratory"
+SCALES = (1.0, 2.0, 4.0)  # of all errors together, until success drops below LEAST_RATE
+SHARES = (0.5, 0.25, 0.125, 0.0)  # of an error that is calibrated
+DRAWS = 6  # vehicles drawn from the bands; each is compiled
+# Random starts of all draws together and of one variant, and both where flights are slow.
+RUNS, VARIANT_RUNS, SLOW_RUNS = 384, 48, 6
+DURATION = 12.0  # s; three times what 95 % of the random starts need
+POKES, POKE_PERIOD, SAMPLE = 48, 6.0, 0.05  # flights, and s: one poke in each half of a flight
+NOT_YET = 1e-12  # of a poke, so that all flights of a vehicle share a kernel
+
+Progress = Callable[[str, int, int], Any]
 
 
-@dataclass(frozen=True)
-class Wrong:
-    """Flights with numbers of the vehicle that are not those which the law believes.
+class Count(NamedTuple):
+    """How many of `runs` flights succeed."""
 
-    Parameters
-    ----------
-    kind : str
-        "nominal", "corner" or "draw".
-    share : float
-        Share of the bands that a corner is one of.
-    factors : dict
-        Ratio of true to believed value by name, of `BANDS`.
-    successes, runs : int
-        How many of how many flights succeed.
-    """
-
-    kind: str
-    share: float
-    factors: Mapping[str, float]
     successes: int
     runs: int
 
@@ -57,15 +55,29 @@ class Wrong:
         return self.successes / self.runs
 
     def told(self) -> str:
-        """Return factors, successes and their Wilson interval, 95 %, in a line."""
-        what = ", ".join(f"{name} × {factor:.3g}" for name, factor in self.factors.items())
-        return f"{self.kind} {what}: {format_count(self.successes, self.runs)}"
+        """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
+        low, high = wilson(*self)
+        return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
 
 
-def format_count(successes: int, runs: int) -> str:
-    """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
-    low, high = wilson(successes, runs)
-    return f"{successes} of {runs} ({100 * low:.1f} to {100 * high:.1f} %)"
+@dataclass(frozen=True)
+class Cause:
+    """One of the errors of a laboratory.
+
+    Parameters
+    ----------
+    name : str
+        A number of the vehicle's bands, or a field of the plant or its sensors.
+    size : str
+        How large it is where it was turned up alone and off.
+    alone, without : Count
+        Flights with this error alone, and with all the others.
+    """
+
+    name: str
+    size: str
+    alone: Count
+    without: Count
 
 
 @dataclass(frozen=True)
@@ -74,61 +86,172 @@ class Joint:
 
     Parameters
     ----------
-    bands : dict
-        Largest relative error by name.
-    flown : tuple of Wrong
-        In the order flown: nominal, corners of each share of the bands, draws.
+    tasks : dict of Count
+        Success of each task, "pokes" among them, under all errors at once.
+    draws : int
+        Vehicles that share the flights of a task.
+    scales : dict of Count
+        Scale of all errors → random starts of the draw in which most fail.
+    causes : tuple of Cause
+        The errors at the largest of these scales, the one that fails first at the beginning. Empty if 90 % succeed at
+        every scale.
+    calibrated : tuple of str
+        Errors that must be smaller for 90 % of those flights to succeed.
+    share, kept : float, Count
+        Of their sizes, the largest share at which that is so, and the flights at it; 0 and those with none of them if
+        no share is small enough.
     """
 
-    bands: Mapping[str, float]
-    flown: tuple[Wrong, ...]
+    tasks: Mapping[str, Count]
+    draws: int
+    scales: Mapping[float, Count]
+    causes: tuple[Cause, ...] = ()
+    calibrated: tuple[str, ...] = ()
+    share: float = 1.0
+    kept: Count | None = None
 
     @property
-    def share(self) -> float:
-        """The largest share of the bands flown at which success is at least 90 % in every corner; 0 for none."""
-        corners = [one for one in self.flown if one.kind == "corner"]
-        kept = {one.share for one in corners} - {one.share for one in corners if one.rate < LEAST_RATE}
-        return max(kept, default=0.0)
-
-    @property
-    def worst(self) -> Wrong:
-        """What fails first: of the smallest share with a failing corner the worst corner, else the worst of all."""
-        failing = [one for one in self.flown if one.kind == "corner" and one.rate < LEAST_RATE]
-        least = min((one.share for one in failing), default=0.0)
-        return min((one for one in failing if one.share == least) if failing else self.flown, key=lambda one: one.rate)
+    def scale(self) -> float:
+        """The largest scale flown."""
+        return max(self.scales)
 
     def lines(self) -> list[str]:
-        """Return the nominal vehicle, all corners and all draws, then what fails first and what to calibrate."""
-        out = [one.told() for one in self.flown if one.kind == "nominal"]
-        for share in dict.fromkeys(one.share for one in self.flown if one.kind == "corner"):
-            some = [one for one in self.flown if one.kind == "corner" and one.share == share]
-            out.append(f"{self._within(share)}, {len(some)} corners together: {_sum(some)}")
-        out.append(f"draws from {self._within(1.0)}: {_sum([one for one in self.flown if one.kind == 'draw'])}")
-        out.append(f"worst {self.worst.told()}")
-        if self.share == 1.0:
-            return [*out, "every corner keeps 90 %"]
-        known = f"calibrate to {self._within(self.share)}" if self.share else f"{self._within(SHARES[-1])} is too much"
-        return [*out, known]
-
-    def _within(self, share: float) -> str:
-        return ", ".join(f"{name} ±{100 * share * band:.3g} %" for name, band in self.bands.items())
+        """Return success of each task, that of each error alone and without it, what fails first, what to calibrate."""
+        out = [f"{name}, {self.draws} draws of all errors: {count.told()}" for name, count in self.tasks.items()]
+        out += [f"the worst draw, errors × {scale:g}: {count.told()}" for scale, count in self.scales.items()]
+        if not self.causes:
+            return [*out, f"nothing fails first: errors × {self.scale:g} keep 90 %"]
+        out += [
+            f"{one.name} {one.size}: alone {one.alone.told()}, without it {one.without.told()}" for one in self.causes
+        ]
+        first = self.causes[0]
+        out.append(f"fails first, errors × {self.scale:g}: {first.name} {first.size}")
+        assert self.kept is not None
+        sizes = ", ".join(f"{one.name} {one.size}" for one in self.causes if one.name in self.calibrated)
+        told = (
+            f"to × {self.share:g} of {sizes}: {self.kept.told()}"
+            if self.share
+            else f"{sizes}: {self.kept.told()} if right"
+        )
+        return [*out, f"calibrate {told}"]
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and dicts."""
-        rows = [asdict(one) | {"wilson": list(wilson(one.successes, one.runs))} for one in self.flown]
-        return {"bands": dict(self.bands), "share": self.share, "flown": rows, "worst": self.worst.told()}
+        return {
+            "draws": self.draws,
+            "tasks": {name: _row(count) for name, count in self.tasks.items()},
+            "scales": {f"{scale:g}": _row(count) for scale, count in self.scales.items()},
+            "causes": [asdict(one) | {"alone": _row(one.alone), "without": _row(one.without)} for one in self.causes],
+            "calibrated": list(self.calibrated),
+            "share": self.share,
+            "kept": None if self.kept is None else _row(self.kept),
+        }
 
 
-def _sum(some: list[Wrong]) -> str:
-    return format_count(sum(one.successes for one in some), sum(one.runs for one in some))
+def _row(count: Count) -> dict[str, Any]:
+    return {**count._asdict(), "wilson": list(wilson(*count))}
 
 
-def world_with(plant: Sampled, factors: Mapping[str, float]) -> Sampled:
-    """Return `plant` with the vehicle's numbers of `BANDS` multiplied by `factors`."""
-    ratios = {"mass": factors["masses"], "bob_mass": factors["masses"], "rod_length": factors["rod length"]}
-    mismatch = {**plant.mismatch, **{name: plant.mismatch.get(name, 1.0) * ratio for name, ratio in ratios.items()}}
-    strength = np.array(plant.strength) * factors["thrust"]
-    return plant.replace(mismatch=mismatch, strength=strength.tolist() if strength.ndim else float(strength))
+class Errors:
+    """The errors of a laboratory in one draw.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        What the law believes; a vehicle without bands gets those of `USUAL`.
+    plant : Sampled
+        The world without them. Of defects that it has these are the sizes; others are as in the plant "laboratory".
+    rng : Generator
+        Draws the vehicle, uniformly from its bands; defects have their full sizes, and sensors draw for each flight.
+    """
+
+    def __init__(self, vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> None:
+        bands = vehicle.bands or {name: _about(getattr(vehicle, name), share) for name, share in USUAL.items()}
+        drawn = {name: np.asarray(rng.uniform(*map(np.array, band))) for name, band in bands.items()}
+        self._vehicle, self._drawn = vehicle, {name: v for name, v in drawn.items() if name not in NOT_FLOWN}
+        self._defects = _defects(plant)
+        clean = plant.sensors and plant.sensors.replace(**dict.fromkeys(self._defects, 0.0))
+        self._plant = plant.replace(sensors=clean, centre_of_mass=(0.0, 0.0, 0.0), sag=0.0)
+        lab = PRESETS["laboratory"]
+        assert isinstance(lab, Sampled)
+        of_plant = {name: getattr(plant, name) for name in ("sag", "centre_of_mass")}
+        self._of_plant = {
+            name: value if np.any(value) else getattr(lab, name)
+            for name, value in of_plant.items()
+            if name not in self._drawn
+        }
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Every error: of the vehicle, of the plant, of its sensors."""
+        return (*self._drawn, *self._of_plant, *self._defects)
+
+    def size(self, name: str, scale: float) -> str:
+        """Return the size of an error at `scale`, in words."""
+        if name in self._drawn:
+            value, written = np.ravel(self._value(name, scale)), np.ravel(self._written(name))
+            if np.all(written != 0):
+                return f"× {float(np.mean(value / written)):.3g}"
+            return f"{np.round(value, 4).tolist()}"
+        value = scale * np.asarray({**self._of_plant, **self._defects}[name])
+        unit = CONSTANT[name][2] if name in CONSTANT else NUMBERS[name][1] if name in NUMBERS else ""
+        told = f"{float(value):.3g}" if value.ndim == 0 else f"{np.round(value, 6).tolist()}"
+        return f"{told} {'m' if name == 'centre_of_mass' else unit}".strip()
+
+    def world(self, scales: Mapping[str, float]) -> Sampled:
+        """Return the plant with the errors of `scales` by name, each so many times its size."""
+        found = {name: self._value(name, scales[name]) for name in self._drawn if scales.get(name)}
+        plant = world_of(self._vehicle, self._plant, found)
+        changes: dict[str, Any] = {}
+        for name, value in self._of_plant.items():
+            if scale := scales.get(name):
+                changes[name] = _limited(name, scale * np.asarray(value)).tolist()
+        if plant.sensors is not None:
+            wrong = {name: _grown(name, value, scales.get(name, 0.0)) for name, value in self._defects.items()}
+            changes["sensors"] = plant.sensors.replace(**wrong)
+        return plant.replace(**changes)
+
+    def _written(self, name: str) -> Any:
+        if name == "inertia":
+            return np.diag(self._vehicle.inertia)
+        plants_own = name in ("strength", "spin_up", "sag", "delay")
+        return np.asarray(getattr(self._plant if plants_own else self._vehicle, name))
+
+    def _value(self, name: str, scale: float) -> Any:
+        """Written plus `scale` times what was drawn beyond it; as a power where both are positive."""
+        written, drawn = self._written(name), self._drawn[name]
+        if np.all(written > 0) and np.all(drawn > 0) and name not in ("sag", "delay"):
+            return written * (drawn / written) ** scale
+        return _limited(name, written + scale * (drawn - written))
+
+
+def _about(value: float, share: float) -> tuple[float, float]:
+    return value * (1 - share), value * (1 + share)
+
+
+def _limited(name: str, value: Any) -> Any:
+    return np.clip(value, 0.0, LIMITS[name]) if name in LIMITS else value
+
+
+def _defects(plant: Sampled) -> dict[str, Any]:
+    """Return sizes of the defects of sensors: those that `plant` has, and of others those of a laboratory."""
+    if plant.sensors is None:
+        return {}
+    usual = SUITES["laboratory"]
+    found = {}
+    for name in (*CONSTANT, *NUMBERS):
+        own, other = getattr(plant.sensors, name), JOINTS_OFF if name == "joints_off" else getattr(usual, name)
+        default = getattr(plant.sensors.told, name)  # of what says only how large another defect is
+        possible = name not in NEEDS or NEEDS[name] in plant.sensors.streams
+        if not default and possible and np.any(own or other):
+            found[name] = own or other
+    return found
+
+
+def _grown(name: str, value: Any, scale: float) -> Any:
+    most = CONSTANT[name][1] if name in CONSTANT else NUMBERS[name][0]
+    grown = np.clip(scale * np.asarray(value), -most, most)
+    return tuple(grown.tolist()) if grown.ndim else float(grown)
 
 
 @signals.defer()
@@ -139,16 +262,22 @@ def joint(
     plant: str | AnyPlant = "rotors",
     runs: int | None = None,
     seed: int = 1,
-    progress: Callable[[str, int, int], Any] = lambda *_: None,
+    progress: Progress = lambda *_: None,
 ) -> Joint:
-    """Fly `vehicle` from random starts while masses, rod length and thrust are off together, each up to its band.
+    """Fly `vehicle` under all errors of a laboratory at once, then find out which fails first and what to calibrate.
+
+    Every task of `check`, and hover that is poked twice at √(g l), flies with vehicles drawn from the bands and all
+    defects of the sensors. All errors of the draw in which most random starts fail are doubled until fewer than 90 %
+    succeed; there each error is turned up alone, and off from all. What fails first is what success gains most
+    without, or of equal ones what it loses most by alone.
 
     Parameters
     ----------
     vehicle, law, plant
-        As in `check`.
+        As in `check`. Bands of the vehicle and defects of the plant's sensors are the sizes of the errors; where
+        there are none, those of `USUAL` and of the plant "laboratory".
     runs : int, optional
-        Flights of each wrong vehicle; default 50, and 6 where flights are slow.
+        Random starts of all draws together; default 384. A variant flies 48, or as many if that is fewer.
     seed : int
         Seed of starts and of the vehicles drawn.
     progress : callable
@@ -156,37 +285,112 @@ def joint(
     """
     world = plants.as_sampled(plant)
     bound = bound_to(vehicle, inverted() if law is None else law)
-    starts = task_starts(vehicle, RUNS if runs is None else errors.integer("runs", runs, 1), seed)["random"]
-    flight = Flight(vehicle=vehicle, law=bound, starts=starts.seen(bound.e3), duration=DURATION, plant=world)
-    if runs is None and not has_kernel(flight):
-        flight = flight.replace(starts=flight.starts[:SLOW_RUNS])
+    count = RUNS if runs is None else errors.integer("runs", runs, 1)
+    starts = task_starts(vehicle, count, seed)
+    flight = Flight(vehicle=vehicle, law=bound, starts=starts["random"].seen(bound.e3), duration=DURATION, plant=world)
+    compiled = has_kernel(flight)
+    if runs is None and not compiled:
+        starts = {name: some[:SLOW_RUNS] for name, some in starts.items()}
     rng = np.random.default_rng(seed)
-    drawn = [{name: float(1 + band * rng.uniform(-1, 1)) for name, band in BANDS.items()} for _ in range(DRAWS)]
-    flown = _fly(flight, [("nominal", 0.0, dict.fromkeys(BANDS, 1.0))], progress)
-    for share in SHARES:
-        signs = product((1, -1), repeat=len(BANDS))
-        corners = [{n: 1 + s * share * b for s, (n, b) in zip(sign, BANDS.items(), strict=True)} for sign in signs]
-        found = _fly(flight, [("corner", share, factors) for factors in corners], progress)
-        flown += found
-        if all(one.rate >= LEAST_RATE for one in found):
+    drawn = [Errors(vehicle, world, rng) for _ in range(DRAWS)]
+    tasks, worst = _fly_tasks(flight, starts, drawn, progress)
+    few = flight.replace(starts=starts["random"][:VARIANT_RUNS].seen(bound.e3))
+    scales: dict[float, Count] = {}
+    for scale in SCALES:
+        (scales[scale],) = _fly(few, [worst.world(dict.fromkeys(worst.names, scale))], partial(progress, "errors grow"))
+        if scales[scale].rate < LEAST_RATE:
+            return Joint(tasks, len(drawn), scales, *_explain(few, worst, scale, progress))
+    return Joint(tasks, len(drawn), scales)
+
+
+def _explain(
+    flight: Flight, wrong: Errors, scale: float, progress: Progress
+) -> tuple[tuple[Cause, ...], tuple[str, ...], float, Count]:
+    """Return causes, what to calibrate, to which share of its size, and the flights there."""
+    names, whole = wrong.names, dict.fromkeys(wrong.names, scale)
+    variants = [wrong.world({name: scale}) for name in names] + [wrong.world(whole | {name: 0.0}) for name in names]
+    found = _fly(flight, variants, partial(progress, "each error alone, and off"))
+    causes = [
+        Cause(name, wrong.size(name, scale), alone, without)
+        for name, alone, without in zip(names, found[: len(names)], found[len(names) :], strict=True)
+    ]
+    causes.sort(key=lambda one: (-one.without.rate, one.alone.rate))
+    off: list[str] = []
+    kept = causes[0].without
+    for one in causes:
+        off.append(one.name)
+        if len(off) > 1:
+            (kept,) = _fly(flight, [wrong.world(whole | dict.fromkeys(off, 0.0))], partial(progress, "several off"))
+        if kept.rate >= LEAST_RATE:
             break
-    flown += _fly(flight, [("draw", 1.0, factors) for factors in drawn], progress)
-    return Joint(dict(BANDS), tuple(flown))
+    for share in SHARES[:-1]:
+        (count,) = _fly(flight, [wrong.world(whole | dict.fromkeys(off, share * scale))], partial(progress, "shares"))
+        if count.rate >= LEAST_RATE:
+            return tuple(causes), tuple(off), share, count
+    return tuple(causes), tuple(off), 0.0, kept
 
 
-def _fly(
-    flight: Flight, worlds: list[tuple[str, float, dict[str, float]]], progress: Callable[[str, int, int], Any]
-) -> list[Wrong]:
-    """Fly every start of `flight` in each of `worlds`: kind, share, factors."""
-    kind, out = worlds[0][0], []
-    workers, plant = 1 if has_kernel(flight) else None, plants.as_sampled(flight.plant)
+def _fly_tasks(
+    flight: Flight, starts: Mapping[str, State], drawn: Sequence[Errors], progress: Progress
+) -> tuple[dict[str, Count], Errors]:
+    """Return success of each task, whose starts the draws share, and the draw in which most random starts fail."""
+    vehicle, law = flight.vehicle, flight.law
+    compiled = has_kernel(flight)
+    poked = min(POKES, 2 * len(starts["random"]))
+    all_starts = {**starts, "pokes": State(y=np.tile([0.0, 0.0, 1.0], (poked, 1)))}
+    speed = float(np.sqrt(vehicle.g * vehicle.l))
 
-    def fly(factors: Mapping[str, float]) -> int:
-        return int(fly_many(flight.through(world_with(plant, factors)), workers=workers).success.sum())
+    def fly(place: int) -> dict[str, Count]:
+        world, found = drawn[place].world(dict.fromkeys(drawn[place].names, 1.0)), {}
+        for name, some in all_starts.items():
+            size = speed if name == "pokes" else NOT_YET
+            mine = some[place :: len(drawn)]
+            if not len(mine):
+                continue
+            one = flight.through(knock_on(vehicle, world, size, POKE_PERIOD)).replace(
+                starts=mine.seen(law.e3), seed=(flight.seed or 0) + place,
+                times=np.arange(0.0, DURATION, SAMPLE) if name == "pokes" else None,
+            )  # fmt: skip
+            flown = _flown(one, 1 if compiled else None)
+            good = 0 if flown is None else int((_stands(flown) if name == "pokes" else flown.success).sum())
+            found[name] = Count(good, len(mine))
+        return found
 
-    with threads(SEARCHES if workers else 1) as pool:
-        jobs = [pool.submit(fly, factors) for *_, factors in worlds]
-        for (_, share, factors), job in zip(worlds, jobs, strict=True):
-            out.append(Wrong(kind, share, factors, result_of(job), flight.runs))
-            progress(f"{kind} of joint errors", len(out), len(worlds))
+    found: list[dict[str, Count]] = []
+    with threads(SEARCHES if compiled else 1) as pool:
+        for job in [pool.submit(fly, place) for place in range(len(drawn))]:
+            found.append(result_of(job))
+            progress("all errors at once", len(found), len(drawn))
+    tasks = {
+        name: Count(*map(sum, zip(*(one[name] for one in found if name in one), strict=True))) for name in all_starts
+    }
+    worst = min(range(len(drawn)), key=lambda place: found[place].get("random", Count(1, 1)).rate)
+    return tasks, drawn[worst]
+
+
+def _stands(poked: Ensemble) -> Any:
+    """Whether the rod is up for more than half of the last 4 s, as in the trial."""
+    return is_up(poked)[:, -round(4.0 / SAMPLE) :].mean(axis=1) > 0.5
+
+
+def _fly(flight: Flight, worlds: Sequence[Sampled], progress: Callable[[int, int], Any]) -> list[Count]:
+    """Fly every start of `flight` in each of `worlds`."""
+    compiled, out = has_kernel(flight), []
+
+    def fly(world: Sampled) -> Count:
+        flown = _flown(flight, 1 if compiled else None, world)
+        return Count(0 if flown is None else int(flown.success.sum()), flight.runs)
+
+    with threads(SEARCHES if compiled else 1) as pool:
+        for job in [pool.submit(fly, world) for world in worlds]:
+            out.append(result_of(job))
+            progress(len(out), len(worlds))
     return out
+
+
+def _flown(flight: Flight, workers: int | None, world: Sampled | None = None) -> Ensemble | None:
+    """Return the flights, or None if such a vehicle cannot fly."""
+    try:
+        return fly_many(flight if world is None else flight.through(world), workers=workers)
+    except InputError:
+        return None

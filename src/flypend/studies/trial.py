@@ -140,11 +140,11 @@ def trial(
         flight = flight.replace(duration=30.0)
     again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
     from_rest = starts.get("hanging", random)[again].seen(bound.e3)
-    knocked = _knock(flight.replace(starts=from_rest), speed, workers)
+    hit = flight.through(knock_on(vehicle, world, speed, DURATION / KNOCKS))
+    sampled = hit.replace(starts=from_rest, duration=DURATION, times=np.arange(0.0, DURATION, SAMPLE))
+    knocked = fly_many(sampled, workers=workers)
     progress("knocks", 1, 1)
-    up = 1.0 if bound.e3 == "up" else -1.0
-    assert knocked.samples is not None
-    high = up * np.nan_to_num(knocked.samples.y[..., 2], nan=-1.0) > UP  # down from the end of a flight on
+    high = is_up(knocked)
     return Trial(
         vehicle=vehicle, law=bound.name, knocked=knocked, uptime=high.mean(axis=1),
         standing=high[:, -round(DURATION / KNOCKS / SAMPLE) :].mean(axis=1) > 0.5, knock=speed,
@@ -171,14 +171,17 @@ def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampl
     return found
 
 
-def _knock(flight: Flight, speed: float, workers: int | None) -> Ensemble:
-    """Fly `flight` for a minute, with a knock of `speed` on top of the wind of its plant in each interval."""
-    plant, vehicle = flight.plant, flight.vehicle
-    assert isinstance(plant, Sampled)
+def knock_on(vehicle: Vehicle, plant: Sampled, speed: float, period: float) -> Sampled:
+    """Return `plant` with a knock of `speed`, m/s, of vehicle and bob in each `period`, s, on top of its wind."""
     knocks = {"knock_on_vehicle": speed * vehicle.mass, "knock_on_bob": speed * vehicle.bob_mass}
-    wind = Wind(**{**vars(plant.wind or Wind()), **knocks, "knock_period": DURATION / KNOCKS})
-    times = np.arange(0.0, DURATION, SAMPLE)
-    return fly_many(flight.replace(plant=plant.replace(wind=wind), duration=DURATION, times=times), workers=workers)
+    return plant.replace(wind=Wind(**{**vars(plant.wind or Wind()), **knocks, "knock_period": period}))
+
+
+def is_up(knocked: Ensemble) -> NDArray[np.bool_]:
+    """Return for each sample (n, t) whether the rod is up: from the end of a flight on it is down."""
+    assert knocked.samples is not None
+    up = 1.0 if knocked.e3 == "up" else -1.0
+    return np.asarray(up * np.nan_to_num(knocked.samples.y[..., 2], nan=-up) > UP)
 
 
 def _swept(

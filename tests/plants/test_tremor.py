@@ -10,7 +10,7 @@ from flypend.flight.request import Flight
 from flypend.laws import inverted
 from flypend.plants import SUITES, Plant
 from flypend.plants.loop import Loop
-from flypend.plants.tremor import MOST_TREMOR, calm, tremor
+from flypend.plants.tremor import MOST_TREMOR, calm, too_noisy, tremor
 
 VEHICLE = fp.vehicle("hehn2011")
 UPRIGHT = fp.State(y=(0.0, 0.0, 1.0))
@@ -43,6 +43,15 @@ def test_noise_of_the_readings_passes_through_in_proportion():
     louder = SLOWER.noisier(3.0).replace(**{name: 3 * value for name, value in named.items()})
     once, thrice = tremor(PLAIN, SLOWER, 0.002), tremor(PLAIN, louder, 0.002)
     np.testing.assert_allclose(thrice, 3 * np.array(once), rtol=1e-6)
+
+
+def test_a_short_rod_behind_slow_rotors_is_foretold_to_tremble():
+    short = VEHICLE.replace(rod_length=0.12, rotor_lag=0.06)
+    law, quiet = inverted().bind(short), MOCAP.replace(rod=replace(MOCAP.rod, noise=MOCAP.rod.noise / 2))
+    assert "half the noise of the rod readings" in too_noisy(law, Plant(sensors=MOCAP))
+    assert tremor(law, quiet, 0.002).axis < tremor(law, MOCAP, 0.002).axis / 1.3
+    assert not too_noisy(law, Plant())
+    assert not too_noisy(PLAIN, Plant(sensors=MOCAP))
 
 
 def test_gains_are_as_calm_as_the_sensors_need():

@@ -13,6 +13,7 @@ trembles by a seventh more.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -74,6 +75,30 @@ def _calm(law: BoundLaw, sensors: Sensors, period: float) -> BoundLaw:
         middle = (low + high) // 2
         low, high = (middle, high) if trembles(middle) else (low, middle)
     return law.calmed(high / SHARES)
+
+
+def too_noisy(law: BoundLaw, plant: AnyPlant) -> str:
+    """Return in a line that hover on the sensors of `plant` trembles too much even with calm gains, else nothing.
+
+    It names the stream of readings whose halved noise, of which the estimator is told, would help most.
+    """
+    if law.e3 != "up" or not isinstance(plant, Sampled) or plant.sensors is None or plant.sensors.rates != "estimated":
+        return ""
+    sensors, period, calmed = plant.sensors, 1 / plant.rate, calm(law, plant)
+    assert isinstance(calmed, BoundLaw)
+    now = tremor(calmed, sensors, period).axis
+    if not MOST_TREMOR < now < np.inf:
+        return ""
+    halved = {
+        name: tremor(calmed, sensors.replace(**{name: replace(stream, noise=stream.noise / 2)}), period).axis
+        for name, stream in sensors.streams.items()
+    }
+    worst = min(halved, key=halved.__getitem__)
+    return (
+        f"hover: on these sensors the thrust axis trembles by {1e3 * now:.1f} mrad, more than the "
+        f"{1e3 * MOST_TREMOR:.1f} with which flights stand; half the noise of the {worst} readings would leave "
+        f"{1e3 * halved[worst]:.1f}"
+    )
 
 
 def tremor(law: BoundLaw, sensors: Sensors, period: float) -> Tremor:

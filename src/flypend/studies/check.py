@@ -21,6 +21,7 @@ from flypend.laws.located import LawError
 from flypend.model import Vehicle
 from flypend.planning.result import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
+from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import check_bands, fly_within
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
@@ -239,9 +240,9 @@ def check(
         about["margins"] = search(flight, quantities(vehicle, world), progress)
     if (reasons or shortfalls) and world.limits:
         about["plans"] = possible(world.true_vehicle(vehicle), starts["random"], workers, progress)
-    if reasons:
-        return Check(**about, reasons=(*reasons, *shortfalls, *found.doubtful))
-    return Check(**about, warnings=(*shortfalls, *found.doubtful))
+    trembles = too_noisy(bound, world) if isinstance(bound, BoundLaw) else ""
+    told = (*shortfalls, *[trembles] * bool(trembles), *found.doubtful)
+    return Check(**about, reasons=(*reasons, *told)) if reasons else Check(**about, warnings=told)
 
 
 def grade(rate: float) -> str:

@@ -35,8 +35,8 @@ def model_urdf(vehicle: Any) -> str:
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
 
 
-def about(vehicle: Any) -> tuple[str, Element]:
-    """Return the name of the model, and a comment with what these formats have no word for."""
+def about(vehicle: Any) -> tuple[str, Any]:
+    """Return the name of the model, and an XML comment with what these formats have no word for."""
     low, high = vehicle.rotor_limits
     spins = " ".join(f"{spin:+g}" for spin in vehicle.rotor_spins)
     force, torque = f"pushes along its z with {low:.9g} to {high:.9g} N", f"{vehicle.drag_ratio:.9g} m times that"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,19 +15,14 @@ from flypend.files.whole import whole_file
 from flypend.geometry import quat_xyzw_from_rotation
 from flypend.model.mjcf import drawn_thickness
 
-if TYPE_CHECKING:
-    from flypend.flight.trajectory import Trajectory
-
 FRAMES, XYZ, XYZW = ("parent_frame_id", "child_frame_id"), ("x", "y", "z"), ("x", "y", "z", "w")
 BLUE, ORANGE, GREY = (0.0, 0.45, 0.7, 0.5), (0.84, 0.37, 0.0, 1.0), (0.45, 0.45, 0.45, 1.0)  # as in `model.mjcf`
 # By its name Foxglove knows what is in a message; the schemas themselves are for people.
 TRANSFORM, SCENE, SAMPLE = "foxglove.FrameTransform", "foxglove.SceneUpdate", "flypend.Sample"
 
 
-def write_mcap(
-    path: str | Path, run: Trajectory, variables: Mapping[str, Variable], attributes: Mapping[str, Any]
-) -> None:
-    """Write a `run` with e₃ up to `path`; see `Trajectory.to_mcap`."""
+def write_mcap(path: str | Path, run: Any, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
+    """Write a `run`, a Trajectory with e₃ up, to `path`; see `Trajectory.to_mcap`."""
     errors.require("mcap", extra="logs", for_="run.to_mcap")
     from mcap.writer import Writer
 
@@ -70,7 +65,7 @@ def _rod_turns(y: Any) -> Any:
     return turns / np.linalg.norm(turns, axis=1, keepdims=True)
 
 
-def _entities(run: Trajectory, time: dict[str, int]) -> list[dict[str, Any]]:
+def _entities(run: Any, time: dict[str, int]) -> list[dict[str, Any]]:
     """Return what is drawn in the frames of vehicle and rod: discs, the rod, and the bob."""
     vehicle, thin = run.vehicle, drawn_thickness(run.vehicle)
     discs = [_solid(place, (40 * thin, 40 * thin, 2 * thin), BLUE) for place in vehicle.rotors_from_pivot]

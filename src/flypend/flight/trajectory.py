@@ -219,6 +219,11 @@ class Trajectory:
         numbers are null). "/machine" draws rotors, rod and bob once (foxglove.SceneUpdate). The metadata "run" holds
         vehicle, law and outcome.
 
+        Parameters
+        ----------
+        path : str or Path
+            The file, which ends in .mcap.
+
         Raises
         ------
         InputError

@@ -9,14 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from flypend import errors
+from flypend import errors, palette
 from flypend.files.netcdf import Variable
 from flypend.files.whole import whole_file
 from flypend.geometry import quat_xyzw_from_rotation
 from flypend.model.mjcf import drawn_thickness
 
 FRAMES, XYZ, XYZW = ("parent_frame_id", "child_frame_id"), ("x", "y", "z"), ("x", "y", "z", "w")
-BLUE, ORANGE, GREY = (0.0, 0.45, 0.7, 0.5), (0.84, 0.37, 0.0, 1.0), (0.45, 0.45, 0.45, 1.0)  # as in `model.mjcf`
 # By its name Foxglove knows what is in a message; the schemas themselves are for people.
 TRANSFORM, SCENE, SAMPLE = "foxglove.FrameTransform", "foxglove.SceneUpdate", "flypend.Sample"
 
@@ -68,19 +67,20 @@ def _rod_turns(y: Any) -> Any:
 def _entities(run: Any, time: dict[str, int]) -> list[dict[str, Any]]:
     """Return what is drawn in the frames of vehicle and rod: discs, the rod, and the bob."""
     vehicle, thin = run.vehicle, drawn_thickness(run.vehicle)
-    discs = [_solid(place, (40 * thin, 40 * thin, 2 * thin), BLUE) for place in vehicle.rotors_from_pivot]
-    rod = _solid((0, 0, vehicle.reach / 2), (2 * thin, 2 * thin, vehicle.reach), GREY)
-    bob = _solid((0, 0, vehicle.rod_length), (8 * thin,) * 3, ORANGE)
+    discs = [_solid(place, (40 * thin, 40 * thin, 2 * thin), palette.BLUE) for place in vehicle.rotors_from_pivot]
+    rod = _solid((0, 0, vehicle.reach / 2), (2 * thin, 2 * thin, vehicle.reach), palette.GREY)
+    bob = _solid((0, 0, vehicle.rod_length), (8 * thin,) * 3, palette.ORANGE)
     shapes = {"vehicle": {"cylinders": discs}, "rod": {"cylinders": [rod], "spheres": [bob]}}
     common = {"timestamp": time, "frame_locked": True, "lifetime": {"sec": 0, "nsec": 0}}
     return [common | {"frame_id": frame, "id": frame} | drawn for frame, drawn in shapes.items()]
 
 
-def _solid(place: Any, size: Any, colour: tuple[float, ...]) -> dict[str, Any]:
-    """Return a cylinder along z, or a sphere, of this `size` (3,), m, at a `place` (3,), m."""
+def _solid(place: Any, size: Any, colour: str) -> dict[str, Any]:
+    """Return a cylinder along z, or a sphere, of a `size` and at a `place` (3,), m; `colour` is as in `palette`."""
     pose = {"position": _named(XYZ, place), "orientation": _named(XYZW, (0, 0, 0, 1))}
-    return {"pose": pose, "size": _named(XYZ, size), "bottom_scale": 1.0, "top_scale": 1.0,
-            "color": _named(("r", "g", "b", "a"), colour)}  # fmt: skip
+    shares = [part / 255 for part in (*bytes.fromhex(colour[1:]), 255)]
+    shape = {"pose": pose, "size": _named(XYZ, size), "color": _named(("r", "g", "b", "a"), shares)}
+    return shape | {"bottom_scale": 1.0, "top_scale": 1.0}
 
 
 def _time(stamp: int) -> dict[str, int]:

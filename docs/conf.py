@@ -30,7 +30,7 @@ extensions = [
     "sphinxcontrib.programoutput",
 ]
 
-exclude_patterns = ["_build", "jupyter_execute"]
+exclude_patterns = ["_build", "jupyter_execute", "notebooks"]  # which are for Colab
 templates_path = ["site/templates"]
 html_static_path = ["site/static"]
 html_css_files = ["flypend.css"]

@@ -218,7 +218,8 @@ def test_a_ninth_single_module_is_found():
 
 
 @pytest.mark.parametrize(
-    ("place", "more"), [("tests", set()), ("docs", {"img", "_build", "how-to", "reference", "site", "tutorials"})]
+    ("place", "more"),
+    [("tests", set()), ("docs", {"img", "_build", "how-to", "notebooks", "reference", "site", "tutorials"})],
 )
 def test_the_folders_are_called_as_the_rooms(place, more):
     rooms = _folders(SOURCE) - DATA

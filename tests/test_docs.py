@@ -1,6 +1,7 @@
 """The documentation: the site builds without a warning or a dead link, and what its pages tell one to run runs."""
 
 import importlib.util
+import json
 import re
 import subprocess
 import sys
@@ -272,6 +273,23 @@ def test_pictures_of_objects_and_vehicles_are_there():
     assert {path.name for path in (ROOT / "docs" / "img" / "api").iterdir()} == pictures
     machine = (ROOT / "docs" / "model" / "machine.md").read_text(encoding="utf-8")
     assert set(re.findall(r"\(\.\./img/vehicle-(\S+)\.png\)", machine)) == set(vehicle_names())
+
+
+def test_the_notebook_for_colab_runs(tmp_path, monkeypatch, capsys):
+    """Every cell but what installs, in an empty folder; the last values are those that a notebook would show."""
+    notebook = json.loads((ROOT / "docs" / "notebooks" / "swing-up.ipynb").read_text(encoding="utf-8"))
+    cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert re.search(r"^ +%pip install --quiet \{source\}$", cells[0], flags=re.MULTILINE)
+    assert not any(cell["outputs"] for cell in notebook["cells"] if cell["cell_type"] == "code")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    names = {}
+    for cell in cells[1:]:
+        exec(compile(cell, "swing-up.ipynb", "exec"), names)
+    assert "completed" in capsys.readouterr().out
+    assert names["run"].y[-1, 2] > 0.99
+    assert names["runs"].success.mean() > 0.9
+    assert {path.name for path in tmp_path.iterdir()} == {"swing-up.nc", "swing-up.html"}
 
 
 def test_diagrams_are_those_that_the_command_draws():

@@ -140,6 +140,7 @@ print(vehicle.weight, vehicle.l)  # N, m
 print(fp.Vehicle(**vehicle.to_dict()) == vehicle)
 print(vehicle.to_mjcf().splitlines()[0])  # for MuJoCo
 print(vehicle.to_urdf().count("<link"))  # for ROS, Gazebo, Drake, Isaac
+print(vehicle.to_sdf().count("<frame"))  # for Gazebo, Drake
 parts = {
     "mass": "620 g",
     "arm": "17 cm",

@@ -36,6 +36,16 @@ def left(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
 
 
+def test_replay_as_mcap(call, runs, tmp_path):
+    pytest.importorskip("mcap")
+    told = call("replay", runs / "4.nc", "--out", "run.mcap")
+    assert told == (0, "Open run.mcap in Foxglove or PlotJuggler.\n", "")
+    assert left(tmp_path) == ["run.mcap"]
+    status, _, told = call("replay", runs / "4.nc", runs / "5.nc", "--out", "both.mcap")
+    assert status == 2
+    assert "RUNS: expected one run, for a file .mcap, got 2" in told
+
+
 def test_replay_of_one_run(call, runs, tmp_path):
     assert call("replay", runs / "4.nc") == (0, "Open replay.html in a browser.\n", "")
     assert left(tmp_path) == ["replay.html"]

@@ -1,5 +1,7 @@
 """Worlds stepped by the kernel: the physics of `simulate`, seeds, ends, rewards, and what differs between them."""
 
+import copy
+import pickle
 import re
 
 import gymnasium
@@ -272,6 +274,57 @@ def test_history_follows_the_present():
     assert np.array_equal(rows, np.concatenate(seen[:-4:-1], axis=1))
 
 
+@pytest.mark.parametrize("task", [*BUILT_IN, "shaped"])
+def test_a_late_observation_is_the_one_that_was(task):
+    """Of every task, with a history, through ends: of many worlds, and of one, which equals the first of them."""
+    given = {"task": "swing_up", "shaped": True} if task == "shaped" else {"task": task}
+    arguments = given | {"duration": 0.05, "randomise": {"lag": (0.9, 1.1)}}
+    late, history = 2, 1
+    memory = {"history": history, "observation_delay": late}
+    worlds, plain = (VectorWorlds(num_envs=3, **arguments, **more) for more in (memory, {}))
+    single = World(**arguments, **memory)
+    row, now = worlds.reset(seed=4)[0], plain.reset(seed=4)[0]
+    alone, k, ends = single.reset(seed=4)[0], plain.single_observation_space.shape[0], 0
+    assert single.observation_space.shape == worlds.single_observation_space.shape == ((1 + history) * k,)
+    was = [now] * (1 + late + history)
+    for action in some_actions(12, 3):
+        assert np.array_equal(row, np.concatenate([was[-1 - late], was[-2 - late]], axis=1))
+        assert np.array_equal(alone, row[0])
+        row, rewards, *_, infos = worlds.step(action)
+        now, undelayed, *_, told = plain.step(action)
+        assert np.array_equal(rewards, undelayed)
+        over = told.get("_final_obs", np.zeros(3, bool))
+        alone = single.step(action[0])[0]
+        if over.all():
+            ends += 1
+            last = np.concatenate([was[-late], was[-1 - late]], axis=1)
+            assert np.array_equal(infos["final_obs"], last)
+            assert np.array_equal(alone, last[0])
+            break
+        assert not over.any()
+        was.append(now)
+    assert ends == 1
+    assert not np.array_equal(was[-late], was[-1])
+    was = [now] * (1 + late + history)  # a new beginning knows nothing of the end before it
+    assert np.array_equal(row, np.tile(now, 2))
+
+
+def test_a_late_observation_goes_on_after_a_copy():
+    """A copy, a pickle and a saved state remember what is still on its way; a state of another delay is refused."""
+    worlds = VectorWorlds("balance", 5, observation_delay=2)
+    worlds.reset(seed=1)
+    actions = some_actions(6, 5)
+    for action in actions[:3]:
+        worlds.step(action)
+    kept, others = worlds.save_state(), [copy.deepcopy(worlds), pickle.loads(pickle.dumps(worlds))]
+    rows = [worlds.step(action)[0] for action in actions[3:]]
+    worlds.restore_state(kept)
+    for one in (worlds, *others):
+        assert all(np.array_equal(one.step(action)[0], row) for action, row in zip(actions[3:], rows, strict=True))
+    with pytest.raises(fp.InputError, match=r"^state\.observation_delay: expected 1, got 2"):
+        VectorWorlds("balance", 5, observation_delay=1).restore_state(kept)
+
+
 def test_without_copies_arrays_stay_where_they_are():
     worlds = VectorWorlds("balance", 8, copy=False)
     seen, _ = worlds.reset(seed=0)
@@ -279,12 +332,13 @@ def test_without_copies_arrays_stay_where_they_are():
     assert np.shares_memory(seen, again)
 
 
-@pytest.mark.parametrize("history", [0, 2])
-def test_jax_shares_the_memory_of_the_worlds(history):
+@pytest.mark.parametrize(("history", "late"), [(0, 0), (2, 0), (1, 3)])
+def test_jax_shares_the_memory_of_the_worlds(history, late):
     """It copies what does not begin at a multiple of 64 bytes, which an array of NumPy does one time in four."""
     import jax  # here: it takes a second
 
-    several = [VectorWorlds("balance", count, copy=False, history=history) for count in (3, 8, 40, 1000)]
+    given = {"copy": False, "history": history, "observation_delay": late}
+    several = [VectorWorlds("balance", count, **given) for count in (3, 8, 40, 1000)]
     for worlds in several:
         arrays = worlds.reset(seed=0)[0], *worlds.step(np.zeros((worlds.num_envs, 4)))[:4]
         for array in arrays:
@@ -461,7 +515,8 @@ def test_what_has_been_flown_is_a_run(tmp_path):
         ({"randomise": {"mass": (0.0, 1.0)}}, "randomise.mass"), ({"num_envs": 0}, "num_envs"),
         ({"plant": PHYSICS.replace(noise=fp.Noise(x=1e-3))}, "plant"), ({"duration": -1}, "duration"),
         ({"task": "catch_in_cup", "mount": "hub"}, "mount"), ({"mount": "bogus"}, "mount"),
-        ({"history": -1}, "history"), ({"history": 1.5}, "history"), ({"workers": 0}, "workers"),
+        ({"history": -1}, "history"), ({"history": 1.5}, "history"),
+        ({"observation_delay": -1}, "observation_delay"), ({"workers": 0}, "workers"),
         ({"num_envs": True}, "num_envs"), ({"randomise": {"mas": (1, 1)}}, "randomise.mas"),
         ({"randomise": "mass"}, "randomise"), ({"randomise": "bands"}, "randomise"),
         ({"randomise": {"mass": 1.2}}, "randomise.mass"),

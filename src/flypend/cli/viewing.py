@@ -12,7 +12,7 @@ from flypend.cli.terminal import bold, console, counter, draw
 
 @click.command()
 @click.argument("runs", type=path, nargs=-1, required=True)
-@out_option("replay.html", "Output page (.html).")
+@out_option("replay.html", "Output page (.html), or a file for Foxglove (.mcap).")
 @click.option(
     "--beside", is_flag=True, help="One panel per run, instead of one panel with ghosts; the page can switch."
 )
@@ -21,11 +21,19 @@ from flypend.cli.terminal import bold, console, counter, draw
 def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, speed: float) -> None:
     """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare.
 
-    RUNS are one to four files saved by flypend (.nc); the camera follows the first.
+    RUNS are one to four files saved by flypend (.nc); the camera follows the first. With --out flight.mcap, one of them
+    is written for Foxglove, PlotJuggler and ROS 2's tools, which needs the extra logs.
     """
+    from flypend import errors
     from flypend.flight.trajectory import load
 
     first, *others = [load(path) for path in runs]
+    if out.suffix.lower() == ".mcap":
+        if others:
+            raise errors.InputError("RUNS", "one run, for a file .mcap", f"{len(runs)}")
+        first.to_mcap(out)
+        console.print(f"Open {bold(out)} in Foxglove or PlotJuggler.")
+        return
     first.to_html(out, ghost=others, title=title, layout="beside" if beside else "overlay", speed=speed)
     console.print(f"Open {bold(out)} in a browser.")
 

@@ -80,8 +80,8 @@ class Worlds:
 
     `observations` (count, k) and `rewards` (count,) are float32, `terminated` and `truncated` (count,) bool. A world
     that ends begins anew in the same step: its row of `observations` is that of its new beginning, and its row of
-    `last` (count, k) is what would have been observed at the end. With a `history` of n > 0, `seen` (count, (n + 1) k)
-    has room for earlier observations behind the present; else it is `observations`.
+    `last` (count, k) is what would have been observed at the end. `seen` (count, (n + 1) k), which `remember` fills, is
+    what a learner gets: one observation, `late` by as many actions, and a `history` of n earlier ones.
 
     All that changes is in `arrays`, a table of plain arrays that nothing else owns. A pickle holds them and what the
     worlds are made of; the rest is made again where it is loaded.
@@ -90,9 +90,11 @@ class Worlds:
     observations, last, rewards = _rows("observations"), _rows("last"), _rows("rewards")
     terminated, truncated = _rows("terminated"), _rows("truncated")
 
-    def __init__(self, env: Environment, count: int, workers: int | None = None, history: int = 0) -> None:
+    def __init__(
+        self, env: Environment, count: int, workers: int | None = None, history: int = 0, late: int = 0
+    ) -> None:
         made = problem(env)
-        self.env, self.count, self.workers, self.history = env, count, workers, history
+        self.env, self.count, self.workers, self.history, self.late = env, count, workers, history, late
         self._step, self._places = compile_worlds(made), made.places
         groups = -(-count // WIDTH)
         padded, seen = groups * WIDTH, len(made.observe.outputs[0])
@@ -105,13 +107,15 @@ class Worlds:
             "terminated": (padded, np.bool_),
             "truncated": (padded, np.bool_),
             "last": (padded, seen, np.float32),
-            "seen": (padded if history else 0, (1 + history) * seen, np.float32),
+            "recent": (padded if history or late else 0, (1 + history + late) * seen, np.float32),
+            "seen": (padded if late else 0, (1 + history) * seen, np.float32),
         }
         self.arrays = {name: _own(np.zeros(shape, kind)) for name, (*shape, kind) in shapes.items()}
         self._shares = shares_of(groups, workers)
         parts = {entry.name: repr(getattr(env, entry.name)) for entry in fields(env)}
         self.about = {"version": metadata.version("flypend")} | parts | {
             "task": env.task.name, "vehicle": env.vehicle.name, "worlds": str(count), "history": str(history),
+            "observation_delay": str(late),
             "programs": hashlib.sha256(repr((made, env.limit)).encode()).hexdigest(),
         }  # fmt: skip
 
@@ -122,7 +126,7 @@ class Worlds:
         return twin
 
     def __reduce__(self) -> tuple[Any, ...]:
-        made = self.env, self.count, self.workers, self.history
+        made = self.env, self.count, self.workers, self.history, self.late
         return _unpickle, (self.about, self.save(), *made)
 
     def save(self) -> bytes:
@@ -152,8 +156,30 @@ class Worlds:
 
     @property
     def seen(self) -> NDArray[np.float32]:
-        """What is observed, with the history (count, (history + 1) k)."""
-        return self.arrays["seen" if self.history else "observations"][: self.count]
+        """What a learner gets (count, (history + 1) k)."""
+        return self.arrays["seen" if self.late else "recent" if self.history else "observations"][: self.count]
+
+    def remember(self, anew: NDArray[np.bool_]) -> None:
+        """Put the present observations before the earlier ones; worlds that begin `anew` (count,) have no others."""
+        recent, k = self.arrays["recent"][: self.count], self.observations.shape[1]
+        if len(recent):
+            recent[:, k:] = recent[:, :-k].copy()
+            recent[:, :k] = self.observations
+            recent[anew] = np.tile(self.observations[anew], recent.shape[1] // k)
+        if self.late:
+            self.seen[:] = recent[:, self.late * k :]
+
+    def seen_last(self, over: NDArray[np.bool_]) -> NDArray[np.float32]:
+        """Return what a learner gets (count, (history + 1) k) at the end of the worlds `over`; 0 elsewhere.
+
+        To be called before `remember`.
+        """
+        shown, k = np.zeros_like(self.seen), self.observations.shape[1]
+        rows = self.last[over]
+        if len(recent := self.arrays["recent"][: self.count]):
+            rows = np.concatenate([rows, recent[over, :-k]], axis=1)
+        shown[over] = rows[:, self.late * k :]
+        return shown
 
     def begin(self, seeds: NDArray[np.int64]) -> None:
         """Begin all worlds, with a seed (count,) each; world i draws the same numbers whatever surrounds it."""

@@ -27,6 +27,7 @@ TASKS: Mapping[str, Callable[..., Task]] = {
 }  # fmt: skip
 DEFAULTS: Mapping[str, Any] = {"vehicle": "hehn2011", "rate": 100.0, "randomise": Randomisation()}
 PHYSICS = ROTORS.replace(rate=1000.0)
+MOST_KEPT = 1000  # observations: ten seconds at 100 Hz, and 100 kB a world
 
 
 class UnknownArgumentError(InputError, TypeError):
@@ -128,3 +129,11 @@ def spaces(env: Environment, seen: int) -> tuple[Box, Box]:
     """Spaces of the observations, `seen` numbers each, and of the actions of one world."""
     observed = Box(-BOUND, BOUND, (seen,), np.float32)
     return observed, Box(-1.0, 1.0, (env.actions,), np.float32)
+
+
+def memory_of(history: Any, observation_delay: Any) -> tuple[int, int]:
+    """Return both numbers, checked. Raises InputError unless they are integers from 0 to 1,000."""
+    return (
+        errors.integer("history", history, 0, MOST_KEPT),
+        errors.integer("observation_delay", observation_delay, 0, MOST_KEPT),
+    )

@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 
 from flypend.envs.kernel import Worlds, goal_at
-from flypend.envs.make import environment, spaces
+from flypend.envs.make import environment, memory_of, spaces
 from flypend.envs.rendering import MODES, check_render_mode, picture
 from flypend.envs.state import Stateful
 from flypend.flight.outcome import Outcome
@@ -17,6 +17,8 @@ from flypend.flight.trajectory import Trajectory
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.plant import check_seed
+
+EVERY = np.ones(1, dtype=bool)  # of one world
 
 
 class World(Stateful, gymnasium.Env[Any, Any]):
@@ -26,6 +28,13 @@ class World(Stateful, gymnasium.Env[Any, Any]):
     ----------
     task, arguments
         See `flypend.envs.environment`.
+    history : int
+        Number of earlier observations that follow the latest one in a row, latest first. Before the first there are
+        copies of it.
+    observation_delay : int
+        Number of actions by which observations are late, at most 1,000: the row of step k is what that of step k minus
+        so many would be without delay, its last action and what it shows of the goal included. Rewards and ends are
+        never late.
     render_mode : "rgb_array", optional
         Makes `render` draw.
 
@@ -39,12 +48,21 @@ class World(Stateful, gymnasium.Env[Any, Any]):
 
     metadata = {"render_modes": list(MODES), "render_fps": 100}  # noqa: RUF012
 
-    def __init__(self, task: Any = "balance", *, render_mode: str | None = None, **arguments: Any) -> None:
+    def __init__(
+        self,
+        task: Any = "balance",
+        *,
+        history: int = 0,
+        observation_delay: int = 0,
+        render_mode: str | None = None,
+        **arguments: Any,
+    ) -> None:
         check_render_mode(render_mode)
-        super().__init__(Worlds(environment(task, **arguments), 1))
+        memory = memory_of(history, observation_delay)
+        super().__init__(Worlds(environment(task, **arguments), 1, None, *memory))
         self.render_mode = render_mode
         self.metadata = type(self).metadata | {"render_fps": self.worlds.env.rate}
-        self.observation_space, self.action_space = spaces(self.worlds.env, self.worlds.observations.shape[1])
+        self.observation_space, self.action_space = spaces(self.worlds.env, self.worlds.seen.shape[1])
         self._flown: list[Any] = []
         self._goal = self.worlds.goals[0]
 
@@ -56,8 +74,9 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         super().reset(seed=seed)
         fresh = int(self.np_random.integers(2**62)) if seed is None else seed
         self.worlds.begin(np.array([fresh], dtype=np.int64))
+        self.worlds.remember(EVERY)
         self._flown, self._goal = [self.worlds.states[0]], self.worlds.goals[0]
-        return self.worlds.observations[0].copy(), {}
+        return self.worlds.seen[0].copy(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Advance by `action` (m,), each entry in [−1, 1]. Raises InputError for another shape."""
@@ -65,9 +84,12 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         worlds = self.worlds
         worlds.step(np.asarray(action)[None])
         terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
-        if not (terminated or truncated):
+        over = worlds.terminated | worlds.truncated
+        last = worlds.seen_last(over)
+        worlds.remember(over)
+        if not over[0]:
             self._flown.append(worlds.states[0])
-        seen = (worlds.last if terminated or truncated else worlds.observations)[0].copy()
+        seen = (last if over[0] else worlds.seen)[0].copy()
         return seen, float(worlds.rewards[0]), terminated, truncated, {}
 
     def render(self) -> Any:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.envs.kernel import Worlds, goal_at
-from flypend.envs.make import environment, spaces
+from flypend.envs.make import environment, memory_of, spaces
 from flypend.envs.rendering import MODES, check_render_mode, picture
 from flypend.envs.state import Stateful
 from flypend.errors import InputError
@@ -34,8 +34,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     copy : bool
         Whether observations, rewards and flags are copies, which nothing changes; otherwise they are the worlds' own
         memory, which each step, reset and `restore_state` overwrites in place. `infos` are copies in both cases.
-    history : int
-        Number of earlier observations that follow the present one in a row, latest first.
+    history, observation_delay : int
+        See `World`.
     workers : int, optional
         Threads; default one per core.
     render_mode : "rgb_array", optional
@@ -64,6 +64,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         *,
         copy: bool = True,
         history: int = 0,
+        observation_delay: int = 0,
         workers: int | None = None,
         render_mode: str | None = None,
         autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
@@ -75,11 +76,11 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         named = getattr(autoreset_mode, "value", autoreset_mode)
         self._autoreset = modes[errors.one_of("autoreset_mode", named, modes)]
         self.num_envs = errors.integer("num_envs", num_envs, 1)
-        self.history = errors.integer("history", history, 0)
+        self.history, late = memory_of(history, observation_delay)
         threads = None if workers is None else errors.integer("workers", workers, 1)
-        super().__init__(Worlds(environment(task, **arguments), self.num_envs, threads, self.history))
+        super().__init__(Worlds(environment(task, **arguments), self.num_envs, threads, self.history, late))
         self.metadata = type(self).metadata | {"autoreset_mode": self._autoreset, "render_fps": self.worlds.env.rate}
-        self.copy, self._length = copy, self.worlds.observations.shape[1]
+        self.copy = copy
         self.single_observation_space, self.single_action_space = spaces(self.worlds.env, self.worlds.seen.shape[1])
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -101,8 +102,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             fresh = int(seed) + np.arange(self.num_envs)
         with self.worlds.held(~which):
             self.worlds.begin(fresh)
-        if self.history:
-            self.worlds.seen[which] = np.tile(self.worlds.observations[which], 1 + self.history)
+            self.worlds.remember(which)
         return self._given(self.worlds.seen), {}
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
@@ -117,11 +117,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             anew, over = self._step_and_wait(actions)
         infos: dict[str, Any] = {}
         if self._autoreset is AutoresetMode.SAME_STEP and over.any():
-            infos = {"final_obs": self._last(over), "_final_obs": over}
-        if self.history:
-            worlds.seen[:, self._length :] = worlds.seen[:, : -self._length].copy()
-            worlds.seen[:, : self._length] = worlds.observations
-            worlds.seen[anew] = np.tile(worlds.observations[anew], 1 + self.history)
+            infos = {"final_obs": worlds.seen_last(over), "_final_obs": over}
+        worlds.remember(anew)
         results = (worlds.rewards, worlds.terminated, worlds.truncated)
         rewards, terminated, truncated = (self._given(result) for result in results)
         return self._given(worlds.seen), rewards, terminated, truncated, infos
@@ -179,13 +176,6 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             if seed is not None:
                 check_seed("seed", seed)
         return np.array([new if own is None else own for new, own in zip(fresh, seeds, strict=True)], dtype=np.int64)
-
-    def _last(self, over: NDArray[np.bool_]) -> NDArray[np.float32]:
-        last = np.zeros_like(self.worlds.seen)
-        last[over, : self._length] = self.worlds.last[over]
-        if self.history:
-            last[over, self._length :] = self.worlds.seen[over, : -self._length]
-        return last
 
     def _given(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self.copy else array

@@ -211,6 +211,29 @@ class Trajectory:
         """
         saved.write(path, *saved.content(self._variables(), self._attributes(), self.drift))
 
+    def to_mcap(self, path: str | Path) -> None:
+        """Write the run to an MCAP file (.mcap), atomically, for Foxglove, PlotJuggler and ROS 2's tools; e₃ is up.
+
+        Messages are JSON, one per sample at its time: on "/tf" the frames "vehicle" and "rod" in "world"
+        (foxglove.FrameTransform; z of the rod's frame is along the rod), on "/run" the arrays of `to_xarray` (undefined
+        numbers are null). "/machine" draws rotors, rod and bob once (foxglove.SceneUpdate). The metadata "run" holds
+        vehicle, law and outcome.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, which ends in .mcap.
+
+        Raises
+        ------
+        InputError
+            If the file is not writable, or mcap is not installed; the extra logs brings it.
+        """
+        from flypend.flight.mcap_file import write_mcap  # imported here: most runs are never written so
+
+        run = self if self.e3 == "up" else self.flipped()
+        write_mcap(path, run, run._variables(), run._attributes())
+
     def _variables(self) -> dict[str, Variable]:
         """Return the sampled arrays with their dimensions and units."""
         over = ("t",)

@@ -17,29 +17,48 @@ RING = 1e-6
 
 def model_urdf(vehicle: Any) -> str:
     """Return `vehicle` as URDF; see `Vehicle.to_urdf`."""
-    robot = Element("robot", name="".join(c if c.isalnum() else "_" for c in vehicle.name))
-    low, high = vehicle.rotor_limits
-    spins = " ".join(f"{spin:+g}" for spin in vehicle.rotor_spins)
-    force, torque = f"pushes along its z with {low:.9g} to {high:.9g} N", f"{vehicle.drag_ratio:.9g} m times that"
-    rest = f"time constant {vehicle.rotor_lag:.9g} s; mount: {vehicle.mount}"
-    robot.append(Comment(f" rotor k {force} and turns the vehicle by {torque}, of sign {spins}; {rest} "))
-    thin, length = drawn_thickness(vehicle), vehicle.rod_length
-    body = _link(robot, "vehicle", vehicle.mass, 0.0 - vehicle.pivot_offset, vehicle.inertia)
-    _drawn(body, "box", 0.0 - vehicle.pivot_offset, size=numbers([4 * thin] * 3))
+    name, comment = about(vehicle)
+    robot = Element("robot", name=name)
+    robot.append(comment)
+    add_vehicle(robot, vehicle)
+    thin = drawn_thickness(vehicle)
     for k, place in enumerate(vehicle.rotors_from_pivot):
         rotor = SubElement(robot, "link", name=f"rotor{k}")
         _drawn(rotor, "cylinder", (0, 0, 0), radius=repr(20 * thin), length=repr(2 * thin))
         _joint(robot, f"arm{k}", "fixed", ("vehicle", rotor.get("name")), place)
-    across, along = rod_moments(vehicle)
-    ring = RING * (vehicle.rod_inertia + vehicle.bob_mass * length**2)
+    ring = RING * (vehicle.rod_inertia + vehicle.bob_mass * vehicle.rod_length**2)
     _link(robot, "ring", RING * vehicle.bob_mass, (0, 0, 0), ring * np.eye(3))
-    bob = _link(robot, "bob", vehicle.bob_mass, (0, 0, length), np.diag([across, across, along]))
-    _drawn(bob, "cylinder", (0, 0, length / 2), radius=repr(thin), length=repr(length))
-    _drawn(bob, "sphere", (0, 0, length), radius=repr(4 * thin))
+    add_rod(robot, vehicle)
     _joint(robot, "pivot_x", "continuous", ("vehicle", "ring"), axis=(1, 0, 0))
     _joint(robot, "pivot_y", "continuous", ("ring", "bob"), axis=(0, 1, 0))
     indent(robot)
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
+
+
+def about(vehicle: Any) -> tuple[str, Any]:
+    """Return the name of the model, and an XML comment with what these formats have no word for."""
+    low, high = vehicle.rotor_limits
+    spins = " ".join(f"{spin:+g}" for spin in vehicle.rotor_spins)
+    force, torque = f"pushes along its z with {low:.9g} to {high:.9g} N", f"{vehicle.drag_ratio:.9g} m times that"
+    rest = f"time constant {vehicle.rotor_lag:.9g} s; mount: {vehicle.mount}"
+    comment = Comment(f" rotor k {force} and turns the vehicle by {torque}, of sign {spins}; {rest} ")
+    return "".join(c if c.isalnum() else "_" for c in vehicle.name), comment
+
+
+def add_vehicle(robot: Element, vehicle: Any) -> Element:
+    """Add the link "vehicle" to `robot`, with its origin in the pivot."""
+    link = _link(robot, "vehicle", vehicle.mass, 0.0 - vehicle.pivot_offset, vehicle.inertia)
+    _drawn(link, "box", 0.0 - vehicle.pivot_offset, size=numbers([4 * drawn_thickness(vehicle)] * 3))
+    return link
+
+
+def add_rod(robot: Element, vehicle: Any) -> Element:
+    """Add the link "bob" to `robot`: the rod with its bob, from the pivot along z."""
+    (across, along), length, thin = rod_moments(vehicle), vehicle.rod_length, drawn_thickness(vehicle)
+    link = _link(robot, "bob", vehicle.bob_mass, (0, 0, length), np.diag([across, across, along]))
+    _drawn(link, "cylinder", (0, 0, length / 2), radius=repr(thin), length=repr(length))
+    _drawn(link, "sphere", (0, 0, length), radius=repr(4 * thin))
+    return link
 
 
 def _link(robot: Element, name: str, mass: float, center: Any, inertia: Any) -> Element:

@@ -22,6 +22,7 @@ from flypend.model.estimate import Measured, guess
 from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
 from flypend.model.quantity import Quantity
+from flypend.model.sdf import model_sdf
 from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
 from flypend.model.urdf import model_urdf
@@ -320,6 +321,16 @@ class Vehicle:
         are to be looked at, and do not collide.
         """
         return model_urdf(self)
+
+    def to_sdf(self) -> str:
+        """Return the machine as SDF 1.8, for Gazebo and Drake: a model to be included in a world. z up, SI units.
+
+        The link "vehicle" has its origin in the pivot, about which the rod, the link "bob", turns by the ball joint
+        "pivot", with z along the rod. The frames "rotor0", "rotor1", … are those in which the rotors push along z.
+        Limits, torques, lag and mount are in a comment, as in `to_urdf`. Shapes are to be looked at, and do not
+        collide.
+        """
+        return model_sdf(self)
 
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:

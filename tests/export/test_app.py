@@ -395,9 +395,9 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
     used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
-    assert 150 < used < fits.MOST["bytes of stack"]
+    assert 150 < used < fits.BUDGETS["crazyflie"].most["bytes of stack"]
     made = interface(LAWS[name](), VEHICLE)
-    told = fits.compiled(*(core(made, "float")[f"flypend_law.{end}"] for end in "hc"))
+    told = fits.compiled(*(core(made, "float")[f"flypend_law.{end}"] for end in "hc"), "a Crazyflie")
     assert 0 <= told["bytes of stack"] - used < 40
     flash, memory = size(tmp_path / "app", APP)
     assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
@@ -409,7 +409,7 @@ def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp
     [("cycles", 40_000), ("bytes of stack", 300), ("bytes of flash", 50_000), ("bytes of RAM", 3_000)],
 )
 def test_a_law_that_does_not_fit_is_refused_and_told_by_how_much(what, most, tmp_path, monkeypatch):
-    monkeypatch.setitem(fits.MOST, what, most)
+    monkeypatch.setitem(fits.BUDGETS["crazyflie"].most, what, most)
     with pytest.raises(fp.InputError, match=rf"law: .*at most {most:,} {what} .*inverted: [\d,]+ {what}, \d+ % too"):
         fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), tmp_path / "app", height=HEIGHT)
     assert not (tmp_path / "app").exists()

@@ -62,14 +62,12 @@ def export_c(
 @out_option("app")
 @click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
 @click.option("--height", type=float, help="Height, m, below which it does not begin. Default: what a swing-up needs.")
-@click.option(
-    "--airframe", help="Airframe of the firmware, cf2 or cf21bl; default the one with the nearest arm length."
-)
-@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@click.option("--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length.")
+@click.option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
 def export_app(
-    target: str, vehicle: str, out: Path, law: str, height: float | None, airframe: str | None, rate: float
+    target: str, vehicle: str, out: Path, law: str, height: float | None, airframe: str | None, rate: float | None
 ) -> None:
-    """Write an app for the firmware of TARGET, crazyflie, that flies VEHICLE; see docs/export."""
+    """Write an app for the firmware of TARGET, crazyflie or px4, that flies VEHICLE; see docs/export."""
     from flypend import model
     from flypend.export import export_app as write
     from flypend.files.staging import check_writable

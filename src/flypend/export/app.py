@@ -15,7 +15,7 @@ from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
-from flypend.export.fits import check_fits
+from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import interface
 from flypend.export.room import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
@@ -23,7 +23,11 @@ from flypend.files.staging import staging
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 
-TARGETS = ("crazyflie",)
+FILES: Mapping[str, tuple[str, ...]] = {
+    "crazyflie": ("Makefile", "Kbuild", "app-config", "flypend_app.c", "README.md", "flypend_host.py"),
+    "px4": ("CMakeLists.txt", "Kconfig", "module.yaml", "flypend.hpp", "flypend.cpp", "README.md"),
+}
+RATES: Mapping[str, float] = {"crazyflie": 500.0, "px4": 400.0}  # Hz; PX4's is IMU_GYRO_RATEMAX as it comes
 PERIOD = 1e-3  # s, of the firmware's stabilizer
 
 
@@ -66,7 +70,7 @@ def export_app(
     out: str | Path,
     *,
     airframe: str | None = None,
-    rate: float = 500.0,
+    rate: float | None = None,
     height: float | None = None,
 ) -> Vehicle:
     """Write an app for the firmware of `target` that flies `law` on `vehicle`.
@@ -75,18 +79,19 @@ def export_app(
 
     Parameters
     ----------
-    target : "crazyflie"
-        Whose firmware.
+    target : "crazyflie" or "px4"
+        Whose firmware: an app for the first, a module with a flight mode for the other.
     law : Law
         As in `export_c`.
     vehicle : Vehicle
-        What it flies: four rotors in the order of the firmware's motors, no more than 5 % of an arm from their places.
+        What it flies. For a Crazyflie, four rotors in the order of the firmware's motors, no more than 5 % of an arm
+        from their places. PX4 knows its own by the parameters of its airframe, in any order.
     out : str or Path
         Folder that receives the files; it may exist.
     airframe : "cf2" or "cf21bl", optional
-        Airframe that the firmware is built for; default the one with the nearest arm length.
-    rate : float
-        Control rate, Hz: a divisor of 1,000.
+        Airframe that a Crazyflie's firmware is built for; default the one with the nearest arm length.
+    rate : float, optional
+        Control rate, Hz. For a Crazyflie a divisor of 1,000, default 500; for PX4 up to IMU_GYRO_RATEMAX, default 400.
     height : float, optional
         Height above the ground, m, below which the law does not begin. Default: what a swing-up needs in the model,
         with a margin.
@@ -94,69 +99,99 @@ def export_app(
     Returns
     -------
     Vehicle
-        `vehicle` within the airframe's rotor limits, as the app flies it.
+        `vehicle` as the app flies it: within the rotor limits of a Crazyflie's airframe.
 
     Raises
     ------
     InputError
-        As `export_c`, for another target, for a vehicle that is no such airframe, for a law that does not swing the rod
-        up unless a height is given, and for one that takes too many cycles, or too much memory (`fits`).
+        As `export_c`, for another target, for a vehicle that is no such airframe, for an airframe with PX4, for a law
+        that does not swing the rod up unless a height is given, and for one that takes too many cycles, or too much
+        memory (`fits`).
     """
-    errors.one_of("target", target, TARGETS)
+    errors.one_of("target", target, tuple(FILES))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
-    errors.number("rate", rate, above=0, at_most=1000, unit="Hz")
-    if 1000 % rate:
-        raise InputError("rate", "a divisor of 1,000 Hz, the rate of the firmware's loop", f"{rate:g} Hz")
+    rate = errors.number("rate", RATES[target] if rate is None else rate, above=0, at_most=1000, unit="Hz")
     if height is not None:
         errors.number("height", height, at_least=0.5, at_most=100, unit="m")
+    if target == "px4":
+        if airframe is not None:
+            raise InputError("airframe", "none for px4, whose parameters CA_ROTOR hold it", repr(airframe))
+        flown, own = vehicle, _px4(vehicle, rate)
+    else:
+        flown, own = _crazyflie(vehicle, rate, airframe)
+    made = interface(law, flown, rate, None)
+    texts = core(made, "float")
+    taken = check_fits(made, texts, BUDGETS[target])
+    room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
+    values = values_of(made, "float") | {
+        **{name: literal(getattr(flown, name), "float") for name in ("mass", "bob_mass", "rod_length")},
+        "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
+        "weight": f"{1e3 * (flown.M + flown.m):.3g}",
+        "rod": f"{flown.l:.3g}",
+        "height": literal(room.height, "float"),
+        "height_number": repr(room.height),
+        "metres": f"{room.height:g}",
+        "room": f"{room.aside:g}",
+        "taken": "\n".join(f"| {what} | {number:,} |" for what, number in taken.items()),
+    }
+    values |= own
+    texts |= {f"flypend_frames.{end}": fill(f"adapters/flypend_frames.{end}", values) for end in "hc"}
+    texts |= {file: fill(f"{target}/{file}", values) for file in FILES[target]}
+    with staging(out) as folder:
+        for file, text in texts.items():
+            (folder / file).write_text(text, encoding="utf-8", newline="\n")
+    return flown
+
+
+def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Vehicle, dict[str, str]]:
+    """The vehicle within its rotor limits, and what only the Crazyflie's templates take."""
+    if 1000 % rate:
+        raise InputError("rate", "a divisor of 1,000 Hz, the rate of the firmware's loop", f"{rate:g} Hz")
     arm = float(np.abs(np.array(vehicle.rotor_positions)[:, :2]).mean())
     name = airframe or min(AIRFRAMES, key=lambda known: abs(AIRFRAMES[known].arm - arm))
     frame = AIRFRAMES[errors.one_of("airframe", name, tuple(AIRFRAMES))]
     _check_motors(vehicle, name, frame)
     flown = limit_rotors(vehicle, frame)
-    made = interface(law, flown, rate, None)
-    texts = core(made, "float")
-    check_fits(made, texts)
-    room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
-    values = values_of(made, "float") | {
+    follow = lower(pose.tracking(PERIOD, flown.gravity))
+    return flown, _rod_values(PERIOD, "end->from_pivot", "params.rod_length", "rod") | {
         "airframe": name,
         "arm": literal(arm, "float"),
         "least_force": literal(flown.rotor_limits[0], "float"),
         "largest_force": literal(flown.rotor_limits[1], "float"),
-        **{name: literal(getattr(flown, name), "float") for name in ("mass", "bob_mass", "rod_length")},
         "caught_up": literal(1 - math.exp(-PERIOD / flown.rotor_lag) if flown.rotor_lag else 1.0, "float"),
         "idle": "" if frame.idle is None else f"CONFIG_MOTORS_DEFAULT_IDLE_THRUST={frame.idle}\n",
-        "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
-        "weight": f"{1e3 * (flown.M + flown.m):.3g}",
-        "rod": f"{flown.l:.3g}",
-        "height": literal(room.height, "float"),
-        "metres": f"{room.height:g}",
-        "room": f"{room.aside:g}",
-    }
-    track, follow = lower(rod.tracking(PERIOD)), lower(pose.tracking(PERIOD, flown.gravity))
-    values |= {
-        "track_rod": function(track, "float"),
-        "track_scratch": str(scratch(track).size),
-        "rod_numbers": str(rod.RECORD.length),
-        "call_track_rod": call(
-            track, ("rod", "end->from_pivot", "&age", "force", "&params.rod_length"), ["rod"], "scratch"
-        ),
         "track_pose": function(follow, "float"),
         "pose_scratch": str(scratch(follow).size),
         "pose_numbers": str(pose.RECORD.length),
         "pose_attitude": str(pose.RECORD.place("R").start),
         "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
-    texts |= {f"flypend_frames.{end}": fill(f"adapters/flypend_frames.{end}", values) for end in "hc"}
-    texts |= {
-        file: fill(f"crazyflie/{file}", values)
-        for file in ("Makefile", "Kbuild", "app-config", "flypend_app.c", "README.md", "flypend_host.py")
+
+
+def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:
+    """What only the templates of PX4's module take."""
+    places, spins = np.array(vehicle.rotor_positions)[:, :2], np.array(vehicle.rotor_spins)
+    rows = np.column_stack([places / np.linalg.norm(places, axis=1).mean(), np.sign(spins)])
+    names = {"mass_number": "mass", "bob_mass_number": "bob_mass", "rod_length_number": "rod_length"}
+    return _rod_values(1 / rate, "_bob", "_params.rod_length", "_rod") | {
+        **{key: repr(float(getattr(vehicle, name))) for key, name in names.items()},
+        "force_number": repr(float(vehicle.rotor_limits[1])),
+        "places": ", ".join("{" + ", ".join(literal(float(number), "float") for number in row) + "}" for row in rows),
+        "stack": str(PX4_STACK),
+        "loop_rate": str(math.ceil(rate)),
     }
-    with staging(out) as folder:
-        for file, text in texts.items():
-            (folder / file).write_text(text, encoding="utf-8", newline="\n")
-    return flown
+
+
+def _rod_values(period: float, bob: str, length: str, memory: str) -> dict[str, str]:
+    """The function that follows the rod, every `period` seconds, and its call with these names."""
+    track = lower(rod.tracking(period))
+    return {
+        "track_rod": function(track, "float"),
+        "track_scratch": str(scratch(track).size),
+        "rod_numbers": str(rod.RECORD.length),
+        "call_track_rod": call(track, (memory, bob, "&age", "force", f"&{length}"), [memory], "scratch"),
+    }
 
 
 def limit_rotors(vehicle: Vehicle, frame: Airframe) -> Vehicle:

@@ -30,9 +30,7 @@ from flypend.plants.sensors import Sensors, sensors_called
 HEADER, GUARD = "flypend_law.h", "#ifndef FLYPEND_LAW_H\n"
 CORE = (HEADER, "flypend_law.c")
 BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")
-ADAPTERS = (
-    "adapters/flypend_frames.h", "adapters/flypend_frames.c", "adapters/flypend_px4.cpp", "adapters/flypend_px4.hpp",
-)  # fmt: skip
+ADAPTERS = ("adapters/flypend_frames.h", "adapters/flypend_frames.c")
 # Largest relative difference of a test vector.
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
@@ -168,7 +166,6 @@ def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
         "zero_measurement": initializer(records.MEASUREMENT, [0.0] * records.MEASUREMENT.length, precision),
         "radians": literal(math.pi / 180, precision),
         "sqrt": "sqrt" if precision == "double" else "sqrtf",
-        "order": ", ".join(str(i) for i in range(made.rotors.length)),
         "baked": _constants_in_words(made),
         "latency": f"{computer.latency:.3g}",
         "rotor_table": _rotor_table(vehicle),

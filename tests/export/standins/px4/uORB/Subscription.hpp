@@ -1,2 +1,0 @@
-// Stand-in: see uorb.hpp.
-#include <uORB/uorb.hpp>

@@ -1,2 +1,0 @@
-// Stand-in: see topics.hpp.
-#include <uORB/topics/topics.hpp>

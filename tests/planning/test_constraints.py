@@ -47,11 +47,6 @@ def test_each_function_takes_both_and_refuses_a_field_in_both(function):
         function(*first, constraints={"floor": 1.0})
 
 
-def test_nmpc_says_what_it_cannot_keep():
-    with pytest.raises(fp.InputError, match=r"^floor: .*clearance alone"):
-        fp.nmpc(HEHN, constraints=fp.Constraints(floor=-1.0))
-
-
 @pytest.mark.parametrize(
     ("fields", "line"),
     [

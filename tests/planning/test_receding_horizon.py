@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
 
@@ -12,6 +13,7 @@ from flypend.geometry import norm
 from flypend.planning import real_time as real_time_module
 from flypend.planning import receding_horizon
 from flypend.planning.dynamics import Units
+from flypend.planning.inequalities import BASE, OWN
 from flypend.planning.problem import request
 from flypend.planning.real_time import PlanInFlight, RealTime, hover_under, in_weights
 from flypend.plants.equations import EquationsEngine
@@ -45,9 +47,9 @@ def planned():
     return fp.plan(HEHN, STARTS[1], time_limit=120.0)
 
 
-def real_time(plan):
-    """Return real-time iterations on `plan`, and its states in own units."""
-    asked = request(plan.vehicle, plan.states[0], "excursion", np.zeros(3))
+def real_time(plan, kept=None):
+    """Return real-time iterations on `plan` with what they have `kept`, and its states in own units."""
+    asked = request(plan.vehicle, plan.states[0], "excursion", np.zeros(3), kept=kept)
     units, n = Units.of(plan.vehicle), len(plan.vehicle.rotor_spins)
     per_stage = (len(plan.t) - 1) // len(plan.commands)
     states = (np.column_stack([plan.packed, plan.rotor_forces]) / units.states(n))[::per_stage]
@@ -225,6 +227,102 @@ def test_other_vehicles_need_no_tuning():
     assert modes(flown) == ["planned", "hovering"]
 
 
+# Constraints ---------------------------------------------------------------------------------------------------------
+
+OFF = [fp.Plant(mismatch={"mass": factor, "bob_mass": factor}) for factor in (0.9, 1.1)]
+WALL = -0.45  # m: lowest x
+MIDDLE, RADIUS = np.array([0.16, 0.0, -0.45]), 0.05  # m, as in test_constraints: a ball that the bob passes
+
+
+def beyond(run):
+    """How far pivot or rod go beyond the wall, m."""
+    return WALL - min(np.min(run.x[:, 0]), np.min(run.x[:, 0] + HEHN.reach * run.y[:, 0]))
+
+
+@pytest.mark.parametrize("plant", OFF)
+def test_a_wall_is_kept_with_masses_off_by_a_tenth(plant):
+    """The law goes through by 0.3 m, and plans that do not know of the wall by 0.13."""
+    box = ((WALL, -np.inf, -np.inf), (np.inf, np.inf, np.inf))
+    kept, free, law = (
+        fp.simulate(HEHN, law, STARTS[1], 1.5, plant=plant)
+        for law in (fp.nmpc(HEHN, box=box), fp.nmpc(), fp.laws.inverted())
+    )
+    assert beyond(kept) < -0.05
+    assert beyond(free) > 0.1
+    assert beyond(law) > 0.2
+
+
+def away(m):
+    return ca.norm_2(m.x + HEHN.l * m.y - MIDDLE) - RADIUS
+
+
+@pytest.mark.parametrize("plant", OFF)
+def test_a_constraint_of_ones_own_is_kept_in_flight(plant):
+    kept, free = (
+        np.min(norm(run.x + HEHN.l * run.y - MIDDLE)) - RADIUS
+        for run in (fp.simulate(HEHN, law, HANGING, 1.0, plant=plant) for law in (fp.nmpc(HEHN, keep=away), fp.nmpc()))
+    )
+    assert kept > -0.01
+    assert free < -0.01
+
+
+def test_places_are_those_of_the_world_wherever_the_reference_is():
+    """A flight and its wall moved together are the same, but for rounding."""
+    by = np.array([0.3, -0.2, 0.4])
+    low, high = np.array([-0.45, -2.0, -2.0]), np.array([2.0, 2.0, 2.0])
+    one = fp.simulate(HEHN, fp.nmpc(box=(low, high)), STARTS[1], 0.4)
+    moved = fp.nmpc(reference=fp.laws.references.hover(by), box=(low + by, high + by))
+    other = fp.simulate(HEHN, moved, replace(STARTS[1], x=by), 0.4)
+    np.testing.assert_allclose(other.x, one.x + by, atol=1e-6)
+
+
+def test_a_window_counts_until_the_pivot_is_through():
+    window = fp.Window((0.5, 0, 0), 1.0, 1.0)
+    receding = fp.nmpc(window=window, floor=-2.0).flight_computer
+    assert receding.kept(np.array([1.0, 0, 0]), np.zeros(3)).windows == (window,)
+    assert receding.kept(np.array([0.4, 0, 0]), np.zeros(3)).given == {"floor": -2.0}
+
+
+def test_beside_a_moving_reference_only_lean_and_clearance_mean_something():
+    circle = fp.laws.references.circle()
+    assert fp.nmpc(reference=circle, lean=1.0, clearance=0.02).flight_computer.constraints.lean == 1.0
+    with pytest.raises(fp.InputError, match=r"^cost: expected nothing beside a reference that moves"):
+        fp.nmpc(reference=circle, cost=lambda m: m.omega)
+
+
+def test_thrust_scale_changes_the_unit_of_force_and_no_force(planned):
+    """Believed to push 0.8 of what they should, rotors are still commanded within their limits in N, and no less."""
+    made, states = real_time(planned)
+    unit, scales = Units.of(HEHN).force, np.array([0.8, 1.0])
+    before = made.commands * unit
+    assert np.max(before) > 0.99 * HEHN.rotor_limits[1]  # where a unit that is off by a quarter shows
+    there = states[0].copy()
+    there[24:] *= 0.8  # the same forces in N, in the new unit
+    assert made.improve(0, there, 0.0, NONE, scales)
+    commands = made.commands * unit / 0.8
+    low, high = HEHN.rotor_limits
+    assert low < np.min(commands)
+    assert 0.95 * high < np.max(commands) < high
+    assert np.corrcoef(commands.ravel(), before.ravel())[0, 1] > 0.9
+
+
+def test_aiming_in_another_unit_of_force_leaves_every_force_in_newtons(planned):
+    solver = real_time(planned)[0]._solver
+    numbers, hover = solver._problem.vehicle.copy(), solver.states[-1].copy()
+    before = [solver.states[:, 24:].copy(), solver.commands.copy()]
+    solver.aim(numbers, hover, 1.25)
+    for old, new in zip(before, (solver.states[:, 24:], solver.commands), strict=True):
+        np.testing.assert_allclose(1.25 * new, old, rtol=1e-14)
+
+
+def test_constraints_of_ones_own_see_newtons_whatever_the_thrust_scale(planned):
+    made, states = real_time(planned, fp.Constraints(keep=away))
+    solver, place = made._solver, OWN + BASE - 2
+    assert solver._problem.numbers[place, 0] == Units.of(HEHN).force
+    made.improve(0, states[0], 0.0, NONE, np.array([0.8, 1.0]))
+    assert solver._problem.numbers[place, 0] == pytest.approx(Units.of(HEHN).force / 0.8)
+
+
 # What goes wrong: the law flies --------------------------------------------------------------------------------------
 
 
@@ -351,6 +449,11 @@ def test_a_table_gives_gains_and_reference_of_the_law_it_falls_back_on():
     [
         (lambda: fp.nmpc(computing=0), "computing: expected a finite number > 0 s"),
         (lambda: fp.nmpc(clearance=-1), "clearance: expected a finite number >= 0 m"),
+        (lambda: fp.nmpc(waypoints=[(0, 0, 1)]), "waypoints: expected nothing: a plan that begins in flight"),
+        (lambda: fp.nmpc(path=fp.laws.references.circle()), "path: expected nothing: the reference is the path"),
+        (lambda: fp.nmpc(HEHN, ceiling=0.3), "ceiling: expected room for pivot and rod at the start"),
+        (lambda: fp.simulate(HEHN, fp.nmpc(ceiling=0.3), HANGING, 1), "ceiling: expected room for pivot and rod"),
+        (lambda: fp.nmpc(reference=fp.laws.references.circle(), floor=-2), "floor: expected nothing beside a ref"),
         (lambda: fp.nmpc(otherwise=3), "otherwise: expected a Law"),
         (lambda: fp.nmpc(HEHN.replace(rotor_limits=[0.0, 1.3])), "rotors that lift"),
         (lambda: fp.simulate(HEHN, fp.nmpc(), HANGING, 1, plant="hehn2011"), "wrench: a plan commands rotor forces"),

@@ -69,6 +69,11 @@ class Structure:
         return self.of_own + OWN * (self.keep + self.cost != "")
 
     @property
+    def of_force(self) -> int | None:
+        """Place of the unit of force, N, for one's own functions; None without them."""
+        return None if self.hard == self.of_own else self.of_own + 5
+
+    @property
     def soft(self) -> bool:
         """Whether some are kept by a cost that grows: those about what the machine is not to touch."""
         return self.mounted is not None or self.gates > 0

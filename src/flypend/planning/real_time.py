@@ -140,7 +140,7 @@ class RealTime:
         self._solver = Solver(compiled, problem, one_lane(states), one_lane(commands), SETTINGS)
         self.states, self.commands = self._solver.states[..., 0], self._solver.commands[..., 0]
         self._planned, self._least, self._of_excursion = planned, least, float(asked.numbers[SHARED])
-        self._m, self._scale = vehicle.m / (vehicle.M + vehicle.m), 1.0
+        self._m, self._scale, self._asked = vehicle.m / (vehicle.M + vehicle.m), 1.0, asked
 
     def covers(self, first: int) -> bool:
         """Whether there is a horizon from stage `first` on."""
@@ -165,6 +165,8 @@ class RealTime:
         hover = hover_under(outside, self._m, self.commands.shape[1])
         solver.aim(numbers[:, None], hover[:, None], self._scale / thrust)
         self._scale = thrust
+        if (place := self._asked.structure.of_force) is not None:
+            solver.insist(place, self._asked.numbers[place] / thrust, 0)
         solver.restart(stages, state[:, None])
         farther = solver.shared[0] > been**2
         solver.insist(SHARED, self._of_excursion * (1.0 if farther else SUNK), 0)
@@ -204,6 +206,7 @@ class PlanInFlight:
         self, plan: Plan, asked: Request, begin: float, computing: float | None, vehicle: Vehicle, scales: Array
     ) -> None:
         self._feedback = feedback = _with_tail(regulator(plan))
+        feedback.states[:, :3] -= plan.target
         self._follower = Follower(feedback, vehicle)
         self._follower.scales = self._planned_for = scales
         self._weight, self._of_deviation = vehicle.weight, of_deviation(asked.units, asked.rotors)

@@ -4,7 +4,7 @@
     planned   a plan is flown, and improved in every stage
     hovering  the law flies; the rod is about to stand
 
-Times are those at which commands act, `latency` after their measurement. Plans are relative to the reference.
+Times are those at which commands act, `latency` after their measurement. Plans are flown relative to the reference.
 """
 
 from __future__ import annotations
@@ -55,6 +55,12 @@ MEASURED_AT_FIRST = 2e-3  # s, expected of an iteration that is measured
 # integral of the distance, of this rate, √(g/l), and at most so long, rod lengths.
 INTEGRAL, MOST_OFF = 0.06, 1.0
 PAUSE = 1.0  # √(l/g), after the second failure in a row, and ever longer; after the last attempt the law flies to hover
+# Constraints that are not kept in flight, and why; and those that do not say where or how fast the pivot may be.
+NOT_IN_FLIGHT = {
+    "waypoints": "a plan that begins in flight does not know which are passed; use plan and track",
+    "path": "the reference is the path",
+}
+IN_ANY_FRAME = ("lean", "clearance")
 # A plan that is lost may have met a blow, and the next one catches it with half the law's excursion. When that is lost
 # too, the model is wrong, and the law flies to hover.
 MOST_LOST = 2
@@ -94,15 +100,17 @@ def nmpc(
     otherwise : Law, optional
         What flies until there is a plan, in hover, and when there is none; default the inverted law about `reference`.
     constraints : Constraints, optional
-        What its plans keep: the clearance. The laws that fly between plans keep nothing else.
+        What its plans keep, when they are made and in every iteration: all but waypoints and path. A window counts
+        until the pivot is through. What says where or how fast the pivot may be needs a reference that rests. No plan
+        begins at a state that breaks a constraint, and the laws that fly between plans keep none but the clearance.
     **keywords
-        The same field of `Constraints` by itself.
+        Fields of `Constraints` one by one.
 
     Raises
     ------
     InputError
-        If an argument is out of range or another constraint is given; and from a flight, if the plant takes no rotor
-        forces.
+        If an argument is out of range or a constraint cannot be kept in flight; and from a flight, if hover at the
+        reference breaks one, or the plant takes no rotor forces.
     """
     delay = Computer(latency=latency).latency
     if isinstance(computing, str):
@@ -110,20 +118,30 @@ def nmpc(
     else:
         errors.number("computing", computing, above=0, unit="s")
     kept = gather("nmpc", constraints, keywords)
-    for name, value in kept.given.items():
-        if name != "clearance":
-            raise InputError(name, "nothing: nmpc keeps the clearance alone", repr(value)[:80])
-    if vehicle is not None:
-        request(vehicle, State(y=E3), "excursion", (0.0, 0.0, 0.0), kept=kept)
     law = fallback_law(otherwise, reference or hover())
     followed = reference or law.reference or hover()
+    _check_in_flight(kept, followed)
+    receding = Receding(followed, law, delay, None if computing == "measured" else computing, kept)
+    if vehicle is not None:
+        receding.check(vehicle)
     return Controller(
         name="nmpc",
         function=rotors_only("nmpc"),
         reference=followed,
-        flight_computer=Receding(followed, law, delay, None if computing == "measured" else computing, kept),
+        flight_computer=receding,
         because="it solves a problem in every stage",
     )
+
+
+def _check_in_flight(kept: Constraints, reference: Reference) -> None:
+    """Raise InputError if a constraint makes no sense in flight, or none about a `reference` that moves."""
+    t = ca.SX.sym("t")
+    moves = not ca.jacobian(ca.densify(reference(t)), t).is_zero()
+    for name, value in kept.given.items():
+        if name in NOT_IN_FLIGHT:
+            raise InputError(name, f"nothing: {NOT_IN_FLIGHT[name]}", repr(value)[:80])
+        if moves and name not in IN_ANY_FRAME:
+            raise InputError(name, "nothing beside a reference that moves", repr(value)[:80])
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,8 +158,21 @@ class Receding:
     constraints: Constraints
 
     def __call__(self, loop: Loop, rotors: ArrayLike) -> Pilot:
-        """Return the flight computer for a `loop` and initial `rotors` (n,), N."""
+        """Return the flight computer for a `loop` and initial `rotors` (n,), N. Raises InputError; see `check`."""
+        if self.constraints.given:
+            self.check(loop.vehicle)
         return Pilot(self, loop, rotors)
+
+    def check(self, vehicle: Vehicle) -> None:
+        """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
+        there = _moving(self.reference)(0.0)[:3]
+        request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
+
+    def kept(self, x: Array, target: Array) -> Constraints:
+        """Return the constraints of a plan from `x` (3,) to the `target` (3,), m: without windows that lie behind."""
+        kept = self.constraints
+        ahead = [each for each in kept.windows if each.inside(x)[2] * each.inside(target)[2] < 0]
+        return kept if len(ahead) == len(kept.windows) else Constraints(**{**kept.given, "window": ahead or None})
 
 
 class Coming(NamedTuple):
@@ -299,9 +330,10 @@ class Pilot(Boards):
 
     def _ask(self, t: float, here: Array) -> Request:
         """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError."""
-        start, forces = State.from_packed(self._relative(t, here[:SIZE])), here[SIZE:]
-        rotors = np.clip(forces, *self._vehicle.rotor_limits)
-        return request(self._error.machine, start, "excursion", np.zeros(3), rotors, self._common.constraints)
+        begin, target = self._relative(t, here[:SIZE]), self._where(t)[:3]
+        begin[:3] = here[:3]  # constraints are about the world
+        rotors, kept = np.clip(here[SIZE:], *self._vehicle.rotor_limits), self._common.kept(here[:3], target)
+        return request(self._error.machine, State.from_packed(begin), "excursion", target, rotors, kept)
 
     def _plan(self, t: float, here: Array, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
         """Return a plan from `here` as in `_ask`, what it answers, and why there is none."""
@@ -310,7 +342,7 @@ class Pilot(Boards):
         except InputError as error:
             return None, None, str(error)
         found = plan_within(asked, horizon, iterations, ROUNDS)
-        if asked.structure.mounted is not None:
+        if asked.structure.soft:
             asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason
 

@@ -10,7 +10,7 @@ import pytest
 import flypend as fp
 from flypend.laws import Controller, Law, LawError
 from flypend.laws.own import fingerprint
-from flypend.settings.laws import absolute, law_from, law_named, note, table_of
+from flypend.settings.laws import absolute, law_from, law_named, note, relative, table_of
 
 VEHICLE = fp.vehicle("hehn2011")
 START = fp.State(y=(0.1, 0.0, np.sqrt(0.99)))
@@ -200,3 +200,34 @@ def test_a_file_is_read_again_and_may_import_its_neighbours(here):
     assert law_named("laws/new.py:f").values == {"lift": 1.25}
     (here / "laws" / "new.py").write_text(text.replace("lift=LIFT", "lift=2.5"), encoding="utf-8")
     assert law_named("laws/new.py:f").values == {"lift": 2.5}
+
+
+@pytest.mark.parametrize("name", ["nmpc", "plan"])
+def test_constraints_of_plans_come_from_a_table(name, tmp_path):
+    (tmp_path / "limits.py").write_text("def low(m):\n    return 2 - m.x[2]\n")
+    window = {"centre": [0.5, 0.0, 0.0], "width": 1.0, "height": 0.8}
+    given = {"name": name, "floor": -2.0, "box": [[-3, -3, -3], [3, 3, 3]], "window": window, "keep": "limits.py:low"}
+    found, there = law_from(given, tmp_path), law_from(absolute(given, tmp_path))
+    if name == "nmpc":
+        kept, again = (law.flight_computer.constraints for law in (found, there))
+        assert kept.walls[0].tolist() == [-3, -3, -2]
+        assert (kept.windows[0].width, kept.windows[0].height) == (1.0, 0.8)
+        for each in (kept, again):
+            assert each.keep(fp.State(x=(0, 0, 0.5), y=(0, 0, 1))) == 1.5
+    assert relative(absolute(given, tmp_path), tmp_path) == given
+
+
+@pytest.mark.parametrize(
+    ("table", "line"),
+    [
+        ({"flor": -1}, "did you mean 'floor'"), ({"floor": "low"}, "floor: expected"), ({"path": 3}, "path: expected"),
+        ({"window": 3}, "law.window: expected a table"), ({"window": {"width": 1}}, "law.window: expected a centre"),
+        ({"window": {"centre": [0, 0, 0], "width": 1, "hight": 1}}, "did you mean 'height'"),
+        ({"keep": "limits"}, "law.keep: expected file.py:function"),
+        ({"keep": "no_such:low"}, "law.keep: expected a module"),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("name", ["nmpc", "plan"])
+def test_wrong_constraints_in_a_table_are_named(name, table, line):
+    with pytest.raises(fp.InputError, match=line):
+        law_from({"name": name, **table})

@@ -7,7 +7,7 @@ import os
 import sys
 import traceback
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from threading import RLock
 from types import ModuleType
@@ -20,8 +20,10 @@ from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
 from flypend.laws.trained import trained
 from flypend.model import Vehicle
+from flypend.planning.constraints import FIELDS
 from flypend.planning.receding_horizon import nmpc
 from flypend.planning.tracking import plan_and_track
+from flypend.planning.window import Window
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -32,6 +34,7 @@ OTHERS = {
     "nmpc": "plans, and replans in flight (planning.nmpc)",
 }
 ONNX = ".onnx"
+PLACES = ("function", "keep", "cost")  # entries of a law's table that name a function in a file or module
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
@@ -43,8 +46,9 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     ----------
     value : str, dict or a law
         A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}. Gains and
-        reference of "nmpc" are those of the inverted law that it falls back on; it has latency, computing and clearance
-        of its own.
+        reference of "nmpc" are those of the inverted law that it falls back on; it has latency and computing of its
+        own. "nmpc" and "plan" have the fields of `Constraints`: windows as tables of their fields, keep and cost as
+        `file.py:function` or `module:function`.
     folder : Path, optional
         Folder to which file paths are relative; default the current one.
     key : str
@@ -62,10 +66,15 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     if not isinstance(value, Mapping):
         raise InputError(key, "the name of a law, or a table", repr(value))
     if value.get("name") == "plan":
-        only_known(key, value, ("name",))
-        return plan_and_track()
+        only_known(key, value, ("name", *FIELDS))
+        return plan_and_track(**_constraints(value, folder, key))
     if value.get("name") == "nmpc":
-        return _nmpc(value, key)
+        only_known(key, value, ("name", "gains", "reference", "latency", "computing", *FIELDS))
+        own = _constraints(value, folder, key) | {
+            name: value[name] for name in ("latency", "computing") if name in value
+        }
+        rest = {name: entry for name, entry in value.items() if name not in own}
+        return nmpc(otherwise=law_from_dict({**rest, "name": "inverted"}, key), **own)
     if value.get("name") == "detuned":
         named = law_from_dict({**value, "name": "inverted", "gains": {**DETUNED, **value.get("gains", {})}}, key)
         return replace(named, name="detuned")
@@ -96,16 +105,29 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     return law_from({"name": one_of(key, name, (*law_names(), *OTHERS))}, folder, key)
 
 
-def _nmpc(value: Mapping[str, Any], key: str) -> Controller:
-    own = {name: value[name] for name in ("latency", "computing", "clearance") if name in value}
-    rest = {name: entry for name, entry in value.items() if name not in own}
-    return nmpc(otherwise=law_from_dict({**rest, "name": "inverted"}, key), **own)
+def _constraints(value: Mapping[str, Any], folder: Path | None, key: str) -> dict[str, Any]:
+    """Return the fields of `Constraints` in the table `value` of a law, as `nmpc` takes them. Raises InputError."""
+    found = {name: entry for name, entry in value.items() if name in FIELDS}
+    for name in PLACES:
+        if name in found:
+            found[name] = _attribute(str(found[name]), folder, f"{key}.{name}", "a function")
+    if "window" in found:
+        tables = [found["window"]] if isinstance(found["window"], Mapping) else found["window"]
+        if not isinstance(tables, list) or not all(isinstance(each, Mapping) for each in tables):
+            raise InputError(f"{key}.window", "a table with the fields of a Window, or several", repr(tables)[:80])
+        for each in tables:
+            only_known(f"{key}.window", each, (field.name for field in fields(Window)))
+            missing = [name for name in ("centre", "width", "height") if name not in each]
+            if missing:
+                raise InputError(f"{key}.window", f"a {missing[0]}", repr(each)[:80])
+        found["window"] = [Window(**each) for each in tables]
+    return found
 
 
 def absolute(value: Any, folder: Path) -> Any:
     """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
     if isinstance(value, Mapping):
-        return {**value, "function": absolute(value["function"], folder)} if "function" in value else value
+        return {**value, **{name: absolute(value[name], folder) for name in PLACES if name in value}}
     file, attribute = _split(value) if isinstance(value, str) else ("", "")
     return f"{(folder / file).resolve()}{attribute}" if file else value
 
@@ -116,7 +138,7 @@ def relative(value: Any, folder: Path) -> Any:
     A path on another drive stays absolute.
     """
     if isinstance(value, Mapping):
-        return {**value, "function": relative(value["function"], folder)} if "function" in value else value
+        return {**value, **{name: relative(value[name], folder) for name in PLACES if name in value}}
     file, attribute = _split(value)
     if not file:
         return value
@@ -174,16 +196,21 @@ def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:
         if e3 is not None:
             raise InputError("law.e3", "nothing: a policy flies with e3 up", e3)
         return trained((folder or Path.cwd()) / name)
+    return _as_law(_attribute(name, folder, key, "a law"), name, key, e3)
+
+
+def _attribute(name: str, folder: Path | None, key: str, what: str) -> Any:
+    """Return what is called `name`, file.py:function or module:function; messages begin with `key` and want `what`."""
     source, _, attribute = name.rpartition(":")
-    if not attribute.isidentifier():
+    if not source or not attribute.isidentifier():
         raise InputError(key, "file.py:function or module:function", repr(name))
     module = _file(source, folder or Path.cwd(), key) if source.endswith(".py") else _module(source, key)
     if not hasattr(module, attribute):
         known = [word for word, value in vars(module).items() if not word.startswith("_") and _is_own(value, module)]
         if not known:
-            raise InputError(key, f"a law in {source}", f"{attribute!r}; the file or module defines none")
+            raise InputError(key, f"{what} in {source}", f"{attribute!r}; the file or module defines none")
         one_of(key, attribute, known)
-    return _as_law(getattr(module, attribute), name, key, e3)
+    return getattr(module, attribute)
 
 
 def _is_own(value: Any, module: ModuleType) -> bool:

@@ -104,8 +104,11 @@ def main() -> None:
     first, good = [tried[0] for tried in plans], [bool(tried[0]) for tried in plans]
     spent = [1e3 * min(plan.solve_time for plan in tried) for tried in plans]
     excursions = quantiles([plan.excursion for plan in first], 0.5, 0.95)
-    print(f"planned {sum(good)} of {len(good)}, excursion p50, p95: {excursions} m")
-    print(f"processor time p50, p99: {quantiles(spent, 0.5, 0.99)} ms")
+    low, high = wilson(sum(good), len(good))
+    print(f"planned: {sum(good)} of {len(good)} ({low:.1%} to {high:.1%})")
+    print(f"excursion p50, p95: {excursions} m")
+    print(f"guesses p50: {np.median([plan.guesses for plan in first]):.0f}")
+    print(f"processor time p50, p99: {quantiles(spent, 0.5, 0.99)} ms", flush=True)
     if asked.guesses > 1:
         best = [best_of(start, plan, asked.guesses, rng) for start, plan in zip(runs, first, strict=True)]
         ratio = np.array([plan.excursion / other.excursion for plan, other in zip(first, best, strict=True)])

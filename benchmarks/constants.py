@@ -115,7 +115,7 @@ def open_law():
 def gains_of(law, vehicle, changes):
     """The gains of `law` for `vehicle` after `changes`, but those that are constants of the compiled code."""
     with changed(changes):
-        values = law.proposed(vehicle)
+        values = law.propose(vehicle)
     values |= {name: value for name, value in changes.items() if name in OPEN}
     return {name: value for name, value in values.items() if law.table[name].numeric and name not in COMPUTER}
 

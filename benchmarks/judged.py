@@ -183,7 +183,7 @@ def cliffs(runs: int) -> str:
 def margins(runs: int) -> str:
     """Where 90 % still succeed."""
     found = check(_hehn(), INVERTED, runs=runs, seed=SEED).margins
-    return "; ".join(f"{name} {margin.told()}" for name, margin in found.items())
+    return "; ".join(f"{name} {margin.describe()}" for name, margin in found.items())
 
 
 def yaw_spin(runs: int) -> str:

@@ -54,7 +54,7 @@ def starts():
     """Print one line per row: successes, settling time and largest distance (median, 95 %, all)."""
     for name, machine, plant, runs, duration in ROWS:
         law = getattr(fp.laws, name)()
-        first = fp.random_starts(runs, SEED).seen(law.e3)
+        first = fp.random_starts(runs, SEED).in_frame(law.e3)
         target = HANGING if law.e3 == "down" else fp.Criterion()
         flown = fp.simulate_ensemble(fp.vehicle(machine), law, first, duration, plant=plant, criterion=target)
         low, high = flown.interval

@@ -228,7 +228,7 @@ def test_in_free_fall_the_lowest_part_lands_when_galileo_says(e3):
     """The rod hangs, and no rotor gives any force; height is upward in either frame."""
     vehicle = FREE.replace(rotor_limits=(0.0, FREE.rotor_limits[1]))
     law = fp.Law(name="rest", e3=e3, control=lambda *_: fp.Wrench(ca.SX(0), ca.SX.zeros(3)))
-    start = fp.State(y=(0, 0, -1)).seen(e3)
+    start = fp.State(y=(0, 0, -1)).in_frame(e3)
     height = -FLOOR - vehicle.reach - vehicle.body.rod_radius
     for plant in (fp.Plant(limits=False, lag=0.0, floor=FLOOR), fp.Ideal(floor=FLOOR)):
         outcome = fp.simulate(vehicle, law, start, 1.0, plant=plant).outcome

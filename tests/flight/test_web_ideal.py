@@ -108,7 +108,7 @@ def test_its_rotor_forces_are_those_that_the_law_requires(tmp_path):
 def test_pokes_gains_and_a_moved_place_are_those_of_the_package(law, tmp_path):
     rng, loop = np.random.default_rng(3), loop_of(law)
     loop = replace(loop, parameters=tunable(loop.law))
-    state, pieces, here = start().seen(loop.law.e3), [], []
+    state, pieces, here = start().in_frame(loop.law.e3), [], []
     for ticks in (1, 400, 99, 700):
         gains = {name: loop.law.gains[name] * rng.uniform(0.97, 1.03) for name in loop.parameters}
         velocity, origin = rng.normal(0, 0.1, 3), rng.normal(0, 0.2, 3)
@@ -116,8 +116,8 @@ def test_pokes_gains_and_a_moved_place_are_those_of_the_package(law, tmp_path):
         pieces.append({"ticks": ticks, "impulses": impulses, "gains": gains, "knobs": {"origin": origin.tolist()}})
         state = poke_state(state, loop.vehicle, "up", Poke(0.0, "bob", velocity))
         flown = getattr(fp.laws, law)(**gains)
-        run = fp.simulate(loop.vehicle, flown, _moved(state, -origin).seen(flown.e3), ticks * PERIOD, plant="ideal")
-        state = _moved(run.states[-1].seen(flown.e3), origin)
+        run = fp.simulate(loop.vehicle, flown, _moved(state, -origin).in_frame(flown.e3), ticks * PERIOD, plant="ideal")
+        state = _moved(run.states[-1].in_frame(flown.e3), origin)
         here.append(state.packed())
     page, _ = flown_by_page(loop, start(), tmp_path, pieces)
     ends = np.cumsum([piece["ticks"] for piece in pieces])

@@ -34,7 +34,7 @@ def test_each_gain_says_what_it_is_and_the_docstring_says_it_too(name):
         assert "\n" not in gain.doc
         assert gain.doc[-1] != "."
         assert f"\n{gain.name} : " in text
-        assert gain.told() in text
+        assert gain.describe() in text
 
 
 def test_no_law_carries_attributes():
@@ -47,7 +47,7 @@ def test_the_c_header_says_of_each_gain_what_the_registry_says(name):
     law = FACTORIES[name]().bind(VEHICLE)
     for field in interface(law, VEHICLE).gains.fields:
         if field.name != "none":
-            assert field.comment == law.table[field.name].told()
+            assert field.comment == law.table[field.name].describe()
 
 
 def test_what_exported_code_fixes_is_marked_in_the_registry():

@@ -516,12 +516,12 @@ def test_the_vehicles_of_the_package_are_those_announced():
 def test_states_wrenches_and_packed_states_are_seen_in_either_frame():
     states = fp.State.random(np.random.default_rng(5), 3)
     wrench = fp.Wrench(np.array([1.0, 2.0, 3.0]), np.arange(9.0).reshape(3, 3))
-    assert states.seen("up") is states
-    assert wrench.seen("up") is wrench
-    np.testing.assert_array_equal(states.seen("down").packed(), states.flipped().packed())
+    assert states.in_frame("up") is states
+    assert wrench.in_frame("up") is wrench
+    np.testing.assert_array_equal(states.in_frame("down").packed(), states.flipped().packed())
     # A few units in the last place: a State makes its R a rotation again.
     np.testing.assert_allclose(convert_packed(states.packed(), "down"), states.flipped().packed(), rtol=0, atol=1e-14)
     np.testing.assert_array_equal(convert_packed(states.packed(), "up"), states.packed())
-    np.testing.assert_allclose(states.seen("down").seen("down").packed(), states.packed(), atol=1e-15)
-    np.testing.assert_array_equal(wrench.seen("down").thrust, -wrench.thrust)
-    np.testing.assert_array_equal(wrench.seen("down").moment, wrench.flipped().moment)
+    np.testing.assert_allclose(states.in_frame("down").in_frame("down").packed(), states.packed(), atol=1e-15)
+    np.testing.assert_array_equal(wrench.in_frame("down").thrust, -wrench.thrust)
+    np.testing.assert_array_equal(wrench.in_frame("down").moment, wrench.flipped().moment)

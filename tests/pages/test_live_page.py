@@ -72,7 +72,7 @@ def poses(page, times):
 def flown(run, setting):
     """The flight of a page's `setting` by the package: rows of state and rotor forces, one for each tick, e₃ up."""
     loop, rate = live_loop(run.flight), run.flight.plant.rate
-    start = fp.State(**setting["start"]).seen(run.e3)
+    start = fp.State(**setting["start"]).in_frame(run.e3)
     flight = pieces_kernel(loop, goal(run.e3)).begin(start, seed=run.flight.seed or 0, gains=setting["law"]["gains"])
     given, knobs = setting["plant"], {}
     knobs |= {name: [given[name]] for name in ("lag", "delay") if name in given}
@@ -380,7 +380,7 @@ def test_the_pull_of_the_hand_is_a_spring_with_its_newtons(visit, run):
 def ideal_states(run, setting, times, moved=0.0):
     """States (n, 24) of a page's `setting` through the ideal plant by the package, the start `moved` along e₁, m."""
     law = getattr(fp.laws, run.law)(**setting["law"]["gains"])
-    start = fp.State(**setting["start"]).seen(run.e3)
+    start = fp.State(**setting["start"]).in_frame(run.e3)
     start, [poke] = fp.State.from_packed(start.packed() + moved * np.eye(24)[0]), setting["pokes"]
     before = fp.simulate(run.vehicle, law, start, poke["time"], plant="ideal")
     struck = poke_state(before.states[-1], run.vehicle, run.e3, Poke(0.0, poke["on"], np.array(poke["velocity"])))

@@ -51,7 +51,7 @@ def test_for_rotors_too_weak_to_hover_stronger_ones_are_advised_and_a_longer_rod
     found = {name: one for one in changes_of(weak(1.3)) for name in one.factors}
     assert found["rotor_limits"].works
     assert not found["rod_length"].works
-    assert "N each" in found["rotor_limits"].told()
+    assert "N each" in found["rotor_limits"].describe()
     flown = changed(weak(1.3), found["rotor_limits"].factors)
     again = fp.simulate_ensemble(flown, fp.laws.inverted(), fp.random_starts(24, 5), 30.0)
     assert again.rate > 0.8  # from other starts, too

@@ -50,8 +50,8 @@ def test_both_sides_of_a_factor_are_searched_and_may_be_open(known):
     assert 0.6 < mass.low < 0.6 * (1 + RESOLUTION)
     assert mass.high == 4.0
     assert (mass.open_low, mass.open_high) == (False, True)
-    assert mass.told().endswith("to more than 4 times the believed")
-    assert mass.told().startswith("0.6")
+    assert mass.describe().endswith("to more than 4 times the believed")
+    assert mass.describe().startswith("0.6")
 
 
 def test_a_world_that_fails_at_once_has_no_margin(known):

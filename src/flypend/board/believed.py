@@ -54,6 +54,6 @@ class _Limited:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._vehicle, name)
 
-    def seen(self, e3: E3Direction) -> _Limited:
-        """As `Vehicle.seen`."""
-        return _Limited(self._vehicle.seen(e3), self.rotor_limits)
+    def in_frame(self, e3: E3Direction) -> _Limited:
+        """As `Vehicle.in_frame`."""
+        return _Limited(self._vehicle.in_frame(e3), self.rotor_limits)

@@ -216,4 +216,4 @@ def _from(what: str | None, name: str) -> tuple[Vehicle, State]:
     if what is None:
         return model.vehicle(name), model.State(y=(0.0, 0.0, -1.0))
     flight = run_file(what).flight
-    return flight.vehicle, flight.starts.seen(flight.law.e3)
+    return flight.vehicle, flight.starts.in_frame(flight.law.e3)

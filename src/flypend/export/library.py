@@ -292,10 +292,10 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
 
     def wrench(t: float, state: State) -> Wrench:
         """The bare law, without estimates of external forces."""
-        numbers = records.state_numbers(state.seen(bound.e3).packed(), np.zeros(6))
+        numbers = records.state_numbers(state.in_frame(bound.e3).packed(), np.zeros(6))
         values, _, status = code.step(numbers, code.follow(path(t), numbers))
         found = Wrench(values[0, 0], values[0, 1:]) if not status[0] else Wrench(np.nan, np.full(3, np.nan))
-        return found.seen(bound.e3)
+        return found.in_frame(bound.e3)
 
     def flight_computer(loop: Loop, rotors: Any) -> CompiledBoard | CompiledSensors:
         if loop.vehicle != vehicle:

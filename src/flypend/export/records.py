@@ -98,7 +98,7 @@ def params_record(vehicle: Vehicle) -> Record:
 
 def gains_record(law: BoundLaw, names: Sequence[str]) -> Record:
     """The gains `names` of `law` that its equations contain."""
-    fields = tuple(Field(name, 0, law.table[name].told() or "see the law") for name in names)
+    fields = tuple(Field(name, 0, law.table[name].describe() or "see the law") for name in names)
     return Record("gains", f"Gains of the {law.name} law.", fields or (Field("none", 0, "no gain is left; keep 0"),))
 
 

@@ -48,7 +48,7 @@ def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
         Flight(
             vehicle=vehicle,
             law=bound,
-            starts=starts.seen(bound.e3),
+            starts=starts.in_frame(bound.e3),
             duration=DURATION,
             plant=ROTORS.replace(rate=rate),
             times=np.arange(0, DURATION, TICK),
@@ -58,7 +58,7 @@ def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
         came = f"{bound.name}: {flown.success.sum()} of {len(flown)} within {DURATION:g} s"
         raise InputError("law", f"one that swings the rod up on {vehicle.name}, or a height", came)
     assert flown.samples is not None  # since times were given
-    motion = flown.samples.seen(bound.e3)  # back to e₃ up
+    motion = flown.samples.in_frame(bound.e3)  # back to e₃ up
     bob = motion.x + vehicle.l * motion.y
     lowest = min(motion.x[..., 2].min(), bob[..., 2].min())
     farthest = max(np.hypot(end[..., 0], end[..., 1]).max() for end in (motion.x, bob))

@@ -45,7 +45,7 @@ class SymbolicVehicle:
         """Inverse of the inertia matrix."""
         return ca.inv_minor(self.I)
 
-    def seen(self, e3: str) -> SymbolicVehicle:
+    def in_frame(self, e3: str) -> SymbolicVehicle:
         """The vehicle in the body frame of `e3`."""
         if e3 == "up" or self.I.nnz() == 3:
             return self

@@ -65,8 +65,8 @@ def choices(flight: Flight) -> dict[str, Any]:
     paths = [f"law.gains.{name}" for name in tunable(law)]
     gains = [entry for entry in gain_sliders(law, vehicle, law.gains) if entry["path"] in paths]
     first = {
-        "law": {"name": law.name, "gains": {}}, "plant": {}, "vehicle": {}, "start": plain(flight.starts.seen(law.e3)),
-        "duration": flight.duration, "pokes": [],
+        "law": {"name": law.name, "gains": {}}, "plant": {}, "vehicle": {},
+        "start": plain(flight.starts.in_frame(law.e3)), "duration": flight.duration, "pokes": [],
     }  # fmt: skip
     lasting = slider("duration", "flight", "duration", "s", flight.duration, Reach(*DURATIONS))
     return {

@@ -76,7 +76,7 @@ def fly_tasks(
     for name, batch in starts.items():
         times = np.arange(0.0, duration, TICK) if name == "lean" else None
         flight = Flight(
-            vehicle=vehicle, law=law, starts=batch.seen(law.e3), duration=duration, plant=plant, times=times
+            vehicle=vehicle, law=law, starts=batch.in_frame(law.e3), duration=duration, plant=plant, times=times
         )
         found[name] = fly_many(flight, workers=workers, progress=lambda *a, name=name: progress(f"flying {name}", *a))
     return found

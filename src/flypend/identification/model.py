@@ -62,7 +62,7 @@ def machine(vehicle: Vehicle, moving: Numbers) -> Any:
         rod_spin=0.0, rod_spin_inertia=0.0, wind=v["wind"],
         air=SimpleNamespace(rotor_drag=v["rotor_drag"], known=lambda: ("rotor_drag",)),
     )  # fmt: skip
-    made.seen = lambda e3: made
+    made.in_frame = lambda e3: made
     return made
 
 

@@ -40,7 +40,7 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
     while done < count:
         begun = time.thread_time()
         y = rods[done : done + size]
-        own = _starts(setting.start, y).seen(machine.law.e3)
+        own = _starts(setting.start, y).in_frame(machine.law.e3)
         request = flight.replace(
             law=machine.law, starts=own, gains=tuning, criterion=machine.criterion, tolerances=exact
         )

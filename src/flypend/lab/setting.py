@@ -92,7 +92,7 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)
-    given["start"] = plain(start.seen(law.e3))
+    given["start"] = plain(start.in_frame(law.e3))
     named = given["law"]["name"]
     if named not in own:
         flight = run_of(given).flight
@@ -182,7 +182,7 @@ def _check_size(flight: Flight) -> None:
 
 def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
     """Raise InputError if `law` rejects its gains for `vehicle`, or if a loop is too fast for the integrator."""
-    proposed = law.proposed(vehicle)
+    proposed = law.propose(vehicle)
     for name, value in law.given.items():
         usual = proposed[name]
         if name in sliders_of(law) and usual > 0 and not usual / FURTHEST <= value <= usual * FURTHEST:

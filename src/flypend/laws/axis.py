@@ -20,7 +20,7 @@ def axis_moment(
     """Return the moment (3, 1), N m, under which z̈ = −|ż|² z + R `u` and ω̇₃ = `yaw`, rad/s².
 
     `u` is in the body frame and normal to e₃, 1/s²; `vehicle` has its inertia in the body frame of `state` (see
-    `Vehicle.seen`). `turned` is the angle, rad, by which the rotation wanted is turned about the axis beforehand.
+    `Vehicle.in_frame`). `turned` is the angle, rad, by which the rotation wanted is turned about the axis beforehand.
 
     z̈ = R (ω̇ × e₃) + ω₃ R (ω₁, ω₂, 0) − |ż|² z, so (ω̇₁, ω̇₂, 0) = e₃ × u + ω₃ ω × e₃. (setmu) leaves ω̇₃ free.
     What follows from ω₃ is gyroscopic and does no work on the axis; only the share `compensated` is cancelled.

@@ -93,7 +93,7 @@ class Controller:
         """The gains whose values differ from their defaults."""
         return {name: value for name, value in self.gains.items() if value != self.table[name].default}
 
-    def proposed(self, vehicle: Vehicle) -> dict[str, Any]:
+    def propose(self, vehicle: Vehicle) -> dict[str, Any]:
         """Default values of all gains for `vehicle`, by name."""
         return {name: gain.value(vehicle) for name, gain in self.table.items()}
 
@@ -115,7 +115,7 @@ class Controller:
     def upright(self, t: float, packed: Numbers) -> NDArray[Any]:
         """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
         answer = self._answer(t, State.trusted(convert_packed(packed, self.e3)))
-        wrench = wrench_of(answer, self.function, self.name).seen(self.e3)
+        wrench = wrench_of(answer, self.function, self.name).in_frame(self.e3)
         return np.append(wrench.thrust, wrench.moment)
 
     @cached_property

@@ -116,7 +116,7 @@ class Gain:
             self.check(float(wrong.flat[0]), name)
         return found
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return a one-line description: doc and unit."""
         return f"{self.doc}{', ' + self.unit if self.unit and self.doc else self.unit}"
 
@@ -194,5 +194,5 @@ def _entries(gains: Mapping[str, Gain]) -> list[str]:
     for gain in gains.values():
         kind = " or ".join(f'"{word}"' for word in gain.choices) or "float"
         default = "" if callable(gain.default) else f", default {gain.default!r}"
-        out += [f"{gain.name} : {kind}{default}", f"    {gain.told()}"]
+        out += [f"{gain.name} : {kind}{default}", f"    {gain.describe()}"]
     return out

@@ -67,7 +67,7 @@ def through_lag(
     e3 : "up" or "down"
         Frame of the law.
     """
-    body = vehicle.seen(e3)
+    body = vehicle.in_frame(e3)
     rates = equations_of_motion(state, acting, vehicle, e3)
     f, tau = acting.thrust, acting.moment
     f_error = f - wanted.wrench.thrust

@@ -134,7 +134,7 @@ class Law:
         found: Mapping[str, Gain] = self.gains
         return found
 
-    def proposed(self, vehicle: Vehicle) -> dict[str, Any]:
+    def propose(self, vehicle: Vehicle) -> dict[str, Any]:
         """Default values of all gains for `vehicle`, by name, whatever is given."""
         return {name: gain.value(vehicle) for name, gain in self.table.items()}
 

@@ -114,7 +114,7 @@ def control_repaired(
 
     return Control(
         wrench=Wrench(
-            f, axis_moment(state, vehicle.seen("down"), apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])
+            f, axis_moment(state, vehicle.in_frame("down"), apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])
         ),
         lyapunov={
             "V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2,

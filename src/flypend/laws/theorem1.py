@@ -81,7 +81,7 @@ def theorem_1(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, ver
         u_fb = u_fb - hat_squared(z, beta)  # (ufb)
 
     # (setmu): {I⁻¹mu}^ e₃ = (ω̂² + {I⁻¹(Iω × ω)}^) e₃ + Rᵀ(|ż|² z − u_fb) =: b, i.e. a × e₃ = b for a = I⁻¹mu.
-    body = vehicle.seen("down")
+    body = vehicle.in_frame("down")
     free = apply(body.I_inv, cross(apply(body.I, omega), omega))
     b = hat_squared(omega, E3) + cross(free, E3) + apply(state.R.T, scale(dot(z_dot, z_dot), z) - u_fb)
     a = ca.vertcat(-b[1], b[0], version.yaw_damping * omega[2])  # e₃ × b, plus the component that (setmu) leaves free

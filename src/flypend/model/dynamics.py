@@ -77,7 +77,7 @@ def potential_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Scalar:
 
 def total_energy(state: State, vehicle: Vehicle, e3: E3Direction) -> Scalar:
     """Kinetic plus potential energy, J; `e3` as in `potential_energy`."""
-    return kinetic_energy(state, vehicle.seen(e3)) + potential_energy(state, vehicle, e3)
+    return kinetic_energy(state, vehicle.in_frame(e3)) + potential_energy(state, vehicle, e3)
 
 
 def linear_momentum(state: State, vehicle: Vehicle) -> Vector:

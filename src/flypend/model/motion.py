@@ -97,7 +97,7 @@ def disturbed_motion(
     Rates
         Rates of the state; `x_ddot` is the acceleration of the pivot.
     """
-    vehicle = vehicle.seen(e3)
+    vehicle = vehicle.in_frame(e3)
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     R, omega, y = state.R, state.omega, state.y
     f, z = wrench.thrust, state.z

@@ -128,7 +128,7 @@ class State:
         vectors = {name: geometry.apply(FLIP, getattr(self, name)) for name in SHAPES if name != "R"}
         return State(**vectors, R=FLIP @ self.R @ FLIP)
 
-    def seen(self, e3: E3Direction) -> State:
+    def in_frame(self, e3: E3Direction) -> State:
         """The state, given with e₃ up, in the frame of `e3`; or given in that frame, with e₃ up."""
         return self if e3 == "up" else self.flipped()
 
@@ -249,7 +249,7 @@ class Wrench:
         """Return the same wrench in the frame rotated by π about e₁."""
         return Wrench(-self.thrust, geometry.apply(FLIP, self.moment))
 
-    def seen(self, e3: E3Direction) -> Wrench:
+    def in_frame(self, e3: E3Direction) -> Wrench:
         """The wrench, given with e₃ up, in the frame of `e3`; or given in that frame, with e₃ up."""
         return self if e3 == "up" else self.flipped()
 
@@ -267,7 +267,7 @@ def _part(field: str, value: Any) -> Any:
 
 
 def convert_packed(packed: Numbers, e3: E3Direction) -> Numbers:
-    """As `State.seen` for packed states (..., 24), or (24, 1) in CasADi, `e3` being "up" or "down"."""
+    """As `State.in_frame` for packed states (..., 24), or (24, 1) in CasADi, `e3` being "up" or "down"."""
     return packed if e3 == "up" else packed * FLIP_PACKED
 
 

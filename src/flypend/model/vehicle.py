@@ -198,7 +198,7 @@ class Vehicle:
         point = self.bob_mass * self.rod_length**2
         return float(point / (point + self.rod_inertia))
 
-    def seen(self, e3: E3Direction) -> Vehicle:
+    def in_frame(self, e3: E3Direction) -> Vehicle:
         """Return the vehicle with its inertia in the body frame of `e3` ("up" or "down")."""
         turned = FLIP @ self.inertia @ FLIP
         if errors.one_of("e3", e3, ("up", "down")) == "up" or np.array_equal(turned, self.inertia):

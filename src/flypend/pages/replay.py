@@ -229,7 +229,7 @@ def _machine(vehicle: Vehicle) -> str:
 
 
 def _upright(states: State, e3: E3Direction) -> State:
-    return states.seen(e3)
+    return states.in_frame(e3)
 
 
 def _sample(run: Run, most: int) -> tuple[Any, State]:

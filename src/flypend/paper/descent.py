@@ -82,7 +82,7 @@ def wide_starts(runs: int, seed: int, law: Law) -> State:
     rng = np.random.default_rng(seed)
     starts = State.random(rng, runs, **FAST)
     if law.reference is None:
-        return starts.seen(law.e3)
+        return starts.in_frame(law.e3)
     fields = {name: getattr(starts, name) for name in ("x_dot", "R", "omega", "y", "y_dot")}
     return State(x=rng.uniform(-FAR, FAR, (runs, 3)), **fields)
 

@@ -44,7 +44,7 @@ def work_sign(_: Runs) -> Finding:
 
 def energy_rate(state: State, wrench: Wrench, of: Vehicle) -> NDArray[np.float64]:
     """Return the rate of energy (n,), W, of the vehicle `of` at `state` (n,) under `wrench`, in the paper's frame."""
-    rates, body = equations_of_motion(state, wrench, of, "down"), of.seen("down")
+    rates, body = equations_of_motion(state, wrench, of, "down"), of.in_frame("down")
     M, m, l, g = of.M, of.m, of.l, of.g
     bob_velocity, bob_acceleration = state.x_dot + l * state.y_dot, rates.x_ddot + l * rates.y_ddot
     kinetic = M * dot(state.x_dot, rates.x_ddot) + m * dot(bob_velocity, bob_acceleration)

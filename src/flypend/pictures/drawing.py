@@ -86,7 +86,7 @@ def main_direction(run: Trajectory) -> Any:
 
 def upright(state: State, run: Trajectory) -> State:
     """Convert `state` from the frame of `run` to the e₃-up frame."""
-    return state.seen(run.e3)
+    return state.in_frame(run.e3)
 
 
 def states_at(run: Trajectory, times: Any) -> State:

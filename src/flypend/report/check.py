@@ -43,7 +43,7 @@ def margin_cells(checks: Mapping[str, Check]) -> Cells:
     names = list(dict.fromkeys(name for check in checks.values() for name in check.margins))
     for name in names:
         found = [check.margins.get(name) for check in checks.values()]
-        rows.append([name, *("-" if margin is None else margin.told() for margin in found)])
+        rows.append([name, *("-" if margin is None else margin.describe() for margin in found)])
     return [["90 % succeed", *checks], *rows]
 
 

@@ -59,7 +59,7 @@ class Change:
         """Whether at least 90 % succeed."""
         return self.successes >= LEAST_RATE * self.runs
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return change and success with its Wilson interval, 95 %, in a line."""
         low, high = wilson(self.successes, self.runs)
         return f"{self.how}: {self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
@@ -93,11 +93,11 @@ class Advice:
         if self.as_written:
             told = f"{', '.join(self.as_written)} will do for the vehicle as written"
             return [f"none of these laws will do within the bands. {self.why}", f"narrow them by a longer log: {told}"]
-        good = [f"  {one.told()}" for one in self.changes if one.works]
+        good = [f"  {one.describe()}" for one in self.changes if one.works]
         best = max(self.changes, key=lambda one: one.successes, default=None)
         if good:
             return [f"none of these laws will do. {self.why}", "what would help, flown with the inverted law:", *good]
-        tried = "nothing that could be tried" if best is None else f"not even {best.told()}"
+        tried = "nothing that could be tried" if best is None else f"not even {best.describe()}"
         return [f"none of these laws will do. {self.why}", f"what would help: {tried}"]
 
     def to_dict(self) -> dict[str, Any]:
@@ -193,7 +193,7 @@ def _flown(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed:
     except InputError:  # the law refuses such a vehicle
         return Change(dict(factors), told, 0, RUNS)
     starts = task_starts(new, RUNS, seed)["random"]
-    flight = Flight(vehicle=new, law=law, starts=starts.seen(law.e3), duration=DURATION, plant=plant)
+    flight = Flight(vehicle=new, law=law, starts=starts.in_frame(law.e3), duration=DURATION, plant=plant)
     return Change(dict(factors), told, int(fly_many(flight).success.sum()), RUNS)
 
 

@@ -130,7 +130,7 @@ class Check:
             )
         if self.catch is not None:
             lines.append(f"  leans caught directly: {_degrees(self.catch)}")
-        lines += [f"  {name}: {margin.told()}" for name, margin in self.margins.items()]
+        lines += [f"  {name}: {margin.describe()}" for name, margin in self.margins.items()]
         return "\n".join(lines) + ">"
 
     def rows(self) -> dict[str, dict[str, Any]]:
@@ -230,7 +230,7 @@ def check(
     )
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
     if bands:
-        random = starts["random"].seen(bound.e3)
+        random = starts["random"].in_frame(bound.e3)
         flight = Flight(vehicle=vehicle, law=bound, starts=random, duration=seconds, plant=world)
         tasks["drawn"] = fly_within(flight, seed, workers, partial(progress, "drawn"))
     reasons, shortfalls = _shortfalls(tasks)

@@ -137,7 +137,7 @@ def flights_of(
     flights: dict[str, Flight] = {}
     for law in several:
         errors.check_kind("law", law, AnyLaw)
-        own = starts.seen(law.e3)
+        own = starts.in_frame(law.e3)
         name = _free_name(law.name, flights)
         flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
         check_judged(flights[name])

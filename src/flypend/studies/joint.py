@@ -54,7 +54,7 @@ class Count(NamedTuple):
         """Share of the flights that succeed."""
         return self.successes / self.runs
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
         low, high = wilson(*self)
         return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
@@ -117,21 +117,22 @@ class Joint:
 
     def lines(self) -> list[str]:
         """Return success of each task, that of each error alone and without it, what fails first, what to calibrate."""
-        out = [f"{name}, {self.draws} draws of all errors: {count.told()}" for name, count in self.tasks.items()]
-        out += [f"the worst draw, errors × {scale:g}: {count.told()}" for scale, count in self.scales.items()]
+        out = [f"{name}, {self.draws} draws of all errors: {count.describe()}" for name, count in self.tasks.items()]
+        out += [f"the worst draw, errors × {scale:g}: {count.describe()}" for scale, count in self.scales.items()]
         if not self.causes:
             return [*out, f"nothing fails first: errors × {self.scale:g} keep 90 %"]
         out += [
-            f"{one.name} {one.size}: alone {one.alone.told()}, without it {one.without.told()}" for one in self.causes
+            f"{one.name} {one.size}: alone {one.alone.describe()}, without it {one.without.describe()}"
+            for one in self.causes
         ]
         first = self.causes[0]
         out.append(f"fails first, errors × {self.scale:g}: {first.name} {first.size}")
         assert self.kept is not None
         sizes = ", ".join(f"{one.name} {one.size}" for one in self.causes if one.name in self.calibrated)
         told = (
-            f"to × {self.share:g} of {sizes}: {self.kept.told()}"
+            f"to × {self.share:g} of {sizes}: {self.kept.describe()}"
             if self.share
-            else f"{sizes}: {self.kept.told()} if right"
+            else f"{sizes}: {self.kept.describe()} if right"
         )
         return [*out, f"calibrate {told}"]
 
@@ -287,14 +288,16 @@ def joint(
     bound = bound_to(vehicle, inverted() if law is None else law)
     count = RUNS if runs is None else errors.integer("runs", runs, 1)
     starts = task_starts(vehicle, count, seed)
-    flight = Flight(vehicle=vehicle, law=bound, starts=starts["random"].seen(bound.e3), duration=DURATION, plant=world)
+    flight = Flight(
+        vehicle=vehicle, law=bound, starts=starts["random"].in_frame(bound.e3), duration=DURATION, plant=world
+    )
     compiled = has_kernel(flight)
     if runs is None and not compiled:
         starts = {name: some[:SLOW_RUNS] for name, some in starts.items()}
     rng = np.random.default_rng(seed)
     drawn = [Errors(vehicle, world, rng) for _ in range(DRAWS)]
     tasks, worst = _fly_tasks(flight, starts, drawn, progress)
-    few = flight.replace(starts=starts["random"][:VARIANT_RUNS].seen(bound.e3))
+    few = flight.replace(starts=starts["random"][:VARIANT_RUNS].in_frame(bound.e3))
     scales: dict[float, Count] = {}
     for scale in SCALES:
         (scales[scale],) = _fly(few, [worst.world(dict.fromkeys(worst.names, scale))], partial(progress, "errors grow"))
@@ -348,7 +351,7 @@ def _fly_tasks(
             if not len(mine):
                 continue
             one = flight.through(knock_on(vehicle, world, size, POKE_PERIOD)).replace(
-                starts=mine.seen(law.e3), seed=(flight.seed or 0) + place,
+                starts=mine.in_frame(law.e3), seed=(flight.seed or 0) + place,
                 times=np.arange(0.0, DURATION, SAMPLE) if name == "pokes" else None,
             )  # fmt: skip
             flown = _flown(one, 1 if compiled else None)

@@ -62,7 +62,7 @@ class Margin:
         rates = np.array(self.successes) / self.runs
         return rates, np.array([wilson(count, self.runs) for count in self.successes]).T
 
-    def told(self) -> str:
+    def describe(self) -> str:
         """Return the range in words: "0.62 to 1.31", "up to 34 ms", "up to more than 8"."""
         high = f"{'more than ' if self.open_high else ''}{self.high:.3g}"
         words = f"up to {high}"

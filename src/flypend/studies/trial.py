@@ -133,13 +133,13 @@ def trial(
     speed = 0.3 * float(np.sqrt(vehicle.g * vehicle.l)) if knock is None else errors.number("knock", knock, at_least=0)
     starts = task_starts(vehicle, RUNS if runs is None else errors.integer("runs", runs, 1), seed)
     random = starts["random"]
-    flight = Flight(vehicle=vehicle, law=bound, starts=random.seen(bound.e3), duration=10.0, plant=world)
+    flight = Flight(vehicle=vehicle, law=bound, starts=random.in_frame(bound.e3), duration=10.0, plant=world)
     if not has_kernel(flight) and runs is None:
         flight = flight.replace(starts=flight.starts[:STEPPED_RUNS])
     if fly_many(flight, workers=workers).rate < 0.9:
         flight = flight.replace(duration=30.0)
     again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
-    from_rest = starts.get("hanging", random)[again].seen(bound.e3)
+    from_rest = starts.get("hanging", random)[again].in_frame(bound.e3)
     hit = flight.through(knock_on(vehicle, world, speed, DURATION / KNOCKS))
     sampled = hit.replace(starts=from_rest, duration=DURATION, times=np.arange(0.0, DURATION, SAMPLE))
     knocked = fly_many(sampled, workers=workers)

@@ -156,8 +156,8 @@ def plan_ensemble(
     objective : "excursion", "effort" or dict
         As in `plan`, except "time".
     guesses : int
-        From how many guesses, up to 8, the best plan is taken. `plan` takes 8 for each horizon it tries. Two more are tried where none is found,
-        before the duration grows.
+        From how many guesses, up to 8, the best plan is taken. `plan` takes 8 for each horizon it tries. Two more are
+        tried where none is found, before the duration grows.
     workers : int, optional
         Number of threads; default one per core.
     progress : callable

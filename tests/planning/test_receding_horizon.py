@@ -241,15 +241,18 @@ def beyond(run):
 
 @pytest.mark.parametrize("plant", OFF)
 def test_a_wall_is_kept_with_masses_off_by_a_tenth(plant):
-    """The law goes through by 0.3 m, and plans that do not know of the wall by 0.13."""
+    """The law goes through by 0.3 m."""
     box = ((WALL, -np.inf, -np.inf), (np.inf, np.inf, np.inf))
-    kept, free, law = (
-        fp.simulate(HEHN, law, STARTS[1], 1.5, plant=plant)
-        for law in (fp.nmpc(HEHN, box=box), fp.nmpc(), fp.laws.inverted())
+    kept, law = (
+        fp.simulate(HEHN, law, STARTS[1], 1.5, plant=plant) for law in (fp.nmpc(HEHN, box=box), fp.laws.inverted())
     )
     assert beyond(kept) < -0.05
-    assert beyond(free) > 0.1
     assert beyond(law) > 0.2
+
+
+@pytest.mark.parametrize("plant", OFF)
+def test_plans_that_do_not_know_of_a_wall_go_through(plant):
+    assert beyond(fp.simulate(HEHN, fp.nmpc(), STARTS[1], 1.5, plant=plant)) > 0.1
 
 
 def away(m):

@@ -311,7 +311,7 @@ def five(a, b, c, d, e): return a
         ("law_of_nobody:law", "can be imported.*law_of_nobody"),
         ("law_of_wrongs:nothing", "expected one of none, one, three, five, got 'nothing'"),
         ("law_of_wrongs:", "file.py:function or module:function"),
-        (":number", "can be imported"),
+        (":number", "file.py:function or module:function"),
         (":", "file.py:function or module:function"),
         ("..law_of_wrongs:number", "can be imported"),
         ("law_of_wrongs:number:number", "can be imported"),

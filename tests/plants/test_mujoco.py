@@ -560,6 +560,15 @@ def test_a_vehicle_as_mjcf_moves_as_our_equations(name, tmp_path):
     assert np.allclose(data.act, vehicle.rotor_limits[1])  # a second later, MuJoCo has kept it within the limits
 
 
+def _end(model, data, vehicle):
+    """Place and attitude of the vehicle, and direction of the rod, after 600 steps of unequal rotors."""
+    data.ctrl[:] = np.linspace(0.6, 1.1, 4) * vehicle.weight / 4
+    mujoco.mj_step(model, data, nstep=600)
+    mujoco.mj_forward(model, data)
+    pivot, rod = data.body("vehicle"), data.body("bob")
+    return np.concatenate([pivot.xpos, pivot.xmat, rod.xmat[2::3]])
+
+
 @pytest.mark.parametrize("name", ["hehn2011", "crazyflie", UNIFORM])
 def test_a_vehicle_as_urdf_moves_as_the_one_as_mjcf(name):
     """With motors in the frames of its rotors; the joint off the centre of mass, the inertia tilted, the rod tumbling.
@@ -591,11 +600,7 @@ def test_a_vehicle_as_urdf_moves_as_the_one_as_mjcf(name):
         data.qpos[:7], data.qvel[:6] = coordinates[:7], coordinates[11:17]
         data.qpos[7:] = coordinates[7:11] if model is ours else (first, second)
         data.qvel[6:] = coordinates[17:] if model is ours else rates
-        data.ctrl[:] = np.linspace(0.6, 1.1, 4) * vehicle.weight / 4
-        mujoco.mj_step(model, data, nstep=600)
-        mujoco.mj_forward(model, data)
-        pivot, rod = data.body("vehicle"), data.body("bob")
-        ends.append(np.concatenate([pivot.xpos, pivot.xmat, rod.xmat[2::3]]))
+        ends.append(_end(model, data, vehicle))
     assert np.linalg.norm(ends[0][-3:] - start.y) > 0.1
     assert np.allclose(*ends, rtol=0, atol=1e-4)
 
@@ -655,11 +660,7 @@ def test_a_vehicle_as_sdf_is_the_one_as_mjcf(name):
     for model in (ours, theirs):
         data = mujoco.MjData(model)
         data.qpos[:], data.qvel[:] = coordinates[:11], coordinates[11:]
-        data.ctrl[:] = np.linspace(0.6, 1.1, 4) * vehicle.weight / 4
-        mujoco.mj_step(model, data, nstep=600)
-        mujoco.mj_forward(model, data)
-        pivot, rod = data.body("vehicle"), data.body("bob")
-        ends.append(np.concatenate([pivot.xpos, pivot.xmat, rod.xmat[2::3]]))
+        ends.append(_end(model, data, vehicle))
     assert np.linalg.norm(ends[0][-3:] - start.y) > 0.1
     # The inertia's axes are found anew: roundoff, which tumbling multiplies.
     assert np.allclose(*ends, rtol=0, atol=1e-8), abs(ends[0] - ends[1]).max()

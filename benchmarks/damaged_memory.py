@@ -26,7 +26,7 @@ COMPUTERS = {
 }
 REPLAYED = "all of the past"
 FLAGS = (
-    "-std=c99", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-fsanitize=address,undefined,float-cast-overflow",
+    "-std=c99", "-g", "-Wall", "-Wextra", "-Werror", "-fsanitize=address,undefined,float-cast-overflow",
     "-fno-sanitize-recover=all",
 )  # fmt: skip
 READ = {"position": "x", "attitude": "R", "rod": "y", "gyro": "omega"}
@@ -78,8 +78,11 @@ class Row(NamedTuple):
     other: int
 
 
-def built(folder: Path, computer: str, *, checked: bool = True) -> Path:
-    """Export a flight computer to `folder` and compile what damages it; return the path of the program."""
+def built(folder: Path, computer: str, *, checked: bool = True, level: str = "-O1") -> Path:
+    """Export a flight computer to `folder` and compile what damages it; return the path of the program.
+
+    At `level` -O0 it compiles ten times as fast, and runs a ninth as fast.
+    """
     precision, sensors = COMPUTERS[computer]
     fp.export_c(fp.laws.inverted(), fp.vehicle("hehn2011"), folder, precision=precision, sensors=sensors, check=False)
     sources, flown = ["flypend_law.c"], BOARD
@@ -99,7 +102,7 @@ def built(folder: Path, computer: str, *, checked: bool = True) -> Path:
             for memory in ("board", "computer"):
                 text = text.replace(f" && ({memory}->check == check_of({memory}))", "")
             (folder / name).write_text(text)
-    command = ["clang", *FLAGS, "-I.", str(SOURCE), *sources, "-lm", "-o", "damaged"]
+    command = ["clang", level, *FLAGS, "-I.", str(SOURCE), *sources, "-lm", "-o", "damaged"]
     subprocess.run(command, cwd=folder, check=True)
     return folder / "damaged"
 

@@ -1,9 +1,10 @@
-"""A flight log: a table of what was commanded and measured, read from CSV or ULog and checked cell by cell."""
+"""A flight log: a table of what was commanded and measured, read from CSV, ULog or µSD and checked cell by cell."""
 
 from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -16,6 +17,7 @@ from flypend.errors import InputError
 from flypend.files.reading import read_bytes
 from flypend.geometry import Numbers, rotation_from_quat_xyzw
 from flypend.identification.ulog import is_ulog, parse_ulog
+from flypend.identification.usd import is_usd, parse_usd
 
 POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
 GYRO = ("gx", "gy", "gz")
@@ -23,8 +25,8 @@ FORCE = ("ax", "ay", "az")
 ROD = ("rx", "ry", "rz")
 NEEDED = ("t", *POSE, *GYRO)
 OPTIONAL = (*FORCE, *ROD, "vbat")
-# The Crazyflie's log variables, as cflib and cfusdlog name them, by our columns with the unit of each; `locSrv` is the
-# pose that it was sent. Commands are fractions of 65535.
+# The Crazyflie's log variables, as cflib and cfusdlog name them, by our columns with the unit of each; `locSrv`, the
+# pose that it was sent, comes last and counts where the filter's is logged too. Commands are fractions of 65535.
 CRAZYFLIE = {
     "timestamp": ("t", 1e-3),
     "pm.vbat": ("vbat", 1.0),
@@ -83,21 +85,24 @@ class Log:
 
 
 def read_log(path: str | Path) -> Log:
-    """Read the CSV or ULog file at `path`. Raises InputError in one line that names row and column, or the topic.
+    """Read the CSV, ULog or µSD file at `path`. Raises InputError in one line that names row and column, or the topic.
 
-    A ULog is PX4's: its longest flight is read, in fractions of the largest force.
+    A ULog is PX4's: its longest flight is read. A µSD log is the Crazyflie's: of its variables those in `CRAZYFLIE`
+    are read. Both have commands in fractions of the largest force.
     """
     try:
         content = read_bytes(path, MOST_BYTES, copies=COPIES)
         if is_ulog(content):
             return _check(*parse_ulog(content, str(path)), str(path), fractions=True)
+        if is_usd(content):
+            return _from_crazyflie(parse_usd(content, str(path)), str(path))
         text = content.decode("utf-8")
     except InputError:
         raise
     except OSError as error:
         raise InputError(str(path), "a readable file", error.strerror or error) from None
     except ValueError as error:  # not UTF-8, or a name that no file can have
-        raise InputError(str(path), "a ULog, or a CSV file in UTF-8", error) from None
+        raise InputError(str(path), "a ULog, a µSD log of the Crazyflie, or a CSV file in UTF-8", error) from None
     return parse_log(text, str(path))
 
 
@@ -109,32 +114,42 @@ def parse_log(text: str, field: str = "log") -> Log:
     rows = csv.reader(io.StringIO(text.rstrip(), newline=""), strict=True)
     try:
         names = [name.strip() for name in next(rows, [])]
-        units = np.ones(len(names))
         if theirs := "timestamp" in names:
-            names, units = _of_crazyflie(names, field)
-        rotors = _check_header(names, field)
+            _check_names(names, CRAZYFLIE, field)
+        else:
+            rotors = _check_header(names, field)
         table = [_numbers(row, names, number, field) for number, row in zip(count(2), rows, strict=False)]
     except csv.Error as error:
         raise InputError(field, f"CSV (line {rows.line_num})", error) from None
-    values = np.array(table, dtype=float).reshape(len(table), len(names)) * units
+    values = np.array(table, dtype=float).reshape(len(table), len(names))
     columns = dict(zip(names, values.T, strict=True))
-    return _check(columns, rotors, field, fractions=theirs)
+    return _from_crazyflie(columns, field) if theirs else _check(columns, rotors, field, fractions=False)
 
 
-def _of_crazyflie(names: list[str], field: str) -> tuple[list[str], Any]:
-    """Return our names of a Crazyflie's columns, and their units. Raises InputError for a column that is unknown."""
-    found = [CRAZYFLIE[errors.one_of(f"{field}, row 1, column", name, CRAZYFLIE)] for name in names]
-    return [name for name, _ in found], np.array([unit for _, unit in found])
+def _from_crazyflie(variables: dict[str, Any], field: str) -> Log:
+    """Return the log in the Crazyflie's `variables` by name. Raises InputError if one is missing or wrong."""
+    columns = {name: variables[theirs] * unit for theirs, (name, unit) in CRAZYFLIE.items() if theirs in variables}
+    rotors = _check_header(list(columns), field)
+    if sent := [name for name in POSE if f"locSrv.{name}" in variables]:
+        # The firmware keeps the last pose until the next one comes: it was measured once.
+        pose = np.stack([columns[name] for name in sent])
+        again = np.append(False, (pose[:, 1:] == pose[:, :-1]).all(axis=0))
+        columns |= {name: np.where(again, np.nan, columns[name]) for name in sent}
+    return _check(columns, rotors, field, fractions=True)
+
+
+def _check_names(names: list[str], known: Collection[str], field: str) -> None:
+    """Raise InputError for a column that is unknown or there twice."""
+    for name in names:
+        errors.one_of(f"{field}, row 1, column", name, known)
+        if names.count(name) > 1:
+            raise InputError(f"{field}, row 1", "each column once", f"{name!r} {names.count(name)} times")
 
 
 def _check_header(names: list[str], field: str) -> int:
     """Return the number of rotors. Raises InputError for a column that is unknown, missing or there twice."""
     rotors = next(i for i in count() if f"u{i + 1}" not in names)
-    known = [*NEEDED, *OPTIONAL, *(f"u{i + 1}" for i in range(max(rotors, 4)))]
-    for name in names:
-        errors.one_of(f"{field}, row 1, column", name, known)
-        if names.count(name) > 1:
-            raise InputError(f"{field}, row 1", "each column once", f"{name!r} {names.count(name)} times")
+    _check_names(names, [*NEEDED, *OPTIONAL, *(f"u{i + 1}" for i in range(max(rotors, 4)))], field)
     for group in (NEEDED, *(group for group in (FORCE, ROD) if set(group) & set(names)), ("u1", "u2", "u3", "u4")):
         for name in group:
             if name not in names:

@@ -106,7 +106,8 @@ def _read_first(
             # When it was measured, where that is told; when it was published otherwise.
             sampled = data.get("timestamp_sample", np.zeros(1))
             stamps, first = np.unique(sampled if np.all(sampled > 0) else data["timestamp"], return_index=True)
-            values = (factor * data[name][first] for name, factor in zip(fields, factors, strict=True))
+            with np.errstate(invalid="ignore"):  # damaged bits may be a signalling NaN
+                values = [factor * data[name][first] for name, factor in zip(fields, factors, strict=True)]
             return stamps, dict(zip(names, values, strict=True))
     raise InputError(field, f"the topic {' or '.join(topic for topic, _ in sources)}", f"{', '.join(topics) or 'none'}")
 

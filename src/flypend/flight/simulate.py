@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants, signals
 from flypend.compile.numeric import as_numpy
-from flypend.compile.touch import LONGEST
+from flypend.compile.problem import LONGEST
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times

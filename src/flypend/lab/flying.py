@@ -145,7 +145,8 @@ def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> 
     if isinstance(machine, Stepped):
         return _step_part(flight.replace(law=machine.law), rotors)
     if isinstance(machine.kernel, SampledKernel):
-        return _fly_sampled_part(machine.kernel, gains, flight, rotors)
+        samples = sampled_samples(machine.kernel, flight, gains, rotors)
+        return _part_from(samples, flight, machine.kernel.loop.sampled)
     return _ideal_part(machine, machine.kernel, gains, flight)
 
 
@@ -164,10 +165,6 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
     wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
     rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
     return Part(t, packed, rotors, wrench, outcome)
-
-
-def _fly_sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
-    return _part_from(sampled_samples(kernel, flight, gains, rotors), flight, kernel.loop.sampled)
 
 
 def _step_part(flight: Flight, rotors: Any) -> Part:

@@ -114,7 +114,7 @@ def write_check(
         }
         write_json(folder / "report.json", content)
         if figures and any(check.tasks for check in checks.values()):
-            from flypend.pictures.check import check_figure
+            from flypend.pictures.studies import check_figure
 
             save_both(check_figure(checks), folder / "check")
 
